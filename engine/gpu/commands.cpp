@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/gpu/commands.h"
+
+#include "engine/gpu/result.h"
+
+namespace fathom::gpu {
+
+Commands::Commands(const Device& device) : device_(device) {
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.queueFamilyIndex = device.queueFamily();
+    check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = pool_;
+    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocate.commandBufferCount = 1;
+    check(vkAllocateCommandBuffers(device.handle(), &allocate, &handle_), "vkAllocateCommandBuffers");
+}
+
+Commands::~Commands() {
+    vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+}
+
+void Commands::begin() {
+    check(vkResetCommandPool(device_.handle(), pool_, 0), "vkResetCommandPool");
+    VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(handle_, &info), "vkBeginCommandBuffer");
+    dispatches_ = 0;
+    barrier();
+}
+
+void Commands::end() {
+    barrier();
+    check(vkEndCommandBuffer(handle_), "vkEndCommandBuffer");
+}
+
+void Commands::bind(const Pipeline& pipeline, const Bindings& bindings, const void* push) {
+    const VkDescriptorSet set = bindings.handle();
+    vkCmdBindPipeline(handle_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
+    vkCmdBindDescriptorSets(handle_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
+    if (push != nullptr) {
+        vkCmdPushConstants(handle_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline.pushBytes(), push);
+    }
+    ++dispatches_;
+}
+
+void Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups, const void* push) {
+    bind(pipeline, bindings, push);
+    vkCmdDispatch(handle_, groups, 1, 1);
+}
+
+void Commands::dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments,
+                                uint64_t offset, const void* push) {
+    bind(pipeline, bindings, push);
+    vkCmdDispatchIndirect(handle_, arguments.handle(), offset);
+}
+
+void Commands::fill(const Buffer& buffer, uint32_t value) {
+    vkCmdFillBuffer(handle_, buffer.handle(), 0, VK_WHOLE_SIZE, value);
+}
+
+void Commands::update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data) {
+    vkCmdUpdateBuffer(handle_, buffer.handle(), offset, bytes, data);
+}
+
+void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
+    const VkBufferCopy region{0, 0, bytes};
+    vkCmdCopyBuffer(handle_, from.handle(), to.handle(), 1, &region);
+}
+
+void Commands::barrier() {
+    VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
+    all.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
+    all.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
+    vkCmdPipelineBarrier(handle_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
+                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &all, 0, nullptr, 0,
+                         nullptr);
+}
+
+} // namespace fathom::gpu

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recording of one submission, as a recipe: begin, dispatch, barrier, ..., end.
+#pragma once
+
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/timeline.h"
+
+namespace fathom::gpu {
+
+// One thread at a time. Recorded anew for each submission; the previous one must have completed.
+class Commands {
+public:
+    explicit Commands(const Device& device);
+    ~Commands();
+    Commands(const Commands&) = delete;
+    Commands& operator=(const Commands&) = delete;
+
+    VkCommandBuffer handle() const { return handle_; }
+    uint32_t dispatches() const { return dispatches_; } // recorded since begin()
+
+    // Starts with a global memory barrier: hazards across submissions are ours to prevent.
+    void begin();
+    void end();
+
+    void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups, const void* push = nullptr);
+    void dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments, uint64_t offset,
+                          const void* push = nullptr);
+    void fill(const Buffer& buffer, uint32_t value);
+    void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
+    void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
+    // Everything before is visible to everything after, indirect arguments and the host included.
+    void barrier();
+
+private:
+    void bind(const Pipeline& pipeline, const Bindings& bindings, const void* push);
+
+    const Device& device_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer handle_ = VK_NULL_HANDLE;
+    uint32_t dispatches_ = 0;
+};
+
+} // namespace fathom::gpu

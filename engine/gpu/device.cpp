@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/gpu/device.h"
+
+#include "engine/gpu/physical_device.h"
+#include "engine/gpu/result.h"
+#include "engine/types/error.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <spdlog/spdlog.h>
+
+namespace fathom::gpu {
+
+namespace {
+
+// Pipelines of earlier runs, one file a device and driver, in the user's cache folder; empty = do not keep.
+std::string cacheFileFor(VkPhysicalDevice device) {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    if (cache == nullptr && home == nullptr) {
+        return {};
+    }
+    VkPhysicalDeviceProperties p;
+    vkGetPhysicalDeviceProperties(device, &p);
+    const std::filesystem::path folder =
+        (cache ? std::filesystem::path(cache) : std::filesystem::path(home) / ".cache") / "fathom";
+    return (folder / (std::to_string(p.vendorID) + "-" + std::to_string(p.deviceID) + "-" +
+                      std::to_string(p.driverVersion) + ".pipelines"))
+        .string();
+}
+
+} // namespace
+
+Device::Device(const Instance& instance, const std::string& selector)
+    : physical_(choosePhysicalDevice(instance, selector))
+    , family_(*computeFamily(physical_))
+    , facts_(readFacts(physical_))
+    , cacheFile_(cacheFileFor(physical_)) {
+    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
+    createLogicalDevice(instance.validation().gpuAssisted);
+    vkGetDeviceQueue(handle_, family_, 0, &queue_);
+    loadPipelineCache();
+    spdlog::info("device {} ({})", facts_.name, facts_.driver);
+}
+
+void Device::createLogicalDevice(bool gpuAssisted) {
+    const float priority = 1.0f;
+    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = family_;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+
+    VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
+    v12.timelineSemaphore = VK_TRUE;
+    VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
+    features.pNext = &v12;
+    // GPU-assisted validation writes its findings from every stage; nothing of ours needs these.
+    features.features.fragmentStoresAndAtomics = gpuAssisted ? VK_TRUE : VK_FALSE;
+    features.features.vertexPipelineStoresAndAtomics = gpuAssisted ? VK_TRUE : VK_FALSE;
+
+    VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    check(vkCreateDevice(physical_, &info, nullptr, &handle_), "vkCreateDevice");
+}
+
+Device::~Device() {
+    savePipelineCache();
+    vkDestroyPipelineCache(handle_, cache_, nullptr);
+    vkDestroyDevice(handle_, nullptr);
+}
+
+uint32_t Device::memoryType(MemoryKind kind, uint32_t typeBits) const {
+    constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
+    constexpr VkMemoryPropertyFlags kShared = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
+    std::vector<VkMemoryPropertyFlags> wishes; // best first
+    switch (kind) {
+    case MemoryKind::Device: wishes = {kLocal, 0}; break;
+    case MemoryKind::Upload: wishes = {kLocal | kShared, kShared}; break;
+    case MemoryKind::Readback: wishes = {kShared | kCached, kShared}; break;
+    }
+    for (VkMemoryPropertyFlags wish : wishes) {
+        for (uint32_t t = 0; t < memory_.memoryTypeCount; ++t) {
+            if ((typeBits >> t & 1u) != 0 && (memory_.memoryTypes[t].propertyFlags & wish) == wish) {
+                return t;
+            }
+        }
+    }
+    throw Error("device " + facts_.name + " offers no memory of the kind needed");
+}
+
+void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue) {
+    VkTimelineSemaphoreSubmitInfo values{VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO};
+    values.waitSemaphoreValueCount = waitValue != 0 ? 1 : 0;
+    values.pWaitSemaphoreValues = &waitValue;
+    values.signalSemaphoreValueCount = 1;
+    values.pSignalSemaphoreValues = &signalValue;
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    VkSubmitInfo submit{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    submit.pNext = &values;
+    submit.waitSemaphoreCount = values.waitSemaphoreValueCount;
+    submit.pWaitSemaphores = &timeline;
+    submit.pWaitDstStageMask = &stage;
+    submit.commandBufferCount = 1;
+    submit.pCommandBuffers = &commands;
+    submit.signalSemaphoreCount = 1;
+    submit.pSignalSemaphores = &timeline;
+    const std::lock_guard lock(queueMutex_);
+    check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
+}
+
+void Device::loadPipelineCache() {
+    std::vector<char> bytes;
+    if (std::ifstream file(cacheFile_, std::ios::binary); file) {
+        bytes.assign(std::istreambuf_iterator<char>(file), {});
+    }
+    VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    info.initialDataSize = bytes.size();
+    info.pInitialData = bytes.data();
+    check(vkCreatePipelineCache(handle_, &info, nullptr, &cache_), "vkCreatePipelineCache");
+}
+
+void Device::savePipelineCache() const noexcept {
+    size_t size = 0;
+    if (cacheFile_.empty() || vkGetPipelineCacheData(handle_, cache_, &size, nullptr) != VK_SUCCESS || size == 0) {
+        return;
+    }
+    try { // a cache that cannot be written costs time at the next start and nothing else
+        std::vector<char> bytes(size);
+        if (vkGetPipelineCacheData(handle_, cache_, &size, bytes.data()) != VK_SUCCESS) {
+            return;
+        }
+        const std::filesystem::path target(cacheFile_);
+        std::filesystem::create_directories(target.parent_path());
+        const std::filesystem::path fresh = target.string() + "." + std::to_string(reinterpret_cast<uintptr_t>(this));
+        std::ofstream(fresh, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
+        std::filesystem::rename(fresh, target);
+    } catch (const std::exception& e) {
+        spdlog::debug("pipeline cache not kept: {}", e.what());
+    }
+}
+
+std::vector<std::string> Device::list(const Instance& instance) {
+    std::vector<std::string> lines;
+    for (VkPhysicalDevice device : instance.physicalDevices()) {
+        const DeviceFacts facts = readFacts(device);
+        const std::string why = refusal(device);
+        lines.push_back(facts.name + ", " + facts.driver + (why.empty() ? "" : ", refused: " + why));
+    }
+    return lines;
+}
+
+} // namespace fathom::gpu

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/gpu/instance.h"
+
+#include "engine/gpu/result.h"
+#include "engine/types/error.h"
+
+#include <cstring>
+#include <dlfcn.h>
+#include <link.h>
+#include <spdlog/spdlog.h>
+
+namespace fathom::gpu {
+
+namespace {
+
+constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
+
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+    // The GPU-assisted checks announce their own settings as warnings; those say nothing about our use of Vulkan.
+    if (data->pMessageIdName != nullptr && std::strstr(data->pMessageIdName, "UNASSIGNED-GPU-Assisted Validation") &&
+        std::strstr(data->pMessage, "Internal Warning") != nullptr) {
+        return VK_FALSE;
+    }
+    static_cast<std::atomic<uint32_t>*>(user)->fetch_add(1);
+    spdlog::error("Vulkan validation: {}", data->pMessage);
+    return VK_FALSE;
+}
+
+bool layerPresent() {
+    uint32_t count = 0;
+    check(vkEnumerateInstanceLayerProperties(&count, nullptr), "vkEnumerateInstanceLayerProperties");
+    std::vector<VkLayerProperties> layers(count);
+    check(vkEnumerateInstanceLayerProperties(&count, layers.data()), "vkEnumerateInstanceLayerProperties");
+    for (const VkLayerProperties& layer : layers) {
+        if (std::strcmp(layer.layerName, kLayer) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// A driver that is unloaded before the program ends takes its symbols from leak reports with it: sanitized builds keep it.
+void keepDriversLoaded() {
+#ifdef FATHOM_SANITIZED
+    dl_iterate_phdr(
+        [](dl_phdr_info* info, size_t, void*) {
+            const std::string name = info->dlpi_name;
+            if (name.find("vulkan") != std::string::npos || name.find("VkLayer") != std::string::npos) {
+                dlopen(name.c_str(), RTLD_NOW | RTLD_NODELETE);
+            }
+            return 0;
+        },
+        nullptr);
+#endif
+}
+
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<uint32_t>* counter) {
+    VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
+    info.messageSeverity =
+        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
+    info.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
+    info.pfnUserCallback = onMessage;
+    info.pUserData = counter;
+    return info;
+}
+
+} // namespace
+
+Instance::Instance(Validation validation) : validation_(validation) {
+    if (validation.enabled && !layerPresent()) {
+        throw Error("the validation layer was asked for and is not installed (vulkan-validationlayers)");
+    }
+    VkApplicationInfo app{VK_STRUCTURE_TYPE_APPLICATION_INFO};
+    app.pApplicationName = "fathom";
+    app.apiVersion = VK_API_VERSION_1_2;
+
+    std::vector<VkValidationFeatureEnableEXT> enables{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    if (validation.gpuAssisted) {
+        enables.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT);
+        enables.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT);
+    }
+    VkValidationFeaturesEXT features{VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT};
+    features.enabledValidationFeatureCount = static_cast<uint32_t>(enables.size());
+    features.pEnabledValidationFeatures = enables.data();
+
+    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
+    info.pApplicationInfo = &app;
+    if (validation.enabled) {
+        info.pNext = &features;
+        info.enabledLayerCount = 1;
+        info.ppEnabledLayerNames = &kLayer;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &extension;
+    }
+    check(vkCreateInstance(&info, nullptr, &handle_), "vkCreateInstance");
+    if (validation.enabled) {
+        const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
+        const auto messenger = messengerInfo(&messages_);
+        check(create(handle_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+    }
+}
+
+Instance::~Instance() {
+    if (messenger_ != VK_NULL_HANDLE) {
+        const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
+            vkGetInstanceProcAddr(handle_, "vkDestroyDebugUtilsMessengerEXT"));
+        destroy(handle_, messenger_, nullptr);
+    }
+    vkDestroyInstance(handle_, nullptr);
+}
+
+std::vector<VkPhysicalDevice> Instance::physicalDevices() const {
+    uint32_t count = 0;
+    check(vkEnumeratePhysicalDevices(handle_, &count, nullptr), "vkEnumeratePhysicalDevices");
+    std::vector<VkPhysicalDevice> devices(count);
+    check(vkEnumeratePhysicalDevices(handle_, &count, devices.data()), "vkEnumeratePhysicalDevices");
+    keepDriversLoaded();
+    return devices;
+}
+
+} // namespace fathom::gpu

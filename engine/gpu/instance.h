@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Vulkan instance, with the validation layer and synchronisation validation on demand.
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+#include <vulkan/vulkan.h>
+
+namespace fathom::gpu {
+
+struct Validation {
+    bool enabled = false;     // core and synchronisation checks
+    bool gpuAssisted = false; // instruments shaders as well: slow
+};
+
+// Any thread may read messages(); the rest is used from the thread that builds the engine.
+class Instance {
+public:
+    // Throws Error when there is no Vulkan 1.2 loader or the layer that was asked for is missing.
+    explicit Instance(Validation validation = {});
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    VkInstance handle() const { return handle_; }
+    Validation validation() const { return validation_; }
+    // Warnings and errors that the layer has reported so far; each is logged too.
+    uint32_t messages() const { return messages_.load(); }
+    std::vector<VkPhysicalDevice> physicalDevices() const;
+
+private:
+    VkInstance handle_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    Validation validation_;
+    std::atomic<uint32_t> messages_{0};
+};
+
+} // namespace fathom::gpu

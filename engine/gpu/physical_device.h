@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Facts of a physical device and the choice between several.
+#pragma once
+
+#include "engine/gpu/instance.h"
+#include "engine/types/device_facts.h"
+
+#include <optional>
+#include <string>
+
+namespace fathom::gpu {
+
+DeviceFacts readFacts(VkPhysicalDevice device);
+
+// Queue family to use: compute, preferably without graphics. Empty when none computes.
+std::optional<uint32_t> computeFamily(VkPhysicalDevice device);
+
+// Empty when the device is usable; otherwise why it is not.
+std::string refusal(VkPhysicalDevice device);
+
+// See Device's constructor. Throws BadInput.
+VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string& selector);
+
+bool hasExtension(VkPhysicalDevice device, const char* name);
+
+} // namespace fathom::gpu

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/gpu/pipeline.h"
+
+#include "engine/gpu/result.h"
+#include "engine/types/error.h"
+
+#include <utility>
+
+namespace fathom::gpu {
+
+namespace {
+
+VkShaderModule makeModule(VkDevice device, std::span<const uint32_t> spirv) {
+    VkShaderModuleCreateInfo info{VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    info.codeSize = spirv.size_bytes();
+    info.pCode = spirv.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vkCreateShaderModule(device, &info, nullptr, &module), "vkCreateShaderModule");
+    return module;
+}
+
+VkDescriptorType typeOf(uint32_t binding, bool uniform) {
+    return binding == 0 && uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+VkDescriptorSetLayout makeSetLayout(VkDevice device, uint32_t count, bool uniform) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings(count);
+    for (uint32_t b = 0; b < count; ++b) {
+        bindings[b] = {b, typeOf(b, uniform), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+    }
+    VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
+    info.bindingCount = count;
+    info.pBindings = bindings.data();
+    VkDescriptorSetLayout layout = VK_NULL_HANDLE;
+    check(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
+    return layout;
+}
+
+} // namespace
+
+Pipeline::Pipeline(const Device& device, const PipelineInfo& info)
+    : device_(device)
+    , setLayout_(makeSetLayout(device.handle(), info.bindings, info.uniform))
+    , bindings_(info.bindings)
+    , pushBytes_(info.pushBytes)
+    , groupSize_(info.constants.empty() ? 1 : info.constants[0])
+    , uniform_(info.uniform)
+    , name_(info.name) {
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, info.pushBytes};
+    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    layout.setLayoutCount = 1;
+    layout.pSetLayouts = &setLayout_;
+    layout.pushConstantRangeCount = info.pushBytes != 0 ? 1 : 0;
+    layout.pPushConstantRanges = &push;
+    check(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &layout_), "vkCreatePipelineLayout");
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < info.constants.size(); ++i) {
+        entries.push_back({i, i * 4, 4});
+    }
+    const VkSpecializationInfo special{static_cast<uint32_t>(entries.size()), entries.data(), info.constants.size_bytes(),
+                                       info.constants.data()};
+    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    create.layout = layout_;
+    create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    create.stage.module = makeModule(device.handle(), info.spirv);
+    create.stage.pName = "main";
+    create.stage.pSpecializationInfo = &special;
+    const VkResult result =
+        vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &handle_);
+    vkDestroyShaderModule(device.handle(), create.stage.module, nullptr);
+    check(result, info.name);
+}
+
+Pipeline::~Pipeline() {
+    vkDestroyPipeline(device_.handle(), handle_, nullptr);
+    vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
+}
+
+Bindings::Bindings(const Device& device, const Pipeline& pipeline, std::initializer_list<const Buffer*> buffers,
+                   const Buffer& unused)
+    : device_(&device) {
+    if (buffers.size() != pipeline.bindings()) {
+        throw Error(pipeline.name() + " has " + std::to_string(pipeline.bindings()) + " bindings, not " +
+                    std::to_string(buffers.size()));
+    }
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, pipeline.bindings()},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}};
+    VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool.maxSets = 1;
+    pool.poolSizeCount = 2;
+    pool.pPoolSizes = sizes;
+    check(vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_), "vkCreateDescriptorPool");
+    const VkDescriptorSetLayout layout = pipeline.setLayout();
+    VkDescriptorSetAllocateInfo allocate{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    allocate.descriptorPool = pool_;
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &layout;
+    check(vkAllocateDescriptorSets(device.handle(), &allocate, &set_), "vkAllocateDescriptorSets");
+
+    std::vector<VkDescriptorBufferInfo> infos;
+    for (const Buffer* buffer : buffers) {
+        infos.push_back({buffer != nullptr && *buffer ? buffer->handle() : unused.handle(), 0, VK_WHOLE_SIZE});
+    }
+    std::vector<VkWriteDescriptorSet> writes;
+    for (uint32_t b = 0; b < infos.size(); ++b) {
+        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
+        write.dstSet = set_;
+        write.dstBinding = b;
+        write.descriptorCount = 1;
+        write.descriptorType = typeOf(b, pipeline.uniform());
+        write.pBufferInfo = &infos[b];
+        writes.push_back(write);
+    }
+    vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+Bindings::~Bindings() {
+    if (device_ != nullptr) {
+        vkDestroyDescriptorPool(device_->handle(), pool_, nullptr);
+    }
+}
+
+void Bindings::swap(Bindings& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(pool_, other.pool_);
+    std::swap(set_, other.set_);
+}
+
+} // namespace fathom::gpu

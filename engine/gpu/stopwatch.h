@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// GPU timestamps: marks written between passes, read after the submission has ended.
+#pragma once
+
+#include "engine/gpu/device.h"
+
+namespace fathom::gpu {
+
+// One submission's worth of marks; reset by Commands::begin through resetIn().
+class Stopwatch {
+public:
+    Stopwatch(const Device& device, uint32_t marks);
+    ~Stopwatch();
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+    bool works() const { return pool_ != VK_NULL_HANDLE; } // false: the device has no timestamps
+    void resetIn(VkCommandBuffer commands);
+    void mark(VkCommandBuffer commands); // after all work recorded so far
+    uint32_t marks() const { return used_; }
+
+    // Milliseconds between mark i and mark i + 1; zeros when the device has no timestamps. Call after completion.
+    std::vector<double> intervalsMs() const;
+
+private:
+    const Device& device_;
+    VkQueryPool pool_ = VK_NULL_HANDLE;
+    uint32_t capacity_ = 0, used_ = 0;
+};
+
+} // namespace fathom::gpu

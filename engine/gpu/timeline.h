@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// A timeline semaphore: a counter that submissions raise and the CPU can wait for.
+#pragma once
+
+#include "engine/gpu/device.h"
+
+namespace fathom::gpu {
+
+class Timeline {
+public:
+    explicit Timeline(const Device& device);
+    ~Timeline();
+    Timeline(const Timeline&) = delete;
+    Timeline& operator=(const Timeline&) = delete;
+
+    VkSemaphore handle() const { return handle_; }
+    uint64_t value() const; // reached so far
+    void wait(uint64_t value) const; // throws DeviceLost
+
+private:
+    const Device& device_;
+    VkSemaphore handle_ = VK_NULL_HANDLE;
+};
+
+} // namespace fathom::gpu

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a depth + colour camera tells of itself once: sizes, lenses, registration, depth unit.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <array>
+#include <cstdint>
+
+namespace fathom {
+
+// Pinhole lens with Brown-Conrady distortion (k1 k2 p1 p2 k3, plumb_bob order). Pixel (0, 0) is the centre of
+// the first pixel; z forward, x right, y down.
+struct Intrinsics {
+    uint32_t width = 0, height = 0;               // [pixels]
+    double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; // [pixels]
+    std::array<double, 5> distortion{};           // k1 k2 p1 p2 k3; all zero = none
+
+    bool distorted() const {
+        return distortion != std::array<double, 5>{};
+    }
+    uint32_t pixels() const { return width * height; }
+
+    // Ray (x/z, y/z) through pixel (u, v): inverts the distortion by fixed-point iteration, float64.
+    glm::dvec2 ray(double u, double v) const noexcept;
+    // Pixel of the point with z > 0, distortion applied.
+    glm::dvec2 project(const dvec3& point) const noexcept;
+};
+
+struct CameraInfo {
+    Intrinsics depth;
+    Intrinsics colour;        // equal to depth when registered
+    bool registered = true;   // colour pixel (u, v) shows the same ray as depth pixel (u, v)
+    Pose colourTdepth;        // maps depth-camera points to the colour camera; identity when registered
+    double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
+    bool hasColour = true;
+};
+
+// Standard deviation of a depth reading at range z [m], [m]: the model of structured-light and stereo cameras
+// (constant + quadratic). Measured on the D435 recordings: 0.48 mm at 0.38 m on a wheel, 3.75 mm median of the picture.
+inline double depthSigma(double z) noexcept {
+    return 0.0005 + 0.0025 * z * z;
+}
+
+} // namespace fathom

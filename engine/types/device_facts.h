@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// What was discovered of the compute device, in plain numbers, so that the plan needs no Vulkan.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace fathom {
+
+enum class DeviceKind { Discrete, Integrated, Cpu, Other };
+
+struct DeviceFacts {
+    std::string name;
+    std::string driver;
+    DeviceKind kind = DeviceKind::Cpu;
+    uint32_t subgroupSize = 1;
+    uint32_t maxInvocations = 128;         // of one work group
+    uint32_t maxSharedBytes = 16384;       // of one work group
+    uint64_t maxStorageBufferBytes = 1u << 27;
+    uint64_t hostPointerAlignment = 0;     // of imported host memory; 0 = cannot import
+    double timestampPeriodNs = 1.0;        // 0 = no timestamps
+};
+
+} // namespace fathom

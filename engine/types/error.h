@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The family of exceptions. Thrown while things are built; never on the haptic turn, which returns values.
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace fathom {
+
+// Root of the family. exitCode() is what the program ends with when nothing catches it.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+    virtual int exitCode() const noexcept { return 1; }
+};
+
+// Something the user gave is unusable: one line with the file (or option), the field, the value, what is allowed.
+class BadInput : public Error {
+public:
+    BadInput(const std::string& file, const std::string& field, const std::string& value,
+             const std::string& allowed)
+        : Error(file + ": " + field + ": " + value + " (allowed: " + allowed + ")") {}
+    int exitCode() const noexcept override { return 2; }
+};
+
+// A GPU, camera or haptic device that worked is gone.
+class DeviceLost : public Error {
+public:
+    using Error::Error;
+    int exitCode() const noexcept override { return 3; }
+};
+
+} // namespace fathom

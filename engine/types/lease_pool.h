@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pool of values of which one is the newest: readers lease it, one writer fills another, nobody waits.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace fathom {
+
+// Holds readers + 2 values: one newest, one a reader, one to write. Each reader holds at most one lease at a time (drop the
+// old one before taking the next). One writer. Lock-free; the writer is wait-free.
+template <class T>
+class LeasePool {
+    struct Entry {
+        std::unique_ptr<T> value;
+        alignas(64) std::atomic<int32_t> readers{0}; // kWriting while the writer owns it
+    };
+
+public:
+    // Move-only hold on one value; a default lease holds nothing.
+    class Lease {
+    public:
+        Lease() = default;
+        Lease(Lease&& other) noexcept : entry_(std::exchange(other.entry_, nullptr)) {}
+        Lease& operator=(Lease&& other) noexcept {
+            std::swap(entry_, other.entry_);
+            return *this;
+        }
+        ~Lease() {
+            if (entry_ != nullptr) {
+                entry_->readers.fetch_sub(1, std::memory_order_release);
+            }
+        }
+        explicit operator bool() const { return entry_ != nullptr; }
+        const T& operator*() const { return *entry_->value; }
+        const T* operator->() const { return entry_->value.get(); }
+
+    private:
+        friend class LeasePool;
+        explicit Lease(Entry* entry) : entry_(entry) {}
+        Entry* entry_ = nullptr;
+    };
+
+    // make() builds one value; called readers + 2 times.
+    template <class Make>
+    LeasePool(uint32_t readers, Make&& make) : entries_(readers + 2) {
+        for (Entry& entry : entries_) {
+            entry.value = make();
+        }
+    }
+
+    // Reader. The newest published value; empty before the first publish().
+    Lease newest() noexcept {
+        for (;;) {
+            const int32_t index = newest_.load(std::memory_order_acquire);
+            if (index < 0) {
+                return Lease();
+            }
+            Entry& entry = entries_[static_cast<size_t>(index)];
+            int32_t count = entry.readers.load(std::memory_order_relaxed);
+            // The writer may have taken the entry back since newest_ was read: then there is a newer one.
+            while (count != kWriting) {
+                if (entry.readers.compare_exchange_weak(count, count + 1, std::memory_order_acquire)) {
+                    return Lease(&entry);
+                }
+            }
+        }
+    }
+
+    // Writer. A value that is neither the newest nor leased; the same one again until publish().
+    T& back() noexcept {
+        if (writing_ < 0) {
+            for (size_t i = 0; writing_ < 0; i = (i + 1) % entries_.size()) {
+                int32_t none = 0;
+                if (static_cast<int32_t>(i) != newest_.load(std::memory_order_relaxed) &&
+                    entries_[i].readers.compare_exchange_strong(none, kWriting, std::memory_order_acquire)) {
+                    writing_ = static_cast<int32_t>(i);
+                }
+            }
+        }
+        return *entries_[static_cast<size_t>(writing_)].value;
+    }
+    uint32_t backIndex() const noexcept { return static_cast<uint32_t>(writing_); } // after back()
+
+    // Writer. What back() gave becomes the newest.
+    void publish() noexcept {
+        entries_[static_cast<size_t>(writing_)].readers.store(0, std::memory_order_release);
+        newest_.store(writing_, std::memory_order_release);
+        writing_ = -1;
+    }
+
+    size_t size() const { return entries_.size(); }
+    // Before the threads start: to wire each value up.
+    T& at(size_t i) { return *entries_[i].value; }
+
+private:
+    static constexpr int32_t kWriting = -1;
+    std::vector<Entry> entries_;
+    std::atomic<int32_t> newest_{-1};
+    int32_t writing_ = -1;
+};
+
+} // namespace fathom

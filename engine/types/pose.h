@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rigid poses and rotation vectors, float64. A pose is a_T_b: it maps points of frame b to frame a.
+#pragma once
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+namespace fathom {
+
+using glm::dquat; // constructor order w, x, y, z
+using glm::dvec3;
+
+struct Pose {
+    dvec3 position{0.0};               // [m]
+    dquat rotation{1.0, 0.0, 0.0, 0.0}; // unit, w x y z
+
+    dvec3 apply(const dvec3& point) const { return position + rotation * point; }
+};
+
+inline Pose operator*(const Pose& aTb, const Pose& bTc) {
+    return {aTb.apply(bTc.position), aTb.rotation * bTc.rotation};
+}
+
+inline Pose inverse(const Pose& aTb) {
+    const dquat inv = glm::conjugate(aTb.rotation);
+    return {inv * -aTb.position, inv};
+}
+
+// Rotation vector [rad] of a unit quaternion by the shortest arc: |result| <= pi. Accurate for tiny angles.
+dvec3 rotationLog(const dquat& q) noexcept;
+
+// Unit quaternion of a rotation vector [rad].
+dquat rotationExp(const dvec3& v) noexcept;
+
+// Between a (s = 0) and b (s = 1): straight line and shortest arc.
+Pose interpolate(const Pose& a, const Pose& b, double s) noexcept;
+
+// All numbers finite and the quaternion of non-zero length.
+bool isFinite(const Pose& pose) noexcept;
+bool isFinite(const dvec3& v) noexcept;
+
+} // namespace fathom

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// One validated Vulkan device for all tests of a program, and reading of device-local buffers.
+#pragma once
+
+#include "engine/gpu/commands.h"
+#include "engine/gpu/device.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+namespace fathom::test {
+
+struct Vulkan {
+    gpu::Instance instance;
+    gpu::Device device;
+    // FATHOM_TEST_VALIDATION=0 leaves the layers out (thread sanitizer), FATHOM_TEST_DEVICE chooses a device.
+    Vulkan() : instance(validation()), device(instance, selector()) {}
+
+    static gpu::Validation validation() {
+        const char* set = std::getenv("FATHOM_TEST_VALIDATION");
+        const bool on = set == nullptr || std::strcmp(set, "0") != 0;
+        return {on, set != nullptr && std::strcmp(set, "gpu") == 0};
+    }
+    static std::string selector() {
+        const char* set = std::getenv("FATHOM_TEST_DEVICE");
+        return set != nullptr ? set : "llvmpipe";
+    }
+};
+
+// The device shared by the tests of one program; destroyed when the program ends.
+Vulkan& vulkan();
+
+// Contents of any buffer, copied by the device.
+template <class T>
+std::vector<T> readBack(gpu::Device& device, const gpu::Buffer& buffer) {
+    const gpu::Buffer landing(device, buffer.bytes(), gpu::MemoryKind::Readback, "landing");
+    gpu::Commands commands(device);
+    const gpu::Timeline timeline(device);
+    commands.begin();
+    commands.copy(buffer, landing, buffer.bytes());
+    commands.end();
+    device.submit(commands.handle(), timeline.handle(), 0, 1);
+    timeline.wait(1);
+    const auto view = landing.as<T>();
+    return {view.begin(), view.end()};
+}
+
+} // namespace fathom::test

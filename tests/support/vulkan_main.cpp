@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Test programs that use the device: every validation message fails the program.
+#define DOCTEST_CONFIG_IMPLEMENT
+#include "tests/support/vulkan.h"
+
+#include <doctest/doctest.h>
+#include <iostream>
+#include <memory>
+
+namespace {
+std::unique_ptr<fathom::test::Vulkan> shared;
+}
+
+fathom::test::Vulkan& fathom::test::vulkan() {
+    if (!shared) {
+        shared = std::make_unique<Vulkan>();
+    }
+    return *shared;
+}
+
+int main(int argc, char** argv) {
+    doctest::Context context(argc, argv);
+    int result = context.run();
+    const uint32_t messages = shared ? shared->instance.messages() : 0;
+    if (messages != 0) {
+        std::cout << "validation: " << messages << " messages, none is allowed\n";
+        result = result == 0 ? 1 : result;
+    }
+    shared.reset();
+    return result;
+}
