@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/load.h"
+
+namespace fathom {
+
+Pose loadPose(const YamlNode& node) {
+    node.checkKeys({"xyz", "quat_xyzw"});
+    Pose pose;
+    if (const auto xyz = node.find("xyz")) {
+        pose.position = xyz->vec3();
+    }
+    if (const auto quat = node.find("quat_xyzw")) {
+        pose.rotation = quat->quatXyzw();
+    }
+    return pose;
+}
+
+std::filesystem::path besideScene(const Scene& scene, const std::string& path) {
+    return (scene.file.parent_path() / path).lexically_normal();
+}
+
+Scene loadScene(const std::filesystem::path& file) {
+    const YamlNode root = YamlNode::parseFile(file);
+    root.checkKeys(
+        {"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "hand", "haptics", "contact"});
+    Scene scene;
+    scene.file = file;
+    if (const auto camera = root.find("camera")) {
+        loadCamera(*camera, scene);
+    }
+    if (const auto filter = root.find("filter")) {
+        loadFilter(*filter, scene);
+    }
+    if (const auto budget = root.find("error_budget")) {
+        scene.errorBudget = budget->number(Range::notNegative());
+    }
+    if (const auto hold = root.find("hold_s")) {
+        scene.holdSeconds = hold->number(Range::notNegative());
+    }
+    loadFixtures(root.at("fixtures"), scene);
+    loadTool(root.at("tool"), scene);
+    if (const auto hand = root.find("hand")) {
+        loadHand(*hand, scene);
+    }
+    if (const auto haptics = root.find("haptics")) {
+        loadHaptics(*haptics, scene);
+    }
+    if (const auto contact = root.find("contact")) {
+        loadContact(*contact, scene);
+    }
+    return scene;
+}
+
+} // namespace fathom

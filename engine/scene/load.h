@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sections of a scene file, one function each. Every one throws BadInput at the first value that is not
+// allowed.
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "engine/scene/yaml_node.h"
+
+namespace fathom {
+
+void loadCamera(const YamlNode& camera, Scene& scene);
+void loadFilter(const YamlNode& filter, Scene& scene);
+void loadFixtures(const YamlNode& fixtures, Scene& scene);
+void loadTool(const YamlNode& tool, Scene& scene);
+void loadHand(const YamlNode& hand, Scene& scene);
+void loadHaptics(const YamlNode& haptics, Scene& scene);
+void loadContact(const YamlNode& contact, Scene& scene);
+
+// {xyz, quat_xyzw}, each optional.
+Pose loadPose(const YamlNode& node);
+
+// As given when absolute, else taken from the scene file's folder.
+std::filesystem::path besideScene(const Scene& scene, const std::string& path);
+
+} // namespace fathom

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sections `camera` and `filter` of a scene file.
+#include "engine/scene/load.h"
+
+namespace fathom {
+
+namespace {
+
+CameraSource loadSource(const YamlNode& node, const Scene& scene) {
+    node.checkKeys({"simulated", "recorded", "v4l2"});
+    const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2");
+    const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value());
+    if (given != 1) {
+        node.refuse(std::to_string(given) + " sources", "exactly one of simulated, recorded, v4l2");
+    }
+    if (simulated) {
+        constexpr std::string_view kScenes[] = {"tank", "sphere", "plane", "torus",
+                                                "slot", "gap",    "plate", "corner"};
+        return {CameraSource::Kind::Simulated, std::string(kScenes[simulated->oneOf(kScenes)])};
+    }
+    if (recorded) {
+        return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};
+    }
+    return {CameraSource::Kind::V4l2, v4l2->text()};
+}
+
+void loadDepthRange(const YamlNode& camera, Scene& scene) {
+    const auto nearZ = camera.find("near"), farZ = camera.find("far");
+    if (nearZ) {
+        scene.nearZ = nearZ->number(Range::positive());
+    }
+    if (farZ) {
+        scene.farZ = farZ->number(Range::positive());
+    }
+    if (scene.nearZ < scene.farZ) {
+        return;
+    }
+    // Only one of the two may be in the file: blame one that is.
+    if (nearZ) {
+        nearZ->refuse("a number below camera.far = " + std::to_string(scene.farZ));
+    }
+    farZ->refuse("a number above camera.near = " + std::to_string(scene.nearZ));
+}
+
+} // namespace
+
+void loadCamera(const YamlNode& camera, Scene& scene) {
+    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma"});
+    if (const auto source = camera.find("source")) {
+        scene.source = loadSource(*source, scene);
+    }
+    loadDepthRange(camera, scene);
+    if (const auto pose = camera.find("base_T_camera")) {
+        scene.baseTcamera = loadPose(*pose);
+    }
+    if (const auto sigma = camera.find("registration_sigma")) {
+        scene.registrationSigma = sigma->number(Range::notNegative());
+    }
+}
+
+void loadFilter(const YamlNode& filter, Scene& scene) {
+    filter.checkKeys({"radius", "sigma", "edge"});
+    if (const auto radius = filter.find("radius")) {
+        scene.filter.radius = radius->integer(0, 16);
+    }
+    if (const auto sigma = filter.find("sigma")) {
+        scene.filter.sigma = sigma->number(Range::positive());
+    }
+    if (const auto edge = filter.find("edge")) {
+        scene.filter.edge = edge->number(Range::notNegative());
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// Section `fixtures` of a scene file: classes of points and authored shapes.
+#include "engine/scene/load.h"
+
+#include <algorithm>
+#include <array>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMaxRows = 64;
+constexpr size_t kMaxPointClasses = 8; // one bit each in a pixel's class byte
+constexpr uint32_t kMaxPixels = 3840u * 2160u;
+
+constexpr std::array<std::string_view, 10> kPointKeys{"hue",          "saturation", "lightness", "box",
+                                                      "radius",       "standoff",   "quat_xyzw", "min_count",
+                                                      "largest_part", "trim"};
+constexpr std::array<std::string_view, 2> kShapeKeys{"base_T_shape", "size"};
+
+enum class RoleWord { Forbidden, Guidance, KeepIn };
+
+std::optional<Band> loadBand(const YamlNode& row, std::string_view key, double hi, bool mayWrap) {
+    const auto node = row.find(key);
+    if (!node) {
+        return std::nullopt;
+    }
+    const std::vector<YamlNode> ends = node->list(2);
+    const Range range = Range::between(0.0, hi);
+    const Band band{ends[0].number(range), ends[1].number(range)};
+    if (band.lo > band.hi && !mayWrap) {
+        node->refuse("lo <= hi, each " + range.words());
+    }
+    return band;
+}
+
+Box loadBox(const YamlNode& node) {
+    node.checkKeys({"min", "max"});
+    const YamlNode min = node.at("min"), max = node.at("max");
+    const Box box{min.vec3(), max.vec3()};
+    if (!glm::all(glm::lessThanEqual(box.min, box.max))) {
+        node.refuse("min " + min.value() + ", max " + max.value(), "min <= max on every axis");
+    }
+    return box;
+}
+
+void loadPoints(const YamlNode& row, FixtureClass& fixture) {
+    fixture.hue = loadBand(row, "hue", 360.0, true);
+    fixture.saturation = loadBand(row, "saturation", 1.0, false);
+    fixture.lightness = loadBand(row, "lightness", 1.0, false);
+    if (const auto box = row.find("box")) {
+        fixture.box = loadBox(*box);
+    }
+    if (const auto radius = row.find("radius")) {
+        fixture.radius = radius->number(Range::positive());
+    }
+    if (const auto standoff = row.find("standoff")) {
+        fixture.standoff = standoff->number(Range::any());
+    }
+    if (const auto quat = row.find("quat_xyzw")) {
+        fixture.orientation = quat->quatXyzw();
+    }
+    if (const auto count = row.find("min_count")) {
+        fixture.minCount = count->integer(1, kMaxPixels);
+    }
+    if (const auto largest = row.find("largest_part")) {
+        fixture.largestPart = largest->boolean();
+    }
+    if (const auto trim = row.find("trim")) {
+        fixture.trim = trim->number(Range::between(0.0, 0.5));
+    }
+}
+
+// How many components of `size` mean something; they must be positive, the rest is not used.
+size_t usedSizes(ShapeKind shape) {
+    switch (shape) {
+    case ShapeKind::Sphere:
+        return 1;
+    case ShapeKind::Cylinder:
+        return 2;
+    case ShapeKind::Box:
+        return 3;
+    default:
+        return 0;
+    }
+}
+
+void loadShape(const YamlNode& row, FixtureClass& fixture) {
+    if (const auto pose = row.find("base_T_shape")) {
+        fixture.baseTshape = loadPose(*pose);
+    }
+    const size_t used = usedSizes(fixture.shape);
+    const auto size = used > 0 ? row.at("size") : row.find("size");
+    if (!size) {
+        return;
+    }
+    fixture.size = size->vec3(Range::notNegative());
+    const std::vector<YamlNode> items = size->list(3);
+    for (size_t i = 0; i < used; ++i) {
+        items[i].number(Range::positive());
+    }
+}
+
+// A key of the other kind of row would be ignored without a word.
+void refuseKeys(const YamlNode& row, std::span<const std::string_view> keys, const std::string& allowed) {
+    for (std::string_view key : keys) {
+        if (const auto node = row.find(key)) {
+            node->refuse(allowed);
+        }
+    }
+}
+
+bool isEquality(ShapeKind shape) {
+    return shape == ShapeKind::Line || shape == ShapeKind::Axis;
+}
+
+void loadRole(const YamlNode& node, FixtureClass& fixture) {
+    const RoleWord role = node.choice<RoleWord>({{"forbidden", RoleWord::Forbidden},
+                                                 {"guidance", RoleWord::Guidance},
+                                                 {"keep_in", RoleWord::KeepIn}});
+    if (fixture.isPoints() && role == RoleWord::KeepIn) {
+        node.refuse("forbidden or guidance for points; keep_in needs a shape");
+    }
+    if (!fixture.isPoints() && !isEquality(fixture.shape) && role == RoleWord::Guidance) {
+        node.refuse("forbidden or keep_in for this shape");
+    }
+    fixture.role = role == RoleWord::Guidance ? Role::Guidance : Role::Forbidden;
+    fixture.keepIn = role == RoleWord::KeepIn;
+}
+
+FixtureClass loadRow(const YamlNode& row) {
+    row.checkKeys({"name", "role", "hue", "saturation", "lightness", "box", "radius", "standoff", "quat_xyzw",
+                   "min_count", "largest_part", "trim", "shape", "base_T_shape", "size"});
+    FixtureClass fixture;
+    fixture.name = row.at("name").text();
+    if (const auto shape = row.find("shape")) {
+        fixture.shape = shape->choice<ShapeKind>({{"sphere", ShapeKind::Sphere},
+                                                  {"box", ShapeKind::Box},
+                                                  {"plane", ShapeKind::Plane},
+                                                  {"cylinder", ShapeKind::Cylinder},
+                                                  {"line", ShapeKind::Line},
+                                                  {"axis", ShapeKind::Axis}});
+    }
+    loadRole(row.at("role"), fixture);
+    if (fixture.isPoints()) {
+        refuseKeys(row, kShapeKeys, "only in a row with a shape");
+        loadPoints(row, fixture);
+    } else {
+        refuseKeys(row, kPointKeys, "only in a row of points, without a shape");
+        loadShape(row, fixture);
+    }
+    return fixture;
+}
+
+} // namespace
+
+void loadFixtures(const YamlNode& fixtures, Scene& scene) {
+    const std::vector<YamlNode> rows = fixtures.list();
+    if (rows.size() > kMaxRows) {
+        fixtures.refuse(std::to_string(rows.size()) + " rows", "at most " + std::to_string(kMaxRows));
+    }
+    size_t pointClasses = 0;
+    for (const YamlNode& row : rows) {
+        FixtureClass fixture = loadRow(row);
+        const auto sameName = [&](const FixtureClass& other) { return other.name == fixture.name; };
+        if (std::any_of(scene.fixtures.begin(), scene.fixtures.end(), sameName)) {
+            row.at("name").refuse("a name that no earlier row has");
+        }
+        pointClasses += fixture.isPoints() ? 1 : 0;
+        scene.fixtures.push_back(std::move(fixture));
+    }
+    if (pointClasses > kMaxPointClasses) {
+        fixtures.refuse(std::to_string(pointClasses) + " classes of points",
+                        "at most " + std::to_string(kMaxPointClasses));
+    }
+}
+
+} // namespace fathom

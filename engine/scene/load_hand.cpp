@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sections `tool` and `hand` of a scene file.
+#include "engine/scene/load.h"
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMaxLeaves = 4096;
+
+std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
+    const std::vector<YamlNode> rows = node.list();
+    if (rows.empty() || rows.size() > kMaxLeaves) {
+        node.refuse(std::to_string(rows.size()) + " spheres", "1 to " + std::to_string(kMaxLeaves));
+    }
+    std::vector<std::array<double, 4>> spheres;
+    for (const YamlNode& row : rows) {
+        const std::vector<YamlNode> numbers = row.list(4);
+        spheres.push_back({numbers[0].number(Range::any()), numbers[1].number(Range::any()),
+                           numbers[2].number(Range::any()), numbers[3].number(Range::positive())});
+    }
+    return spheres;
+}
+
+uint32_t loadClutchBit(const YamlNode& node) {
+    const uint32_t bit = node.integer(0, 1u << 31);
+    // 1 and 2 are taken: guidance and dead-man open.
+    if (bit == 1 || bit == 2 || (bit & (bit - 1)) != 0) {
+        node.refuse("0 (none) or one bit of the buttons: 4, 8, 16, ...");
+    }
+    return bit;
+}
+
+void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
+    map.checkKeys({"base_R_device", "scale", "clutch"});
+    if (const auto rotation = map.find("base_R_device")) {
+        hand.baseRdevice = rotation->quatXyzw();
+    }
+    if (const auto scale = map.find("scale")) {
+        hand.scale = scale->number(Range::positive());
+    }
+    if (const auto clutch = map.find("clutch")) {
+        hand.clutchBit = loadClutchBit(*clutch);
+    }
+}
+
+void loadHandLoop(const YamlNode& node, HandLoop& loop) {
+    node.checkKeys({"mass", "damping", "stiffness"});
+    if (const auto mass = node.find("mass")) {
+        loop.mass = mass->number(Range::positive());
+    }
+    if (const auto damping = node.find("damping")) {
+        loop.damping = damping->number(Range::notNegative());
+    }
+    if (const auto stiffness = node.find("stiffness")) {
+        loop.stiffness = stiffness->number(Range::notNegative());
+    }
+}
+
+} // namespace
+
+void loadTool(const YamlNode& tool, Scene& scene) {
+    tool.checkKeys({"spheres", "file"});
+    const auto spheres = tool.find("spheres"), file = tool.find("file");
+    if (spheres.has_value() == file.has_value()) {
+        tool.refuse(spheres ? "spheres and file" : "neither spheres nor file",
+                    "exactly one of spheres, file");
+    }
+    if (spheres) {
+        scene.tool.spheres = loadSpheres(*spheres);
+        return;
+    }
+    scene.tool.file = besideScene(scene, file->text());
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(scene.tool.file, ignored)) {
+        file->refuse(scene.tool.file.string(), "an existing sphere tree file (.sph)");
+    }
+}
+
+void loadHand(const YamlNode& hand, Scene& scene) {
+    hand.checkKeys({"path", "map", "loop"});
+    if (const auto path = hand.find("path")) {
+        const std::string text = path->text();
+        scene.hand.builtIn = text == "approach";
+        if (!scene.hand.builtIn && !text.ends_with(".csv")) {
+            path->refuse("approach or a .csv file");
+        }
+        scene.hand.path = scene.hand.builtIn ? text : besideScene(scene, text).string();
+    }
+    if (const auto map = hand.find("map")) {
+        loadHandMap(*map, scene.hand);
+    }
+    if (const auto loop = hand.find("loop")) {
+        loadHandLoop(*loop, scene.hand.loop);
+    }
+}
+
+} // namespace fathom

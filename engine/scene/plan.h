@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Leave out what a scene does not need: which passes, buffers and threads a scene gets on a device, and why.
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "engine/types/camera_info.h"
+#include "engine/types/device_facts.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// Pure data: everything that builds pipelines and buffers reads it and decides nothing itself.
+struct Plan {
+    struct Item {
+        std::string kind; // "pass", "buffer", "thread"
+        std::string name;
+        bool in = false;
+        std::string why;
+        uint64_t bytes = 0; // device and host memory of a buffer
+    };
+    std::vector<Item> items;
+
+    // Passes.
+    bool occlusion = false; // unregistered colour: which points the colour camera sees
+    bool cloud = false;     // any class of points: classify and surface
+    bool spheres = false;   // any forbidden class of points: spheres and tree
+    bool thin = false;      // error budget
+    bool hold = false;
+    bool moments = false;   // any guidance class
+    bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
+    // Variants.
+    bool rays = false;      // distorted lens
+    bool colour = false;    // some class asks for colour: it is uploaded
+    bool tiled = false;     // the filter's window from shared memory
+    uint32_t classes = 0;   // classes of points
+    uint32_t filterRadius = 0;
+    bool edge = false;
+    uint32_t pixelGroup = 256; // invocations a group of the pixel passes
+    uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
+    // Contact query.
+    enum class Query { None, Cpu, Gpu } query = Query::None;
+
+    bool has(const std::string& name) const;
+    uint32_t dispatchesPerFrame() const; // of the frame path, query excluded
+};
+
+// Sizes of the picture in patches of 16x16 pixels and in the levels of the region tree.
+struct PatchLayout {
+    uint32_t across = 0, down = 0;
+    struct Level {
+        uint32_t across, down, first;
+    };
+    std::vector<Level> levels; // 0 = 4x4 pixels, 1 = patches, ..., last = root
+    uint32_t patches() const { return across * down; }
+    uint32_t slots() const { return patches() * 256; }
+    uint32_t nodes() const { return levels.back().first + levels.back().across * levels.back().down; }
+};
+PatchLayout patchLayout(uint32_t width, uint32_t height);
+
+// Slot of a pixel in patch-major order: the same arithmetic as shaders/lib/slots.glsl.
+inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
+    return ((v / 16) * patchesAcross + u / 16) * 256 + ((v % 16 / 4) * 4 + u % 16 / 4) * 16 + (v % 4) * 4 + u % 4;
+}
+
+// toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from `kGpuQueryLeaves` leaves on, and only
+// on a device that is not a CPU (`fathom profile` measures the crossover).
+inline constexpr uint32_t kGpuQueryLeaves = 1024;
+Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
+
+} // namespace fathom

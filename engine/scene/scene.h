@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the user asked for: the scene file as plain values, checked. loadScene() fills it; nothing changes it after.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// Inclusive band. For hue lo > hi wraps through 0.
+struct Band {
+    double lo = 0.0, hi = 0.0;
+};
+
+struct Box { // base frame [m], inclusive
+    dvec3 min{0.0}, max{0.0};
+};
+
+enum class Role { Forbidden, Guidance };
+
+enum class ShapeKind { None, Sphere, Box, Plane, Cylinder, Line, Axis };
+
+// A row of `fixtures:`. Either a class of points (shape None) or an authored analytic shape.
+struct FixtureClass {
+    std::string name;
+    Role role = Role::Forbidden;
+    // Points: which pixels belong. A missing gate takes everything.
+    std::optional<Band> hue;        // [degree] 0..360; a grey pixel has none and fails this gate
+    std::optional<Band> saturation; // 0..1
+    std::optional<Band> lightness;  // 0..1
+    std::optional<Box> box;
+    double radius = 0.04; // [m] of the sphere round each forbidden point, before 3 registration sigma
+    // Guidance.
+    double standoff = 0.0;                     // [m] target = position + standoff x normal
+    dquat orientation{1.0, 0.0, 0.0, 0.0};     // base_q_tool when the points are no plane
+    uint32_t minCount = 50;                    // fewer points: no target
+    bool largestPart = false;                  // only the largest connected part of the class
+    double trim = 0.0;                         // share of the farthest points left out of the mean, 0..0.5
+    // Shapes.
+    ShapeKind shape = ShapeKind::None;
+    bool keepIn = false;                       // role keep_in: stay inside the shape
+    Pose baseTshape;
+    dvec3 size{0.0};                           // [m] box: edge lengths; sphere: x = radius; cylinder: x = radius, y = length
+
+    bool usesColour() const { return hue || saturation || lightness; }
+    bool isPoints() const { return shape == ShapeKind::None; }
+};
+
+struct CameraSource {
+    enum class Kind { Simulated, Recorded, V4l2 } kind = Kind::Simulated;
+    std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
+};
+
+struct HandLoop { // the simulated hand that closes the loop (--hand)
+    double mass = 0.2;        // [kg]
+    double damping = 1.0;     // [N s/m]
+    double stiffness = 300.0; // [N/m] of the spring to the intended path
+};
+
+struct Scene {
+    std::filesystem::path file; // where it was read, for messages and relative paths; empty = built in
+
+    CameraSource source;
+    double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
+    Pose baseTcamera;
+    double registrationSigma = 0.0; // [m]; regions grow by 3 of them
+
+    struct Filter {
+        uint32_t radius = 2;  // [pixels] 0..16; 0 = none
+        double sigma = 0.01;  // [m] paper eq. 2
+        double edge = 0.03;   // relative depth jump of a flying pixel; 0 = off
+    } filter;
+    double errorBudget = 0.0001; // [m]; 0 keeps every point
+    double holdSeconds = 0.5;    // [s]; 0 = paper
+
+    std::vector<FixtureClass> fixtures;
+
+    struct ToolSource {
+        std::vector<std::array<double, 4>> spheres; // tool frame x y z r [m]
+        std::filesystem::path file;                 // .sph; empty when spheres are listed
+    } tool;
+
+    struct Hand {
+        std::string path = "approach"; // built-in name or CSV file
+        bool builtIn = true;
+        dquat baseRdevice{1.0, 0.0, 0.0, 0.0};
+        double scale = 1.0;
+        uint32_t clutchBit = 4;
+        HandLoop loop;
+    } hand;
+
+    struct Haptics {
+        double rateHz = 1000.0;
+        std::string device = "ideal";                  // preset name
+        std::optional<double> stiffness;               // [N/m]; empty = auto
+        std::optional<double> rotationalStiffness;     // [N m/rad]; empty = auto
+        enum class GuidanceMode { Target, Paper } guidance = GuidanceMode::Target;
+        double stepCap = 0.002;                        // [m] of leaf travel a solve
+        uint32_t solves = 4;                           // most solves a turn
+        std::optional<double> forceLimit, torqueLimit; // [N], [N m]; empty = the preset's
+        double slewForce = 2000.0;                     // [N/s]
+        double slewTorque = 50.0;                      // [N m/s]
+        double lowpassHz = 0.0;                        // 0 = off
+    } haptics;
+
+    struct Contact {
+        enum class Where { Auto, Cpu, Gpu } where = Where::Auto;
+        double reach = 0.01; // [m]
+        uint32_t delay = 0;  // ticks until an answer takes effect (lockstep)
+    } contact;
+
+    bool hasForbiddenPoints() const;
+    bool hasGuidance() const; // any guidance class of points
+    bool usesColour() const;  // any class that tests colour
+};
+
+// Reads and checks a scene file. Throws BadInput naming file, field, value and what is allowed; unknown keys are
+// refused with the nearest known key as a suggestion. Relative paths are taken from the scene file's folder.
+Scene loadScene(const std::filesystem::path& file);
+
+} // namespace fathom

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/scene/yaml_node.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <set>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMaxFileBytes = 4u << 20;
+constexpr size_t kShownCharacters = 80;
+
+std::string join(std::span<const std::string_view> words) {
+    std::string all;
+    for (std::string_view word : words) {
+        all += (all.empty() ? "" : ", ") + std::string(word);
+    }
+    return all;
+}
+
+std::string readText(const std::filesystem::path& file) {
+    std::error_code ignored;
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file, ignored)) {
+        throw BadInput(file.string(), "file", "cannot be read", "a readable scene file (YAML)");
+    }
+    std::string text(kMaxFileBytes + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<size_t>(in.gcount()));
+    if (in.bad() || text.size() > kMaxFileBytes) {
+        throw BadInput(file.string(), "file", in.bad() ? "cannot be read" : "longer than 4 MiB",
+                       "a readable scene file (YAML) of at most 4 MiB");
+    }
+    return text;
+}
+
+bool isQuoted(const YAML::Node& node) {
+    return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
+}
+
+// One line whatever the value holds.
+std::string printable(std::string text) {
+    if (text.size() > kShownCharacters) {
+        text.resize(kShownCharacters);
+        text += "...";
+    }
+    std::replace_if(
+        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+    return text;
+}
+
+} // namespace
+
+YamlNode::YamlNode(YAML::Node node, std::string file, std::string path)
+    : node_(std::move(node))
+    , file_(std::move(file))
+    , path_(std::move(path)) {}
+
+YamlNode YamlNode::parseFile(const std::filesystem::path& file) {
+    const std::string text = readText(file);
+    std::vector<YAML::Node> documents;
+    try {
+        documents = YAML::LoadAll(text);
+    } catch (const YAML::Exception& e) {
+        const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
+        throw BadInput(file.string(), where, printable(e.msg), "YAML");
+    }
+    if (documents.size() > 1) {
+        throw BadInput(file.string(), "file", std::to_string(documents.size()) + " YAML documents",
+                       "one document");
+    }
+    return YamlNode(documents.empty() ? YAML::Node() : documents[0], file.string(), "");
+}
+
+std::string YamlNode::childPath(std::string_view key) const {
+    return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
+
+void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
+    const std::span<const std::string_view> words(known.begin(), known.size());
+    if (!node_.IsMap()) {
+        refuse("a mapping with keys " + join(words));
+    }
+    std::set<std::string> seen;
+    for (const auto& entry : node_) {
+        const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : "";
+        if (std::find(known.begin(), known.end(), key) == known.end()) {
+            const std::string hint =
+                "unknown key, did you mean '" + std::string(nearestWord(key, words)) + "'?";
+            throw BadInput(file_, childPath(printable(key)), hint, join(words));
+        }
+        if (!seen.insert(key).second) {
+            throw BadInput(file_, childPath(key), "given twice", "each key once");
+        }
+    }
+}
+
+std::optional<YamlNode> YamlNode::find(std::string_view key) const {
+    for (const auto& entry : node_) {
+        if (entry.first.IsScalar() && entry.first.Scalar() == key) {
+            return YamlNode(entry.second, file_, childPath(key));
+        }
+    }
+    return std::nullopt;
+}
+
+YamlNode YamlNode::at(std::string_view key) const {
+    std::optional<YamlNode> child = find(key);
+    if (!child) {
+        throw BadInput(file_, childPath(key), "missing", "this key must be given");
+    }
+    return *std::move(child);
+}
+
+std::vector<YamlNode> YamlNode::list() const {
+    if (!node_.IsSequence()) {
+        refuse("a list");
+    }
+    std::vector<YamlNode> items;
+    for (const YAML::Node& item : node_) {
+        items.push_back(YamlNode(item, file_, path_ + "[" + std::to_string(items.size()) + "]"));
+    }
+    return items;
+}
+
+std::vector<YamlNode> YamlNode::list(size_t n) const {
+    if (!node_.IsSequence() || node_.size() != n) {
+        refuse("a list of " + std::to_string(n) + " numbers");
+    }
+    return list();
+}
+
+bool YamlNode::is(std::string_view word) const {
+    return node_.IsScalar() && node_.Scalar() == word;
+}
+
+std::string YamlNode::text() const {
+    if (!node_.IsScalar() || node_.Scalar().empty()) {
+        refuse("text");
+    }
+    return node_.Scalar();
+}
+
+bool YamlNode::boolean() const {
+    if (isQuoted(node_) || !(is("true") || is("false"))) {
+        refuse("true or false");
+    }
+    return is("true");
+}
+
+double YamlNode::number(const Range& range, const std::string& orElse) const {
+    double x = 0.0;
+    bool good = node_.IsScalar() && !isQuoted(node_);
+    if (good) {
+        std::string_view digits = node_.Scalar();
+        digits.remove_prefix(digits.starts_with('+') ? 1 : 0); // YAML has it, from_chars has not
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
+        good = error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(x);
+    }
+    if (!good || !range.contains(x)) {
+        refuse(orElse + range.words());
+    }
+    return x;
+}
+
+uint32_t YamlNode::integer(uint32_t lo, uint32_t hi) const {
+    uint32_t n = 0;
+    bool good = node_.IsScalar() && !isQuoted(node_);
+    if (good) {
+        const std::string& digits = node_.Scalar();
+        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), n);
+        good = error == std::errc{} && end == digits.data() + digits.size();
+    }
+    if (!good || n < lo || n > hi) {
+        refuse("a whole number from " + std::to_string(lo) + " to " + std::to_string(hi));
+    }
+    return n;
+}
+
+size_t YamlNode::oneOf(std::span<const std::string_view> words) const {
+    const std::string word = node_.IsScalar() ? node_.Scalar() : "";
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end()) {
+        const std::string hint =
+            word.empty() ? "" : ", did you mean '" + std::string(nearestWord(word, words)) + "'?";
+        refuse(value() + hint, join(words));
+    }
+    return static_cast<size_t>(found - words.begin());
+}
+
+dvec3 YamlNode::vec3(const Range& range) const {
+    const std::vector<YamlNode> items = list(3);
+    return {items[0].number(range), items[1].number(range), items[2].number(range)};
+}
+
+dquat YamlNode::quatXyzw() const {
+    const std::vector<YamlNode> items = list(4);
+    double q[4], largest = 0.0;
+    for (size_t i = 0; i < 4; ++i) {
+        q[i] = items[i].number(Range::any());
+        largest = std::max(largest, std::abs(q[i]));
+    }
+    if (!(largest > 1e-300)) {
+        refuse("a quaternion x y z w of non-zero length");
+    }
+    // Divided first: squares of huge or tiny numbers would leave the range of a double.
+    return glm::normalize(dquat(q[3] / largest, q[0] / largest, q[1] / largest, q[2] / largest));
+}
+
+void YamlNode::refuse(const std::string& allowed) const {
+    refuse(value(), allowed);
+}
+
+void YamlNode::refuse(const std::string& value, const std::string& allowed) const {
+    throw BadInput(file_, path_.empty() ? "file" : path_, value, allowed);
+}
+
+std::string YamlNode::value() const {
+    if (node_.IsScalar()) {
+        return node_.Scalar().empty() ? "empty text" : printable(node_.Scalar());
+    }
+    if (node_.IsSequence()) {
+        // Never emitted as a whole: an alias inside its own anchor would have no end.
+        std::string all = "[";
+        for (const YAML::Node& item : node_) {
+            all += (all.size() == 1 ? "" : ", ") + (item.IsScalar() ? item.Scalar() : std::string("..."));
+            if (all.size() > kShownCharacters) {
+                break;
+            }
+        }
+        return printable(all + "]");
+    }
+    return node_.IsMap() ? "a mapping" : "nothing";
+}
+
+} // namespace fathom

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A node of the scene file that knows its dotted path and checks every value it hands out.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+#include <yaml-cpp/yaml.h>
+
+namespace fathom {
+
+// Which numbers are allowed: lo <= x <= hi, or lo < x <= hi when loExcluded. Always finite.
+struct Range {
+    double lo = -std::numeric_limits<double>::infinity();
+    double hi = std::numeric_limits<double>::infinity();
+    bool loExcluded = false;
+
+    static Range any() { return {}; }
+    static Range positive() { return {0.0, std::numeric_limits<double>::infinity(), true}; }
+    static Range notNegative() { return {0.0}; }
+    static Range between(double lo, double hi) { return {lo, hi}; }
+
+    bool contains(double x) const { return loExcluded ? x > lo && x <= hi : x >= lo && x <= hi; }
+    std::string words() const; // "a number from 0 to 360"
+};
+
+// Every member throws BadInput naming the file, the dotted path (fixtures[0].hue), the value and what is
+// allowed.
+class YamlNode {
+public:
+    // The one document of a file of at most 4 MiB. Broken syntax is named with its line.
+    static YamlNode parseFile(const std::filesystem::path& file);
+
+    // Mappings. checkKeys refuses what is no mapping, a key that is not known (with the nearest known key as
+    // a suggestion) and a key given twice; call it before find() or at().
+    void checkKeys(std::initializer_list<std::string_view> known) const;
+    std::optional<YamlNode> find(std::string_view key) const;
+    YamlNode at(std::string_view key) const; // refuses when the key is missing
+
+    // Lists of any length or of exactly n.
+    std::vector<YamlNode> list() const;
+    std::vector<YamlNode> list(size_t n) const;
+
+    // Scalars. Numbers and booleans in quotes are text and refused.
+    bool is(std::string_view word) const; // a scalar that reads exactly so
+    std::string text() const;             // not empty
+    bool boolean() const;                 // true or false
+    double number(const Range& range,
+                  const std::string& orElse = "") const; // orElse: "auto or ", for the message
+    uint32_t integer(uint32_t lo, uint32_t hi) const;
+
+    // Index into words of the one that the scalar is; refuses others with the nearest as a suggestion.
+    size_t oneOf(std::span<const std::string_view> words) const;
+    template <class T>
+    T choice(std::initializer_list<std::pair<std::string_view, T>> words) const;
+
+    dvec3 vec3(const Range& range = Range::any()) const; // list of three numbers
+    dquat quatXyzw() const;                              // list of four, x y z w; not zero; normalised
+
+    [[noreturn]] void refuse(const std::string& allowed) const; // this node's own value
+    [[noreturn]] void refuse(const std::string& value, const std::string& allowed) const;
+
+    const std::string& path() const { return path_; }
+    std::string value() const; // as it is shown in messages
+
+private:
+    YamlNode(YAML::Node node, std::string file, std::string path);
+    std::string childPath(std::string_view key) const;
+
+    YAML::Node node_;
+    std::string file_;
+    std::string path_; // empty for the whole file
+};
+
+// The word with the least edit distance (insert, delete, replace, swap of neighbours) to `word`; the first of
+// equals.
+std::string_view nearestWord(std::string_view word, std::span<const std::string_view> words);
+
+template <class T>
+T YamlNode::choice(std::initializer_list<std::pair<std::string_view, T>> words) const {
+    std::vector<std::string_view> names;
+    for (const auto& entry : words) {
+        names.push_back(entry.first);
+    }
+    return (words.begin() + oneOf(names))->second;
+}
+
+} // namespace fathom

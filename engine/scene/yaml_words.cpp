@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The words of the messages: nearest known key, ranges in English, choices.
+#include "engine/scene/yaml_node.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace fathom {
+
+namespace {
+
+std::string shortNumber(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.6g", x);
+    return text;
+}
+
+// Optimal string alignment distance: one typing slip (a letter more, less, other, or two swapped) costs 1.
+size_t editDistance(std::string_view a, std::string_view b) {
+    const size_t width = b.size() + 1;
+    std::vector<size_t> d((a.size() + 1) * width);
+    for (size_t i = 0; i <= a.size(); ++i) {
+        for (size_t j = 0; j <= b.size(); ++j) {
+            size_t& cost = d[i * width + j];
+            if (i == 0 || j == 0) {
+                cost = i + j;
+                continue;
+            }
+            cost = std::min({d[(i - 1) * width + j] + 1, d[i * width + j - 1] + 1,
+                             d[(i - 1) * width + j - 1] + (a[i - 1] != b[j - 1] ? 1u : 0u)});
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                cost = std::min(cost, d[(i - 2) * width + j - 2] + 1);
+            }
+        }
+    }
+    return d.back();
+}
+
+} // namespace
+
+std::string Range::words() const {
+    const bool bounded = std::isfinite(hi);
+    if (!std::isfinite(lo)) {
+        return bounded ? "a number up to " + shortNumber(hi) : "a finite number";
+    }
+    if (loExcluded) {
+        return "a number above " + shortNumber(lo) + (bounded ? ", up to " + shortNumber(hi) : "");
+    }
+    return bounded ? "a number from " + shortNumber(lo) + " to " + shortNumber(hi)
+                   : "a number of at least " + shortNumber(lo);
+}
+
+std::string_view nearestWord(std::string_view word, std::span<const std::string_view> words) {
+    const std::string_view start =
+        word.substr(0, 64); // long enough for every key; bounds the work on garbage
+    return *std::min_element(words.begin(), words.end(), [start](std::string_view a, std::string_view b) {
+        return editDistance(start, a) < editDistance(start, b);
+    });
+}
+
+} // namespace fathom

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/sph_file.h"
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+class SphFile {
+public:
+    explicit SphFile(const std::string& text = "") {
+        static int count = 0;
+        const std::string name = "fathom_tree_" + std::to_string(::getpid()) + "_" + std::to_string(count++);
+        path_ = std::filesystem::temp_directory_path() / (name + ".sph");
+        std::ofstream(path_) << text;
+    }
+    ~SphFile() { std::filesystem::remove(path_); }
+    SphFile(const SphFile&) = delete;
+    SphFile& operator=(const SphFile&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string refusal(const std::string& text) {
+    const SphFile file(text);
+    try {
+        readSph(file.path());
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+size_t usedLeaves(const SphereTree& tree) {
+    size_t used = 0;
+    for (const Sphere& s : tree.lastLevel()) {
+        used += s.radius >= 0.0 ? 1 : 0;
+    }
+    return used;
+}
+
+} // namespace
+
+TEST_CASE("a tree that was written is read back with the same leaves, bit by bit") {
+    for (size_t count : {1u, 2u, 3u, 17u, 500u}) {
+        std::vector<Sphere> leaves;
+        for (size_t i = 0; i < count; ++i) {
+            const double a = static_cast<double>(i);
+            leaves.push_back({{std::sin(a) / 3, std::cos(2 * a) / 7, 0.1 * a}, 0.01 / (1 + a)});
+        }
+        const SphereTree tree = buildSphereTree(leaves);
+        const SphFile file;
+        writeSph(tree, file.path());
+        const SphereTree back = readSph(file.path());
+        CHECK(validate(back) == "");
+        CHECK(back.levels == tree.levels);
+        CHECK(back.degree == tree.degree);
+        REQUIRE(back.nodes.size() == tree.nodes.size());
+        size_t different = 0;
+        for (size_t i = tree.firstLeaf(); i < tree.nodes.size(); ++i) {
+            different += back.nodes[i].radius != tree.nodes[i].radius ? 1 : 0;
+            different += tree.nodes[i].radius >= 0 && back.nodes[i].centre != tree.nodes[i].centre ? 1 : 0;
+        }
+        CHECK(different == 0);
+        CHECK(usedLeaves(back) == count);
+    }
+}
+
+TEST_CASE(
+    "the forms of the toolkit are read: four, five, nine and ten columns, blank lines, text at the end") {
+    const SphFile file("2 4\n\n0 0 0 9 1\n1 0 0 0.5\r\n0 1 0 0.5 0.75\n  0 0 1 0.5 1 2 3 4 0.1\n"
+                       "\n0 0 -1 0.5 0.9 1 2 3 4 0.1\nMean: 0.5\nBest 1\nWorst 2\n");
+    const SphereTree tree = readSph(file.path(), 0.001);
+    CHECK(validate(tree) == "");
+    REQUIRE(tree.nodes.size() == 5);
+    CHECK(usedLeaves(tree) == 4);
+    CHECK(tree.nodes[2].centre == dvec3(0, 0.001, 0));
+    CHECK(tree.nodes[4].radius == 0.0005);
+}
+
+TEST_CASE("radii above the leaves are recomputed, whether the file's were too small or too large") {
+    for (const char* radius : {"0.001", "1000"}) {
+        const SphFile file("2 2\n0 0 0 " + std::string(radius) + "\n-1 0 0 0.25\n2 0 0 0.5\n");
+        const SphereTree tree = readSph(file.path());
+        CHECK(tree.nodes[0].radius == doctest::Approx(2.5).epsilon(1e-9));
+        CHECK(tree.nodes[0].radius >= 2.5);
+        CHECK(validate(tree) == "");
+    }
+}
+
+TEST_CASE("what lies under an unused slot is unused, even when it holds garbage") {
+    const SphFile file("3 2\n0 0 0 5\n1 0 0 1\nnan nan 0 -1\n1 0 0 0.5\n1.5 0 0 0.5\n77 77 77 3\n88 0 0 9\n");
+    CHECK(refusal("1 1\n0 0 0 -1\n").find("root node: unused") != std::string::npos);
+    const SphereTree tree = readSph(file.path());
+    CHECK(usedLeaves(tree) == 2);
+    CHECK(tree.nodes[5].radius < 0.0);
+    CHECK(validate(tree) == "");
+}
+
+TEST_CASE("a sphere that the toolkit did not refine reaches the last level") {
+    const SphFile file("3 2\n0 0 0 5\n1 0 0 1\n-3 0 0 0.5\n1 0 0 0.5\n1.5 0 0 0.5\n0 0 0 -1\n0 0 0 -1\n");
+    const SphereTree tree = readSph(file.path());
+    CHECK(usedLeaves(tree) == 3);
+    CHECK(tree.nodes[5].centre == dvec3(-3, 0, 0));
+    CHECK(tree.nodes[5].radius == 0.5);
+    CHECK(validate(tree) == "");
+}
+
+TEST_CASE("a damaged file is refused with its line and allocates nothing it does not hold") {
+    CHECK(refusal("").find("line 1: end of file") != std::string::npos);
+    CHECK(refusal("0 2\n").find("line 1: '0 2'") != std::string::npos);
+    CHECK(refusal("2 0\n0 0 0 1\n").find("line 1: '2 0'") != std::string::npos);
+    CHECK(refusal("two 2\n").find("line 1: 'two 2'") != std::string::npos);
+    CHECK(refusal("-1 2\n").find("line 1: ") != std::string::npos);
+    CHECK(refusal("30 8\n0 0 0 1\n").find("at most 2 nodes") != std::string::npos);
+    CHECK(refusal("4294967295 4294967295\n0 0 0 1\n").find("line 1: ") != std::string::npos);
+    CHECK(refusal("4294967295 1\n0 0 0 1\n").find("line 1: ") != std::string::npos);
+    CHECK(refusal("2 2\n0 0 0 1.00000\n1 0 0 1.00000\n").find("line 4: end of file") != std::string::npos);
+    CHECK(refusal("1 1\n0 0 0\n").find("line 2: '0 0 0'") != std::string::npos);
+    CHECK(refusal("1 1\n0 0 0 1 1 1\n").find("line 2: ") != std::string::npos);
+    CHECK(refusal("1 1\n0 nan 0 1\n").find("line 2: '0 nan 0 1'") != std::string::npos);
+    CHECK(refusal("1 1\n0 0 0 inf\n").find("line 2: ") != std::string::npos);
+    CHECK(refusal("1 1\n0 0 0 nan\n").find("line 2: ") != std::string::npos);
+    CHECK(refusal("1 1\n1e200 0 0 1\n").find("line 2: ") != std::string::npos);
+    CHECK(refusal("1 1\n0 0 0 1x\n").find("line 2: ") != std::string::npos);
+    CHECK_THROWS_AS(readSph("no/such/tree.sph"), BadInput);
+    CHECK_THROWS_AS(readSph("tests"), BadInput);
+}
+
+TEST_CASE("an unsound tree or an impossible place is not written") {
+    SphereTree tree = buildSphereTree(std::vector<Sphere>{{{0, 0, 0}, 1}, {{3, 0, 0}, 1}});
+    CHECK_THROWS_AS(writeSph(tree, "no/such/folder/tree.sph"), Error);
+    tree.nodes[1].radius = 5.0;
+    const SphFile file;
+    CHECK_THROWS_AS(writeSph(tree, file.path()), Error);
+    CHECK(std::filesystem::file_size(file.path()) == 0);
+}

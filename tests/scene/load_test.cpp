@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene file that is accepted comes to.
+#include "tests/scene/scene_file.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+const char* const kEverything = R"(
+camera:
+  source: {recorded: pictures/../valve}
+  near: 0.2
+  far: 2.5
+  base_T_camera: {xyz: [1,2,3], quat_xyzw: [0,0,2,0]}
+  registration_sigma: 0.001
+filter: { radius: 16, sigma: 0.02, edge: 0 }
+error_budget: 0
+hold_s: 0.25
+fixtures:
+  - { name: wheel, role: forbidden, hue: [345, 20], saturation: [0.45, 1], lightness: [0.05, 0.9], radius: 0.03,
+      box: {min: [-1,-1,0], max: [1,1,1]} }
+  - { name: body, role: guidance, hue: [55, 84], standoff: -0.01, quat_xyzw: [1,0,0,0], min_count: 7,
+      largest_part: true, trim: 0.25 }
+  - { name: wall, role: forbidden, shape: box, base_T_shape: {xyz: [0,0,1]}, size: [1,2,0.1] }
+  - { name: room, role: keep_in, shape: sphere, size: [0.5,0,0] }
+  - { name: rail, role: guidance, shape: line, base_T_shape: {quat_xyzw: [0,0,0,1]} }
+tool: { file: sub/tool.sph }
+hand:
+  path: way.csv
+  map: {base_R_device: [0,1,0,0], scale: 2.5, clutch: 8}
+  loop: {mass: 0.3, damping: 0, stiffness: 400}
+haptics: { rate_hz: 2000, device: w5d, stiffness: 800, rotational_stiffness: 1.5, guidance: paper, step_cap: 0.001,
+  solves: 16, limits: {force: 5, torque: 0.2, slew_N_per_s: 1000, slew_Nm_per_s: 20, lowpass_hz: 300} }
+contact: { where: gpu, reach: 0.02, delay: 1000 }
+)";
+
+} // namespace
+
+TEST_CASE("a scene with only fixtures and a tool has the stated default everywhere else") {
+    const SceneFile file(kMinimal);
+    const Scene scene = loadScene(file.path());
+    CHECK(scene.file == file.path());
+    CHECK(scene.source.kind == CameraSource::Kind::Simulated);
+    CHECK(scene.source.value == "tank");
+    CHECK(scene.nearZ == 0.1);
+    CHECK(scene.farZ == 3.0);
+    CHECK(scene.baseTcamera.rotation == dquat(1, 0, 0, 0));
+    CHECK(scene.filter.radius == 2);
+    CHECK(scene.errorBudget == 0.0001);
+    CHECK(scene.holdSeconds == 0.5);
+    REQUIRE(scene.fixtures.size() == 1);
+    CHECK_FALSE(scene.fixtures[0].box.has_value());
+    CHECK(scene.fixtures[0].radius == 0.04);
+    CHECK(scene.tool.spheres == std::vector<std::array<double, 4>>{{0, 0, 0, 0.01}});
+    CHECK(scene.hand.builtIn);
+    CHECK(scene.hand.clutchBit == 4);
+    CHECK_FALSE(scene.haptics.stiffness.has_value());
+    CHECK_FALSE(scene.haptics.forceLimit.has_value());
+    CHECK(scene.contact.where == Scene::Contact::Where::Auto);
+    CHECK(scene.contact.reach == 0.01);
+    CHECK(scene.hasForbiddenPoints());
+    CHECK_FALSE(scene.hasGuidance());
+    CHECK_FALSE(scene.usesColour());
+}
+
+TEST_CASE("camera, filter and tool are taken as written, paths from the scene's folder") {
+    const SceneFile file(kEverything);
+    std::filesystem::create_directories(file.folder() / "sub");
+    std::ofstream(file.folder() / "sub/tool.sph") << "1 1\n0 0 0 0.01\n";
+    const Scene scene = loadScene(file.path());
+    CHECK(scene.source.kind == CameraSource::Kind::Recorded);
+    CHECK(scene.source.value == (file.folder() / "valve").string());
+    CHECK(scene.nearZ == 0.2);
+    CHECK(scene.farZ == 2.5);
+    CHECK(scene.baseTcamera.position == dvec3(1, 2, 3));
+    CHECK(scene.baseTcamera.rotation == dquat(0, 0, 0, 1)); // [0,0,2,0] normalised
+    CHECK(scene.registrationSigma == 0.001);
+    CHECK(scene.filter.radius == 16);
+    CHECK(scene.filter.edge == 0.0);
+    CHECK(scene.errorBudget == 0.0);
+    CHECK(scene.holdSeconds == 0.25);
+    CHECK(scene.tool.file == file.folder() / "sub/tool.sph");
+    CHECK(scene.hand.path == (file.folder() / "way.csv").string());
+    CHECK_FALSE(scene.hand.builtIn);
+}
+
+TEST_CASE("fixtures keep their order and every value of points and shapes") {
+    const SceneFile file(kEverything);
+    std::filesystem::create_directories(file.folder() / "sub");
+    std::ofstream(file.folder() / "sub/tool.sph") << "1 1\n0 0 0 0.01\n";
+    const Scene scene = loadScene(file.path());
+    REQUIRE(scene.fixtures.size() == 5);
+    const FixtureClass& wheel = scene.fixtures[0];
+    CHECK(wheel.hue->lo == 345.0); // wraps through 0
+    CHECK(wheel.hue->hi == 20.0);
+    CHECK(wheel.lightness->hi == 0.9);
+    CHECK(wheel.box->min == dvec3(-1, -1, 0));
+    CHECK(wheel.radius == 0.03);
+    const FixtureClass& body = scene.fixtures[1];
+    CHECK(body.role == Role::Guidance);
+    CHECK_FALSE(body.saturation.has_value());
+    CHECK(body.standoff == -0.01);
+    CHECK(body.orientation == dquat(0, 1, 0, 0));
+    CHECK(body.minCount == 7);
+    CHECK(body.largestPart);
+    CHECK(body.trim == 0.25);
+    CHECK(scene.fixtures[2].shape == ShapeKind::Box);
+    CHECK(scene.fixtures[2].size == dvec3(1, 2, 0.1));
+    CHECK(scene.fixtures[2].baseTshape.position == dvec3(0, 0, 1));
+    CHECK_FALSE(scene.fixtures[2].keepIn);
+    CHECK(scene.fixtures[3].keepIn);
+    CHECK(scene.fixtures[3].size.x == 0.5);
+    CHECK(scene.fixtures[4].shape == ShapeKind::Line);
+    CHECK(scene.usesColour());
+    CHECK(scene.hasForbiddenPoints());
+    CHECK(scene.hasGuidance());
+}
+
+TEST_CASE("hand, haptics and contact are taken as written") {
+    const SceneFile file(kEverything);
+    std::filesystem::create_directories(file.folder() / "sub");
+    std::ofstream(file.folder() / "sub/tool.sph") << "1 1\n0 0 0 0.01\n";
+    const Scene scene = loadScene(file.path());
+    CHECK(scene.hand.baseRdevice == dquat(0, 0, 1, 0));
+    CHECK(scene.hand.scale == 2.5);
+    CHECK(scene.hand.clutchBit == 8);
+    CHECK(scene.hand.loop.mass == 0.3);
+    CHECK(scene.hand.loop.damping == 0.0);
+    CHECK(scene.hand.loop.stiffness == 400.0);
+    CHECK(scene.haptics.rateHz == 2000.0);
+    CHECK(scene.haptics.device == "w5d");
+    CHECK(scene.haptics.stiffness == 800.0);
+    CHECK(scene.haptics.rotationalStiffness == 1.5);
+    CHECK(scene.haptics.guidance == Scene::Haptics::GuidanceMode::Paper);
+    CHECK(scene.haptics.stepCap == 0.001);
+    CHECK(scene.haptics.solves == 16);
+    CHECK(scene.haptics.forceLimit == 5.0);
+    CHECK(scene.haptics.torqueLimit == 0.2);
+    CHECK(scene.haptics.slewForce == 1000.0);
+    CHECK(scene.haptics.slewTorque == 20.0);
+    CHECK(scene.haptics.lowpassHz == 300.0);
+    CHECK(scene.contact.where == Scene::Contact::Where::Gpu);
+    CHECK(scene.contact.reach == 0.02);
+    CHECK(scene.contact.delay == 1000);
+}
+
+TEST_CASE("bounds are inclusive, an empty list of fixtures and the words auto and preset are fine") {
+    CHECK(refusal("fixtures: []\n" + kTool) == "");
+    CHECK(
+        refusal(
+            "fixtures: [{name: a, role: forbidden, hue: [0, 360], saturation: [0, 1], lightness: [1, 1]}]\n" +
+            kTool) == "");
+    CHECK(refusal("fixtures: [{name: a, role: forbidden, box: {min: [0,0,0], max: [0,0,0]}}]\n" + kTool) ==
+          "");
+    CHECK(refusal(kMinimal + "haptics: {stiffness: auto, rotational_stiffness: auto, rate_hz: 100, step_cap: "
+                             "0.05, limits: {force: preset, torque: preset}}\n") == "");
+    CHECK(refusal(
+              kMinimal +
+              "haptics: {rate_hz: 10000, step_cap: 1e-5, solves: 1}\ncontact: {reach: 0.0001, delay: 0}\n") ==
+          "");
+    CHECK(refusal(kMinimal + "camera: {source: {v4l2: /dev/video0}, near: +0.5}\n") == "");
+    for (const char* name : {"tank", "sphere", "plane", "torus", "slot", "gap", "plate", "corner"}) {
+        CHECK(refusal(kMinimal + "camera: {source: {simulated: " + name + "}}\n") == "");
+    }
+}
+
+TEST_CASE("a quaternion of huge or tiny length is normalised without overflow") {
+    for (const char* quat : {"[0, 0, 1e300, 1e300]", "[0, 0, 1e-290, 1e-290]"}) {
+        const SceneFile file(kMinimal + "hand: {map: {base_R_device: " + quat + "}}\n");
+        const dquat q = loadScene(file.path()).hand.baseRdevice;
+        CHECK(std::abs(q.w - std::sqrt(0.5)) < 1e-15);
+        CHECK(std::abs(q.z - std::sqrt(0.5)) < 1e-15);
+    }
+}

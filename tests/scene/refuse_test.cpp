@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene file may not say, and that the message names file, field, value and what is allowed.
+#include "engine/scene/yaml_node.h"
+#include "tests/scene/scene_file.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+// One bad value: the text, then what the message must say after the file's name ("field: value") and what is
+// allowed.
+struct Bad {
+    std::string text, fieldAndValue, allowed;
+};
+
+void checkRefused(const std::vector<Bad>& all) {
+    for (const Bad& bad : all) {
+        const std::string message = refusal(bad.text);
+        CAPTURE(bad.text);
+        CAPTURE(message);
+        CHECK(message.find("scene.yaml: " + bad.fieldAndValue) != std::string::npos);
+        const size_t allowed = message.find("(allowed: ");
+        REQUIRE(allowed != std::string::npos);
+        CHECK(message.find(bad.allowed, allowed) != std::string::npos);
+        CHECK(message.find('\n') == std::string::npos); // one line
+    }
+}
+
+Bad fixture(const std::string& values, const std::string& fieldAndValue, const std::string& allowed) {
+    return {"fixtures: [{name: a, role: forbidden, " + values + "}]\n" + kTool,
+            "fixtures[0]." + fieldAndValue, allowed};
+}
+
+Bad section(const std::string& text, const std::string& fieldAndValue, const std::string& allowed) {
+    return {kMinimal + text + "\n", fieldAndValue, allowed};
+}
+
+std::string pointRows(size_t count) {
+    std::string text = "fixtures:\n";
+    for (size_t i = 0; i < count; ++i) {
+        text += " - {name: n" + std::to_string(i) + ", role: forbidden}\n";
+    }
+    return text + kTool;
+}
+
+} // namespace
+
+TEST_CASE("unknown keys are refused at every level with the nearest known key") {
+    checkRefused({
+        section("camra: {}", "camra: unknown key, did you mean 'camera'?", "fixtures"),
+        section("camera: {nera: 1}", "camera.nera: unknown key, did you mean 'near'?", "near"),
+        section("camera: {source: {recoded: x}}",
+                "camera.source.recoded: unknown key, did you mean 'recorded'?", "v4l2"),
+        section("camera: {base_T_camera: {quat: [0,0,0,1]}}", "camera.base_T_camera.quat: unknown key",
+                "quat_xyzw"),
+        section("filter: {sgima: 1}", "filter.sgima: unknown key, did you mean 'sigma'?", "sigma"),
+        fixture("hew: [0, 1]", "hew: unknown key, did you mean 'hue'?", "hue"),
+        fixture("box: {min: [0,0,0], maks: [1,1,1]}", "box.maks: unknown key, did you mean 'max'?", "max"),
+        section("hand: {pth: approach}", "hand.pth: unknown key, did you mean 'path'?", "path"),
+        section("hand: {map: {scal: 1}}", "hand.map.scal: unknown key, did you mean 'scale'?", "scale"),
+        section("hand: {loop: {mas: 1}}", "hand.loop.mas: unknown key, did you mean 'mass'?", "mass"),
+        section("haptics: {rate: 1000}", "haptics.rate: unknown key, did you mean 'rate_hz'?", "rate_hz"),
+        section("haptics: {limits: {slew_N_s: 1}}",
+                "haptics.limits.slew_N_s: unknown key, did you mean 'slew_N_per_s'?", ""),
+        section("contact: {raech: 1}", "contact.raech: unknown key, did you mean 'reach'?", "reach"),
+        {"fixtures: []\ntool: {sphere: []}\n", "tool.sphere: unknown key, did you mean 'spheres'?", "file"},
+        section("contact: {delay: 0, delay: 1}", "contact.delay: given twice", "once"),
+    });
+}
+
+TEST_CASE("the nearest word counts a swap of neighbours as one slip and takes any length") {
+    constexpr std::array<std::string_view, 3> words{"frocks", "force", "near"};
+    CHECK(nearestWord("froce", words) == "force"); // one swap; "frocks" is two letters away and comes first
+    CHECK(nearestWord("", words) == "near");       // fewest letters to add
+    CHECK(nearestWord(std::string(100000, 'k'), words) == "frocks");
+}
+
+TEST_CASE("colour gates outside their range, reversed or of another form are refused") {
+    checkRefused({
+        fixture("hue: [-1, 20]", "hue[0]: -1", "from 0 to 360"),
+        fixture("hue: [0, 360.5]", "hue[1]: 360.5", "from 0 to 360"),
+        fixture("hue: [10]", "hue: [10]", "2 numbers"),
+        fixture("hue: red", "hue: red", "2 numbers"),
+        fixture("hue: [.nan, 20]", "hue[0]: .nan", "from 0 to 360"),
+        fixture("saturation: [0, 1.01]", "saturation[1]: 1.01", "from 0 to 1"),
+        fixture("saturation: [0.9, 0.1]", "saturation: [0.9, 0.1]", "lo <= hi"),
+        fixture("lightness: [-0.1, 1]", "lightness[0]: -0.1", "from 0 to 1"),
+        fixture("lightness: [0.5, 0.4]", "lightness: [0.5, 0.4]", "lo <= hi"),
+    });
+}
+
+TEST_CASE("points with a bad radius, box or guidance value are refused") {
+    checkRefused({
+        fixture("radius: -0.01", "radius: -0.01", "above 0"),
+        fixture("radius: 0", "radius: 0", "above 0"),
+        fixture("radius: .nan", "radius: .nan", "above 0"),
+        fixture("radius: nan", "radius: nan", "above 0"),
+        fixture("radius: .inf", "radius: .inf", "above 0"),
+        fixture("radius: 1e999", "radius: 1e999", "above 0"),
+        fixture("radius: \"0.04\"", "radius: 0.04", "above 0"),
+        fixture("radius: 4cm", "radius: 4cm", "above 0"),
+        fixture("radius:", "radius: nothing", "above 0"),
+        fixture("box: {min: [0,0,2], max: [1,1,1]}", "box: min [0, 0, 2], max [1, 1, 1]", "min <= max"),
+        fixture("box: {min: [0,0,0]}", "box.max: missing", "must be given"),
+        fixture("box: {min: [0,0,.inf], max: [1,1,1]}", "box.min[2]: .inf", "finite"),
+        fixture("box: {min: [0,0], max: [1,1,1]}", "box.min: [0, 0]", "3 numbers"),
+        fixture("quat_xyzw: [0, 0, 0, 0]", "quat_xyzw: [0, 0, 0, 0]", "non-zero length"),
+        fixture("quat_xyzw: [0, 0, 1]", "quat_xyzw: [0, 0, 1]", "4 numbers"),
+        fixture("min_count: 0", "min_count: 0", "from 1"),
+        fixture("min_count: 2.5", "min_count: 2.5", "whole number"),
+        fixture("trim: 0.6", "trim: 0.6", "from 0 to 0.5"),
+        fixture("largest_part: yes please", "largest_part: yes please", "true or false"),
+        fixture("standoff: near", "standoff: near", "finite number"),
+    });
+}
+
+TEST_CASE("rows without a name, role or sense are refused") {
+    checkRefused({
+        {"fixtures: [{role: forbidden}]\n" + kTool, "fixtures[0].name: missing", "must be given"},
+        {"fixtures: [{name: '', role: forbidden}]\n" + kTool, "fixtures[0].name: empty text", "text"},
+        {"fixtures: [{name: a}]\n" + kTool, "fixtures[0].role: missing", "must be given"},
+        {"fixtures: [{name: a, role: forbiden}]\n" + kTool,
+         "fixtures[0].role: forbiden, did you mean 'forbidden'?", "keep_in"},
+        {"fixtures: [{name: a, role: forbidden}, {name: a, role: guidance}]\n" + kTool, "fixtures[1].name: a",
+         "no earlier row"},
+        {"fixtures: [{name: a, role: keep_in}]\n" + kTool, "fixtures[0].role: keep_in", "needs a shape"},
+        {"fixtures: [{name: a, role: guidance, shape: box, size: [1,1,1]}]\n" + kTool,
+         "fixtures[0].role: guidance", "keep_in"},
+        {"fixtures: [3]\n" + kTool, "fixtures[0]: 3", "a mapping"},
+        {"fixtures: {name: a}\n" + kTool, "fixtures: a mapping", "a list"},
+        {kTool, "fixtures: missing", "must be given"},
+        {"", "file: nothing", "fixtures"},
+        {pointRows(9), "fixtures: 9 classes of points", "at most 8"},
+        {pointRows(65), "fixtures: 65 rows", "at most 64"},
+    });
+    CHECK(refusal(pointRows(8)) == "");
+}
+
+TEST_CASE("shapes without their size or with keys of points are refused") {
+    checkRefused({
+        fixture("shape: cube", "shape: cube", "sphere, box, plane, cylinder, line, axis"),
+        fixture("shape: box", "size: missing", "must be given"),
+        fixture("shape: box, size: [1, 0, 1]", "size[1]: 0", "above 0"),
+        fixture("shape: sphere, size: [0, 1, 1]", "size[0]: 0", "above 0"),
+        fixture("shape: cylinder, size: [1, -1, 0]", "size[1]: -1", "at least 0"),
+        fixture("shape: cylinder, size: [1, 0, 0]", "size[1]: 0", "above 0"),
+        fixture("shape: plane, base_T_shape: {xyz: [0, 0, .nan]}", "base_T_shape.xyz[2]: .nan", "finite"),
+        fixture("shape: sphere, radius: 1", "radius: 1", "without a shape"),
+        fixture("shape: plane, hue: [0, 1]", "hue: [0, 1]", "without a shape"),
+        fixture("size: [1, 1, 1]", "size: [1, 1, 1]", "with a shape"),
+    });
+}
+
+TEST_CASE("camera and filter values outside their range are refused") {
+    checkRefused({
+        section("camera: {near: 0}", "camera.near: 0", "above 0"),
+        section("camera: {near: -1}", "camera.near: -1", "above 0"),
+        section("camera: {near: 3}", "camera.near: 3", "below camera.far"),
+        section("camera: {near: 2, far: 1}", "camera.near: 2", "below camera.far"),
+        section("camera: {far: 0.05}", "camera.far: 0.05", "above camera.near"),
+        section("camera: {source: {}}", "camera.source: 0 sources", "exactly one"),
+        section("camera: {source: {simulated: tank, recorded: x}}", "camera.source: 2 sources",
+                "exactly one"),
+        section("camera: {source: {simulated: tnak}}", "camera.source.simulated: tnak, did you mean 'tank'?",
+                "corner"),
+        section("camera: {source: {recorded: ''}}", "camera.source.recorded: empty text", "text"),
+        section("camera: {base_T_camera: {quat_xyzw: [0,0,0,0]}}",
+                "camera.base_T_camera.quat_xyzw: [0, 0, 0, 0]", "non-zero"),
+        section("camera: {base_T_camera: {xyz: [0,0,a]}}", "camera.base_T_camera.xyz[2]: a", "finite"),
+        section("camera: {registration_sigma: -1}", "camera.registration_sigma: -1", "at least 0"),
+        section("camera: 3", "camera: 3", "a mapping"),
+        section("filter: {radius: 17}", "filter.radius: 17", "from 0 to 16"),
+        section("filter: {radius: 1.5}", "filter.radius: 1.5", "whole number"),
+        section("filter: {radius: -1}", "filter.radius: -1", "from 0 to 16"),
+        section("filter: {sigma: 0}", "filter.sigma: 0", "above 0"),
+        section("filter: {edge: -0.1}", "filter.edge: -0.1", "at least 0"),
+        section("error_budget: -1", "error_budget: -1", "at least 0"),
+        section("hold_s: forever", "hold_s: forever", "at least 0"),
+    });
+}
+
+TEST_CASE("a scene without a usable tool is refused") {
+    const std::string fixtures = "fixtures: []\n";
+    checkRefused({
+        {fixtures, "tool: missing", "must be given"},
+        {fixtures + "tool: {}\n", "tool: neither spheres nor file", "exactly one"},
+        {fixtures + "tool: {spheres: [[0,0,0,1]], file: a.sph}\n", "tool: spheres and file", "exactly one"},
+        {fixtures + "tool: {spheres: []}\n", "tool.spheres: 0 spheres", "1 to 4096"},
+        {fixtures + "tool: {spheres: [[0,0,0]]}\n", "tool.spheres[0]: [0, 0, 0]", "4 numbers"},
+        {fixtures + "tool: {spheres: [[0,0,0,1], [0,0,0,0]]}\n", "tool.spheres[1][3]: 0", "above 0"},
+        {fixtures + "tool: {spheres: [[0,.inf,0,1]]}\n", "tool.spheres[0][1]: .inf", "finite"},
+    });
+    const std::string message = refusal(fixtures + "tool: {file: nowhere.sph}\n");
+    CHECK(message.find("tool.file: ") != std::string::npos);
+    CHECK(message.find("nowhere.sph (allowed: an existing") != std::string::npos);
+}
+
+TEST_CASE("hand, haptics and contact values outside their range are refused") {
+    checkRefused({
+        section("hand: {path: wander}", "hand.path: wander", "approach or a .csv"),
+        section("hand: {map: {base_R_device: [0,0,0,0]}}", "hand.map.base_R_device: [0, 0, 0, 0]",
+                "non-zero"),
+        section("hand: {map: {scale: 0}}", "hand.map.scale: 0", "above 0"),
+        section("hand: {map: {clutch: 2}}", "hand.map.clutch: 2", "one bit"),
+        section("hand: {map: {clutch: 12}}", "hand.map.clutch: 12", "one bit"),
+        section("hand: {loop: {mass: 0}}", "hand.loop.mass: 0", "above 0"),
+        section("hand: {loop: {damping: -1}}", "hand.loop.damping: -1", "at least 0"),
+        section("haptics: {rate_hz: 99}", "haptics.rate_hz: 99", "from 100 to 10000"),
+        section("haptics: {rate_hz: 10001}", "haptics.rate_hz: 10001", "from 100 to 10000"),
+        section("haptics: {device: ''}", "haptics.device: empty text", "text"),
+        section("haptics: {stiffness: 0}", "haptics.stiffness: 0", "auto or a number above 0"),
+        section("haptics: {rotational_stiffness: atuo}", "haptics.rotational_stiffness: atuo",
+                "auto or a number above 0"),
+        section("haptics: {guidance: spring}", "haptics.guidance: spring", "target, paper"),
+        section("haptics: {step_cap: 1e-6}", "haptics.step_cap: 1e-6", "from 1e-05 to 0.05"),
+        section("haptics: {step_cap: 0.051}", "haptics.step_cap: 0.051", "from 1e-05 to 0.05"),
+        section("haptics: {solves: 0}", "haptics.solves: 0", "from 1 to 16"),
+        section("haptics: {solves: 17}", "haptics.solves: 17", "from 1 to 16"),
+        section("haptics: {limits: {force: -1}}", "haptics.limits.force: -1",
+                "preset or a number of at least 0"),
+        section("haptics: {limits: {slew_N_per_s: 0}}", "haptics.limits.slew_N_per_s: 0", "above 0"),
+        section("haptics: {limits: {lowpass_hz: 500}}", "haptics.limits.lowpass_hz: 500",
+                "half of haptics.rate_hz"),
+        section("contact: {where: npu}", "contact.where: npu", "auto, cpu, gpu"),
+        section("contact: {reach: 0.00009}", "contact.reach: 0.00009", "from 0.0001 to 1"),
+        section("contact: {reach: 1.1}", "contact.reach: 1.1", "from 0.0001 to 1"),
+        section("contact: {delay: 1001}", "contact.delay: 1001", "from 0 to 1000"),
+        section("contact: {delay: -1}", "contact.delay: -1", "from 0 to 1000"),
+    });
+}
+
+TEST_CASE("a file that is no YAML, no file or too deep is refused with its line") {
+    checkRefused({
+        {kMinimal + "camera: {near: 1\n", "line ", "YAML"},
+        {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: ", "YAML"},
+        {kMinimal + "---\nhold_s: 1\n", "file: 2 YAML documents", "one document"},
+        {std::string(100000, '['), "line 1: ", "YAML"},
+        {"&a [*a]\n", "file: ", "a mapping"},
+        {"fixtures: &a [*a]\n" + kTool, "fixtures[0]: ", "a mapping"},
+        {std::string("\x00\x01\xff\xfe{", 5), "", ""},
+    });
+    for (const char* path : {"no/such/scene.yaml", "tests"}) {
+        std::string message;
+        try {
+            loadScene(path);
+        } catch (const BadInput& e) {
+            message = e.what();
+        }
+        CHECK(message.find(std::string(path) + ": file: cannot be read") == 0);
+    }
+}
