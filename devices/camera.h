@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the engine's apps know of a camera, live, recorded or simulated.
+#pragma once
+
+#include "engine/types/camera_info.h"
+#include "engine/types/frame.h"
+
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+// One thread calls it. A source that ends (a recording, a scripted scene) returns no frame once and for ever after.
+class Camera {
+public:
+    virtual ~Camera() = default;
+    virtual const CameraInfo& info() const = 0;
+    // Next good frame; blocks until there is one. A bad frame is skipped, counted, named in the log. At most
+    // kFramesInFlight leases may be alive at once. Throws DeviceLost when a live camera is gone.
+    virtual std::optional<Frame> next() = 0;
+    // Frames that were there but unusable, so far.
+    virtual uint32_t skipped() const = 0;
+    // One word and a name, e.g. "recorded FOLDER".
+    virtual std::string description() const = 0;
+
+    static constexpr uint32_t kFramesInFlight = 4;
+};
+
+} // namespace fathom

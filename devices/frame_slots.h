@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera memory for frames in flight: page-aligned, page-padded slots that come back through an atomic flag.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace fathom {
+
+// One frame's memory. Depth and colour are separate blocks, each on its own pages, zero at first.
+class FrameSlot {
+public:
+    // Throws std::bad_alloc. colour false: no colour block.
+    FrameSlot(uint32_t pixels, bool colour);
+    FrameSlot(const FrameSlot&) = delete;
+    FrameSlot& operator=(const FrameSlot&) = delete;
+
+    std::span<uint16_t> depth() noexcept { return {static_cast<uint16_t*>(depth_.get()), pixels_}; }
+    std::span<uint32_t> colour() noexcept {
+        return {static_cast<uint32_t*>(colour_.get()), colour_ ? pixels_ : 0u};
+    }
+
+    // Hands the memory back to its camera; any thread, wait-free.
+    void release() noexcept { taken_.store(false, std::memory_order_release); }
+    // For Frame's second argument: releases this slot. The slots must outlive the lease.
+    std::function<void()> giveBack() {
+        return [this] { release(); };
+    }
+
+private:
+    friend class FrameSlots;
+    struct Free {
+        void operator()(void* block) const noexcept;
+    };
+    uint32_t pixels_;
+    std::unique_ptr<void, Free> depth_;
+    std::unique_ptr<void, Free> colour_;
+    std::atomic<bool> taken_{false};
+};
+
+// A fixed set of slots. One thread (the camera's) acquires; any thread releases. The addresses never change,
+// so that memory imported by a device once stays valid as long as this object lives.
+class FrameSlots {
+public:
+    FrameSlots(uint32_t pixels, bool colour, uint32_t count);
+
+    // A free slot, now taken, the next in turn; nullptr when all are in flight. Never waits.
+    FrameSlot* acquire() noexcept;
+
+    size_t size() const { return slots_.size(); }
+    size_t inFlight() const noexcept; // slots taken now
+
+private:
+    std::vector<std::unique_ptr<FrameSlot>> slots_;
+    size_t next_ = 0;
+};
+
+// Bytes rounded up to whole pages, at least one page.
+size_t wholePages(size_t bytes);
+
+} // namespace fathom

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the apps know of a haptic device, live or simulated.
+#pragma once
+
+#include "engine/types/pose.h"
+#include "engine/types/wrench.h"
+
+#include <cstdint>
+
+namespace fathom {
+
+// The hand, as one sample.
+struct HandSample {
+    Pose deviceThandle;      // raw, device frame: position [m], orientation
+    uint32_t buttons = 0;    // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
+};
+
+// Called by the haptic thread only, once a turn: read, then write. Never allocates, locks, throws or waits longer than
+// the device's own exchange.
+class HapticDevice {
+public:
+    virtual ~HapticDevice() = default;
+    virtual HandSample read(double t) noexcept = 0;                   // t [s] since the run's start
+    virtual void write(const Wrench& deviceWrench, double dt) noexcept = 0; // device axes, about the handle
+};
+
+} // namespace fathom

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/hand_csv.h"
+
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> kColumns{"t_s", "x", "y", "z", "qw", "qx", "qy", "qz", "button"};
+constexpr size_t kNumbers = 8; // all but button
+
+struct Row {
+    const std::string& file;
+    const TextLine& line;
+
+    [[noreturn]] void refuse(std::string_view column, std::string_view value,
+                             const std::string& allowed) const {
+        std::string field = "line " + std::to_string(line.number);
+        if (!column.empty()) {
+            field += ", " + std::string(column);
+        }
+        throw BadInput(file, field, "'" + std::string(value.substr(0, 80)) + "'", allowed);
+    }
+};
+
+// Number of columns: 8, or 9 with the button.
+size_t readHeader(const Row& row) {
+    const std::vector<std::string_view> names = splitFields(row.line.text, ',');
+    const bool known = (names.size() == kNumbers || names.size() == kColumns.size()) &&
+                       std::equal(names.begin(), names.end(), kColumns.begin());
+    if (!known) {
+        row.refuse("", row.line.text, "header t_s,x,y,z,qw,qx,qy,qz[,button]");
+    }
+    return names.size();
+}
+
+dquat unitQuaternion(const Row& row, double w, double x, double y, double z) {
+    const double largest = std::max({std::abs(w), std::abs(x), std::abs(y), std::abs(z)});
+    if (!(largest > 1e-300)) {
+        row.refuse("qw..qz", "0,0,0,0", "a quaternion of non-zero length");
+    }
+    return glm::normalize(dquat(w / largest, x / largest, y / largest, z / largest));
+}
+
+HandWaypoint readRow(const Row& row, size_t columns) {
+    const std::vector<std::string_view> fields = splitFields(row.line.text, ',');
+    if (fields.size() != columns) {
+        row.refuse("", std::to_string(fields.size()) + " fields",
+                   std::to_string(columns) + " as in the header");
+    }
+    std::array<double, kNumbers> v{};
+    for (size_t i = 0; i < kNumbers; ++i) {
+        if (!parseNumber(fields[i], v[i]) || !std::isfinite(v[i])) {
+            row.refuse(kColumns[i], fields[i], "a finite number");
+        }
+    }
+    HandWaypoint point;
+    point.t = v[0];
+    point.deviceThandle.position = {v[1], v[2], v[3]};
+    point.deviceThandle.rotation = unitQuaternion(row, v[4], v[5], v[6], v[7]);
+    if (columns > kNumbers && !parseNumber(fields[kNumbers], point.buttons)) {
+        row.refuse("button", fields[kNumbers], "a whole number from 0 to 4294967295");
+    }
+    return point;
+}
+
+} // namespace
+
+std::vector<HandWaypoint> readHandCsv(const std::filesystem::path& file) {
+    const std::string name = file.string();
+    const std::vector<TextLine> lines = readDataLines(file);
+    if (lines.empty()) {
+        throw BadInput(name, "line 1", "nothing", "header t_s,x,y,z,qw,qx,qy,qz[,button]");
+    }
+    const size_t columns = readHeader({name, lines[0]});
+    std::vector<HandWaypoint> path;
+    for (size_t i = 1; i < lines.size(); ++i) {
+        const Row row{name, lines[i]};
+        const HandWaypoint point = readRow(row, columns);
+        if (!path.empty() && !(point.t > path.back().t)) {
+            row.refuse("t_s", splitFields(lines[i].text, ',')[0],
+                       "later than the row before (" + std::to_string(path.back().t) + ")");
+        }
+        path.push_back(point);
+    }
+    if (path.empty()) {
+        throw BadInput(name, "line " + std::to_string(lines[0].number + 1), "end of file",
+                       "at least one row");
+    }
+    return path;
+}
+
+} // namespace fathom

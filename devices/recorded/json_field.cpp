@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/json_field.h"
+
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
+
+#include <cmath>
+
+namespace fathom {
+
+std::optional<JsonField> JsonField::find(std::string_view key) const {
+    if (!value_->is_object()) {
+        refuse("an object");
+    }
+    const auto found = value_->find(std::string(key));
+    if (found == value_->end()) {
+        return std::nullopt;
+    }
+    return JsonField(*found, file_, path_.empty() ? std::string(key) : path_ + "." + std::string(key));
+}
+
+JsonField JsonField::at(std::string_view key) const {
+    const std::optional<JsonField> field = find(key);
+    if (!field) {
+        throw BadInput(file_, path_.empty() ? std::string(key) : path_ + "." + std::string(key), "missing",
+                       "this field must be given");
+    }
+    return *field;
+}
+
+double JsonField::finite() const {
+    const double x = value_->is_number() ? value_->get<double>() : std::nan("");
+    if (!std::isfinite(x)) {
+        refuse("a finite number");
+    }
+    return x;
+}
+
+double JsonField::positive() const {
+    const double x = value_->is_number() ? value_->get<double>() : std::nan("");
+    if (!std::isfinite(x) || !(x > 0.0)) {
+        refuse("a number above 0");
+    }
+    return x;
+}
+
+uint32_t JsonField::integer(uint32_t lo, uint32_t hi) const {
+    if (!value_->is_number_unsigned() || value_->get<uint64_t>() < lo || value_->get<uint64_t>() > hi) {
+        refuse("a whole number from " + std::to_string(lo) + " to " + std::to_string(hi));
+    }
+    return value_->get<uint32_t>();
+}
+
+bool JsonField::boolean() const {
+    if (!value_->is_boolean()) {
+        refuse("true or false");
+    }
+    return value_->get<bool>();
+}
+
+std::string JsonField::text() const {
+    if (!value_->is_string()) {
+        refuse("text");
+    }
+    return value_->get<std::string>();
+}
+
+std::vector<double> JsonField::numbers() const {
+    if (!value_->is_array()) {
+        refuse("a list of numbers");
+    }
+    std::vector<double> all;
+    for (const nlohmann::json& item : *value_) {
+        all.push_back(JsonField(item, file_, path_ + "[" + std::to_string(all.size()) + "]").finite());
+    }
+    return all;
+}
+
+std::vector<double> JsonField::numbers(size_t n) const {
+    std::vector<double> all = numbers();
+    if (all.size() != n) {
+        refuse("a list of " + std::to_string(n) + " numbers");
+    }
+    return all;
+}
+
+void JsonField::refuse(const std::string& allowed) const {
+    std::string shown = value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    if (shown.size() > 80) {
+        shown = shown.substr(0, 80) + "...";
+    }
+    throw BadInput(file_, path_.empty() ? "file" : path_, shown, allowed);
+}
+
+nlohmann::json parseJsonFile(const std::filesystem::path& file) {
+    const std::string text = readTextFile(file);
+    try {
+        return nlohmann::json::parse(text);
+    } catch (const nlohmann::json::exception& e) { // its text names line, column and what was read last
+        throw BadInput(file.string(), "syntax", e.what(), "JSON (which has no NaN or infinity)");
+    }
+}
+
+} // namespace fathom

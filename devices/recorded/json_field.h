@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// A value of a JSON file that knows its dotted path and checks what it hands out.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+// Throws BadInput naming file, dotted path, value and what is allowed. Views into a document that must
+// outlive it.
+class JsonField {
+public:
+    JsonField(const nlohmann::json& value, std::string file, std::string path)
+        : value_(&value)
+        , file_(std::move(file))
+        , path_(std::move(path)) {}
+
+    std::optional<JsonField> find(std::string_view key) const; // refuses when this is no object
+    JsonField at(std::string_view key) const;                  // refuses when the key is missing
+
+    double finite() const;
+    double positive() const;
+    uint32_t integer(uint32_t lo, uint32_t hi) const;
+    bool boolean() const;
+    std::string text() const;
+    std::vector<double> numbers() const;         // list of finite numbers, any length
+    std::vector<double> numbers(size_t n) const; // of exactly n
+
+    [[noreturn]] void refuse(const std::string& allowed) const;
+    const std::string& path() const { return path_; }
+
+private:
+    const nlohmann::json* value_;
+    std::string file_;
+    std::string path_; // empty for the whole document
+};
+
+// Throws BadInput naming the file when it cannot be read or is no JSON.
+nlohmann::json parseJsonFile(const std::filesystem::path& file);
+
+} // namespace fathom

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG pictures of a recording, decoded by libpng straight into the camera's memory.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace fathom {
+
+struct PngSize {
+    uint32_t width = 0, height = 0; // [pixels]
+    bool operator==(const PngSize&) const = default;
+};
+
+// Width and height from the head of the file; empty when it is no readable PNG.
+std::optional<PngSize> readPngSize(const std::filesystem::path& file);
+
+// Both return what is wrong with the file, empty when it was read whole; the target's content is then
+// meaningless. target has size.width x size.height elements; another size or pixel kind is refused before a
+// pixel is decoded.
+std::string readDepthPng(const std::filesystem::path& file, PngSize size,
+                         std::span<uint16_t> target); // 16-bit grey
+// 8-bit RGB, RGBA, grey (with or without alpha) or palette -> R8 G8 B8 A8 (0xAABBGGRR); alpha 255 where there
+// is none.
+std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target);
+
+} // namespace fathom

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/recorded_camera.h"
+
+#include "devices/recorded/png_image.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <spdlog/spdlog.h>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path& existingFolder(const fs::path& folder) {
+    std::error_code failed;
+    if (!fs::is_directory(folder, failed)) {
+        throw BadInput(folder.string(), "folder", "missing", "an existing recording folder (TUM RGB-D)");
+    }
+    if (fs::is_empty(folder, failed)) {
+        throw BadInput(folder.string(), "folder", "empty", "a recording folder (TUM RGB-D)");
+    }
+    return folder;
+}
+
+std::optional<PoseTrack> readPoses(const fs::path& folder) {
+    const fs::path file = folder / "poses.txt";
+    return fs::exists(file) ? std::optional<PoseTrack>(file) : std::nullopt;
+}
+
+PngSize sizeOf(const Intrinsics& lens) {
+    return {lens.width, lens.height};
+}
+
+std::string words(PngSize size) {
+    return std::to_string(size.width) + "x" + std::to_string(size.height);
+}
+
+} // namespace
+
+RecordedCamera::RecordedCamera(const fs::path& folder)
+    : folder_(existingFolder(folder))
+    , intrinsics_(readIntrinsics(folder / "intrinsics.json"))
+    , index_(readIndex(folder, intrinsics_))
+    , poses_(readPoses(folder))
+    , slots_(std::max(intrinsics_.camera.depth.pixels(), intrinsics_.camera.colour.pixels()), true,
+             kFramesInFlight + 2) {
+    checkColourSize();
+}
+
+// One odd picture is a bad frame; a colour stream that never has the size told is a recording without
+// registration.
+void RecordedCamera::checkColourSize() const {
+    const PngSize wanted = sizeOf(info().colour);
+    std::optional<PngSize> other;
+    for (const IndexLine& line : index_) {
+        const auto depth = readPngSize(line.depth), colour = readPngSize(line.colour);
+        if (colour == wanted) {
+            return;
+        }
+        if (depth == sizeOf(info().depth) && colour) {
+            other = colour;
+        }
+    }
+    if (other) {
+        throw BadInput((folder_ / "intrinsics.json").string(), "color.width, color.height",
+                       "colour pictures of " + words(*other) + " where " + words(wanted) + " is told",
+                       "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf");
+    }
+}
+
+std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
+    if (!line.fault.empty()) {
+        return line.fault;
+    }
+    if (lastStamp_ && line.depthStamp < *lastStamp_) {
+        return "depth stamp " + std::to_string(line.depthStamp) + " goes back from " +
+               std::to_string(*lastStamp_);
+    }
+    const CameraInfo& camera = info();
+    std::string fault =
+        readDepthPng(line.depth, sizeOf(camera.depth), slot.depth().first(camera.depth.pixels()));
+    if (!fault.empty()) {
+        return line.depth.string() + ": " + fault;
+    }
+    fault = readColourPng(line.colour, sizeOf(camera.colour), slot.colour().first(camera.colour.pixels()));
+    return fault.empty() ? "" : line.colour.string() + ": " + fault;
+}
+
+Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
+    Frame::Content content;
+    content.index = index;
+    content.sourceNumber = index;
+    content.captureTime = index_[index].depthStamp;
+    content.depth = slot.depth().first(info().depth.pixels());
+    content.colour = slot.colour().first(info().colour.pixels());
+    if (poses_) {
+        content.baseTcamera = poses_->at(content.captureTime);
+    }
+    return Frame(content, slot.giveBack());
+}
+
+void RecordedCamera::skip(uint32_t index, const std::string& fault) {
+    ++skipped_;
+    spdlog::warn("{}: frame {} skipped: {}", folder_.string(), index, fault);
+    if (firstFault_.empty()) {
+        firstFault_ = fault;
+    }
+}
+
+std::optional<Frame> RecordedCamera::next() {
+    if (cursor_ == index_.size()) {
+        return std::nullopt;
+    }
+    FrameSlot* slot = slots_.acquire();
+    if (slot == nullptr) {
+        throw Error(description() + ": more frames are leased than the camera has memory for");
+    }
+    while (cursor_ < index_.size()) {
+        const uint32_t index = cursor_++;
+        const std::string fault = read(index_[index], *slot);
+        if (fault.empty()) {
+            lastStamp_ = index_[index].depthStamp;
+            return lease(index, *slot);
+        }
+        skip(index, fault);
+    }
+    slot->release();
+    if (!lastStamp_) {
+        throw BadInput(folder_.string(), "frames",
+                       "none of " + std::to_string(index_.size()) + " is usable; first: " + firstFault_,
+                       "at least one good pair of pictures");
+    }
+    return std::nullopt;
+}
+
+} // namespace fathom

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera that plays a TUM RGB-D folder once, pair after pair, as fast as it is asked.
+#pragma once
+
+#include "devices/camera.h"
+#include "devices/frame_slots.h"
+#include "devices/recorded/pose_track.h"
+#include "devices/recorded/recording_index.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
+// is either delivered or skipped: a picture that is missing, damaged, of another size or kind, or a depth
+// stamp that goes back skips its frame and is named once in the log. Pictures are read on the calling thread.
+// The camera must outlive its leases; leases may end on any thread.
+class RecordedCamera final : public Camera {
+public:
+    // Throws BadInput when the folder, its index, intrinsics.json or poses.txt is unusable, or when all
+    // colour pictures have a size that intrinsics.json does not tell of.
+    explicit RecordedCamera(const std::filesystem::path& folder);
+
+    const CameraInfo& info() const override { return intrinsics_.camera; }
+    // Throws BadInput at the end of a recording of which no frame was usable, Error when too many leases are
+    // alive.
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return skipped_; }
+    std::string description() const override { return "recorded " + folder_.string(); }
+
+private:
+    void checkColourSize() const;
+    std::string read(const IndexLine& line, FrameSlot& slot) const; // what is wrong; empty = read
+    Frame lease(uint32_t index, FrameSlot& slot) const;
+    void skip(uint32_t index, const std::string& fault);
+
+    std::filesystem::path folder_;
+    RecordingIntrinsics intrinsics_;
+    std::vector<IndexLine> index_;
+    std::optional<PoseTrack> poses_;
+    FrameSlots slots_;
+    uint32_t cursor_ = 0; // next data line
+    uint32_t skipped_ = 0;
+    std::optional<double> lastStamp_; // [s] of the last delivered frame
+    std::string firstFault_;
+};
+
+} // namespace fathom

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/recording_index.h"
+
+#include "devices/recorded/text_file.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/spdlog.h>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kTumTolerance = 0.02; // [s] the default of associate.py
+constexpr size_t kCandidates = 4;      // colour stamps tried on either side of a depth stamp
+
+struct StampedFile {
+    double stamp = 0.0; // [s]
+    fs::path file;
+};
+
+bool parseStamp(std::string_view word, double& stamp) {
+    return parseNumber(word, stamp) && std::isfinite(stamp);
+}
+
+std::vector<IndexLine> readAssociations(const fs::path& folder) {
+    const fs::path file = folder / "associations.txt";
+    std::vector<IndexLine> index;
+    for (const TextLine& line : readDataLines(file)) {
+        const std::vector<std::string_view> words = splitWords(line.text);
+        IndexLine entry;
+        if (words.size() != 4) {
+            entry.fault =
+                "line " + std::to_string(line.number) + " is not 't_rgb rgb/x.png t_depth depth/x.png'";
+        } else if (!parseStamp(words[0], entry.colourStamp) || !parseStamp(words[2], entry.depthStamp)) {
+            entry.fault = "line " + std::to_string(line.number) + " has a stamp that is no finite number";
+        } else {
+            entry.colour = folder / words[1];
+            entry.depth = folder / words[3];
+        }
+        index.push_back(std::move(entry));
+    }
+    return index;
+}
+
+std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* name) {
+    std::vector<StampedFile> files;
+    for (const TextLine& line : readDataLines(folder / name)) {
+        const std::vector<std::string_view> words = splitWords(line.text);
+        StampedFile entry;
+        if (words.size() != 2 || !parseStamp(words[0], entry.stamp)) {
+            spdlog::warn("{}: line {} is not 't path': left out", (folder / name).string(), line.number);
+            continue;
+        }
+        entry.file = folder / words[1];
+        files.push_back(std::move(entry));
+    }
+    return files;
+}
+
+std::vector<StampedFile> stampFilesOf(const fs::path& folder, const std::vector<double>& stamps,
+                                      const char* field) {
+    std::vector<fs::path> names;
+    std::error_code failed;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, failed)) {
+        if (entry.path().extension() == ".png") {
+            names.push_back(entry.path());
+        }
+    }
+    std::sort(names.begin(), names.end());
+    if (names.size() != stamps.size()) {
+        throw BadInput((folder.parent_path() / "intrinsics.json").string(), field,
+                       std::to_string(stamps.size()) + " stamps",
+                       std::to_string(names.size()) + ", as many as there are PNG files in " +
+                           folder.string());
+    }
+    std::vector<StampedFile> files;
+    for (size_t i = 0; i < names.size(); ++i) {
+        files.push_back({stamps[i], names[i]});
+    }
+    return files;
+}
+
+struct Candidate {
+    double distance; // [s]
+    size_t depth, colour;
+};
+
+// All close pairs, closest first; a bounded number a depth picture, so that equal stamps cost no square.
+std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
+                                  const std::vector<StampedFile>& colour, double within) {
+    std::vector<Candidate> pairs;
+    for (size_t d = 0; d < depth.size(); ++d) {
+        const auto at = std::lower_bound(colour.begin(), colour.end(), depth[d].stamp,
+                                         [](const StampedFile& c, double t) { return c.stamp < t; });
+        const size_t middle = static_cast<size_t>(at - colour.begin());
+        const size_t last = std::min(middle + kCandidates, colour.size());
+        for (size_t c = middle - std::min(middle, kCandidates); c < last; ++c) {
+            const double distance = std::abs(colour[c].stamp - depth[d].stamp);
+            if (distance <= within) {
+                pairs.push_back({distance, d, c});
+            }
+        }
+    }
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
+    return pairs;
+}
+
+// In order of `depth`.
+std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vector<StampedFile> colour,
+                                 double within) {
+    std::stable_sort(colour.begin(), colour.end(),
+                     [](const StampedFile& a, const StampedFile& b) { return a.stamp < b.stamp; });
+    const size_t none = colour.size();
+    std::vector<size_t> colourOf(depth.size(), none);
+    std::vector<bool> taken(colour.size(), false);
+    for (const Candidate& pair : closePairs(depth, colour, within)) {
+        if (colourOf[pair.depth] == none && !taken[pair.colour]) {
+            colourOf[pair.depth] = pair.colour;
+            taken[pair.colour] = true;
+        }
+    }
+    std::vector<IndexLine> index;
+    for (size_t d = 0; d < depth.size(); ++d) {
+        if (colourOf[d] != none) {
+            const StampedFile& c = colour[colourOf[d]];
+            index.push_back({depth[d].stamp, c.stamp, depth[d].file, c.file, ""});
+        }
+    }
+    if (index.size() < depth.size()) {
+        spdlog::info("{} of {} depth pictures have no colour picture of their own within {} s",
+                     depth.size() - index.size(), depth.size(), within);
+    }
+    return index;
+}
+
+} // namespace
+
+std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics) {
+    std::vector<IndexLine> index;
+    std::string source = "associations.txt";
+    if (fs::exists(folder / "associations.txt")) {
+        index = readAssociations(folder);
+    } else if (fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt")) {
+        source = "rgb.txt and depth.txt";
+        index = associate(readStampedFiles(folder, "depth.txt"), readStampedFiles(folder, "rgb.txt"),
+                          kTumTolerance);
+    } else if (!intrinsics.depthStamps.empty() && !intrinsics.colourStamps.empty()) {
+        source = "depth_stamps_s and color_stamps_s";
+        index = associate(stampFilesOf(folder / "depth", intrinsics.depthStamps, "depth_stamps_s"),
+                          stampFilesOf(folder / "rgb", intrinsics.colourStamps, "color_stamps_s"),
+                          intrinsics.pairWithin);
+    } else {
+        throw BadInput(folder.string(), source, "missing",
+                       "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json");
+    }
+    if (index.empty()) {
+        throw BadInput(folder.string(), source, "no pair of pictures", "at least one");
+    }
+    return index;
+}
+
+} // namespace fathom

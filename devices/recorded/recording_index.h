@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which depth picture of a recording goes with which colour picture, and when they were taken.
+#pragma once
+
+#include "devices/recorded/recording_intrinsics.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct IndexLine {
+    double depthStamp = 0.0, colourStamp = 0.0; // [s]
+    std::filesystem::path depth, colour;        // files, the folder included
+    std::string fault;                          // why the line itself is unusable; empty = usable
+};
+
+// One entry a data line of associations.txt ("t_rgb rgb/x.png t_depth depth/x.png"). Without that file:
+// rgb.txt and depth.txt ("t path") joined to pairs, closest stamps first, each picture once, at most 0.02 s
+// apart, in order of depth.txt (as the TUM tool associate.py does). Without those: the stamps of
+// intrinsics.json for the files of depth/ and rgb/ in order of their names, joined alike within pairWithin.
+// Throws BadInput when there is no index, nothing in it, or stamps and files differ in number.
+std::vector<IndexLine> readIndex(const std::filesystem::path& folder, const RecordingIntrinsics& intrinsics);
+
+} // namespace fathom

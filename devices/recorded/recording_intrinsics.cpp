@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/recording_intrinsics.h"
+
+#include "devices/recorded/json_field.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+std::array<double, 5> readDistortion(const JsonField& lens) {
+    std::array<double, 5> all{};
+    const auto list = lens.find("distortion");
+    const std::vector<double> given = list ? list->numbers() : std::vector<double>{};
+    if (std::all_of(given.begin(), given.end(), [](double k) { return k == 0.0; })) {
+        return all; // whatever the model
+    }
+    if (const auto model = lens.find("distortion_model")) {
+        constexpr std::array<std::string_view, 4> kKnown{"plumb_bob", "Brown Conrady", "brown_conrady",
+                                                         "radtan"};
+        if (std::find(kKnown.begin(), kKnown.end(), model->text()) == kKnown.end()) {
+            model->refuse("plumb_bob or Brown Conrady, unless all coefficients are zero");
+        }
+    }
+    if (given.size() != 4 && given.size() != 5) {
+        list->refuse("k1, k2, p1, p2 and k3 or none");
+    }
+    std::copy(given.begin(), given.end(), all.begin());
+    return all;
+}
+
+// Rays are found by inverting the distortion: a lens that folds the picture over has none.
+bool invertible(const Intrinsics& lens) {
+    for (uint32_t i = 0; i < 25; ++i) {
+        const double u = 0.25 * (i % 5) * (lens.width - 1.0), v = 0.25 * (i / 5) * (lens.height - 1.0);
+        const glm::dvec2 ray = lens.ray(u, v);
+        const glm::dvec2 back = lens.project({ray.x, ray.y, 1.0});
+        if (!(std::abs(back.x - u) < 1e-3) || !(std::abs(back.y - v) < 1e-3)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+Intrinsics readLens(const JsonField& block) {
+    Intrinsics lens;
+    lens.width = block.at("width").integer(1, kMaxImageWidth);
+    lens.height = block.at("height").integer(1, kMaxImageHeight);
+    lens.fx = block.at("fx").positive();
+    lens.fy = block.at("fy").positive();
+    lens.cx = block.at("cx").finite();
+    lens.cy = block.at("cy").finite();
+    lens.distortion = readDistortion(block);
+    if (!invertible(lens)) {
+        block.at("distortion").refuse("coefficients that can be inverted over the whole picture");
+    }
+    return lens;
+}
+
+Pose readPose(const JsonField& node) {
+    const std::vector<double> t = node.at("t").numbers(3);
+    const JsonField rotation = node.at("q_xyzw");
+    const std::vector<double> q = rotation.numbers(4);
+    const dquat quat(q[3], q[0], q[1], q[2]);
+    const double length = glm::length(quat);
+    if (!(length > 1e-6) || !std::isfinite(length)) {
+        rotation.refuse("a quaternion x y z w of non-zero length");
+    }
+    return {{t[0], t[1], t[2]}, quat / length};
+}
+
+// British or American.
+std::optional<JsonField> findColour(const JsonField& node, std::string_view american,
+                                    std::string_view british) {
+    const auto found = node.find(american);
+    return found ? found : node.find(british);
+}
+
+// A tf entry maps points of the common reference (the depth camera) to its stream: p_colour = R p_depth + t.
+// Found on a D435 recording: projected so, depth edges fall on colour edges (mean gradient 24 of 60); by the
+// inverse they do not (2), nor by +t with the inverse rotation (5). It also fits the D435, whose colour
+// camera sits 15 mm to the left of the depth origin, so that points move to the right (+x).
+Pose readColourTdepth(const JsonField& root) {
+    const JsonField tf = root.at("extrinsics_topic_tf");
+    const auto colour = findColour(tf, "Color", "Colour");
+    const auto depth = tf.find("Depth");
+    const Pose colourTf = readPose(colour ? *colour : tf.at("Color"));
+    const Pose depthTf = depth ? readPose(*depth) : Pose{};
+    return colourTf * inverse(depthTf);
+}
+
+void readTwoLenses(const JsonField& root, const JsonField& colour, CameraInfo& camera) {
+    camera.depth = readLens(root.at("depth"));
+    camera.colour = readLens(colour);
+    const auto registered = root.find("registered_to_color");
+    camera.registered = registered && registered->boolean();
+    if (!camera.registered) {
+        camera.colourTdepth = readColourTdepth(root);
+        return;
+    }
+    if (camera.colour.width != camera.depth.width || camera.colour.height != camera.depth.height) {
+        registered->refuse("false (with extrinsics_topic_tf) where depth and colour differ in size");
+    }
+    camera.colour = camera.depth; // the depth picture's rays are the truth for both
+}
+
+void readOneLens(const JsonField& root, CameraInfo& camera) {
+    camera.depth = readLens(root);
+    camera.colour = camera.depth;
+    camera.registered = true; // one lens can mean nothing else
+    const auto registered = root.find("registered_to_color");
+    if (registered && !registered->boolean()) {
+        registered->refuse("true, or blocks depth and color with extrinsics_topic_tf");
+    }
+}
+
+void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
+    const auto depth = root.find("depth_stamps_s");
+    const auto colour = findColour(root, "color_stamps_s", "colour_stamps_s");
+    if (!depth || !colour) {
+        return;
+    }
+    intrinsics.depthStamps = depth->numbers();
+    intrinsics.colourStamps = colour->numbers();
+    if (const auto fps = root.find("nominal_fps")) {
+        intrinsics.pairWithin = 0.5 / fps->positive();
+    }
+}
+
+} // namespace
+
+RecordingIntrinsics readIntrinsics(const std::filesystem::path& file) {
+    const nlohmann::json document = parseJsonFile(file);
+    const JsonField root(document, file.string(), "");
+    RecordingIntrinsics intrinsics;
+    CameraInfo& camera = intrinsics.camera;
+    const auto colour = findColour(root, "color", "colour");
+    if (colour || root.find("depth")) {
+        readTwoLenses(root, colour ? *colour : root.at("color"), camera);
+    } else {
+        readOneLens(root, camera);
+    }
+    camera.metresPerUnit = root.at("depth_scale_m_per_unit").positive();
+    camera.hasColour = true;
+    readStamps(root, intrinsics);
+    return intrinsics;
+}
+
+} // namespace fathom

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// intrinsics.json of a recording folder: flat (one registered lens) or depth / color blocks with extrinsics.
+#pragma once
+
+#include "engine/types/camera_info.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fathom {
+
+// Largest picture that is read [pixels].
+inline constexpr uint32_t kMaxImageWidth = 3840, kMaxImageHeight = 2160;
+
+struct RecordingIntrinsics {
+    CameraInfo camera;
+    // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
+    // names.
+    std::vector<double> depthStamps, colourStamps;
+    double pairWithin =
+        0.02; // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
+};
+
+// Flat: width height fx fy cx cy [distortion_model distortion] depth_scale_m_per_unit [registered_to_color:
+// true]. Two lenses: depth and color (or colour) blocks of the same keys, depth_scale_m_per_unit,
+// registered_to_color, and unless registered extrinsics_topic_tf {Depth, Color: {t [m], q_xyzw}}. Distortion
+// is Brown-Conrady k1 k2 p1 p2 [k3] (plumb_bob); other models are accepted only with all coefficients zero.
+// Throws BadInput naming the file and field.
+RecordingIntrinsics readIntrinsics(const std::filesystem::path& file);
+
+} // namespace fathom

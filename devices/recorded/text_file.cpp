@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/text_file.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+
+namespace fathom {
+
+namespace {
+
+constexpr std::string_view kSpace = " \t\r";
+constexpr uint64_t kMaxBytes = 64u << 20;
+
+std::string_view trim(std::string_view text) {
+    const size_t begin = text.find_first_not_of(kSpace);
+    return begin == std::string_view::npos ? std::string_view{}
+                                           : text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
+}
+
+template <class T>
+bool parseWhole(std::string_view word, T& value) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    return error == std::errc{} && end == word.data() + word.size();
+}
+
+} // namespace
+
+std::string readTextFile(const std::filesystem::path& file) {
+    std::error_code failed;
+    const uint64_t bytes = std::filesystem::file_size(file, failed);
+    std::ifstream in(file, std::ios::binary);
+    if (failed || !in) {
+        throw BadInput(file.string(), "file", "cannot be read", "a readable text file");
+    }
+    if (bytes > kMaxBytes) {
+        throw BadInput(file.string(), "file", std::to_string(bytes) + " bytes", "at most 64 MiB");
+    }
+    std::string text(bytes, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(bytes));
+    text.resize(static_cast<size_t>(in.gcount()));
+    return text;
+}
+
+std::vector<TextLine> readDataLines(const std::filesystem::path& file) {
+    const std::string text = readTextFile(file);
+    std::vector<TextLine> lines;
+    uint32_t number = 0;
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string_view line = trim(std::string_view(text).substr(begin, end - begin));
+        ++number;
+        if (!line.empty() && line[0] != '#') {
+            lines.push_back({number, std::string(line)});
+        }
+        begin = end + 1;
+    }
+    return lines;
+}
+
+std::vector<std::string_view> splitWords(std::string_view line) {
+    std::vector<std::string_view> words;
+    for (size_t begin = line.find_first_not_of(kSpace); begin != std::string_view::npos;) {
+        const size_t end = std::min(line.find_first_of(kSpace, begin), line.size());
+        words.push_back(line.substr(begin, end - begin));
+        begin = line.find_first_not_of(kSpace, end);
+    }
+    return words;
+}
+
+std::vector<std::string_view> splitFields(std::string_view line, char between) {
+    std::vector<std::string_view> fields;
+    for (size_t begin = 0;;) {
+        const size_t end = line.find(between, begin);
+        fields.push_back(trim(line.substr(begin, end == std::string_view::npos ? end : end - begin)));
+        if (end == std::string_view::npos) {
+            return fields;
+        }
+        begin = end + 1;
+    }
+}
+
+bool parseNumber(std::string_view word, double& value) {
+    word.remove_prefix(word.starts_with('+') ? 1 : 0);
+    return parseWhole(word, value);
+}
+
+bool parseNumber(std::string_view word, uint32_t& value) {
+    return parseWhole(word, value);
+}
+
+} // namespace fathom

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lines, words and numbers of the small text files of a recording.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace fathom {
+
+struct TextLine {
+    uint32_t number = 0; // from 1, as editors count
+    std::string text;    // without the line end
+};
+
+// Lines that are neither blank nor comments (first character '#'). Throws BadInput when the file cannot be
+// read or is longer than 64 MiB.
+std::vector<TextLine> readDataLines(const std::filesystem::path& file);
+
+// Whole file, the same bounds.
+std::string readTextFile(const std::filesystem::path& file);
+
+std::vector<std::string_view> splitWords(std::string_view line);                // at spaces and tabs
+std::vector<std::string_view> splitFields(std::string_view line, char between); // trimmed, empty ones kept
+
+// The whole word as a number, whatever the locale. False when it is none; inf and nan count as numbers.
+bool parseNumber(std::string_view word, double& value);
+bool parseNumber(std::string_view word, uint32_t& value);
+
+} // namespace fathom

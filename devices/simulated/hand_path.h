@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scripted path of the hand: timed waypoints, interpolated.
+#pragma once
+
+#include "devices/haptic_device.h"
+#include "engine/types/pose.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fathom {
+
+struct HandWaypoint {
+    double t = 0.0;       // [s] since the run's start
+    Pose deviceThandle;   // raw, device frame
+    uint32_t buttons = 0; // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
+};
+
+// Immutable after construction; any number of threads may sample it.
+class HandPath {
+public:
+    // Throws Error when there is no waypoint, a number is not finite, a quaternion has no length or time goes
+    // back. Two waypoints at the same time make a jump. Quaternions are normalised.
+    explicit HandPath(std::vector<HandWaypoint> waypoints);
+
+    // Straight line and shortest arc between the waypoints round t; buttons of the last waypoint at or before
+    // t. Before the first waypoint the first, after the last the last (held).
+    HandSample at(double t) const noexcept;
+
+    double duration() const { return waypoints_.back().t; } // [s] time of the last waypoint
+    const std::vector<HandWaypoint>& waypoints() const { return waypoints_; }
+
+private:
+    std::vector<HandWaypoint> waypoints_; // never empty, times ascending
+};
+
+} // namespace fathom

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/hand_csv.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+const std::string kHeader = "t_s,x,y,z,qw,qx,qy,qz\n";
+const std::string kButtonHeader = "t_s,x,y,z,qw,qx,qy,qz,button\n";
+
+std::vector<HandWaypoint> read(const std::string& text) {
+    const TemporaryFolder folder;
+    folder.write("way.csv", text);
+    return readHandCsv(folder.path() / "way.csv");
+}
+
+bool refusedWith(const std::string& text, const std::string& part) {
+    try {
+        read(text);
+    } catch (const BadInput& e) {
+        INFO(e.what());
+        return std::string(e.what()).find("way.csv: " + part) != std::string::npos;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("a path with and without buttons is read with w first and unit quaternions") {
+    const std::vector<HandWaypoint> plain =
+        read(kHeader + "0,1,2,3,2,0,0,0\r\n0.001, -1e-3 ,0,0,0,3,0,4\n\n");
+    REQUIRE(plain.size() == 2);
+    CHECK(plain[0].deviceThandle.position == dvec3(1, 2, 3));
+    CHECK(plain[0].deviceThandle.rotation == dquat(1, 0, 0, 0));
+    CHECK(plain[0].buttons == 0);
+    CHECK(plain[1].t == 0.001);
+    CHECK(plain[1].deviceThandle.position.x == -1e-3);
+    CHECK(std::abs(plain[1].deviceThandle.rotation.x - 0.6) < 1e-15);
+    CHECK(std::abs(plain[1].deviceThandle.rotation.z - 0.8) < 1e-15);
+    const std::vector<HandWaypoint> buttons = read(kButtonHeader + "-1,0,0,0,1,0,0,0,5\n");
+    REQUIRE(buttons.size() == 1);
+    CHECK(buttons[0].buttons == 5);
+    CHECK(buttons[0].t == -1.0);
+}
+
+TEST_CASE("a path of 100000 rows keeps every one") {
+    std::string text = kHeader;
+    for (int i = 0; i < 100000; ++i) {
+        text += std::to_string(i) + ",0,0,0,1,0,0,0\n";
+    }
+    const std::vector<HandWaypoint> path = read(text);
+    REQUIRE(path.size() == 100000);
+    CHECK(path.back().t == 99999.0);
+}
+
+TEST_CASE("a path without header, rows, order or sense is refused with its line and column") {
+    CHECK(refusedWith("", "line 1: nothing"));
+    CHECK(refusedWith(kHeader, "line 2: end of file"));
+    CHECK(refusedWith("0,0,0,0,1,0,0,0\n", "line 1: '0,0,0,0,1,0,0,0' (allowed: header t_s,"));
+    CHECK(refusedWith("t_s,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n", "line 1: 't_s,x,y,z,qx,qy,qz,qw'"));
+    CHECK(refusedWith(kHeader + "0,0,0,0,1,0,0\n", "line 2: '7 fields' (allowed: 8"));
+    CHECK(refusedWith(kHeader + "0,0,0,0,1,0,0,0,1\n", "line 2: '9 fields'"));
+    CHECK(refusedWith(kHeader + "0,0,0,0,1,0,0,0\n0,0,0,0,1,0,0,0\n", "line 3, t_s: '0' (allowed: later"));
+    CHECK(refusedWith(kHeader + "1,0,0,0,1,0,0,0\n\n0.5,0,0,0,1,0,0,0\n", "line 4, t_s: '0.5'"));
+    CHECK(refusedWith(kHeader + "0,0,nan,0,1,0,0,0\n", "line 2, y: 'nan'"));
+    CHECK(refusedWith(kHeader + "0,inf,0,0,1,0,0,0\n", "line 2, x: 'inf'"));
+    CHECK(refusedWith(kHeader + "0,0,0,,1,0,0,0\n", "line 2, z: ''"));
+    CHECK(refusedWith(kHeader + "0,0,0,0,0,0,0,0\n", "line 2, qw..qz: '0,0,0,0'"));
+    CHECK(refusedWith(kHeader + "0,0,0,0,1,0,0,zero\n", "line 2, qz: 'zero'"));
+    CHECK(refusedWith(kButtonHeader + "0,0,0,0,1,0,0,0,-1\n", "line 2, button: '-1'"));
+    CHECK(refusedWith(kButtonHeader + "0,0,0,0,1,0,0,0,1.5\n", "line 2, button: '1.5'"));
+    CHECK_THROWS_AS(readHandCsv("no/such/way.csv"), BadInput);
+}

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings that are unusable as a whole, and what the message says.
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// The small recording with `from` in intrinsics.json replaced must be refused by that file's name and these
+// words.
+void checkIntrinsics(const std::string& from, const std::string& to, const std::string& fieldAndValue) {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    std::string text = kSmallIntrinsics;
+    const size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    folder.write("intrinsics.json", text.replace(at, from.size(), to));
+    const std::string message = recordingRefusal(folder.path());
+    CAPTURE(to);
+    CAPTURE(message);
+    CHECK(holds(message, "intrinsics.json: " + fieldAndValue));
+    CHECK(holds(message, "(allowed: "));
+}
+
+const std::string kLens = R"({"width": 7, "height": 5, "fx": 6.5, "fy": 6.25, "cx": 3, "cy": 2})";
+
+std::string twoLenses(const std::string& rest, const std::string& colour = kLens) {
+    return R"({"depth": )" + kLens + R"(, "color": )" + colour + R"(, "depth_scale_m_per_unit": 0.001)" +
+           rest + "}";
+}
+
+std::string refusalOf(const std::string& intrinsics) {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    folder.write("intrinsics.json", intrinsics);
+    return recordingRefusal(folder.path());
+}
+
+} // namespace
+
+TEST_CASE("a missing folder, an empty folder and a folder without an index are refused") {
+    CHECK(holds(recordingRefusal("no/such/recording"), "no/such/recording: folder: missing"));
+    const TemporaryFolder folder;
+    CHECK(holds(recordingRefusal(folder.path()), "folder: empty"));
+    writeSmallRecording(folder, 1);
+    CHECK(recordingRefusal(folder.path()) == "");
+    std::filesystem::remove(folder.path() / "associations.txt");
+    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: missing"));
+    folder.write("depth.txt", "0 depth/0.png\n");
+    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: missing"));
+    folder.write("rgb.txt", "5 rgb/0.png\n");
+    CHECK(holds(recordingRefusal(folder.path()), "rgb.txt and depth.txt: no pair of pictures"));
+    folder.write("associations.txt", "# nothing\n\n");
+    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: no pair of pictures"));
+    std::filesystem::remove(folder.path() / "intrinsics.json");
+    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: cannot be read"));
+}
+
+TEST_CASE("a recording of which no frame is usable is refused at its end, with the first reason") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 3);
+    for (const char* name : {"depth/0.png", "depth/1.png", "depth/2.png"}) {
+        std::filesystem::resize_file(folder.path() / name, 50);
+    }
+    RecordedCamera camera(folder.path());
+    CHECK_THROWS_AS(camera.next(), BadInput);
+    CHECK(camera.skipped() == 3);
+    const std::string message = recordingRefusal(folder.path());
+    CHECK(holds(message, "frames: none of 3 is usable; first: "));
+    CHECK(holds(message, "depth/0.png"));
+}
+
+TEST_CASE("colour of another size than depth is refused where nothing tells how to register it") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    writeColour(folder.path() / "rgb/0.png", 14, 10, 1, 2, 3);
+    writeColour(folder.path() / "rgb/1.png", 14, 10, 1, 2, 3);
+    const std::string message = recordingRefusal(folder.path());
+    CHECK(holds(message,
+                "intrinsics.json: color.width, color.height: colour pictures of 14x10 where 7x5 is told"));
+    const std::string wide = R"({"width": 14, "height": 10, "fx": 13, "fy": 12.5, "cx": 6, "cy": 4})";
+    folder.write(
+        "intrinsics.json",
+        twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0.1, 0, 0], "q_xyzw": [0, 0, 0, 2]}})", wide));
+    RecordedCamera camera(folder.path());
+    CHECK(camera.next().value()->colour.size() == 140);
+    CHECK(camera.info().colourTdepth.position == dvec3(0.1, 0, 0));
+    CHECK_FALSE(camera.info().registered);
+}
+
+TEST_CASE("a lens with a missing, negative, zero or non-finite number is refused by its field") {
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": -6.5)", "fx: -6.5");
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": 0)", "fx: 0");
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": "6.5")", "fx: \"6.5\"");
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": null)", "fx: null");
+    checkIntrinsics(R"("fy": 6.25,)", "", "fy: missing");
+    checkIntrinsics(R"("cx": 3,)", "", "cx: missing");
+    checkIntrinsics(R"("cy": 2)", R"("cy": [2])", "cy: [2]");
+    checkIntrinsics(R"("width": 7)", R"("width": 0)", "width: 0");
+    checkIntrinsics(R"("width": 7)", R"("width": 3841)", "width: 3841");
+    checkIntrinsics(R"("width": 7)", R"("width": 7.5)", "width: 7.5");
+    checkIntrinsics(R"("height": 5)", R"("height": 2161)", "height: 2161");
+    checkIntrinsics(R"("height": 5)", R"("height": -5)", "height: -5");
+    checkIntrinsics(R"("depth_scale_m_per_unit": 0.001)", R"("depth_scale_m_per_unit": 0)",
+                    "depth_scale_m_per_unit: 0");
+    checkIntrinsics(R"(, "depth_scale_m_per_unit": 0.001)", "", "depth_scale_m_per_unit: missing");
+    checkIntrinsics(R"("registered_to_color": true)", R"("registered_to_color": false)",
+                    "registered_to_color: false");
+    checkIntrinsics(R"("registered_to_color": true)", R"("registered_to_color": 1)",
+                    "registered_to_color: 1");
+}
+
+TEST_CASE("what is no JSON is refused with the place: NaN, infinity, a cut file, an empty one") {
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": NaN)", "syntax: ");
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": 1e999)", "syntax: ");
+    checkIntrinsics(R"("registered_to_color": true})", "", "syntax: ");
+    CHECK(holds(refusalOf(R"({"width": 7, "fx": NaN})"), "last read: '\"fx\": N'"));
+    CHECK(holds(refusalOf(kSmallIntrinsics.substr(0, 30)), "line 1"));
+    CHECK(holds(refusalOf(""), "intrinsics.json: syntax"));
+    CHECK(holds(refusalOf("[1, 2]"), "intrinsics.json: file: [1,2] (allowed: an object)"));
+}
+
+TEST_CASE("distortion that is unknown, incomplete or folds the picture is refused") {
+    const std::string none = R"("distortion_model": "none", "distortion": [])";
+    const auto with = [&](const std::string& model, const std::string& list, const std::string& expected) {
+        checkIntrinsics(none, R"("distortion_model": ")" + model + R"(", "distortion": )" + list, expected);
+    };
+    with("fisheye", "[0.1, 0, 0, 0, 0]", "distortion_model: \"fisheye\"");
+    with("plumb_bob", "[0.1, 0.2]", "distortion: [0.1,0.2]");
+    with("plumb_bob", "[0.1, 0, 0, 0, null]", "distortion[4]: null");
+    with("plumb_bob", "[-5, 0, 0, 0, 0]", "distortion: [-5,0,0,0,0]");
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    std::string text = kSmallIntrinsics;
+    folder.write("intrinsics.json",
+                 text.replace(text.find(none), none.size(),
+                              R"("distortion_model": "Brown Conrady", "distortion": [0.01, 0, 0, 0.002])"));
+    CHECK(RecordedCamera(folder.path()).info().depth.distortion ==
+          std::array<double, 5>{0.01, 0, 0, 0.002, 0});
+}
+
+TEST_CASE("two lenses without usable extrinsics are refused by their field") {
+    CHECK(holds(refusalOf(twoLenses("")), "intrinsics.json: extrinsics_topic_tf: missing"));
+    CHECK(
+        holds(refusalOf(twoLenses(R"(, "extrinsics_topic_tf": {})")), "extrinsics_topic_tf.Color: missing"));
+    CHECK(holds(
+        refusalOf(twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0, 0], "q_xyzw": [0,0,0,1]}})")),
+        "extrinsics_topic_tf.Color.t: [0,0]"));
+    CHECK(holds(
+        refusalOf(twoLenses(R"(, "extrinsics_topic_tf": {"Color": {"t": [0,0,0], "q_xyzw": [0,0,0,0]}})")),
+        "extrinsics_topic_tf.Color.q_xyzw: [0,0,0,0]"));
+    CHECK(holds(refusalOf(twoLenses(R"(, "registered_to_color": true)",
+                                    R"({"width": 6, "height": 5, "fx": 6, "fy": 6, "cx": 3, "cy": 2})")),
+                "registered_to_color: true"));
+    CHECK(holds(refusalOf(R"({"depth": )" + kLens + R"(, "depth_scale_m_per_unit": 0.001})"),
+                "color: missing"));
+    CHECK(holds(refusalOf(twoLenses("", R"({"width": 7})")), "color.height: missing"));
+    CHECK(refusalOf(twoLenses(R"(, "registered_to_color": true)")) == "");
+}
+
+TEST_CASE("stamps that do not match the files in number are refused by their field") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 2);
+    std::filesystem::remove(folder.path() / "associations.txt");
+    const std::string lens = kSmallIntrinsics.substr(0, kSmallIntrinsics.size() - 1);
+    folder.write("intrinsics.json", lens + R"(, "depth_stamps_s": [0], "color_stamps_s": [0, 1]})");
+    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: depth_stamps_s: 1 stamps (allowed: 2"));
+    folder.write("intrinsics.json", lens + R"(, "depth_stamps_s": [0, 1], "color_stamps_s": [0, "1"]})");
+    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: color_stamps_s[1]: \"1\""));
+    folder.write("intrinsics.json",
+                 lens + R"(, "depth_stamps_s": [0, 1], "color_stamps_s": [0.4, 1.4], "nominal_fps": 1})");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.next().value()->captureTime == 0.0);
+    CHECK(camera.next().value()->captureTime == 1.0);
+}
+
+TEST_CASE("broken poses are refused with file and line") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    const auto message = [&](const std::string& text) {
+        folder.write("poses.txt", text);
+        return recordingRefusal(folder.path());
+    };
+    CHECK(holds(message("# none\n"), "poses.txt: poses: none"));
+    CHECK(holds(message("0 0 0 0 0 0 0 1\n\n1 0 0 0 0 0 1\n"), "poses.txt: line 3: 1 0 0 0 0 0 1"));
+    CHECK(holds(message("0 0 0 nan 0 0 0 1\n"), "poses.txt: line 1: "));
+    CHECK(holds(message("0 0 0 0 0 0 0 0\n"), "non-zero length"));
+    CHECK(holds(message("0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n"), "later than the line before"));
+}
