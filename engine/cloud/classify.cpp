@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/classify.h"
+
+#include "shaders/classify.h"
+#include "shaders/shared/frame_params.h"
+
+namespace fathom::cloud {
+
+namespace {
+
+uint32_t colourMode(const Plan& plan) {
+    return !plan.colour ? 0 : (plan.occlusion ? 2 : 1);
+}
+
+} // namespace
+
+ClassifyPass::ClassifyPass(const CloudContext& c)
+    : pipeline_(c.device, {"classify", classify_spv, 10, true, 0,
+                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
+                                      c.plan.subGroup, c.plan.classes}})
+    , work_(c.work)
+    , groups_((c.layout.slots() + c.plan.pixelGroup - 1) / c.plan.pixelGroup) {
+    for (uint32_t u = 0; u < kUploads; ++u) {
+        const UploadBuffers& up = c.uploads[u];
+        bindings_[u] = gpu::Bindings(c.device, pipeline_,
+                                     {&up.params, &up.depth, &c.work.rays, &up.colour, &c.work.nearest, &c.work.masks,
+                                      &c.work.listed, &c.work.list, &c.work.counters, &c.work.live},
+                                     c.work.unused);
+    }
+}
+
+void ClassifyPass::record(gpu::Commands& commands, uint32_t upload) const {
+    shared::FrameCounters zero{};
+    zero.patchGroups = {0, 1, 1, 0};
+    zero.subGroups = {0, 1, 1, 0};
+    commands.update(work_.counters, 0, sizeof(zero), &zero);
+    commands.fill(work_.listed, 0);
+    commands.barrier();
+    commands.dispatch(pipeline_, bindings_[upload], groups_);
+}
+
+} // namespace fathom::cloud

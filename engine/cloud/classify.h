@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pass shaders/classify.comp: which pixels can matter, and the list of patches with work.
+#pragma once
+
+#include "engine/cloud/cloud_buffers.h"
+#include "engine/gpu/pipeline.h"
+
+namespace fathom::cloud {
+
+class ClassifyPass {
+public:
+    explicit ClassifyPass(const CloudContext& context);
+    void record(gpu::Commands& commands, uint32_t upload) const;
+
+private:
+    gpu::Pipeline pipeline_;
+    std::array<gpu::Bindings, kUploads> bindings_;
+    const WorkBuffers& work_;
+    uint32_t groups_;
+};
+
+} // namespace fathom::cloud

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/cloud_buffers.h"
+
+#include "shaders/shared/frame_params.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::cloud {
+
+namespace {
+
+using gpu::Buffer;
+using gpu::MemoryKind;
+
+void fillRays(const Buffer& rays, const Intrinsics& lens) {
+    const auto out = rays.as<glm::vec2>();
+    for (uint32_t v = 0; v < lens.height; ++v) {
+        for (uint32_t u = 0; u < lens.width; ++u) {
+            out[v * lens.width + u] = glm::vec2(lens.ray(u, v));
+        }
+    }
+}
+
+} // namespace
+
+WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout, const CameraInfo& camera) {
+    const uint64_t slots = layout.slots(), patches = layout.patches(), subs = patches * 16;
+    unused = Buffer(device, 16, MemoryKind::Device, "unused");
+    if (!plan.cloud) {
+        return;
+    }
+    masks = Buffer(device, slots * 4, MemoryKind::Device, "masks");
+    listed = Buffer(device, patches * 4, MemoryKind::Device, "listed");
+    list = Buffer(device, patches * 4, MemoryKind::Device, "list");
+    counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Device, "counters");
+    points = Buffer(device, slots * 16, MemoryKind::Device, "points");
+    if (plan.thin) {
+        growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
+    }
+    if (plan.hold) {
+        seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
+        kept = Buffer(device, slots * 16, MemoryKind::Device, "kept");
+        keptTime = Buffer(device, slots * 4, MemoryKind::Device, "keptTime");
+        live = Buffer(device, patches * 4, MemoryKind::Device, "live");
+    }
+    if (plan.occlusion) {
+        // A cell at least as wide as the distance between neighbouring depth pixels in the colour picture: no gaps.
+        const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
+        cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(ratio)));
+        cellsAcross = (camera.colour.width + cellEdge - 1) / cellEdge;
+        cellsDown = (camera.colour.height + cellEdge - 1) / cellEdge;
+        nearest = Buffer(device, 4ull * cellsAcross * cellsDown, MemoryKind::Device, "nearest");
+    }
+    if (plan.rays) {
+        rays = Buffer(device, 8ull * camera.depth.pixels(), MemoryKind::Upload, "rays");
+        fillRays(rays, camera.depth);
+    }
+}
+
+UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera) {
+    if (!plan.cloud) {
+        return;
+    }
+    params = Buffer(device, sizeof(shared::FrameParams), MemoryKind::Upload, "params");
+    depth = Buffer(device, 2ull * camera.depth.pixels(), MemoryKind::Upload, "depth");
+    if (plan.colour) {
+        colour = Buffer(device, 4ull * camera.colour.pixels(), MemoryKind::Upload, "colour");
+    }
+}
+
+SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout) {
+    const uint64_t slots = layout.slots(), patches = layout.patches();
+    if (!plan.cloud) {
+        return;
+    }
+    counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Readback, "set counters");
+    listed = Buffer(device, patches * 4, MemoryKind::Readback, "set listed");
+    if (plan.spheres) {
+        spheres = Buffer(device, slots * 16, MemoryKind::Readback, "spheres");
+        classes = Buffer(device, slots * 4, MemoryKind::Readback, "classes");
+        bits = Buffer(device, patches * 16 * 4, MemoryKind::Readback, "bits");
+        nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
+        nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
+        if (plan.hold) {
+            held = Buffer(device, slots * 16, MemoryKind::Readback, "held");
+        }
+        if (plan.query == Plan::Query::Gpu) {
+            deviceSpheres = Buffer(device, slots * 16, MemoryKind::Device, "device spheres");
+            deviceHeld = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "device held") : Buffer();
+        }
+    }
+    if (plan.moments) {
+        moments = Buffer(device, patches * shared::kMaxClasses * sizeof(shared::PatchMoments), MemoryKind::Readback, "moments");
+    }
+    if (plan.guidancePoints) {
+        points = Buffer(device, slots * 16, MemoryKind::Readback, "set points");
+        masks = Buffer(device, slots * 4, MemoryKind::Readback, "set masks");
+    }
+}
+
+} // namespace fathom::cloud

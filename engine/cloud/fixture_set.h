@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// A fixture set: all that one frame yields, on the device and on the host.
+#pragma once
+
+#include "engine/cloud/cloud_buffers.h"
+#include "engine/contact/fixtures.h"
+#include "engine/contact/region_grid.h"
+#include "engine/types/lease_pool.h"
+
+namespace fathom::cloud {
+
+// Written by the frame cadence, then read-only until no reader leases it. The host part outlives the device.
+struct FixtureSet {
+    Fixtures host;
+    RegionGrid grid; // over host.spheres
+    std::vector<uint32_t> keys; // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending
+    SetBuffers device;
+
+    FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout) : device(gpu, plan, layout) {}
+};
+
+using FixturePool = LeasePool<FixtureSet>;
+
+} // namespace fathom::cloud

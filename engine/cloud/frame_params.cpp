@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/frame_params.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <numeric>
+
+namespace fathom::cloud {
+
+namespace {
+
+using glm::vec4;
+
+// Isolated points: fewer than 2 neighbours this near; wide-angle and far pictures are coarser than 20 mm by nature.
+constexpr double kIsolation = 0.020; // [m]
+constexpr double kIsolationPixels = 3.0;
+
+vec4 lensOf(const Intrinsics& lens) {
+    return {lens.fx, lens.fy, lens.cx, lens.cy};
+}
+
+vec4 distortionOf(const Intrinsics& lens) {
+    return {lens.distortion[0], lens.distortion[1], lens.distortion[2], lens.distortion[3]};
+}
+
+void setRows(vec4 (&rows)[3], const Pose& pose) {
+    const glm::dmat3 r = glm::mat3_cast(pose.rotation); // column-major
+    for (int i = 0; i < 3; ++i) {
+        rows[i] = vec4(r[0][i], r[1][i], r[2][i], pose.position[i]);
+    }
+}
+
+shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene& scene, const dvec3& origin) {
+    shared::ClassParams c{};
+    c.hue = f.hue ? vec4(f.hue->lo, f.hue->hi, 1.0, f.hue->lo > f.hue->hi ? 1.0 : 0.0) : vec4(0.0f);
+    const Band s = f.saturation.value_or(Band{0.0, 1.0}), l = f.lightness.value_or(Band{0.0, 1.0});
+    c.satLight = {s.lo, s.hi, l.lo, l.hi};
+    if (f.box) {
+        c.boxMin = vec4(glm::vec3(f.box->min - origin), 1.0f);
+        c.boxMax = vec4(glm::vec3(f.box->max - origin), 0.0f);
+    }
+    c.role = {f.radius + 3.0 * scene.registrationSigma, f.role == Role::Forbidden ? 1.0 : 0.0,
+              f.role == Role::Guidance ? 1.0 : 0.0, row};
+    return c;
+}
+
+// Forbidden classes by radius, largest first, then in file order; four bits each, 15 ends the list.
+uint32_t forbiddenOrder(const shared::FrameParams& params) {
+    std::vector<uint32_t> order(params.depthBand.z);
+    std::iota(order.begin(), order.end(), 0u);
+    std::erase_if(order, [&](uint32_t c) { return params.classes[c].role.y == 0.0f; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](uint32_t a, uint32_t b) { return params.classes[a].role.x > params.classes[b].role.x; });
+    uint32_t packed = 0xffffffffu;
+    for (size_t i = 0; i < order.size(); ++i) {
+        packed = (packed & ~(15u << (4 * i))) | (order[i] << (4 * i));
+    }
+    return packed;
+}
+
+} // namespace
+
+std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit) {
+    const double lo = std::ceil(scene.nearZ / metresPerUnit - 1e-9), hi = std::floor(scene.farZ / metresPerUnit + 1e-9);
+    return {static_cast<uint32_t>(std::clamp(lo, 1.0, 65536.0)), static_cast<uint32_t>(std::clamp(hi, 0.0, 65535.0))};
+}
+
+std::vector<uint32_t> classRows(const Scene& scene) {
+    std::vector<uint32_t> rows;
+    for (uint32_t row = 0; row < scene.fixtures.size(); ++row) {
+        if (scene.fixtures[row].isPoints()) {
+            rows.push_back(row);
+        }
+    }
+    return rows;
+}
+
+shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout, const dvec3& origin,
+                                uint32_t cellEdge, uint32_t cellsAcross) {
+    shared::FrameParams p{};
+    const std::vector<uint32_t> rows = classRows(scene);
+    p.size = {camera.depth.width, camera.depth.height, layout.across, layout.down};
+    p.colourSize = {camera.colour.width, camera.colour.height, cellsAcross, cellEdge};
+    const auto [lo, hi] = depthBand(scene, camera.metresPerUnit);
+    p.depthBand = {lo, hi, rows.size(), 0};
+    for (uint32_t c = 0; c < rows.size(); ++c) {
+        p.classes[c] = classParams(scene.fixtures[rows[c]], rows[c], scene, origin);
+        p.depthBand.w |= scene.fixtures[rows[c]].role == Role::Forbidden ? 1u << c : 0u;
+    }
+    p.time = {0, static_cast<uint32_t>(scene.holdSeconds * 1e6), 0, forbiddenOrder(p)};
+    p.lens = lensOf(camera.depth);
+    p.distortion = distortionOf(camera.depth);
+    p.colourLens = lensOf(camera.colour);
+    p.colourDistortion = distortionOf(camera.colour);
+    p.more = {camera.depth.distortion[4], camera.colour.distortion[4], camera.metresPerUnit, scene.filter.edge};
+    p.filterParams = {1.0 / (2.0 * scene.filter.sigma * scene.filter.sigma), scene.errorBudget, kIsolation,
+                      kIsolationPixels / std::min(camera.depth.fx, camera.depth.fy)};
+    const double constant = depthSigma(0.0);
+    p.noise = {constant, depthSigma(1.0) - constant, 3.0, 0.0};
+    setRows(p.colourTdepth, camera.colourTdepth);
+    return p;
+}
+
+void setFrame(shared::FrameParams& params, const Pose& baseTcamera, const dvec3& origin, double captureTime,
+              double previousTime) {
+    const Pose local{baseTcamera.position - origin, baseTcamera.rotation};
+    setRows(params.baseTcamera, local);
+    setRows(params.cameraTbase, inverse(local));
+    const auto wrapped = [](double seconds) { return static_cast<uint32_t>(static_cast<int64_t>(std::llround(seconds * 1e6))); };
+    params.time.x = wrapped(captureTime);
+    params.time.z = wrapped(previousTime);
+}
+
+} // namespace fathom::cloud

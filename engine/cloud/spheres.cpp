@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/spheres.h"
+
+#include "shaders/shared/frame_params.h"
+#include "shaders/spheres.h"
+
+#include <cstddef>
+
+namespace fathom::cloud {
+
+SpheresPass::SpheresPass(const CloudContext& c)
+    : pipeline_(c.device, {"spheres", spheres_spv, 20, true, 0,
+                           std::array{c.plan.subGroup, uint32_t{c.plan.thin}, uint32_t{c.plan.hold},
+                                      uint32_t{c.plan.query == Plan::Query::Gpu}}})
+    , work_(c.work)
+    , hold_(c.plan.hold) {
+    const WorkBuffers& w = c.work;
+    for (const SetBuffers* s : c.sets) {
+        auto& perUpload = bindings_.emplace_back();
+        for (uint32_t u = 0; u < kUploads; ++u) {
+            perUpload[u] = gpu::Bindings(c.device, pipeline_,
+                                         {&c.uploads[u].params, &c.uploads[u].depth, &w.masks, &w.points, &w.listed, &w.list,
+                                          &w.growth, &w.counters, &w.seen, &w.kept, &w.keptTime, &w.live, &s->spheres, &s->held,
+                                          &s->classes, &s->bits, &s->nodes, &s->nodeCounts, &s->deviceSpheres, &s->deviceHeld},
+                                         w.unused);
+        }
+    }
+}
+
+void SpheresPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set) const {
+    if (hold_) {
+        commands.fill(work_.live, 0); // classify has read it; counted anew below
+        commands.barrier();
+    }
+    commands.dispatchIndirect(pipeline_, bindings_[set][upload], work_.counters, offsetof(shared::FrameCounters, subGroups));
+}
+
+} // namespace fathom::cloud

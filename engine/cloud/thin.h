@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pass shaders/thin.comp: which points the error budget can do without.
+#pragma once
+
+#include "engine/cloud/cloud_buffers.h"
+#include "engine/gpu/pipeline.h"
+
+namespace fathom::cloud {
+
+class ThinPass {
+public:
+    explicit ThinPass(const CloudContext& context);
+    void record(gpu::Commands& commands, uint32_t upload) const;
+
+private:
+    gpu::Pipeline pipeline_;
+    std::array<gpu::Bindings, kUploads> bindings_;
+    const gpu::Buffer& counters_;
+};
+
+} // namespace fathom::cloud

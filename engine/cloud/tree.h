@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pass shaders/tree.comp: bounds over 4x4 children, from patches up to one root. Two dispatches: patches, then the rest.
+#pragma once
+
+#include "engine/cloud/cloud_buffers.h"
+#include "engine/gpu/pipeline.h"
+
+namespace fathom::cloud {
+
+class TreePass {
+public:
+    explicit TreePass(const CloudContext& context);
+    void record(gpu::Commands& commands, uint32_t set) const;
+
+private:
+    gpu::Pipeline pipeline_;
+    std::vector<gpu::Bindings> bindings_; // a set
+    const PatchLayout& layout_;
+};
+
+} // namespace fathom::cloud

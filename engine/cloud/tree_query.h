@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// The contact query on the GPU (shaders/tree_query.comp): tool tree against region tree, in parallel (paper V.A).
+#pragma once
+
+#include "engine/cloud/fixture_set.h"
+#include "engine/contact/tool.h"
+#include "engine/gpu/pipeline.h"
+
+#include <optional>
+
+namespace fathom::cloud {
+
+// One thread, the contact cadence. Has a timeline and a command buffer of its own; shares the queue with the frame path.
+class TreeQuery {
+public:
+    // sets: every set of the pool, so that descriptors are made once. capacity: spheres that an answer may hold.
+    TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool, const Tool& tool,
+              uint32_t capacity = 65536);
+
+    // Writes into `found` the index (into set.host.spheres) of every sphere with d^2 <= (reach + r_t + R)^2 for some leaf, in any
+    // order. leaves: poseLeaves() at that pose about the set's origin. False, with `found` unusable, when there are more than the
+    // capacity; grow() doubles it. Waits for the device: submit to result.
+    bool cull(const FixtureSet& set, const PosedLeaves& leaves, const Pose& baseTtool, float reach,
+              std::vector<uint32_t>& found);
+    void grow();
+    uint32_t capacity() const { return capacity_; }
+
+private:
+    void makeAnswer();
+    void poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const dvec3& origin);
+    void record(size_t setIndex);
+
+    gpu::Device& device_;
+    const PatchLayout layout_;
+    FixturePool& pool_;
+    const Tool& tool_;
+    bool hold_;
+    uint32_t capacity_;
+    gpu::Pipeline pipeline_;
+    gpu::Timeline timeline_;
+    gpu::Commands commands_;
+    gpu::Buffer params_, toolTree_, count_, found_, unused_;
+    std::vector<gpu::Bindings> bindings_; // a set
+    uint64_t ticket_ = 0;
+};
+
+} // namespace fathom::cloud

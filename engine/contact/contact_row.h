@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// One linear condition on the tool's next motion, before it is written in anybody's unknowns.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <cstdint>
+
+namespace fathom {
+
+// normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with offset = -gap. An
+// arm manipulator would put its own Jacobian at `arm` in place of [a; alpha].
+struct ContactRow {
+    enum class Kind : uint8_t { Sphere, Shape, Equality, Behind };
+
+    dvec3 normal{0.0};   // unit (zero in a row of pure rotation), base axes, out of the region
+    dvec3 arm{0.0};      // leaf centre - tool centre [m], base axes
+    dvec3 spin{0.0};     // unit in a row of pure rotation, else zero
+    double gap = 0.0;    // [m] at the pose the row was made for
+    double offset = 0.0; // [m] or [rad]
+    uint32_t leaf = 0;
+    uint32_t pair = 0;   // Sphere: index into the set's pairs; Shape, Equality: of the shape
+    Kind kind = Kind::Sphere;
+    uint64_t key = 0;    // names the contact across solves
+};
+
+} // namespace fathom

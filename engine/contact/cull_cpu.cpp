@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/cull_cpu.h"
+
+#include "engine/contact/clones.h"
+
+#include <cstring>
+
+namespace fathom {
+
+namespace {
+
+FATHOM_CLONES
+void markKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                const float* __restrict radius, size_t count, float cx, float cy, float cz, float reachAndLeaf,
+                uint8_t* __restrict marks) noexcept {
+    for (size_t k = 0; k < count; ++k) {
+        const float dx = cx - x[k];
+        const float dy = cy - y[k];
+        const float dz = cz - z[k];
+        const float limit = reachAndLeaf + radius[k];
+        marks[k] |= static_cast<uint8_t>(dx * dx + dy * dy + dz * dz <= limit * limit ? 1 : 0);
+    }
+}
+
+} // namespace
+
+void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found) {
+    marks_.assign((grid.size() + 7) / 8 * 8, 0);
+    for (size_t i = 0; i < leaves.x.size(); ++i) {
+        const float limit = reach + leaves.radius[i];
+        // The grid answers in float64: its box is wider than all that float32 may round inward.
+        const double far = (static_cast<double>(limit) + grid.maxRadius()) * (1.0 + 1e-5) + 1e-9;
+        const dvec3 centre(leaves.x[i], leaves.y[i], leaves.z[i]);
+        grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
+            markKernel(grid.x().data() + begin, grid.y().data() + begin, grid.z().data() + begin,
+                       grid.radius().data() + begin, end - begin, leaves.x[i], leaves.y[i], leaves.z[i], limit,
+                       marks_.data() + begin);
+        });
+    }
+    found.clear();
+    for (size_t slot = 0; slot < marks_.size(); slot += 8) {
+        uint64_t eight = 0;
+        std::memcpy(&eight, marks_.data() + slot, 8);
+        for (size_t k = 0; eight != 0; eight >>= 8, ++k) {
+            if ((eight & 1) != 0) {
+                found.push_back(grid.order()[slot + k]);
+            }
+        }
+    }
+}
+
+void CullCpu::query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+                    const RegionGrid& grid, ContactSet& out) {
+    const auto onGrid = [&](const PosedLeaves& leaves, float limit, std::vector<uint32_t>& found) {
+        cull(leaves, limit, grid, found);
+        return true;
+    };
+    loop_.run(tool, baseTtool, reach, fixtures, grid.maxRadius(), onGrid, out);
+}
+
+} // namespace fathom

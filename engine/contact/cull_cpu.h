@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The query on the CPU: every region sphere within reach of a tool leaf, by the fixture set's grid.
+#pragma once
+
+#include "engine/contact/query_loop.h"
+#include "engine/contact/region_grid.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace fathom {
+
+// One thread, contact cadence: allocates.
+class CullCpu {
+public:
+    explicit CullCpu(const QueryCapacity& capacity = {}) : loop_(capacity) {}
+
+    // Fills `out` with every sphere that obeys d^2 <= (reach + r_t + R)^2 for some leaf, all in float32 on the values of
+    // poseLeaves(), d^2 = dx dx + dy dy + dz dz left to right without contraction, sorted by source; and all pairs. `grid`
+    // must have been built from `fixtures`. Overflow: see QueryLoop::run.
+    void query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+               const RegionGrid& grid, ContactSet& out);
+
+    const QueryStatistics& statistics() const { return loop_.statistics(); }
+    const QueryCapacity& capacity() const { return loop_.capacity(); }
+
+private:
+    void cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found);
+
+    QueryLoop loop_;
+    std::vector<uint8_t> marks_; // by slot of the grid
+};
+
+} // namespace fathom

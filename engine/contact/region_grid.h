@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Uniform grid over the whole set's spheres by counting sort: x-contiguous cells, so a row of cells is one run.
+#pragma once
+
+#include "engine/contact/fixtures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fathom {
+
+// Built once a frame on the contact or frame cadence (allocates); queries are const, noexcept and allocate nothing.
+// Cells are about half a mean sphere radius, at least 5 mm, and coarser where the extent would ask for more cells than
+// a bound of 8 a sphere (4 Mi at most): outliers cost speed, never memory or answers. Spheres that are not finite are
+// left out: they have no place.
+class RegionGrid {
+public:
+    void build(const RegionSpheres& spheres);
+    // The same over plain arrays of equal length.
+    void build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
+               std::span<const float> radius);
+
+    size_t size() const { return x_.size(); }
+    double maxRadius() const { return maxRadius_; } // [m], 0 when empty
+
+    // Calls visit(index into RegionSpheres) for a superset of the spheres whose centre is within `distance` of `point`
+    // (about the set's origin) [m].
+    template <class Visit>
+    void forEachNear(const dvec3& point, double distance, Visit&& visit) const {
+        forEachRun(point, distance, [&](uint32_t begin, uint32_t end) {
+            for (uint32_t slot = begin; slot < end; ++slot) {
+                visit(order_[slot]);
+            }
+        });
+    }
+
+    // The same superset as runs of slots [begin, end) in cell order, for kernels over the arrays below.
+    template <class Visit>
+    void forEachRun(const dvec3& point, double distance, Visit&& visit) const;
+
+    // In cell order (slots).
+    std::span<const float> x() const { return x_; }
+    std::span<const float> y() const { return y_; }
+    std::span<const float> z() const { return z_; }
+    std::span<const float> radius() const { return radius_; }
+    std::span<const uint32_t> order() const { return order_; } // slot -> index into what build() was given
+
+private:
+    // Monotone in v, and the same function for spheres and query boxes: rounding cannot lose a sphere.
+    static int64_t cellOf(double v, double lo, double perMetre, int64_t count) noexcept {
+        const double cell = (v - lo) * perMetre;
+        if (!(cell > 0.0)) {
+            return 0;
+        }
+        return cell >= static_cast<double>(count) ? count - 1 : static_cast<int64_t>(cell);
+    }
+    // Distance from v to the cell's interval, rounded towards zero [m].
+    double outside(double v, double lo, int64_t cell, int64_t count) const noexcept {
+        const double slack = 1e-3 * size_;
+        // The first and the last cell also hold what rounding pushed over the edge: they count as open.
+        const double below = cell == 0 ? 0.0 : lo + static_cast<double>(cell) * size_ - slack - v;
+        const double above = cell + 1 == count ? 0.0 : v - (lo + static_cast<double>(cell + 1) * size_ + slack);
+        return std::max({0.0, below, above});
+    }
+    void layOut(std::span<const float> x, std::span<const float> y, std::span<const float> z,
+                std::span<const float> radius);
+
+    std::vector<float> x_, y_, z_, radius_;
+    std::vector<uint32_t> order_;
+    std::vector<uint32_t> cellBegin_; // cells + 1
+    std::vector<uint32_t> cell_;      // build scratch: cell of each sphere
+    double maxRadius_ = 0.0;
+    dvec3 lo_{0.0}, hi_{0.0};
+    double size_ = 1.0, perMetre_ = 1.0;
+    int64_t nx_ = 0, ny_ = 0, nz_ = 0;
+};
+
+template <class Visit>
+void RegionGrid::forEachRun(const dvec3& point, double distance, Visit&& visit) const {
+    if (x_.empty() || !(distance >= 0.0) || point.x + distance < lo_.x || point.x - distance > hi_.x ||
+        point.y + distance < lo_.y || point.y - distance > hi_.y || point.z + distance < lo_.z ||
+        point.z - distance > hi_.z) {
+        return;
+    }
+    const int64_t z0 = cellOf(point.z - distance, lo_.z, perMetre_, nz_);
+    const int64_t z1 = cellOf(point.z + distance, lo_.z, perMetre_, nz_);
+    const int64_t y0 = cellOf(point.y - distance, lo_.y, perMetre_, ny_);
+    const int64_t y1 = cellOf(point.y + distance, lo_.y, perMetre_, ny_);
+    const double d2 = distance * distance;
+    for (int64_t cz = z0; cz <= z1; ++cz) {
+        const double dz = outside(point.z, lo_.z, cz, nz_);
+        for (int64_t cy = y0; cy <= y1; ++cy) {
+            const double dy = outside(point.y, lo_.y, cy, ny_);
+            const double left = d2 - dz * dz - dy * dy; // the ball's width in x at this row
+            if (left < 0.0) {
+                continue;
+            }
+            const double half = std::sqrt(left) * (1.0 + 1e-12);
+            const int64_t row = (cz * ny_ + cy) * nx_;
+            const uint32_t begin = cellBegin_[row + cellOf(point.x - half, lo_.x, perMetre_, nx_)];
+            const uint32_t end = cellBegin_[row + cellOf(point.x + half, lo_.x, perMetre_, nx_) + 1];
+            if (begin < end) {
+                visit(begin, end);
+            }
+        }
+    }
+}
+
+} // namespace fathom

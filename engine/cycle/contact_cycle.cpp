@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/contact_cycle.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kNothingToTouch = 1000.0; // [m] certified where no region exists: the tool may go anywhere
+
+} // namespace
+
+ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
+                           const Tool& tool, double reach)
+    : tool_(tool), reach_(reach), where_(plan.query) {
+    if (where_ == Plan::Query::Gpu) {
+        gpu_.emplace(device, plan, layout, pool, tool);
+    }
+}
+
+void ContactCycle::query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
+    switch (where_) {
+    case Plan::Query::None:
+        fillContactSet(tool_, baseTtool, kNothingToTouch, set.host, {}, out);
+        out.pairSphere.clear();
+        out.pairBegin.assign(tool_.leafCount() + 1, 0);
+        out.behind.clear();
+        return;
+    case Plan::Query::Cpu: cpu_.query(tool_, baseTtool, reach_, set.host, set.grid, out); break;
+    case Plan::Query::Gpu: {
+        const auto onDevice = [&](const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) {
+            const bool fits = gpu_->cull(set, leaves, baseTtool, reach, found);
+            if (!fits) {
+                gpu_->grow(); // the next query has room; this one tries again with what the loop decides
+            }
+            return fits;
+        };
+        gpuLoop_.run(tool_, baseTtool, reach_, set.host, set.grid.maxRadius(), onDevice, out);
+        break;
+    }
+    }
+    behind_.update(tool_, set.host, set.grid.maxRadius(), out);
+}
+
+QueryStatistics ContactCycle::statistics() const {
+    return where_ == Plan::Query::Gpu ? gpuLoop_.statistics() : cpu_.statistics();
+}
+
+} // namespace fathom

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/frame_cycle.h"
+
+#include "engine/cloud/frame_params.h"
+#include "engine/cloud/frame_upload.h"
+
+#include <chrono>
+#include <spdlog/spdlog.h>
+
+namespace fathom {
+
+namespace {
+
+double clockMs() {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
+    std::vector<cloud::SetBuffers*> buffers;
+    for (size_t i = 0; i < pool.size(); ++i) {
+        buffers.push_back(&pool.at(i).device);
+    }
+    return buffers;
+}
+
+} // namespace
+
+FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan, uint32_t readers)
+    : device_(device)
+    , scene_(scene)
+    , camera_(camera)
+    , plan_(plan)
+    , layout_(patchLayout(camera.depth.width, camera.depth.height))
+    , work_(device, plan, layout_, camera)
+    , uploads_{cloud::UploadBuffers(device, plan, camera), cloud::UploadBuffers(device, plan, camera)}
+    , pool_(readers, [&] { return std::make_unique<cloud::FixtureSet>(device, plan_, layout_); })
+    , setBuffers_(buffersOf(pool_))
+    , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, uploads_, setBuffers_})
+    , timeline_(device)
+    , leakWarned_(shared::kMaxClasses, 0) {
+    warmUp();
+}
+
+FrameCycle::~FrameCycle() {
+    if (ticket_ != 0) {
+        timeline_.wait(ticket_); // nothing is freed under the device's feet
+    }
+}
+
+void FrameCycle::clearMemory() {
+    gpu::Commands& commands = passes_.commands(0);
+    commands.begin();
+    for (const gpu::Buffer* buffer : {&work_.seen, &work_.kept, &work_.keptTime, &work_.live}) {
+        if (*buffer) {
+            commands.fill(*buffer, 0);
+        }
+    }
+    commands.end();
+    device_.submit(commands.handle(), timeline_.handle(), 0, ++ticket_);
+    timeline_.wait(ticket_);
+}
+
+// Some drivers compile a pipeline at its first use: let that be now. A frame of zero depth selects nothing.
+void FrameCycle::warmUp() {
+    clearMemory();
+    if (!plan_.cloud) {
+        return;
+    }
+    const std::vector<uint16_t> depth(camera_.depth.pixels(), 0);
+    const std::vector<uint32_t> colour(plan_.colour ? camera_.colour.pixels() : 0, 0);
+    const shared::FrameParams params =
+        cloud::sceneParams(scene_, camera_, layout_, dvec3(0.0), work_.cellEdge, work_.cellsAcross);
+    Frame::Content content;
+    content.depth = depth;
+    content.colour = colour;
+    for (uint32_t slot = 0; slot < cloud::kUploads; ++slot) {
+        cloud::uploadFrame(uploads_[slot], Frame(content, nullptr), params);
+        passes_.record(passes_.commands(slot), passes_.watch(slot), slot, 0);
+        device_.submit(passes_.commands(slot).handle(), timeline_.handle(), ticket_, ticket_ + 1);
+        timeline_.wait(++ticket_);
+    }
+}
+
+FrameReport FrameCycle::process(Frame frame) {
+    upload(std::move(frame));
+    submit();
+    return finish();
+}
+
+void FrameCycle::upload(Frame frame) {
+    InFlight f;
+    f.startMs = clockMs();
+    f.pose = frame->baseTcamera.value_or(scene_.baseTcamera);
+    f.unchanged = lastSource_ == frame->sourceNumber;
+    f.slot = nextSlot_;
+    if (!origin_) {
+        origin_ = f.pose.position; // positions stay small however far away the base frame is
+        params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
+        lastCapture_ = frame->captureTime;
+    }
+    if (!f.unchanged && plan_.cloud) {
+        cloud::setFrame(params_, f.pose, *origin_, frame->captureTime, lastCapture_);
+        cloud::uploadFrame(uploads_[f.slot], frame, params_);
+        nextSlot_ = (nextSlot_ + 1) % cloud::kUploads;
+    }
+    lastSource_ = frame->sourceNumber;
+    lastCapture_ = frame->captureTime;
+    f.frame = std::move(frame);
+    f.uploadMs = clockMs() - f.startMs;
+    uploaded_ = std::move(f);
+}
+
+void FrameCycle::submit() {
+    submitted_ = std::move(uploaded_);
+    uploaded_.reset();
+    dispatches_ = 0;
+    if (submitted_->unchanged || !plan_.cloud) {
+        return;
+    }
+    pool_.back();
+    gpu::Commands& commands = passes_.commands(submitted_->slot);
+    passes_.record(commands, passes_.watch(submitted_->slot), submitted_->slot, pool_.backIndex());
+    dispatches_ = commands.dispatches();
+    device_.submit(commands.handle(), timeline_.handle(), ticket_, ticket_ + 1);
+    ++ticket_;
+}
+
+// The parts of the host copy that need no device.
+void FrameCycle::fillHost(const InFlight& f) {
+    Fixtures& host = pool_.back().host;
+    host.frame = f.frame->index;
+    host.captureTime = f.frame->captureTime;
+    host.generation = ++generation_;
+    host.origin = *origin_;
+    host.camera = camera_;
+    host.baseTcamera = f.pose;
+    host.depth.assign(f.frame->depth.begin(), f.frame->depth.end());
+}
+
+FrameReport FrameCycle::finish() {
+    InFlight f = std::move(*submitted_);
+    submitted_.reset();
+    FrameReport report;
+    report.index = f.frame->index;
+    report.unchanged = f.unchanged;
+    report.uploadMs = f.uploadMs;
+    report.passMs.assign(passNames().size(), 0.0);
+    if (!f.unchanged) {
+        fillHost(f); // while the device works
+        if (plan_.cloud) {
+            timeline_.wait(ticket_);
+            report.passMs = passes_.watch(f.slot).intervalsMs();
+        }
+        const double landed = clockMs();
+        cloud::FixtureSet& set = pool_.back();
+        lastCounts_ = cloud::collect(set, scene_, plan_, layout_);
+        if (plan_.spheres) {
+            set.grid.build(set.host.spheres);
+        }
+        pool_.publish();
+        report.publishMs = clockMs() - landed;
+        warnLeaks(lastCounts_);
+    }
+    report.counts = lastCounts_;
+    const std::vector<uint32_t> rows = cloud::classRows(scene_);
+    for (size_t c = 0; c < report.counts.classPixels.size(); ++c) {
+        report.guidanceCount += scene_.fixtures[rows[c]].role == Role::Guidance ? report.counts.classPixels[c] : 0;
+    }
+    captureTime_.store(f.frame->captureTime, std::memory_order_release);
+    report.latencyMs = clockMs() - f.startMs;
+    return report;
+}
+
+void FrameCycle::warnLeaks(const cloud::FrameCounts& counts) {
+    for (size_t c = 0; c < counts.leakSpacing.size(); ++c) {
+        if (counts.leakSpacing[c] > 0.0f && leakWarned_[c] == 0) {
+            leakWarned_[c] = 1;
+            const FixtureClass& f = scene_.fixtures[cloud::classRows(scene_)[c]];
+            spdlog::warn("fixture '{}' leaks: at {:.2f} m its points are {:.1f} mm apart and its spheres have a radius of {:.1f} mm",
+                         f.name, counts.leakRange[c], counts.leakSpacing[c] * 1e3, f.radius * 1e3);
+        }
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame cadence: a frame in, a published fixture set out. Owns the passes and the pool of sets; knows no camera and no thread.
+#pragma once
+
+#include "engine/cloud/collect.h"
+#include "engine/cloud/fixture_set.h"
+#include "engine/cycle/frame_passes.h"
+#include "engine/gpu/device.h"
+#include "engine/types/frame.h"
+
+#include <atomic>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// What became of one frame.
+struct FrameReport {
+    uint32_t index = 0;
+    bool unchanged = false; // the same picture again (source number): no work, only a new capture time
+    cloud::FrameCounts counts;
+    uint32_t guidanceCount = 0;       // pixels in guidance classes, as classify marks them
+    double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;
+    std::vector<double> passMs;       // in the order of FrameCycle::passNames(); device time
+};
+
+// One thread (the frame cadence) calls everything but sets() and captureTime(), which any reader may use.
+class FrameCycle {
+public:
+    // readers: how many leases may be held at once. Compiles every pipeline and runs an empty frame.
+    FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan, uint32_t readers);
+    ~FrameCycle();
+
+    // One frame through, start to end.
+    FrameReport process(Frame frame);
+    // The same in three steps: upload() may run while the device works on the frame before.
+    void upload(Frame frame);
+    void submit();
+    FrameReport finish();
+
+    cloud::FixturePool& sets() { return pool_; }
+    // Capture time [s] of the newest published picture, unchanged ones included.
+    double captureTime() const { return captureTime_.load(std::memory_order_acquire); }
+
+    const std::vector<std::string>& passNames() const { return passes_.names(); }
+    const PatchLayout& layout() const { return layout_; }
+    const CameraInfo& camera() const { return camera_; }
+    uint32_t dispatches() const { return dispatches_; } // of the last frame
+    const cloud::WorkBuffers& work() const { return work_; } // for tests that compare passes with their twins
+
+private:
+    struct InFlight {
+        Frame frame;
+        uint32_t slot = 0;
+        bool unchanged = false;
+        double uploadMs = 0.0;
+        double startMs = 0.0; // clock at the start of the upload
+        Pose pose;
+    };
+
+    void warmUp();
+    void clearMemory();
+    void fillHost(const InFlight& f);
+    void warnLeaks(const cloud::FrameCounts& counts);
+
+    gpu::Device& device_;
+    Scene scene_;
+    CameraInfo camera_;
+    Plan plan_;
+    PatchLayout layout_;
+    cloud::WorkBuffers work_;
+    std::array<cloud::UploadBuffers, cloud::kUploads> uploads_;
+    cloud::FixturePool pool_;
+    std::vector<cloud::SetBuffers*> setBuffers_;
+    FramePasses passes_;
+    gpu::Timeline timeline_;
+
+    std::optional<dvec3> origin_;
+    shared::FrameParams params_{};
+    std::optional<InFlight> uploaded_, submitted_;
+    uint32_t nextSlot_ = 0;
+    uint64_t ticket_ = 0; // timeline value of the last submission
+    uint64_t generation_ = 0;
+    std::optional<uint64_t> lastSource_;
+    double lastCapture_ = 0.0;
+    cloud::FrameCounts lastCounts_;
+    uint32_t dispatches_ = 0;
+    std::vector<uint8_t> leakWarned_;
+    std::atomic<double> captureTime_{0.0};
+};
+
+} // namespace fathom

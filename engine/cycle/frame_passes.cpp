@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/frame_passes.h"
+
+#include "shaders/shared/frame_params.h"
+
+namespace fathom {
+
+FramePasses::FramePasses(const cloud::CloudContext& c) : work_(c.work), sets_(c.sets) {
+    const auto add = [&](bool in, auto& pass, const char* name) {
+        if (in) {
+            pass.emplace(c);
+            names_.push_back(name);
+        }
+    };
+    add(c.plan.occlusion, occlusion_, "occlusion");
+    add(c.plan.cloud, classify_, "classify");
+    add(c.plan.cloud, surface_, "surface");
+    add(c.plan.thin, thin_, "thin");
+    add(c.plan.spheres, spheres_, "spheres");
+    add(c.plan.spheres, tree_, "tree");
+    add(c.plan.moments, moments_, "moments");
+    for (uint32_t u = 0; u < cloud::kUploads; ++u) {
+        commands_[u] = std::make_unique<gpu::Commands>(c.device);
+        watches_[u] = std::make_unique<gpu::Stopwatch>(c.device, static_cast<uint32_t>(names_.size()) + 1);
+    }
+}
+
+void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload, uint32_t set) const {
+    commands.begin();
+    watch.resetIn(commands.handle());
+    watch.mark(commands.handle());
+    const auto run = [&](const auto& pass, auto... arguments) {
+        if (pass) {
+            pass->record(commands, arguments...);
+            commands.barrier();
+            watch.mark(commands.handle());
+        }
+    };
+    run(occlusion_, upload);
+    run(classify_, upload);
+    run(surface_, upload);
+    run(thin_, upload);
+    run(spheres_, upload, set);
+    run(tree_, set);
+    run(moments_, upload, set);
+    recordCopies(commands, set);
+    commands.end();
+}
+
+void FramePasses::recordCopies(gpu::Commands& commands, uint32_t set) const {
+    const cloud::SetBuffers& s = *sets_[set];
+    const auto copy = [&](const gpu::Buffer& from, const gpu::Buffer& to) {
+        if (from && to) {
+            commands.copy(from, to, to.bytes());
+        }
+    };
+    copy(work_.counters, s.counters);
+    copy(work_.listed, s.listed);
+    copy(work_.points, s.points);
+    copy(work_.masks, s.masks);
+}
+
+} // namespace fathom

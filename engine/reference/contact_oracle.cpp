@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/reference/contact_oracle.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fathom {
+
+namespace {
+
+dvec3 sphereCentre(const RegionSpheres& s, size_t i) {
+    return {s.x[i], s.y[i], s.z[i]};
+}
+
+dvec3 leafCentre(const Tool& tool, size_t leaf, const Pose& baseTtool, const dvec3& origin) {
+    return (baseTtool.position - origin) + baseTtool.rotation * tool.leaves()[leaf].centre;
+}
+
+} // namespace
+
+std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures) {
+    PosedLeaves leaves;
+    poseLeaves(tool, baseTtool, fixtures.origin, leaves);
+    const RegionSpheres& s = fixtures.spheres;
+    const float reach32 = static_cast<float>(reach);
+    std::vector<uint32_t> sources;
+    for (size_t i = 0; i < s.size(); ++i) {
+        for (size_t t = 0; t < leaves.x.size(); ++t) {
+            const float dx = leaves.x[t] - s.x[i], dy = leaves.y[t] - s.y[i], dz = leaves.z[t] - s.z[i];
+            const float limit = reach32 + leaves.radius[t] + s.radius[i];
+            if (dx * dx + dy * dy + dz * dz <= limit * limit) {
+                sources.push_back(s.source[i]);
+                break;
+            }
+        }
+    }
+    std::sort(sources.begin(), sources.end());
+    return sources;
+}
+
+std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, double limit, const Fixtures& fixtures) {
+    std::vector<OraclePair> pairs;
+    const RegionSpheres& s = fixtures.spheres;
+    for (uint32_t t = 0; t < tool.leafCount(); ++t) {
+        const dvec3 c = leafCentre(tool, t, baseTtool, fixtures.origin);
+        for (size_t i = 0; i < s.size(); ++i) {
+            const double gap = glm::distance(c, sphereCentre(s, i)) - tool.leaves()[t].radius - s.radius[i];
+            if (gap <= limit) {
+                pairs.push_back({t, s.source[i], gap});
+            }
+        }
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures) {
+    double smallest = std::numeric_limits<double>::infinity();
+    const RegionSpheres& s = fixtures.spheres;
+    for (size_t t = 0; t < tool.leafCount(); ++t) {
+        const dvec3 c = leafCentre(tool, t, baseTtool, fixtures.origin);
+        for (size_t i = 0; i < s.size(); ++i) {
+            const double gap = glm::distance(c, sphereCentre(s, i)) - tool.leaves()[t].radius - s.radius[i];
+            smallest = std::min(smallest, gap);
+        }
+    }
+    return smallest;
+}
+
+} // namespace fathom

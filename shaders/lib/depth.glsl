@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth words to metres and pixels to rays. Needs params, depthWords, rays and kRays.
+
+uint rawDepth(uint pixel) {
+    return (depthWords[pixel >> 1] >> ((pixel & 1u) * 16u)) & 0xffffu;
+}
+
+// Metres along the optical axis; 0 when there is no measurement in near..far.
+float depthAt(uint pixel) {
+    uint raw = rawDepth(pixel);
+    return raw >= params.depthBand.x && raw <= params.depthBand.y ? float(raw) * params.more.z : 0.0;
+}
+
+// (x / z, y / z) of the ray through a pixel's centre.
+vec2 rayOf(uvec2 pixel) {
+    if (kRays != 0) {
+        return rays[pixel.y * params.size.x + pixel.x];
+    }
+    return (vec2(pixel) - params.lens.zw) / params.lens.xy;
+}

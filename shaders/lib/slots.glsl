@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Slots: where a pixel's results lie. Patch-major, then 4x4 sub-patch, then pixel: slot = patch * 256 + sub * 16 + p.
+
+uvec2 pixelOfSlot(uint slot, uint patchesAcross) {
+    uint patchIndex = slot >> 8, sub = (slot >> 4) & 15u, p = slot & 15u;
+    return uvec2((patchIndex % patchesAcross) * 16u + (sub & 3u) * 4u + (p & 3u),
+                 (patchIndex / patchesAcross) * 16u + (sub >> 2) * 4u + (p >> 2));
+}
+
+uint slotOfPixel(uvec2 pixel, uint patchesAcross) {
+    uvec2 patchAt = pixel >> 4u, inside = pixel & 15u;
+    uint sub = (inside.y >> 2) * 4u + (inside.x >> 2);
+    return (patchAt.y * patchesAcross + patchAt.x) * 256u + sub * 16u + (inside.y & 3u) * 4u + (inside.x & 3u);
+}

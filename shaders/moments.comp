@@ -1,0 +1,72 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Moments of every guidance class in every listed patch: count, mean, sums of products about the mean. One group of 16
+// invocations a patch, one invocation a sub-patch; the first merges them in fixed order (Chan, Golub, LeVeque 1979).
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/frame_params.h"
+
+layout(local_size_x_id = 0) in; // 16
+
+layout(std140, binding = 0) uniform Params { FrameParams params; };
+layout(std430, binding = 1) readonly buffer Masks { uint masks[]; };
+layout(std430, binding = 2) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 3) readonly buffer List { uint list[]; };
+layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; }; // patch * kMaxClasses + k-th guidance class
+
+shared PatchMoments part[16];
+
+PatchMoments subMoments(uint firstSlot, uint c) {
+    vec3 sum = vec3(0.0), anchor = vec3(0.0);
+    float count = 0.0;
+    for (uint p = 0; p < 16u; ++p) {
+        vec4 point = points[firstSlot + p];
+        if (point.w != 0.0 && (masks[firstSlot + p] >> c & 1u) != 0) {
+            anchor = count == 0.0 ? point.xyz : anchor; // sums of small differences keep their digits
+            sum += point.xyz - anchor;
+            count += 1.0;
+        }
+    }
+    vec3 mean = anchor + (count > 0.0 ? sum / count : vec3(0.0));
+    PatchMoments m = PatchMoments(vec4(mean, count), vec4(0.0), vec4(0.0));
+    for (uint p = 0; p < 16u; ++p) {
+        vec4 point = points[firstSlot + p];
+        if (point.w != 0.0 && (masks[firstSlot + p] >> c & 1u) != 0) {
+            vec3 d = point.xyz - mean;
+            m.first += vec4(d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y);
+            m.second.xy += vec2(d.y * d.z, d.z * d.z);
+        }
+    }
+    return m;
+}
+
+PatchMoments merge(PatchMoments a, PatchMoments b) {
+    if (a.mean.w == 0.0 || b.mean.w == 0.0) {
+        return a.mean.w == 0.0 ? b : a;
+    }
+    float n = a.mean.w + b.mean.w, w = a.mean.w * b.mean.w / n;
+    vec3 d = b.mean.xyz - a.mean.xyz;
+    vec4 first = a.first + b.first + w * vec4(d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y);
+    vec4 second = a.second + b.second + w * vec4(d.y * d.z, d.z * d.z, 0.0, 0.0);
+    return PatchMoments(vec4(a.mean.xyz + d * (b.mean.w / n), n), first, second);
+}
+
+void main() {
+    uint patchIndex = list[gl_WorkGroupID.x];
+    uint k = 0;
+    for (uint c = 0; c < params.depthBand.z; ++c) {
+        if (params.classes[c].role.z == 0.0) {
+            continue;
+        }
+        part[gl_LocalInvocationID.x] = subMoments(patchIndex * 256u + gl_LocalInvocationID.x * 16u, c);
+        barrier();
+        if (gl_LocalInvocationID.x == 0) {
+            PatchMoments m = part[0];
+            for (uint s = 1; s < 16u; ++s) {
+                m = merge(m, part[s]);
+            }
+            moments[patchIndex * kMaxClasses + k] = m;
+        }
+        barrier();
+        ++k;
+    }
+}

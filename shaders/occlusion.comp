@@ -1,0 +1,38 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Nearest depth seen by the colour camera in each small cell of its picture, so that classify can tell a point that the
+// colour camera sees from one that something nearer hides (parallax). Only for unregistered cameras.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/frame_params.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kRays = 0; // 1: distorted lens, rays from the table
+
+layout(std140, binding = 0) uniform Params { FrameParams params; };
+layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; }; // two uint16 a word
+layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
+layout(std430, binding = 3) buffer Cells { uint nearest[]; };             // bits of the smallest z, 0xffffffff = none
+
+#include "shaders/lib/depth.glsl"
+#include "shaders/lib/lens.glsl"
+
+void main() {
+    uint pixel = gl_GlobalInvocationID.x;
+    if (pixel >= params.size.x * params.size.y) {
+        return;
+    }
+    float z = depthAt(pixel);
+    if (z == 0.0) {
+        return;
+    }
+    vec3 p = transformPoint(params.colourTdepth, vec3(rayOf(uvec2(pixel % params.size.x, pixel / params.size.x)) * z, z));
+    if (p.z <= 0.0) {
+        return;
+    }
+    ivec2 at = ivec2(round(projectPoint(p, params.colourLens, params.colourDistortion, params.more.y)));
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.colourSize.xy)))) {
+        return;
+    }
+    uvec2 cell = uvec2(at) / params.colourSize.w;
+    atomicMin(nearest[cell.y * params.colourSize.z + cell.x], floatBitsToUint(p.z));
+}

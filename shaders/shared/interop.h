@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lets one text declare a struct for GLSL and for C++. Only vec4, uvec4, float, uint: their layouts agree by nature.
+#ifndef FATHOM_SHARED_INTEROP_H
+#define FATHOM_SHARED_INTEROP_H
+
+#ifdef __cplusplus
+#include <cstdint>
+#include <glm/vec4.hpp>
+namespace fathom::shared {
+using glm::uvec4;
+using glm::vec4;
+using uint = uint32_t;
+}
+#define FATHOM_SHARED_BEGIN namespace fathom::shared {
+#define FATHOM_SHARED_END }
+#define FATHOM_CONST constexpr uint
+#define FATHOM_SIZE(type, bytes) static_assert(sizeof(type) == bytes, #type " must have the size that GLSL gives it")
+#else
+#define FATHOM_SHARED_BEGIN
+#define FATHOM_SHARED_END
+#define FATHOM_CONST const uint
+#define FATHOM_SIZE(type, bytes)
+#endif
+
+#endif

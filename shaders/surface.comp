@@ -1,0 +1,126 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Points of the listed patches: flying and isolated pixels rejected, the paper's Cartesian bilateral filter (eq. 1-2),
+// base frame. One group a patch, one invocation a pixel.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/frame_params.h"
+
+layout(local_size_x_id = 0) in;                  // 256
+layout(constant_id = 1) const uint kRays = 0;
+layout(constant_id = 2) const uint kRadius = 2;  // filter window (2 r + 1)^2; 0 compiles the filter out
+layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejected
+layout(constant_id = 4) const uint kTiled = 0;   // 1: the window comes from shared memory (the paper); 0: direct reads
+
+layout(std140, binding = 0) uniform Params { FrameParams params; };
+layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
+layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
+layout(std430, binding = 3) readonly buffer Masks { uint masks[]; };
+layout(std430, binding = 4) readonly buffer List { uint list[]; };
+layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot -> base point about the origin, w = z [m]; 0 = none
+
+#include "shaders/lib/depth.glsl"
+#include "shaders/lib/lens.glsl"
+#include "shaders/lib/slots.glsl"
+
+const uint kHalo = kRadius > 1u ? kRadius : 1u;
+const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
+shared float tile[kTileEdge * kTileEdge];
+
+float depthOfPixel(ivec2 at) {
+    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.size.xy)))) {
+        return 0.0;
+    }
+    return depthAt(uint(at.y) * params.size.x + uint(at.x));
+}
+
+void fillTile(ivec2 patchOrigin) {
+    for (uint i = gl_LocalInvocationID.x; i < kTileEdge * kTileEdge; i += gl_WorkGroupSize.x) {
+        tile[i] = depthOfPixel(patchOrigin - int(kHalo) + ivec2(i % kTileEdge, i / kTileEdge));
+    }
+    barrier();
+}
+
+// Depth at a pixel of the window; within the tile when there is one.
+float windowDepth(ivec2 at, ivec2 patchOrigin) {
+    if (kTiled != 0) {
+        ivec2 t = at - patchOrigin + int(kHalo);
+        return tile[t.y * int(kTileEdge) + t.x];
+    }
+    return depthOfPixel(at);
+}
+
+vec3 pointAt(ivec2 at, float z) {
+    return vec3(rayOf(uvec2(at)) * z, z);
+}
+
+// -1: all valid neighbours of that side are nearer by more than the edge; +1: all farther; 0: neither.
+int sideJump(ivec2 at, ivec2 side, float z, ivec2 patchOrigin) {
+    ivec2 along = side.yx;
+    int nearer = 0, farther = 0, valid = 0;
+    for (int k = -1; k <= 1; ++k) {
+        float d = windowDepth(at + side + along * k, patchOrigin);
+        valid += d != 0.0 ? 1 : 0;
+        nearer += d != 0.0 && d < z * (1.0 - params.more.w) ? 1 : 0;
+        farther += d > z * (1.0 + params.more.w) ? 1 : 0;
+    }
+    return valid == 0 ? 0 : (nearer == valid ? -1 : (farther == valid ? 1 : 0));
+}
+
+// Between a nearer surface on one side and a farther one on the other: a mixed pixel that lies on neither. A silhouette or
+// a thin rod has jumps of one sign only and stays.
+bool isFlying(ivec2 at, float z, ivec2 patchOrigin) {
+    return sideJump(at, ivec2(1, 0), z, patchOrigin) * sideJump(at, ivec2(-1, 0), z, patchOrigin) < 0 ||
+           sideJump(at, ivec2(0, 1), z, patchOrigin) * sideJump(at, ivec2(0, -1), z, patchOrigin) < 0;
+}
+
+// Fewer than 2 of the 8 neighbours within the isolation distance: marine snow, a speck of noise.
+bool isIsolated(ivec2 at, vec3 p, ivec2 patchOrigin) {
+    float limit = max(params.filterParams.z, params.filterParams.w * p.z);
+    int near = 0;
+    for (int k = 0; k < 9; ++k) {
+        ivec2 q = at + ivec2(k % 3 - 1, k / 3 - 1);
+        float d = windowDepth(q, patchOrigin);
+        near += k != 4 && d != 0.0 && distance(pointAt(q, d), p) <= limit ? 1 : 0;
+    }
+    return near < 2;
+}
+
+// Paper eq. 1-2: v the depth value, weights by the Cartesian distance between the points.
+float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
+    float sum = 0.0, weights = 0.0;
+    for (int dy = -int(kRadius); dy <= int(kRadius); ++dy) {
+        for (int dx = -int(kRadius); dx <= int(kRadius); ++dx) {
+            ivec2 q = at + ivec2(dx, dy);
+            float d = windowDepth(q, patchOrigin);
+            if (d != 0.0) {
+                vec3 apart = pointAt(q, d) - p;
+                float weight = exp(-dot(apart, apart) * params.filterParams.x);
+                // Summed as differences from the centre: the mean keeps all digits of a distant surface.
+                sum += (d - p.z) * weight;
+                weights += weight;
+            }
+        }
+    }
+    return p.z + sum / weights; // weights >= 1: the centre itself
+}
+
+void main() {
+    uint patchIndex = list[gl_WorkGroupID.x];
+    ivec2 patchOrigin = ivec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16;
+    if (kTiled != 0) {
+        fillTile(patchOrigin);
+    }
+    for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
+        uint slot = patchIndex * 256u + i;
+        vec4 result = vec4(0.0);
+        if (masks[slot] != 0) {
+            ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+            vec3 p = pointAt(at, windowDepth(at, patchOrigin));
+            if (!(kEdge != 0 && isFlying(at, p.z, patchOrigin)) && !isIsolated(at, p, patchOrigin)) {
+                float z = kRadius != 0 ? filtered(at, p, patchOrigin) : p.z;
+                result = vec4(transformPoint(params.baseTcamera, pointAt(at, z)), z);
+            }
+        }
+        points[slot] = result;
+    }
+}

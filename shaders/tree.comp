@@ -1,0 +1,62 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// Parents over 4x4 children, from patches up to one root: centre = mean of all points below, radius = max(|c_k - centre| + r_k)
+// (paper eq. 3 with the children's spheres). One invocation a node; the top levels run in one group with barriers between.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/frame_params.h"
+
+layout(local_size_x_id = 0) in;
+
+layout(push_constant) uniform Push { TreeParams tree; } ;
+layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
+layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
+layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
+layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
+
+// Index of child k of node `at` on `level`; 0xffffffff when it lies outside.
+uint childOf(uvec2 at, uint level, uint k, uint index) {
+    if (level == 1u) {
+        return listed[index] != 0 ? index * 16u + k : 0xffffffffu; // sub-patches of an unlisted patch hold old data
+    }
+    uvec4 below = tree.levels[level - 1u];
+    uvec2 child = at * 4u + uvec2(k & 3u, k >> 2);
+    return all(lessThan(child, below.xy)) ? below.z + child.y * below.x + child.x : 0xffffffffu;
+}
+
+void buildNode(uint level, uint index) {
+    uvec4 here = tree.levels[level];
+    uvec2 at = uvec2(index % here.x, index / here.x);
+    vec3 sum = vec3(0.0);
+    uint count = 0;
+    for (uint k = 0; k < 16u; ++k) {
+        uint child = childOf(at, level, k, index);
+        uint below = child != 0xffffffffu ? nodeCounts[child] : 0u;
+        sum += below != 0 ? nodes[child].xyz * float(below) : vec3(0.0);
+        count += below;
+    }
+    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
+    float radius = -1.0;
+    for (uint k = 0; k < 16u; ++k) {
+        uint child = childOf(at, level, k, index);
+        if (child != 0xffffffffu && nodeCounts[child] != 0) {
+            vec4 s = nodes[child];
+            radius = max(radius, distance(s.xyz, centre) + s.w);
+        }
+    }
+    nodes[here.z + index] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
+    nodeCounts[here.z + index] = count;
+    if (count != 0) {
+        atomicAdd(counters.nodes, 1u);
+    }
+}
+
+void main() {
+    for (uint level = tree.run.x; level <= tree.run.y; ++level) {
+        uint count = tree.levels[level].x * tree.levels[level].y;
+        for (uint i = gl_GlobalInvocationID.x; i < count; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {
+            buildNode(level, i);
+        }
+        memoryBarrierBuffer();
+        barrier();
+    }
+}

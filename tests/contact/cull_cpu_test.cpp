@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/cull_cpu.h"
+
+#include "engine/reference/contact_oracle.h"
+#include "tests/contact/clouds.h"
+
+#include <algorithm>
+#include <chrono>
+#include <doctest/doctest.h>
+#include <set>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+struct Query {
+    RegionGrid grid;
+    CullCpu cull;
+    ContactSet set;
+
+    explicit Query(const QueryCapacity& capacity = {}) : cull(capacity) {}
+    const ContactSet& operator()(const Tool& tool, const Pose& pose, double reach, const Fixtures& fixtures) {
+        grid.build(fixtures.spheres);
+        cull.query(tool, pose, reach, fixtures, grid, set);
+        return set;
+    }
+};
+
+// Structure of a set: bands in order, the same floats in both forms, gaps inside their band.
+void checkShape(const Tool& tool, const ContactSet& set) {
+    REQUIRE(set.pairBegin.size() == tool.leafCount() + 1);
+    CHECK(std::is_sorted(set.source.begin(), set.source.end()));
+    CHECK(set.pairBegin.front() == 0);
+    CHECK(set.pairBegin.back() == set.pairSphere.size());
+    size_t wrong = 0;
+    for (size_t leaf = 0; leaf < tool.leafCount(); ++leaf) {
+        uint32_t at = set.pairBegin[leaf];
+        for (uint32_t band = 0; band < ContactSet::kGapBands; ++band) {
+            for (; at < set.pairBandEnd[leaf * ContactSet::kGapBands + band]; ++at) {
+                const uint32_t s = set.pairSphere[at];
+                const dvec3 centre(set.x[s], set.y[s], set.z[s]);
+                const double gap = glm::distance(set.leafAtQuery[leaf], centre) -
+                                   (tool.leaves()[leaf].radius + set.radius[s]);
+                wrong += set.bandOf(gap) == band ? 0 : 1;
+                wrong += set.pairX[at] == set.x[s] && set.pairY[at] == set.y[s] && set.pairZ[at] == set.z[s] ? 0 : 1;
+                wrong += set.pairRadius[at] == set.radius[s] ? 0 : 1;
+            }
+        }
+        wrong += at == set.pairBegin[leaf + 1] ? 0 : 1;
+    }
+    CHECK(wrong == 0);
+}
+
+void checkPairs(const Tool& tool, const Pose& pose, const Fixtures& fixtures, const ContactSet& set) {
+    std::set<std::pair<uint32_t, uint32_t>> listed;
+    for (uint32_t leaf = 0; leaf < tool.leafCount(); ++leaf) {
+        for (uint32_t k = set.pairBegin[leaf]; k < set.pairBegin[leaf + 1]; ++k) {
+            listed.insert({leaf, set.source[set.pairSphere[k]]});
+        }
+    }
+    CHECK(listed.size() == set.pairSphere.size());
+    const std::vector<OraclePair> within = oraclePairs(tool, pose, set.reach, fixtures);
+    size_t missed = 0;
+    for (const OraclePair& pair : within) {
+        missed += listed.count({pair.leaf, pair.source}) == 0 ? 1 : 0;
+    }
+    CHECK(missed == 0);
+    CHECK(listed.size() <= oraclePairs(tool, pose, set.reach + 2e-9, fixtures).size());
+}
+
+} // namespace
+
+TEST_CASE("The cull returns exactly the spheres of brute force, for tools of 1 to 4096 leaves") {
+    std::mt19937_64 random(11);
+    size_t total = 0;
+    for (const size_t leaves : {1, 2, 3, 37, 256, 1023, 4096}) {
+        const Tool tool = randomTool(random, leaves, 0.15, 0.008);
+        const Fixtures fixtures = randomCloud(random, leaves > 1000 ? 1500 : 4001, 0.4, 0.001, 0.06);
+        Query query;
+        for (const double reach : {0.0, 0.001, 0.01, 0.05}) {
+            const Pose pose{randomIn(random, 0.2), randomRotation(random)};
+            const ContactSet& set = query(tool, pose, reach, fixtures);
+            CHECK(set.source == oracleSources(tool, pose, reach, fixtures));
+            CHECK(set.reach == reach);
+            checkShape(tool, set);
+            checkPairs(tool, pose, fixtures, set);
+            total += set.size();
+        }
+    }
+    MESSAGE("spheres in all sets: " << total);
+    CHECK(total > 2000);
+}
+
+TEST_CASE("The cull equals brute force when the base frame's origin is kilometres away") {
+    std::mt19937_64 random(12);
+    Fixtures fixtures = randomCloud(random, 3000, 0.4, 0.005, 0.05);
+    fixtures.origin = dvec3(48123.75, -91234.5, 1234.125);
+    const Tool tool = randomTool(random, 100, 0.1, 0.01);
+    Query query;
+    size_t total = 0;
+    for (int k = 0; k < 20; ++k) {
+        const Pose pose{fixtures.origin + randomIn(random, 0.4), randomRotation(random)};
+        const ContactSet& set = query(tool, pose, 0.01, fixtures);
+        CHECK(set.source == oracleSources(tool, pose, 0.01, fixtures));
+        checkPairs(tool, pose, fixtures, set);
+        total += set.size();
+    }
+    CHECK(total > 1000);
+}
+
+TEST_CASE("A tool kilometres from the origin loses certified reach to rounding and misses no pair within it") {
+    std::mt19937_64 random(13);
+    Fixtures fixtures = emptySet();
+    const dvec3 far(3000.0, -2000.0, 500.0);
+    for (int i = 0; i < 3000; ++i) {
+        addSphere(fixtures, far + randomIn(random, 0.3), 0.03);
+    }
+    const Tool tool = randomTool(random, 50, 0.1, 0.01);
+    Query query;
+    const Pose pose{far, randomRotation(random)};
+    const ContactSet& set = query(tool, pose, 0.01, fixtures);
+    MESSAGE("certified of 10 mm at 3.6 km [mm]: " << set.reach * 1e3);
+    CHECK(set.reach < 0.01);
+    CHECK(set.reach > 0.009);
+    CHECK(set.source == oracleSources(tool, pose, 0.01, fixtures));
+    checkPairs(tool, pose, fixtures, set);
+}
+
+TEST_CASE("No spheres, or none in reach, give an empty set that certifies its reach") {
+    std::mt19937_64 random(14);
+    const Tool tool = randomTool(random, 9, 0.1, 0.01);
+    Query query;
+    CHECK(query(tool, Pose{}, 0.01, emptySet()).size() == 0);
+    CHECK(query.set.reach == 0.01);
+    CHECK(query.set.pairBegin.size() == 10);
+    Fixtures one = emptySet(5);
+    addSphere(one, dvec3(2.0), 0.04);
+    CHECK(query(tool, Pose{}, 0.01, one).size() == 0);
+    CHECK(query.set.frame == 5);
+    CHECK(query.set.generation == 5);
+    CHECK(query(tool, Pose{dvec3(2.0), {}}, 0.01, one).size() == 1);
+    CHECK(query.cull.statistics().queries == 3);
+    CHECK(query.cull.statistics().overflows == 0);
+}
+
+TEST_CASE("Radii of 0.1 mm to 10 m in one cloud are all found") {
+    std::mt19937_64 random(15);
+    const Fixtures fixtures = randomCloud(random, 2000, 12.0, 1e-4, 10.0);
+    const Tool tool = randomTool(random, 20, 0.3, 0.02);
+    Query query;
+    for (int k = 0; k < 10; ++k) {
+        const Pose pose{randomIn(random, 12.0), randomRotation(random)};
+        const ContactSet& set = query(tool, pose, 0.01, fixtures);
+        CHECK(set.source == oracleSources(tool, pose, 0.01, fixtures));
+        checkPairs(tool, pose, fixtures, set);
+    }
+}
+
+TEST_CASE("An overflow halves the reach until the answer fits, certifies that, and doubles the capacity for the next") {
+    std::mt19937_64 random(16);
+    Fixtures fixtures = emptySet();
+    addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.1, 0.002, 0.01);
+    const Tool tool = ballTool(0.01);
+    const Pose pose{dvec3(0, 0, 0.021), {}}; // 1 mm above the wall
+    SUBCASE("by spheres") {
+        Query query({40, 1000000});
+        const ContactSet& set = query(tool, pose, 0.016, fixtures);
+        CHECK(set.size() <= 40);
+        CHECK(set.reach < 0.016);
+        CHECK(std::exp2(std::round(std::log2(0.016 / set.reach))) == doctest::Approx(0.016 / set.reach));
+        CHECK(set.source == oracleSources(tool, pose, set.reach, fixtures));
+        CHECK(oracleSources(tool, pose, 2.0 * set.reach, fixtures).size() > 40);
+        checkPairs(tool, pose, fixtures, set);
+        CHECK(query.cull.statistics().overflows == 1);
+        CHECK(query.cull.capacity().spheres == 80);
+    }
+    SUBCASE("by pairs") {
+        Query query({1000000, 40});
+        const ContactSet& set = query(tool, pose, 0.016, fixtures);
+        CHECK(set.pairSphere.size() <= 40);
+        CHECK(set.source == oracleSources(tool, pose, set.reach, fixtures));
+        checkPairs(tool, pose, fixtures, set);
+        CHECK(query.cull.capacity().pairs == 80);
+    }
+    SUBCASE("until it fits without") {
+        Query query({40, 1000000});
+        double last = 0.0;
+        for (int k = 0; k < 12; ++k) {
+            last = query(tool, pose, 0.016, fixtures).reach;
+        }
+        CHECK(last == 0.016);
+        CHECK(query.cull.statistics().overflows < 8);
+    }
+    SUBCASE("touching spheres alone that do not fit raise the capacity at once") {
+        Query query({8, 8});
+        const Pose deep{dvec3(0, 0, 0.012), {}};
+        const ContactSet& set = query(tool, deep, 0.016, fixtures);
+        CHECK(set.size() > 8);
+        CHECK(set.source == oracleSources(tool, deep, set.reach, fixtures));
+        checkPairs(tool, deep, fixtures, set);
+    }
+}
+
+TEST_CASE("The time of a query at 10 mm reach, 60 k spheres and 256 leaves in contact, is printed") {
+    std::mt19937_64 random(17);
+    Fixtures fixtures = emptySet();
+    addWall(fixtures, dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.2144, 0.00175, 0.04);
+    const Tool tool = randomTool(random, 256, 0.06, 0.008);
+    Query query;
+    std::vector<double> times;
+    for (int k = 0; k < 60; ++k) {
+        Pose pose{dvec3(0.0), randomRotation(random)};
+        pose.position.z = 0.0;
+        double lowest = 1.0;
+        for (const Sphere& leaf : tool.leaves()) {
+            lowest = std::min(lowest, (pose.rotation * leaf.centre).z - leaf.radius);
+        }
+        pose.position.z = 0.04 - lowest - 0.002;
+        query.grid.build(fixtures.spheres);
+        const auto start = std::chrono::steady_clock::now();
+        query.cull.query(tool, pose, 0.01, fixtures, query.grid, query.set);
+        const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+        times.push_back(took.count());
+    }
+    std::sort(times.begin(), times.end());
+    MESSAGE(fixtures.spheres.size() << " spheres, query p50 " << times[times.size() / 2] << " us, most spheres "
+                                    << query.cull.statistics().spheresMax << ", most pairs "
+                                    << query.cull.statistics().pairsMax);
+    CHECK(query.set.size() > 0);
+}

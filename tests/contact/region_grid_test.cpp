@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/region_grid.h"
+
+#include "tests/contact/clouds.h"
+
+#include <chrono>
+#include <doctest/doctest.h>
+#include <limits>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// Every sphere whose centre is within distance must be visited, and none twice. Returns how many were.
+size_t checkAgainstBruteForce(const RegionSpheres& spheres, const RegionGrid& grid, const dvec3& point,
+                              double distance) {
+    std::vector<int> visits(spheres.size(), 0);
+    grid.forEachNear(point, distance, [&](uint32_t i) { ++visits[i]; });
+    size_t missed = 0, twice = 0, visited = 0;
+    for (size_t i = 0; i < spheres.size(); ++i) {
+        const double d = glm::distance(point, dvec3(spheres.x[i], spheres.y[i], spheres.z[i]));
+        missed += d <= distance && visits[i] == 0 ? 1 : 0;
+        twice += visits[i] > 1 ? 1 : 0;
+        visited += visits[i] != 0 ? 1 : 0;
+    }
+    CHECK(missed == 0);
+    CHECK(twice == 0);
+    return visited;
+}
+
+} // namespace
+
+TEST_CASE("The grid of nothing visits nothing") {
+    RegionGrid grid;
+    grid.build(RegionSpheres{});
+    CHECK(grid.size() == 0);
+    CHECK(grid.maxRadius() == 0.0);
+    grid.forEachNear(dvec3(0.0), 1e9, [](uint32_t) { FAIL("visited"); });
+}
+
+TEST_CASE("The grid finds one sphere, and as many equal ones as there are") {
+    for (const size_t count : {size_t{1}, size_t{1000}}) {
+        Fixtures set = emptySet();
+        for (size_t i = 0; i < count; ++i) {
+            addSphere(set, dvec3(0.5, -0.25, 2.0), 0.04);
+        }
+        RegionGrid grid;
+        grid.build(set.spheres);
+        CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(0.5, -0.25, 2.0), 0.0) == count);
+        CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(0.5, -0.25, 2.1), 0.11) == count);
+        CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(0.5, -0.25, 9.0), 0.1) == 0);
+    }
+}
+
+TEST_CASE("The grid misses no sphere of random clouds, whatever the radii and the extent") {
+    std::mt19937_64 random(7);
+    const double halves[] = {0.001, 0.3, 5.0, 20000.0};
+    for (const double half : halves) {
+        const Fixtures set = randomCloud(random, 3001, half, 1e-4, 10.0);
+        RegionGrid grid;
+        grid.build(set.spheres);
+        CHECK(grid.size() == set.spheres.size());
+        for (int k = 0; k < 60; ++k) {
+            const dvec3 point = randomIn(random, half * 1.3);
+            for (const double distance : {0.0, half * 0.01, half * 0.2, half * 3.0}) {
+                checkAgainstBruteForce(set.spheres, grid, point, distance);
+            }
+            const size_t own = static_cast<size_t>(k);
+            const dvec3 at(set.spheres.x[own], set.spheres.y[own], set.spheres.z[own]);
+            CHECK(checkAgainstBruteForce(set.spheres, grid, at, 0.0) >= 1);
+        }
+    }
+}
+
+TEST_CASE("One far outlier costs neither memory nor an answer") {
+    std::mt19937_64 random(8);
+    Fixtures set = randomCloud(random, 2000, 0.5, 0.01, 0.04);
+    addSphere(set, dvec3(1e6, -2e6, 3e7), 0.04);
+    RegionGrid grid;
+    grid.build(set.spheres);
+    CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(1e6, -2e6, 3e7), 10.0) == 1);
+    checkAgainstBruteForce(set.spheres, grid, dvec3(0.1, 0.2, 0.3), 0.2);
+}
+
+TEST_CASE("Spheres that are not finite are left out and the others are found") {
+    Fixtures set = emptySet();
+    addSphere(set, dvec3(0.0), 0.04);
+    addSphere(set, dvec3(std::numeric_limits<double>::quiet_NaN()), 0.04);
+    addSphere(set, dvec3(std::numeric_limits<double>::infinity()), 0.04);
+    addSphere(set, dvec3(0.1), 0.04);
+    RegionGrid grid;
+    grid.build(set.spheres);
+    CHECK(grid.size() == 2);
+    std::vector<uint32_t> seen;
+    grid.forEachNear(dvec3(0.05), 1.0, [&](uint32_t i) { seen.push_back(i); });
+    std::sort(seen.begin(), seen.end());
+    CHECK(seen == std::vector<uint32_t>{0, 3});
+}
+
+TEST_CASE("Building again forgets what was there before") {
+    std::mt19937_64 random(9);
+    RegionGrid grid;
+    grid.build(randomCloud(random, 500, 1.0, 0.01, 0.04).spheres);
+    const Fixtures set = randomCloud(random, 77, 0.2, 0.01, 0.02);
+    grid.build(set.spheres);
+    CHECK(checkAgainstBruteForce(set.spheres, grid, dvec3(0.0), 10.0) == 77);
+}
+
+TEST_CASE("The time to build the grid of 60 k and 300 k spheres is printed") {
+    for (const int side : {245, 548}) {
+        Fixtures set = emptySet();
+        const double spacing = 1.0 / side;
+        addWall(set, dvec3(0, 0, 1), dvec3(1, 0, 0), glm::normalize(dvec3(0, 1, 0.5)), 0.5, spacing, 0.04);
+        RegionGrid grid;
+        double best = 1e9;
+        for (int k = 0; k < 10; ++k) {
+            const auto start = std::chrono::steady_clock::now();
+            grid.build(set.spheres);
+            const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+            best = std::min(best, took.count());
+        }
+        MESSAGE(set.spheres.size() << " spheres: " << best << " ms");
+        CHECK(grid.size() == set.spheres.size());
+    }
+}

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/contact_cycle.h"
+
+#include "devices/simulated/analytic_scene.h"
+#include "devices/simulated/simulated_camera.h"
+#include "engine/cycle/frame_cycle.h"
+#include "tests/support/vulkan.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace fathom;
+using fathom::test::vulkan;
+
+namespace {
+
+Scene twoValves(double budget, double hold) {
+    Scene scene;
+    FixtureClass red;
+    red.name = "red";
+    red.hue = Band{345, 20};
+    red.saturation = Band{0.4, 1};
+    FixtureClass yellow = red;
+    yellow.name = "yellow";
+    yellow.hue = Band{40, 70};
+    yellow.radius = 0.02;
+    scene.fixtures = {red, yellow};
+    scene.errorBudget = budget;
+    scene.holdSeconds = hold;
+    return scene;
+}
+
+// A tool of any leaf count: spheres in a ball of 5 cm.
+Tool randomTool(size_t leaves, uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> side(-0.05, 0.05), radius(0.002, 0.01);
+    std::vector<Sphere> spheres;
+    for (size_t i = 0; i < leaves; ++i) {
+        spheres.push_back({{side(random), side(random), side(random)}, radius(random)});
+    }
+    return Tool(buildSphereTree(spheres));
+}
+
+struct Rig {
+    Scene scene;
+    SimulatedCamera camera;
+    Plan plan;
+    FrameCycle frames;
+
+    Rig(Scene s, uint32_t frameCount)
+        : scene(std::move(s))
+        , camera(*analyticScene("tank"), options(frameCount))
+        , plan(planFor(scene, camera))
+        , frames(vulkan().device, scene, camera.info(), plan, 2) {
+        while (auto frame = camera.next()) {
+            frames.process(std::move(*frame));
+        }
+    }
+    static SimulatedCameraOptions options(uint32_t count) {
+        SimulatedCameraOptions o;
+        o.width = 320;
+        o.height = 240;
+        o.frames = count;
+        return o;
+    }
+    static Plan planFor(Scene& scene, const SimulatedCamera& camera) {
+        scene.contact.where = Scene::Contact::Where::Gpu; // the sets keep what the GPU query reads
+        return makePlan(scene, camera.info(), 1, vulkan().device.facts());
+    }
+};
+
+void checkEqual(const ContactSet& a, const ContactSet& b) {
+    CHECK(a.reach == b.reach);
+    CHECK(a.source == b.source);
+    CHECK(a.x == b.x);
+    CHECK(a.radius == b.radius);
+    CHECK(a.fixture == b.fixture);
+    CHECK(a.pairBegin == b.pairBegin);
+    CHECK(a.pairSphere == b.pairSphere);
+    CHECK(a.behind.size() == b.behind.size());
+}
+
+size_t compareQueries(Rig& rig, const Tool& tool, double reach, uint32_t seed) {
+    Plan onCpu = rig.plan;
+    onCpu.query = Plan::Query::Cpu;
+    ContactCycle cpu(vulkan().device, onCpu, rig.frames.layout(), rig.frames.sets(), tool, reach);
+    ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach);
+    const auto set = rig.frames.sets().newest();
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> x(-0.25, 0.25), z(0.6, 1.0), turn(-3.0, 3.0);
+    size_t found = 0;
+    for (int i = 0; i < 20; ++i) {
+        const Pose pose{{x(random), 0.3 * x(random), z(random)}, rotationExp({turn(random), turn(random), turn(random)})};
+        ContactSet a, b;
+        cpu.query(*set, pose, a);
+        gpu.query(*set, pose, b);
+        checkEqual(a, b);
+        found += a.size();
+    }
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("the query on the GPU and on the CPU give equal contact sets for tools of 1 to 4096 leaves") {
+    Rig rig(twoValves(0.0001, 0.5), 3);
+    for (size_t leaves : {1u, 8u, 300u, 4096u}) {
+        CHECK(compareQueries(rig, randomTool(leaves, 7), 0.01, 11) > 0);
+    }
+}
+
+TEST_CASE("both queries agree for a reach of nothing and a reach over the whole scene") {
+    Rig rig(twoValves(0.0, 0.0), 1);
+    const Tool tool = randomTool(5, 3);
+    compareQueries(rig, tool, 0.0001, 5);
+    const size_t all = compareQueries(rig, tool, 0.9, 5);
+    CHECK(all > 20 * rig.frames.sets().newest()->host.spheres.size() / 2);
+}
+
+TEST_CASE("an overflowing GPU answer halves its reach, certifies it, and doubles the capacity for the next") {
+    Rig rig(twoValves(0.0, 0.0), 1);
+    const Tool tool = randomTool(3, 3);
+    cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 16);
+    const auto set = rig.frames.sets().newest();
+    PosedLeaves leaves;
+    const Pose pose{{-0.15, 0, 0.80}, {1, 0, 0, 0}};
+    poseLeaves(tool, pose, set->host.origin, leaves);
+    std::vector<uint32_t> found;
+    CHECK_FALSE(query.cull(*set, leaves, pose, 0.5f, found));
+    while (query.capacity() < set->host.spheres.size()) {
+        query.grow();
+    }
+    CHECK(query.cull(*set, leaves, pose, 0.5f, found));
+    CHECK(found.size() > 16);
+}
+
+TEST_CASE("a scene without forbidden points lets the tool go anywhere and asks no device") {
+    Scene scene = twoValves(0.0, 0.0);
+    for (FixtureClass& f : scene.fixtures) {
+        f.role = Role::Guidance;
+    }
+    Rig rig(scene, 1);
+    CHECK(rig.plan.query == Plan::Query::None);
+    const Tool tool = randomTool(2, 1);
+    ContactCycle contact(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 0.01);
+    ContactSet set;
+    contact.query(*rig.frames.sets().newest(), Pose{}, set);
+    CHECK(set.size() == 0);
+    CHECK(set.reach >= 100.0);
+    CHECK(set.frame == 0);
+    CHECK(contact.statistics().queries == 0);
+}
