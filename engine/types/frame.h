@@ -41,6 +41,9 @@ public:
         }
     }
 
+    // Gives the frame another capture time [s]: lockstep runs on a clock of its own.
+    void retime(double captureTime) { content_.captureTime = captureTime; }
+
     const Content* operator->() const { return &content_; }
     const Content& operator*() const { return content_; }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hue, saturation and lightness gates on stored sRGB bytes (hexagonal HSL), decided on the integers behind the
 // fractions: with m = max, d = max - min, hue = 60 (k d + difference) / d, S = d / (255 - |max + min - 255|),
-// L = (max + min) / 510. Products instead of quotients, and a slack of 1e-4 grey levels, make the inclusive bounds hold
-// exactly on every device for bounds of up to three decimals.
+// L = (max + min) / 510. Products instead of quotients, and a slack of what float32 rounds away of a bound and of the product,
+// make the inclusive bounds hold on every device: a colour exactly on a bound is inside.
 
-const float kSlack = 1e-4;
+float slackOf(float product) {
+    return 1e-4 + 1.3e-7 * product;
+}
 
 bool inBand(float value, float lo, float hi, float scale) {
-    return value >= lo * scale - kSlack && value <= hi * scale + kSlack;
+    return value >= lo * scale - slackOf(lo * scale) && value <= hi * scale + slackOf(hi * scale);
 }
 
 bool passesColour(uint rgba, vec4 hue, vec4 satLight) {
@@ -32,5 +34,5 @@ bool passesColour(uint rgba, vec4 hue, vec4 satLight) {
     if (hue.w == 0.0) {
         return inBand(h, hue.x, hue.y, scale);
     }
-    return h >= hue.x * scale - kSlack || h <= hue.y * scale + kSlack;
+    return h >= hue.x * scale - slackOf(hue.x * scale) || h <= hue.y * scale + slackOf(hue.y * scale);
 }

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/open_source.h"
+
+#include "devices/recorded/recorded_camera.h"
+#include "devices/simulated/analytic_scene.h"
+#include "devices/simulated/simulated_camera.h"
+#include "engine/model/sph_file.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+namespace {
+
+std::unique_ptr<Camera> openSimulated(const Scene& scene) {
+    const auto solids = analyticScene(scene.source.value);
+    if (!solids) {
+        throw BadInput(scene.file.string(), "camera.source.simulated", scene.source.value,
+                       "tank, sphere, plane, torus, slot, gap, plate, corner");
+    }
+    SimulatedCameraOptions options;
+    options.baseTscene = scene.baseTcamera;
+    return std::make_unique<SimulatedCamera>(*solids, options);
+}
+
+} // namespace
+
+std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source) {
+    if (source) {
+        return std::make_unique<RecordedCamera>(*source);
+    }
+    switch (scene.source.kind) {
+    case CameraSource::Kind::Simulated: return openSimulated(scene);
+    case CameraSource::Kind::Recorded: return std::make_unique<RecordedCamera>(scene.source.value);
+    case CameraSource::Kind::V4l2: break;
+    }
+    throw BadInput(scene.file.string(), "camera.source.v4l2", scene.source.value,
+                   "simulated or recorded: this build has no live camera");
+}
+
+Tool openTool(const Scene& scene) {
+    try {
+        if (!scene.tool.file.empty()) {
+            return Tool(readSph(scene.tool.file));
+        }
+        std::vector<Sphere> leaves;
+        for (const auto& [x, y, z, r] : scene.tool.spheres) {
+            leaves.push_back({{x, y, z}, r});
+        }
+        return Tool(buildSphereTree(leaves));
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(scene.file.string(), "tool", e.what(), "1 to 4096 spheres with finite centres and positive radii");
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not hold or an internal
+// error, 2 bad input, 3 device lost.
+#include "apps/global_options.h"
+#include "apps/plan/plan_command.h"
+#include "apps/replay/replay_command.h"
+#include "engine/types/error.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+namespace {
+
+int run(int argc, char** argv) {
+    CLI::App app("Haptic virtual fixtures from a live depth camera");
+    app.require_subcommand(1);
+    fathom::GlobalOptions global;
+    app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
+    app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and turns");
+    app.add_flag("-v,--verbose", global.verbose, "log more");
+    app.fallthrough();
+    app.parse_complete_callback([&global] {
+        spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn);
+    });
+    fathom::addPlanCommand(app, global);
+    int result = 0;
+    fathom::addReplayCommand(app, global, result);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        return app.exit(e) == 0 ? 0 : 2;
+    }
+    return result;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    spdlog::set_default_logger(spdlog::stderr_logger_mt("fathom"));
+    spdlog::set_pattern("%l: %v");
+    try {
+        return run(argc, argv);
+    } catch (const fathom::Error& e) {
+        std::cerr << "fathom: " << e.what() << "\n";
+        return e.exitCode();
+    } catch (const std::exception& e) {
+        std::cerr << "fathom: internal error: " << e.what() << "\n";
+        return 1;
+    }
+}

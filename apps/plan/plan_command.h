@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom plan SCENE`: what a scene gets on a device, what is left out, and why.
+#pragma once
+
+#include "apps/global_options.h"
+#include "engine/scene/plan.h"
+
+#include <CLI/CLI.hpp>
+#include <ostream>
+
+namespace fathom {
+
+void addPlanCommand(CLI::App& app, const GlobalOptions& global);
+
+// One line an item: kind, name, in or out, bytes, reason.
+void printPlan(std::ostream& out, const Plan& plan);
+
+} // namespace fathom

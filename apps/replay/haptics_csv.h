@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Writes haptics.csv, one row a tick, in constant memory, and the digest over its numbers.
+#pragma once
+
+#include "apps/replay/csv.h"
+#include "apps/replay/digest.h"
+#include "apps/replay/output_file.h"
+#include "apps/replay/tick_record.h"
+
+namespace fathom {
+
+class HapticsCsv {
+public:
+    explicit HapticsCsv(const std::filesystem::path& file); // throws Error that names the file, as all do
+    void add(const TickRecord& tick);
+    void commit();
+    std::string digest() const { return digest_.hex(); }
+
+    static constexpr const char* kHeader =
+        "t_s,dev_x,dev_y,dev_z,dev_qw,dev_qx,dev_qy,dev_qz,tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_"
+        "qz,"
+        "fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,stalled,margin_passive,"
+        "margin_uncoupled";
+
+private:
+    OutputFile file_;
+    CsvRow row_;
+    Digest digest_;
+};
+
+} // namespace fathom

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/lockstep_replay.h"
+
+#include "apps/replay/progress.h"
+#include "apps/replay/turn_to_tick.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kClockSlack = 1e-9; // [s] a frame due at a tick's own time is in force in that tick
+
+double micros(std::chrono::steady_clock::time_point since) {
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - since).count();
+}
+
+} // namespace
+
+LockstepReplay::LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder)
+    : session_(session)
+    , options_(options)
+    , recorder_(recorder)
+    , shapes_(shapesOf(session.scene))
+    , haptics_(makeHapticOptions(session.scene, session.tool))
+    , audit_(session.tool) {}
+
+void LockstepReplay::fetch() {
+    next_ = session_.camera->next();
+    if (next_) {
+        nextTime_ = (*next_)->index * kFramePeriod;
+        next_->retime(nextTime_);
+    } else {
+        sourceEnded_ = true;
+    }
+}
+
+void LockstepReplay::processNext() {
+    lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
+    ready_ = session_.frames.process(std::move(*next_));
+    next_.reset();
+    const auto set = session_.frames.sets().newest();
+    if (!ready_->unchanged) {
+        kept_.push_back(std::make_unique<Kept>(Kept{set->host, set->grid}));
+    }
+}
+
+void LockstepReplay::takeDueFrames(double t) {
+    while ((next_ || ready_) && nextTime_ <= t + kClockSlack) {
+        if (!ready_) {
+            processNext();
+        }
+        recorder_.frame(*ready_, nextTime_, kept_.back()->fixtures);
+        ready_.reset();
+        lastFrameTime_ = nextTime_;
+        published_ = true;
+        ++framesDone_;
+        fetch();
+    }
+}
+
+bool LockstepReplay::ended(double t) const {
+    const double frames = sourceEnded_ ? lastFrameTime_ + kFramePeriod : t + 1.0;
+    return t >= std::max(frames, pathStart_ + path_->duration()) - kClockSlack;
+}
+
+void LockstepReplay::query(double) {
+    if (published_) {
+        auto answer = std::make_unique<ContactSet>();
+        const auto start = std::chrono::steady_clock::now();
+        session_.contact.query(*session_.frames.sets().newest(), cycle_->pose(), *answer);
+        recorder_.query(micros(start));
+        answers_.push_back(std::move(answer));
+    }
+    if (answers_.size() > session_.scene.contact.delay) {
+        offered_ = std::move(answers_.front());
+        answers_.pop_front();
+    }
+}
+
+const LockstepReplay::Kept* LockstepReplay::keptSet(uint64_t generation) const {
+    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& k) { return k->fixtures.generation == generation; });
+    return found == kept_.end() ? nullptr : found->get();
+}
+
+void LockstepReplay::dropOldSets() {
+    while (kept_.size() > 1 && inForce_ && kept_.front()->fixtures.generation < inForce_->generation) {
+        kept_.pop_front();
+    }
+}
+
+void LockstepReplay::audit(const TurnRecord& record, const Pose& start) {
+    const Kept* obeyed = inForce_ ? keptSet(inForce_->generation) : nullptr;
+    if (obeyed == nullptr || !session_.plan.spheres) {
+        return;
+    }
+    std::vector<uint32_t> behind;
+    for (const ContactSet::Behind& b : inForce_->behind) {
+        behind.push_back(b.leaf);
+    }
+    audit_.tick(obeyed->fixtures, obeyed->grid, start, record.tool, behind);
+}
+
+void LockstepReplay::tick(double t) {
+    TurnInput input;
+    const HandSample sample = hand_->read(std::max(0.0, t - pathStart_));
+    input.time = t;
+    input.deviceThandle = sample.deviceThandle;
+    input.buttons = sample.buttons;
+    input.contacts = inForce_.get();
+    input.offered = offered_.get();
+    if (published_) {
+        const Fixtures& newest = kept_.back()->fixtures;
+        input.frame = newest.frame;
+        input.generation = newest.generation;
+        input.captureTime = lastFrameTime_;
+        input.guidance = newest.guidance;
+    }
+    input.sourceEnded = sourceEnded_;
+
+    const Pose start = cycle_->pose();
+    const auto began = std::chrono::steady_clock::now();
+    const TurnRecord record = cycle_->turn(input);
+    const double took = micros(began);
+    if (record.adopted) {
+        inForce_ = std::move(offered_);
+        dropOldSets();
+    }
+    hand_->write(record.deviceWrench, haptics_.period);
+    audit(record, start);
+    recorder_.tick(tickOf(record, took, took > haptics_.period * 1e6));
+    ++ticks_;
+}
+
+ReplayRecorder::Ending LockstepReplay::run() {
+    fetch();
+    if (!next_) {
+        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
+    }
+    pathStart_ = nextTime_;
+    processNext(); // early: the built-in path needs the first set; it is in force from its own time on
+    path_.emplace(openHandPath(session_, options_, *session_.frames.sets().newest()));
+    hand_ = openHand(*path_, session_, options_);
+    cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle);
+
+    Progress progress;
+    for (double t = 0.0; !ended(t); t = static_cast<double>(ticks_) * haptics_.period) {
+        takeDueFrames(t);
+        query(t);
+        tick(t);
+        progress.update({framesDone_, 0, ticks_, t});
+    }
+    progress.finish();
+
+    ReplayRecorder::Ending ending;
+    ending.skipped = session_.camera->skipped();
+    ending.contact = session_.contact.statistics();
+    ending.where = session_.where();
+    ending.maxPenetration = audit_.maxPenetration();
+    ending.maxEscapeDepth = audit_.maxEscapeDepth();
+    ending.stiffness = cycle_->springs().stiffness;
+    ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
+    ending.device = session_.device.facts().name;
+    ending.title = session_.title();
+    ending.forceLimit = haptics_.forceLimit;
+    ending.torqueLimit = haptics_.torqueLimit;
+    ending.camera = session_.frames.camera();
+    ending.colour = lastColour_;
+    ending.lastSet = &kept_.back()->fixtures;
+    ending.leaves = session_.tool.leaves();
+    return ending;
+}
+
+} // namespace fathom

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lockstep: all cadences on one thread, on the run's own clock. Nothing measured enters what is written to haptics.csv.
+#pragma once
+
+#include "apps/replay/replay_recorder.h"
+#include "apps/replay/replay_session.h"
+#include "engine/cycle/haptic_cycle.h"
+#include "engine/reference/penetration_audit.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+namespace fathom {
+
+// Tick i is at i / rate_hz, frame j at j / 30 s whatever its stamp, in force from the first tick at or after that. One contact query
+// before every turn at the pose the turn starts from, in force contact.delay ticks later. Ends when the frames (plus 1/30 s) and the
+// hand path both have.
+class LockstepReplay {
+public:
+    LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder);
+
+    // Runs to the end and hands over what only the loop knows.
+    ReplayRecorder::Ending run();
+
+    static constexpr double kFramePeriod = 1.0 / 30.0; // [s]
+
+private:
+    // A published set, kept for the audit as long as some contact set may still obey it.
+    struct Kept {
+        Fixtures fixtures;
+        RegionGrid grid;
+    };
+
+    void fetch();               // the next usable frame from the camera, stamped with its lockstep time
+    void processNext();         // through the frame cycle
+    void takeDueFrames(double t);
+    bool ended(double t) const;
+    void query(double t);
+    void tick(double t);
+    void audit(const TurnRecord& record, const Pose& start);
+    const Kept* keptSet(uint64_t generation) const;
+    void dropOldSets();
+
+    ReplaySession& session_;
+    const ReplayOptions& options_;
+    ReplayRecorder& recorder_;
+    std::vector<Shape> shapes_;
+    HapticOptions haptics_;
+    std::optional<HandPath> path_;
+    std::unique_ptr<HapticDevice> hand_;
+    std::optional<HapticCycle> cycle_;
+    PenetrationAudit audit_;
+
+    std::optional<Frame> next_;      // fetched, not yet due
+    std::optional<FrameReport> ready_; // processed, not yet due
+    double nextTime_ = 0.0;          // [s] of next_ or ready_
+    double lastFrameTime_ = 0.0;     // [s] of the newest frame in force
+    double pathStart_ = 0.0;         // [s]
+    bool published_ = false;         // some set is in force
+    bool sourceEnded_ = false;
+    std::vector<uint32_t> lastColour_;
+
+    std::deque<std::unique_ptr<Kept>> kept_;
+    std::deque<std::unique_ptr<ContactSet>> answers_; // asked, not yet due; oldest first
+    std::unique_ptr<ContactSet> inForce_, offered_;
+    uint64_t ticks_ = 0, framesDone_ = 0;
+};
+
+} // namespace fathom

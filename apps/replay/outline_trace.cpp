@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/silhouette.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace fathom {
+
+namespace {
+
+struct Corner {
+    int u, v; // a corner of pixels: the top left one of pixel (u, v)
+};
+
+// Walks along the border of a mask, pixels inside on the right hand.
+class Walker {
+public:
+    Walker(const std::vector<uint8_t>& mask, int width, int height)
+        : mask_(mask)
+        , width_(width)
+        , height_(height)
+        , seen_(mask.size()) {}
+
+    bool inside(int u, int v) const {
+        return u >= 0 && v >= 0 && u < width_ && v < height_ && mask_[at(u, v)] != 0;
+    }
+    // A top edge (the pixel is inside, the one above is not) that no walk has taken.
+    bool fresh(int u, int v) const { return inside(u, v) && !inside(u, v - 1) && seen_[at(u, v)] == 0; }
+
+    std::vector<Corner> walk(int u, int v) {
+        std::vector<Corner> corners;
+        Corner here{u, v};
+        int heading = 0; // 0 right, 1 down, 2 left, 3 up
+        do {
+            corners.push_back(here);
+            if (heading == 0) {
+                seen_[at(here.u, here.v)] = 1;
+            }
+            here.u += kStepU[heading];
+            here.v += kStepV[heading];
+            heading = next(here, heading);
+        } while (here.u != u || here.v != v || heading != 0);
+        corners.push_back(here);
+        return corners;
+    }
+
+private:
+    static constexpr int kStepU[4] = {1, 0, -1, 0};
+    static constexpr int kStepV[4] = {0, 1, 0, -1};
+
+    size_t at(int u, int v) const {
+        return static_cast<size_t>(v) * static_cast<size_t>(width_) + static_cast<size_t>(u);
+    }
+
+    // Left when the pixel ahead to the left is inside (diagonal neighbours belong together), else straight on
+    // while the one ahead to the right is, else right.
+    int next(const Corner& c, int heading) const {
+        // The pixel that touches the corner: ahead-left and ahead-right of each heading, from the corner.
+        constexpr int kLeftU[4] = {0, 0, -1, -1}, kLeftV[4] = {-1, 0, 0, -1};
+        const int right = (heading + 1) % 4;
+        if (inside(c.u + kLeftU[heading], c.v + kLeftV[heading])) {
+            return (heading + 3) % 4;
+        }
+        return inside(c.u + kLeftU[right], c.v + kLeftV[right]) ? heading : right;
+    }
+
+    const std::vector<uint8_t>& mask_;
+    int width_, height_;
+    std::vector<uint8_t> seen_;
+};
+
+// Mean over a window along the line: takes the staircase out of a border between pixels.
+OutlineLine smooth(const OutlineLine& line, bool closed) {
+    const auto count =
+        static_cast<std::ptrdiff_t>(line.size()) - (closed ? 1 : 0); // a closed line repeats its start
+    const std::ptrdiff_t half = std::min<std::ptrdiff_t>(4, count / 8);
+    OutlineLine result;
+    for (std::ptrdiff_t i = 0; i < count; ++i) {
+        const std::ptrdiff_t reach = closed ? half : std::min({half, i, count - 1 - i});
+        glm::dvec2 sum(0.0);
+        for (std::ptrdiff_t k = -reach; k <= reach; ++k) {
+            sum += line[static_cast<size_t>((i + k + count) % count)];
+        }
+        result.push_back(sum / static_cast<double>(2 * reach + 1));
+    }
+    if (closed && !result.empty()) {
+        result.push_back(result.front());
+    }
+    return result;
+}
+
+// The pieces of a closed walk that do not run along the picture's edge.
+void appendPieces(const std::vector<Corner>& corners, int width, int height,
+                  std::vector<OutlineLine>& lines) {
+    const auto edge = [&](const Corner& a, const Corner& b) {
+        return (a.u == b.u && (a.u == 0 || a.u == width)) || (a.v == b.v && (a.v == 0 || a.v == height));
+    };
+    OutlineLine piece;
+    bool whole = true;
+    const size_t before = lines.size();
+    for (size_t i = 0; i < corners.size(); ++i) {
+        if (i > 0 && edge(corners[i - 1], corners[i])) {
+            whole = false;
+            if (piece.size() > 1) {
+                lines.push_back(smooth(piece, false));
+            }
+            piece.clear();
+        }
+        piece.emplace_back(corners[i].u, corners[i].v);
+    }
+    if (piece.size() < 2) {
+        return;
+    }
+    // The walk began inside the last piece: the first piece goes on from it.
+    lines.push_back(smooth(piece, whole));
+    if (!whole && lines.size() > before + 1 && lines[before].front() == lines.back().back()) {
+        lines.back().insert(lines.back().end(), lines[before].begin() + 1, lines[before].end());
+        lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(before));
+    }
+}
+
+} // namespace
+
+std::vector<OutlineLine> traceOutline(const std::vector<uint8_t>& mask, int width, int height, size_t least) {
+    std::vector<OutlineLine> lines;
+    Walker walker(mask, width, height);
+    for (int v = 0; v < height; ++v) {
+        for (int u = 0; u < width; ++u) {
+            if (walker.fresh(u, v)) {
+                const std::vector<Corner> corners = walker.walk(u, v);
+                if (corners.size() > least) {
+                    appendPieces(corners, width, height, lines);
+                }
+            }
+        }
+    }
+    return lines;
+}
+
+} // namespace fathom

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// One line on the terminal that follows the run and goes away at its end.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace fathom {
+
+struct ProgressCounts {
+    uint64_t framesDone = 0, framesTotal = 0; // total 0 = not known
+    uint64_t ticksDone = 0;
+    double runSeconds = 0.0; // [s] of the run done so far, by its own clock
+};
+
+// "frame 12 of 60, 31 frames/s, 8.4 k ticks/s, 2.1 s of run, 1.40 x real time".
+std::string progressText(const ProgressCounts& counts, double wallSeconds);
+
+// Silent unless `out` is a terminal. Rewrites its line ten times a second at most, so that update() can be
+// called each tick. Never throws: nobody's run fails because a terminal is gone.
+class Progress {
+public:
+    explicit Progress(std::FILE* out = stderr);
+    Progress(std::FILE* out, bool terminal);
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+    ~Progress() { finish(); }
+
+    void update(const ProgressCounts& counts) noexcept;
+    void finish() noexcept; // takes the line away; safe to repeat
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::FILE* out_;
+    bool terminal_;
+    bool shown_ = false;
+    uint32_t calls_ = 0;
+    Clock::time_point start_ = Clock::now();
+    Clock::time_point next_ = start_;
+};
+
+} // namespace fathom

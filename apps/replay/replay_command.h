@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom replay SCENE`: the main job headless. Frames in, hand motion in, wrench out.
+#pragma once
+
+#include "apps/global_options.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+namespace fathom {
+
+struct ReplayOptions {
+    std::filesystem::path scene;
+    std::string source;    // recording folder; empty = the scene's camera
+    std::string operatorCsv; // hand path; empty = the scene's
+    std::string query;     // cpu, gpu; empty = the scene's
+    bool hand = false;     // close the loop with the simulated hand
+    bool realtime = false;
+    bool saveFixtures = false;
+    std::filesystem::path out;
+};
+
+// result: 0, or 1 when a stated limit does not hold.
+void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result);
+
+} // namespace fathom

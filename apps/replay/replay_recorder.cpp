@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/replay_recorder.h"
+
+#include "apps/replay/fixtures_ply.h"
+#include "apps/replay/overlay_picture.h"
+#include "apps/replay/traces_plot.h"
+#include "engine/cloud/frame_params.h"
+
+#include <numeric>
+
+namespace fathom {
+
+namespace {
+
+std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
+    prepareOutputFolder(out, withFixtures);
+    return out;
+}
+
+FrameRecord recordOf(const FrameReport& report, double t, const std::vector<std::string>& passes) {
+    FrameRecord record;
+    record.index = report.index;
+    record.t = t;
+    record.valid = report.counts.valid;
+    record.forbiddenPoints = report.counts.forbidden;
+    record.spheres = report.counts.spheres;
+    record.patches = report.counts.patches;
+    record.nodes = report.counts.nodes;
+    record.guidanceCount = report.guidanceCount;
+    record.uploadMs = report.uploadMs;
+    for (size_t i = 0; i < passes.size(); ++i) {
+        record.passes.emplace_back(passes[i], report.passMs[i]);
+    }
+    record.publishMs = report.publishMs;
+    return record;
+}
+
+} // namespace
+
+ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes, bool saveFixtures)
+    : out_(prepared(std::move(out), saveFixtures))
+    , scene_(scene)
+    , saveFixtures_(saveFixtures)
+    , haptics_(out_ / "haptics.csv")
+    , frames_(out_ / "frames.csv", passes)
+    , passes_(std::move(passes))
+    , sums_(scene.fixtures.size()) {
+    for (const FixtureClass& f : scene.fixtures) {
+        if (f.isPoints() && f.role == Role::Guidance) {
+            ReplaySummary::GuidanceRow row;
+            row.name = f.name;
+            guidance_.push_back(row);
+        }
+    }
+}
+
+void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& set) {
+    frames_.add(recordOf(report, t, passes_));
+    ++frameCount_;
+    uploadMs_.push_back(static_cast<float>(report.uploadMs));
+    latencyMs_.push_back(static_cast<float>(report.latencyMs));
+    gpuMs_.push_back(static_cast<float>(std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0)));
+    const std::vector<uint32_t> rows = cloud::classRows(scene_);
+    for (size_t c = 0; c < rows.size() && c < report.counts.classPixels.size(); ++c) {
+        sums_[rows[c]].points += report.counts.classPixels[c];
+        sums_[rows[c]].spheres += report.counts.classSpheres[c];
+        sums_[rows[c]].patches += report.counts.classPatches[c];
+    }
+    addGuidance(set);
+    if (saveFixtures_ && !report.unchanged) {
+        writeFixturesPly(out_ / fixturesFileName(set.frame), set);
+    }
+}
+
+void ReplayRecorder::addGuidance(const Fixtures& set) {
+    for (size_t k = 0; k < set.guidance.size(); ++k) {
+        const GuidancePose& pose = set.guidance[k];
+        if (!pose.present) {
+            continue;
+        }
+        guidance_[k].position = pose.position;
+        guidance_[k].normal = pose.planar ? std::optional(pose.normal) : std::nullopt;
+        guidance_[k].target = pose.target;
+        guidance_[k].count = pose.count;
+    }
+}
+
+void ReplayRecorder::tick(const TickRecord& tick) {
+    haptics_.add(tick);
+    totals_.add(tick);
+    history_.add(tick);
+    lastTick_ = tick;
+}
+
+std::vector<ReplaySummary::FixtureRow> ReplayRecorder::fixtureRows() const {
+    std::vector<ReplaySummary::FixtureRow> rows;
+    for (size_t i = 0; i < scene_.fixtures.size(); ++i) {
+        const FixtureClass& f = scene_.fixtures[i];
+        ReplaySummary::FixtureRow row;
+        row.name = f.name;
+        row.role = f.keepIn ? "keep_in" : (f.role == Role::Forbidden ? "forbidden" : "guidance");
+        if (f.isPoints() && frameCount_ > 0) {
+            const double n = static_cast<double>(frameCount_);
+            row.pointsMean = sums_[i].points / n;
+            row.spheresMean = sums_[i].spheres / n;
+            row.patchesMean = sums_[i].patches / n;
+        }
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+void ReplayRecorder::writePictures(const Ending& ending) const {
+    TracesLabels labels;
+    labels.subtitle = ending.title;
+    labels.forceLimit = ending.forceLimit;
+    labels.torqueLimit = ending.torqueLimit;
+    writeTraces(out_ / "traces.png", history_, labels);
+
+    OverlayInput overlay;
+    overlay.camera = ending.camera;
+    overlay.colour = ending.colour;
+    overlay.set = ending.lastSet;
+    if (ending.lastSet != nullptr) {
+        overlay.baseTcamera = ending.lastSet->baseTcamera;
+        overlay.depth = ending.lastSet->depth;
+    }
+    for (const FixtureClass& f : scene_.fixtures) {
+        overlay.classNames.push_back(f.name);
+    }
+    overlay.leaves = ending.leaves;
+    overlay.tick = lastTick_;
+    overlay.title = ending.title;
+    writeOverlay(out_ / "overlay.png", overlay);
+}
+
+ReplaySummary ReplayRecorder::finish(const Ending& ending) {
+    ReplaySummary summary;
+    summary.digest = haptics_.digest();
+    haptics_.commit();
+    frames_.commit();
+    writePictures(ending);
+    summary.frames = {frameCount_, ending.skipped, percentilesOf(std::move(gpuMs_)), percentilesOf(std::move(uploadMs_)),
+                      percentilesOf(std::move(latencyMs_))};
+    summary.haptic.take(std::move(totals_));
+    summary.haptic.maxPenetration = ending.maxPenetration;
+    summary.haptic.maxEscapeDepth = ending.maxEscapeDepth;
+    summary.haptic.stiffness = ending.stiffness;
+    summary.haptic.rotationalStiffness = ending.rotationalStiffness;
+    summary.contact = {ending.contact.queries, ending.contact.spheresMax, ending.contact.overflows,
+                       percentilesOf(std::move(queryMicros_)), ending.where};
+    summary.fixtures = fixtureRows();
+    summary.guidance = guidance_;
+    summary.device = ending.device;
+    summary.lockstep = ending.lockstep;
+    writeSummary(out_ / "summary.json", summary);
+    return summary;
+}
+
+} // namespace fathom

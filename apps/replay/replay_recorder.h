@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes everything a replay produces, as it comes, and leaves the files of the output contract.
+#pragma once
+
+#include "apps/replay/frames_csv.h"
+#include "apps/replay/haptics_csv.h"
+#include "apps/replay/summary.h"
+#include "apps/replay/tick_totals.h"
+#include "apps/replay/trace_history.h"
+#include "engine/contact/query_loop.h"
+#include "engine/contact/tool.h"
+#include "engine/cycle/frame_cycle.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fathom {
+
+// One thread. Files appear at finish(); an exception before it leaves those of an earlier run untouched.
+class ReplayRecorder {
+public:
+    // fixture sets are saved as fixtures/NNNNNN.ply when saveFixtures. Throws Error that names what cannot be written.
+    ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes, bool saveFixtures);
+
+    // A used frame, at t [s] of the run, with the set it made; unchanged frames too.
+    void frame(const FrameReport& report, double t, const Fixtures& set);
+    void tick(const TickRecord& tick);
+    void query(double micros) { queryMicros_.push_back(static_cast<float>(micros)); }
+
+    // What only the caller knows.
+    struct Ending {
+        uint64_t skipped = 0;
+        QueryStatistics contact;
+        std::string where = "none"; // cpu, gpu, none
+        std::optional<double> maxPenetration, maxEscapeDepth; // [m]
+        double stiffness = 0.0, rotationalStiffness = 0.0;    // [N/m], [N m/rad]
+        std::string device;
+        bool lockstep = true;
+        std::string title;                           // scene and source
+        double forceLimit = 0.0, torqueLimit = 0.0;  // [N], [N m]
+        CameraInfo camera;
+        std::span<const uint32_t> colour;            // of the last frame; may be empty
+        const Fixtures* lastSet = nullptr;
+        std::span<const Sphere> leaves;
+    };
+    // Writes all files and returns what summary.json says.
+    ReplaySummary finish(const Ending& ending);
+
+    const std::filesystem::path& folder() const { return out_; }
+
+private:
+    struct ClassSums {
+        double points = 0.0, spheres = 0.0, patches = 0.0;
+    };
+    void addGuidance(const Fixtures& set);
+    std::vector<ReplaySummary::FixtureRow> fixtureRows() const;
+    void writePictures(const Ending& ending) const;
+
+    std::filesystem::path out_;
+    const Scene& scene_;
+    bool saveFixtures_;
+    HapticsCsv haptics_;
+    FramesCsv frames_;
+    std::vector<std::string> passes_;
+    TickTotals totals_;
+    TraceHistory history_;
+    TickRecord lastTick_;
+    uint64_t frameCount_ = 0;
+    std::vector<ClassSums> sums_; // rows of the scene
+    std::vector<ReplaySummary::GuidanceRow> guidance_;
+    std::vector<float> gpuMs_, uploadMs_, latencyMs_, queryMicros_;
+};
+
+} // namespace fathom

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/replay_session.h"
+
+#include "apps/binding/approach_path.h"
+#include "apps/binding/open_source.h"
+#include "devices/recorded/hand_csv.h"
+#include "devices/simulated/simulated_hand.h"
+
+namespace fathom {
+
+namespace {
+
+Scene sceneOf(const ReplayOptions& options) {
+    Scene scene = loadScene(options.scene);
+    if (options.query == "cpu") {
+        scene.contact.where = Scene::Contact::Where::Cpu;
+    } else if (options.query == "gpu") {
+        scene.contact.where = Scene::Contact::Where::Gpu;
+    }
+    return scene;
+}
+
+// Base-frame poses as the hand would make them: the inverse of hand.map before any clutch.
+std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scene::Hand& hand) {
+    const dquat deviceRbase = glm::conjugate(hand.baseRdevice);
+    for (HandWaypoint& w : waypoints) {
+        w.deviceThandle.position = deviceRbase * w.deviceThandle.position / hand.scale;
+        w.deviceThandle.rotation = deviceRbase * w.deviceThandle.rotation;
+    }
+    return waypoints;
+}
+
+} // namespace
+
+ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers)
+    : scene(sceneOf(options))
+    , camera(openCamera(scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source)))
+    , tool(openTool(scene))
+    , device(instance, global.device)
+    , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))
+    , frames(device, scene, camera->info(), plan, readers)
+    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach) {}
+
+std::string ReplaySession::title() const {
+    return scene.file.stem().string() + ", " + camera->description();
+}
+
+std::string ReplaySession::where() const {
+    return plan.query == Plan::Query::None ? "none" : (plan.query == Plan::Query::Cpu ? "cpu" : "gpu");
+}
+
+HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options, const cloud::FixtureSet& firstSet) {
+    if (!options.operatorCsv.empty()) {
+        return HandPath(readHandCsv(options.operatorCsv));
+    }
+    if (!session.scene.hand.builtIn) {
+        return HandPath(readHandCsv(session.scene.hand.path));
+    }
+    return HandPath(toHand(approachPath(session.scene, session.tool, firstSet.host, firstSet.grid), session.scene.hand));
+}
+
+std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session, const ReplayOptions& options) {
+    if (!options.hand) {
+        return std::make_unique<ScriptedHand>(path);
+    }
+    SimulatedHandOptions loop;
+    loop.loop = session.scene.hand.loop;
+    return std::make_unique<SimulatedHand>(path, loop);
+}
+
+} // namespace fathom

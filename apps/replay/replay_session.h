@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything a replay runs on, built in order from the options: scene, camera, tool, device, plan, cycles.
+#pragma once
+
+#include "apps/replay/replay_command.h"
+#include "devices/camera.h"
+#include "devices/haptic_device.h"
+#include "devices/simulated/hand_path.h"
+#include "engine/cycle/contact_cycle.h"
+#include "engine/cycle/frame_cycle.h"
+
+#include <memory>
+
+namespace fathom {
+
+// Owners before their borrowers: members are destroyed from the last to the first.
+struct ReplaySession {
+    // readers: leases on fixture sets held at once. Throws BadInput, Error, DeviceLost.
+    ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers);
+
+    Scene scene;
+    std::unique_ptr<Camera> camera;
+    Tool tool;
+    gpu::Instance instance;
+    gpu::Device device;
+    Plan plan;
+    FrameCycle frames;
+    ContactCycle contact;
+
+    std::string title() const; // scene, source
+    std::string where() const; // of the contact query
+};
+
+// The hand of a replay: the CSV that the options or the scene name, or the built-in path over the first fixture set.
+HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options, const cloud::FixtureSet& firstSet);
+
+// A device that follows the path; with --hand one that also feels the wrench.
+std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session, const ReplayOptions& options);
+
+} // namespace fathom

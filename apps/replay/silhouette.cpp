@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/silhouette.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kEverywhere = std::numeric_limits<double>::infinity();
+
+struct Range {
+    double lo, hi; // of a ray's slope; empty when hi < lo
+};
+
+// Slopes y/z between the two tangents from the eye to the circle that the sphere casts on the (y, z) plane.
+Range slopesOf(double y, double z, double radius) {
+    const double distance = std::hypot(y, z);
+    if (distance <= radius) {
+        return {-kEverywhere, kEverywhere};
+    }
+    const double middle = std::atan2(y, z);
+    const double half = std::asin(radius / distance);
+    constexpr double kSide = 1.5707963267948966 - 1e-9;
+    if (middle - half > kSide || middle + half < -kSide) {
+        return {0.0, -1.0}; // behind
+    }
+    return {middle - half < -kSide ? -kEverywhere : std::tan(middle - half),
+            middle + half > kSide ? kEverywhere : std::tan(middle + half)};
+}
+
+// Slopes x/z at which the ray (x, y, 1) meets the sphere in front of the eye: (c . ray)^2 >= k |ray|^2, k =
+// |c|^2 - r^2.
+Range runAt(const dvec3& c, double k, double y) {
+    const double rest = c.y * y + c.z;
+    const double a = c.x * c.x - k;
+    const double b = c.x * rest;
+    const double d = rest * rest - k * (y * y + 1.0);
+    const double root = std::sqrt(std::max(0.0, b * b - a * d));
+    if (a < 0.0) {
+        return b * b < a * d ? Range{0.0, -1.0} : Range{(-b + root) / a, (-b - root) / a};
+    }
+    // The cone holds a ray in the plane of the row: the run goes on without end to the side where the sphere
+    // is.
+    if (a == 0.0 || c.x == 0.0) {
+        return {-kEverywhere, kEverywhere};
+    }
+    return c.x > 0.0 ? Range{(-b + root) / a, kEverywhere} : Range{-kEverywhere, (-b - root) / a};
+}
+
+} // namespace
+
+Silhouette::Silhouette(const PictureView& view)
+    : view_(view)
+    , width_(view.width())
+    , height_(view.height())
+    , steps_(static_cast<size_t>(width_ + 1) * static_cast<size_t>(height_)) {}
+
+void Silhouette::add(const dvec3& baseCentre, double radius) {
+    const dvec3 c = view_.cameraTbase.apply(baseCentre);
+    if (!isFinite(c) || !(radius > 0.0) || c.z <= -radius) {
+        return;
+    }
+    const double k = glm::dot(c, c) - radius * radius;
+    const double scale = view_.scale;
+    const double fx = view_.lens.fx * scale, fy = view_.lens.fy * scale;
+    const glm::dvec2 shift = c.z > 0.0 ? view_.distortionShift(c) : glm::dvec2(0.0);
+    // Picture coordinates of the ray (0, 0, 1), moved by the distortion.
+    const double u0 = (view_.lens.cx + 0.5) * scale + shift.x;
+    const double v0 = (view_.lens.cy + 0.5) * scale + shift.y;
+    const Range rows = k <= 0.0 ? Range{-kEverywhere, kEverywhere} : slopesOf(c.y, c.z, radius);
+    // Of the pixels, those whose centre (v + 0.5) lies inside.
+    const double first = std::max(0.0, std::ceil(v0 + fy * rows.lo - 0.5));
+    const double last = std::min(height_ - 1.0, std::floor(v0 + fy * rows.hi - 0.5));
+    for (double v = first; v <= last; v += 1.0) {
+        const double y = (v + 0.5 - v0) / fy;
+        const Range run = k <= 0.0 ? Range{-kEverywhere, kEverywhere} : runAt(c, k, y);
+        addRow(static_cast<int>(v), u0 + fx * run.lo, u0 + fx * run.hi);
+    }
+}
+
+void Silhouette::addRow(int v, double from, double to) {
+    const double first = std::max(0.0, std::ceil(from - 0.5));
+    const double end = std::min(static_cast<double>(width_), std::floor(to - 0.5) + 1.0);
+    if (!(first < end)) {
+        return;
+    }
+    int32_t* row = steps_.data() + static_cast<size_t>(v) * static_cast<size_t>(width_ + 1);
+    ++row[static_cast<size_t>(first)];
+    --row[static_cast<size_t>(end)];
+}
+
+std::vector<uint8_t> Silhouette::mask() const {
+    std::vector<uint8_t> mask(static_cast<size_t>(width_) * static_cast<size_t>(height_));
+    const int32_t* step = steps_.data();
+    uint8_t* pixel = mask.data();
+    for (int v = 0; v < height_; ++v) {
+        int32_t open = 0;
+        for (int u = 0; u < width_; ++u) {
+            open += *step++;
+            *pixel++ = open > 0;
+        }
+        ++step;
+    }
+    return mask;
+}
+
+} // namespace fathom

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/summary.h"
+
+#include "apps/replay/output_file.h"
+#include "apps/replay/tick_totals.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fathom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(const std::optional<double>& value) {
+    return value && std::isfinite(*value) ? Json(*value) : Json(nullptr);
+}
+
+Json vector(const std::optional<dvec3>& v) {
+    return v && isFinite(*v) ? Json::array({v->x, v->y, v->z}) : Json(nullptr);
+}
+
+Json times(const Percentiles& p) {
+    return {{"p50", number(p.p50)}, {"p99", number(p.p99)}, {"max", number(p.max)}};
+}
+
+Json framesJson(const ReplaySummary::Frames& frames) {
+    return {{"count", frames.count},
+            {"skipped", frames.skipped},
+            {"gpu_ms", times(frames.gpuMs)},
+            {"upload_ms", times(frames.uploadMs)},
+            {"latency_ms", times(frames.latencyMs)}};
+}
+
+Json hapticJson(const ReplaySummary::Haptic& haptic) {
+    const Percentiles& turn = haptic.turnMicros;
+    return {{"ticks", haptic.ticks},
+            {"late", haptic.late},
+            {"turn_us",
+             {{"p50", number(turn.p50)},
+              {"p99", number(turn.p99)},
+              {"p999", number(turn.p999)},
+              {"max", number(turn.max)}}},
+            {"stalled_ticks", haptic.stalledTicks},
+            {"trapped_ticks", haptic.trappedTicks},
+            {"escape_ticks", haptic.escapeTicks},
+            {"max_penetration_m", number(haptic.maxPenetration)},
+            {"max_escape_depth_m", number(haptic.maxEscapeDepth)},
+            {"max_force_N", number(haptic.maxForce)},
+            {"max_torque_Nm", number(haptic.maxTorque)},
+            {"max_force_step_N", number(haptic.maxForceStep)},
+            {"stiffness_N_per_m", number(haptic.stiffness)},
+            {"rotational_stiffness_Nm_per_rad", number(haptic.rotationalStiffness)},
+            {"margin_passive_min", number(haptic.marginPassiveMin)},
+            {"margin_uncoupled_min", number(haptic.marginUncoupledMin)},
+            {"solver", {{"solves_mean", number(haptic.solvesMean)}, {"infeasible", haptic.infeasible}}}};
+}
+
+Json fixturesJson(const std::vector<ReplaySummary::FixtureRow>& rows) {
+    Json list = Json::array();
+    for (const auto& row : rows) {
+        list.push_back({{"class", row.name},
+                        {"role", row.role},
+                        {"points_mean", number(row.pointsMean)},
+                        {"spheres_mean", number(row.spheresMean)},
+                        {"patches_mean", number(row.patchesMean)}});
+    }
+    return list;
+}
+
+Json guidanceJson(const std::vector<ReplaySummary::GuidanceRow>& rows) {
+    Json list = Json::array();
+    for (const auto& row : rows) {
+        const bool target = row.target && isFinite(*row.target);
+        const dquat q = target ? row.target->rotation : dquat(1, 0, 0, 0);
+        list.push_back({{"class", row.name},
+                        {"position_m", vector(row.position)},
+                        {"normal", vector(row.normal)},
+                        {"target_m", target ? vector(row.target->position) : Json(nullptr)},
+                        {"target_qwxyz", target ? Json::array({q.w, q.x, q.y, q.z}) : Json(nullptr)},
+                        {"count", row.count}});
+    }
+    return list;
+}
+
+} // namespace
+
+void ReplaySummary::Haptic::take(TickTotals totals) {
+    ticks = totals.ticks;
+    late = totals.late;
+    stalledTicks = totals.stalled;
+    trappedTicks = totals.trapped;
+    escapeTicks = totals.escape;
+    maxForce = totals.maxForce;
+    maxTorque = totals.maxTorque;
+    maxForceStep = totals.maxForceStep;
+    marginPassiveMin = totals.minMarginPassive;
+    marginUncoupledMin = totals.minMarginUncoupled;
+    if (totals.ticks > 0) {
+        solvesMean = static_cast<double>(totals.solves) / static_cast<double>(totals.ticks);
+    }
+    infeasible = totals.infeasible;
+    turnMicros = percentilesOf(std::move(totals.turnMicros));
+}
+
+std::string toJson(const ReplaySummary& summary) {
+    Json json = Json::object();
+    json["frames"] = framesJson(summary.frames);
+    json["haptic"] = hapticJson(summary.haptic);
+    json["contact"] = {{"queries", summary.contact.queries},
+                       {"spheres_max", summary.contact.spheresMax},
+                       {"overflows", summary.contact.overflows},
+                       {"query_us", times(summary.contact.queryMicros)},
+                       {"where", summary.contact.where}};
+    json["fixtures"] = fixturesJson(summary.fixtures);
+    json["guidance"] = guidanceJson(summary.guidance);
+    json["device"] = summary.device;
+    json["lockstep"] = summary.lockstep;
+    json["digest"] = summary.digest;
+    // A device name or a class may hold bytes that are no UTF-8; a summary must not fail for that.
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+void writeSummary(const std::filesystem::path& file, const ReplaySummary& summary) {
+    OutputFile out(file);
+    out.write(toJson(summary));
+    out.commit();
+}
+
+} // namespace fathom

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/tick_totals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+namespace {
+
+void lower(std::optional<double>& minimum, double value) {
+    if (std::isfinite(value)) {
+        minimum = minimum ? std::min(*minimum, value) : value;
+    }
+}
+
+} // namespace
+
+void TickTotals::add(const TickRecord& tick) {
+    ++ticks;
+    late += tick.late;
+    stalled += tick.stalled;
+    trapped += tick.state == TickState::Trapped;
+    escape += tick.state == TickState::Escape;
+    infeasible += tick.infeasible;
+    solves += tick.solves;
+    if (isFinite(tick.wrench.force)) {
+        maxForce = std::max(maxForce, glm::length(tick.wrench.force));
+        maxForceStep = std::max(maxForceStep, glm::length(tick.wrench.force - lastForce_));
+        lastForce_ = tick.wrench.force;
+    }
+    if (isFinite(tick.wrench.torque)) {
+        maxTorque = std::max(maxTorque, glm::length(tick.wrench.torque));
+    }
+    lower(minMarginPassive, tick.marginPassive);
+    lower(minMarginUncoupled, tick.marginUncoupled);
+    if (std::isfinite(tick.turnMicros)) {
+        turnMicros.push_back(static_cast<float>(tick.turnMicros));
+    }
+}
+
+} // namespace fathom

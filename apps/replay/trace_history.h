@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The course of a whole run in constant memory: minima and maxima over equal stretches of ticks, fine enough
+// to draw.
+#pragma once
+
+#include "apps/replay/tick_record.h"
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+namespace fathom {
+
+// A stretch of neighbouring ticks. A maximum below its minimum: no finite value in it.
+struct TraceBin {
+    double begin = 0.0, end = 0.0;              // [s] times of the first and of the last tick
+    double forceMin = 0.0, forceMax = -1.0;     // [N] of the norm
+    double torqueMin = 0.0, torqueMax = -1.0;   // [N m] of the norm
+    double guidance = 0.0;                      // largest w
+    std::array<uint32_t, kTickStates> states{}; // ticks in each state
+    uint32_t ticks = 0;
+    uint32_t newFrames = 0; // ticks that began to obey another frame
+
+    uint32_t in(TickState state) const { return states[static_cast<uint8_t>(state)]; }
+};
+
+// Keeps `capacity` bins at most: when they are full, neighbours are merged and each bin covers twice as many
+// ticks. No peak is ever lost. One tick a bin, so exact, while the run is shorter than the capacity.
+class TraceHistory {
+public:
+    explicit TraceHistory(size_t capacity = 16384); // even, at least 2
+    void add(const TickRecord& tick);
+
+    const std::vector<TraceBin>& bins() const { return bins_; }
+    uint64_t ticks() const { return ticks_; }
+    uint64_t newFrames() const { return newFrames_; }
+
+    struct Peak {
+        double value = 0.0, t = 0.0; // [N] or [N m], [s]
+    };
+    const Peak& forcePeak() const { return forcePeak_; }
+    const Peak& torquePeak() const { return torquePeak_; }
+
+private:
+    void halve();
+
+    size_t capacity_;
+    uint64_t stride_ = 1; // ticks a bin
+    std::vector<TraceBin> bins_;
+    uint64_t ticks_ = 0, newFrames_ = 0;
+    int64_t lastFrame_ = -1;
+    Peak forcePeak_, torquePeak_;
+};
+
+} // namespace fathom

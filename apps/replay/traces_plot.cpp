@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/traces_plot.h"
+
+#include "apps/replay/plot_axis.h"
+#include "apps/replay/traces_bands.h"
+#include "apps/replay/traces_style.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+using namespace traces;
+
+struct Series {
+    const char* title;
+    const char* unit;
+    double TraceBin::*min;
+    double TraceBin::*max;
+    TraceHistory::Peak peak;
+    std::optional<double> limit;
+    Panel panel;
+};
+
+// From zero to a round value above the peak; up to the limit when the trace comes near it.
+PlotAxis valueAxis(const Series& series) {
+    constexpr double kNear = 0.55;
+    const double peak = series.peak.value;
+    double top = peak > 0.0 ? 1.12 * peak : 1.0;
+    if (series.limit && *series.limit > 0.0 && peak >= kNear * *series.limit) {
+        top = std::max(top, 1.12 * *series.limit);
+    }
+    // A trace of rounding errors still gets a scale; below this a value is nothing that a hand could feel.
+    top = std::max(top, 1e-6);
+    const double step = roundStep(top, 8);
+    return {0.0, step * std::ceil(top / step), series.panel.bottom, series.panel.top};
+}
+
+PlotAxis timeAxis(const TraceHistory& history) {
+    const auto& bins = history.bins();
+    const double begin = bins.empty() ? 0.0 : bins.front().begin;
+    double end = bins.empty() ? 1.0 : bins.back().end;
+    if (!(end > begin)) {
+        end = begin + 1.0; // an empty run, or one of a single tick
+    } else {
+        end += (end - begin) /
+               static_cast<double>(history.ticks() - 1); // the last tick lasts as long as the others
+    }
+    return {begin, end, kLeft, kRight};
+}
+
+void drawFrameAndGrid(const Picture& picture, const Series& series, const PlotAxis& time,
+                      const PlotAxis& value, bool timeLabels) {
+    cairo_t* cr = picture.cr();
+    const Panel& panel = series.panel;
+    cairo_set_line_width(cr, 1.0);
+    for (const PlotTick& tick : ticksOf(value, 6)) {
+        const double y = std::round(value.at(tick.value)) + 0.5;
+        picture.setColour(tick.value == 0.0 ? kQuietInk : kGrid);
+        cairo_move_to(cr, kLeft, y);
+        cairo_line_to(cr, kRight, y);
+        cairo_stroke(cr);
+        picture.text(kLeft - 12.0, y + 5.0, tick.label, 15.0, kInk, Align::Right);
+    }
+    for (const PlotTick& tick : ticksOf(time, 12)) {
+        const double x = std::round(time.at(tick.value)) + 0.5;
+        picture.setColour(kGrid);
+        cairo_move_to(cr, x, panel.top);
+        cairo_line_to(cr, x, panel.bottom);
+        cairo_stroke(cr);
+        if (timeLabels) {
+            picture.text(x, panel.bottom + 24.0, tick.label, 15.0, kInk, Align::Centre);
+        }
+    }
+    cairo_save(cr);
+    cairo_translate(cr, 36.0, 0.5 * (panel.top + panel.bottom));
+    cairo_rotate(cr, -0.5 * 3.14159265358979);
+    picture.text(0.0, 0.0, std::string(series.title) + " [" + series.unit + "]", 17.0, kInk, Align::Centre,
+                 true);
+    cairo_restore(cr);
+}
+
+// One point a bin, or the extremes of each pixel column when there are more bins than that. A column without
+// a finite value breaks the line.
+void traceLine(const Picture& picture, const TraceHistory& history, const Series& series,
+               const PlotAxis& time, const PlotAxis& value) {
+    cairo_t* cr = picture.cr();
+    const auto& bins = history.bins();
+    bool drawing = false;
+    for (size_t i = 0; i < bins.size();) {
+        const double column = std::floor(time.at(bins[i].begin));
+        double lo = 0.0, hi = -1.0;
+        const double x = time.at(bins[i].begin);
+        for (; i < bins.size() && std::floor(time.at(bins[i].begin)) == column; ++i) {
+            if (bins[i].*series.max >= bins[i].*series.min) {
+                lo = hi < lo ? bins[i].*series.min : std::min(lo, bins[i].*series.min);
+                hi = std::max(hi, bins[i].*series.max);
+            }
+        }
+        if (hi < lo) {
+            drawing = false;
+            continue;
+        }
+        if (drawing) {
+            cairo_line_to(cr, x, value.at(hi));
+        } else {
+            cairo_move_to(cr, x, value.at(hi));
+        }
+        cairo_line_to(cr, x, value.at(lo) + 0.01); // a lone point is still a dot
+        drawing = true;
+    }
+    picture.setColour(kTrace);
+    cairo_set_line_width(cr, 1.8);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    cairo_stroke(cr);
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
+}
+
+// Words over the traces on a pale ground, so that grid and trace do not cross them.
+void label(const Picture& picture, double x, double y, const std::string& words, Colour colour, Align align) {
+    const double width = picture.textWidth(words, 14.5);
+    const double left = align == Align::Left ? x : align == Align::Right ? x - width : x - 0.5 * width;
+    picture.setColour(kPaper.alpha(0.82));
+    cairo_rectangle(picture.cr(), left - 5.0, y - 14.5, width + 10.0, 20.0);
+    cairo_fill(picture.cr());
+    picture.text(x, y, words, 14.5, colour, align);
+}
+
+// True when the limit's line is in the picture; otherwise its value is written in the corner.
+bool drawLimit(const Picture& picture, const Series& series, const PlotAxis& value) {
+    if (!series.limit || !std::isfinite(*series.limit)) {
+        return false;
+    }
+    const std::string words = "limit " + roundNumber(*series.limit) + " " + series.unit;
+    if (*series.limit > value.hi) {
+        label(picture, kRight - 12.0, series.panel.top + 22.0, words + ", above this axis", kQuietInk,
+              Align::Right);
+        return false;
+    }
+    const double y = std::round(value.at(*series.limit)) + 0.5;
+    dashedLine(picture, kLeft, kRight, y);
+    label(picture, kRight - 12.0, y - 8.0, words, kAlarm, Align::Right);
+    return true;
+}
+
+void drawPeak(const Picture& picture, const Series& series, const PlotAxis& time, const PlotAxis& value) {
+    if (series.peak.value <= 0.0) {
+        label(picture, 0.5 * (kLeft + kRight), 0.5 * (series.panel.top + series.panel.bottom),
+              "zero throughout", kQuietInk, Align::Centre);
+        return;
+    }
+    cairo_t* cr = picture.cr();
+    const double x = time.at(series.peak.t);
+    const double y = value.at(series.peak.value);
+    picture.setColour(kPaper);
+    cairo_arc(cr, x, y, 5.5, 0.0, 6.2832);
+    cairo_fill(cr);
+    picture.setColour(kTrace);
+    cairo_arc(cr, x, y, 3.8, 0.0, 6.2832);
+    cairo_fill(cr);
+    char seconds[40];
+    std::snprintf(seconds, sizeof seconds, " at %.3f s", series.peak.t);
+    const bool toLeft = x > 0.5 * (kLeft + kRight);
+    label(picture, toLeft ? x - 14.0 : x + 14.0, std::max(y - 6.0, series.panel.top + 18.0),
+          "peak " + shortNumber(series.peak.value) + " " + series.unit + seconds, kInk,
+          toLeft ? Align::Right : Align::Left);
+}
+
+std::string remark(const TraceHistory& history) {
+    return std::to_string(history.ticks()) + (history.ticks() == 1 ? " tick, " : " ticks, ") +
+           std::to_string(history.newFrames()) + (history.newFrames() == 1 ? " frame" : " frames");
+}
+
+} // namespace
+
+void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels) {
+    const Picture picture(kWidth, kHeight, kPaper);
+    const PlotAxis time = timeAxis(history);
+    const Series force{"Force",
+                       "N",
+                       &TraceBin::forceMin,
+                       &TraceBin::forceMax,
+                       history.forcePeak(),
+                       labels.forceLimit,
+                       {kForceTop, kForceBottom}};
+    const Series torque{"Torque",
+                        "N m",
+                        &TraceBin::torqueMin,
+                        &TraceBin::torqueMax,
+                        history.torquePeak(),
+                        labels.torqueLimit,
+                        {kTorqueTop, kTorqueBottom}};
+    picture.text(kLeft, kTitleBase, labels.title, 28.0, kInk, Align::Left, true);
+    picture.text(kLeft, kSubtitleBase, labels.subtitle, 16.0, kQuietInk);
+    BandsSeen seen;
+    bool limits = false;
+    bool frameTicks = false;
+    for (const Series* series : {&force, &torque}) {
+        seen = drawBands(picture, history, time, series->panel);
+    }
+    drawPhaseStrip(picture, history, time);
+    for (const Series* series : {&force, &torque}) {
+        const PlotAxis value = valueAxis(*series);
+        drawFrameAndGrid(picture, *series, time, value, series == &torque);
+        frameTicks = drawFrameTicks(picture, history, time, series->panel) || frameTicks;
+        limits = drawLimit(picture, *series, value) || limits;
+        traceLine(picture, history, *series, time, value);
+        drawPeak(picture, *series, time, value);
+    }
+    picture.text(0.5 * (kLeft + kRight), kTorqueBottom + 54.0, "time [s]", 17.0, kInk, Align::Centre, true);
+    drawLegend(picture, seen, frameTicks, limits, remark(history));
+    picture.writePng(file);
+}
+
+} // namespace fathom

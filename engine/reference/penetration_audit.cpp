@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/reference/penetration_audit.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+namespace {
+
+// What is nearer than this when a leaf is searched becomes a candidate, looked at every turn until it has
+// moved as far.
+constexpr double kNear = 0.002; // [m]
+// How far a search looks for the nearest sphere of a free leaf [m]: it may move as far before the next one.
+constexpr double kFar = 0.02;
+// Distances of float64 at metres are good to 1e-15; a search is done again this much early [m].
+constexpr double kRounding = 1e-9;
+
+// The grid leaves out spheres that are not finite: they have no place.
+size_t placedSpheres(const RegionSpheres& spheres) {
+    size_t count = 0;
+    for (size_t i = 0; i < spheres.size(); ++i) {
+        count += std::isfinite(spheres.x[i]) && std::isfinite(spheres.y[i]) && std::isfinite(spheres.z[i]) &&
+                 std::isfinite(spheres.radius[i]);
+    }
+    return count;
+}
+
+} // namespace
+
+PenetrationAudit::PenetrationAudit(const Tool& tool) {
+    for (const Sphere& sphere : tool.leaves()) {
+        Leaf leaf;
+        leaf.centre = sphere.centre;
+        leaf.radius = sphere.radius;
+        leaves_.push_back(std::move(leaf));
+    }
+    behind_.resize(leaves_.size());
+}
+
+void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
+                            std::span<const uint32_t> behind) {
+    if (set.frame < 0) {
+        return;
+    }
+    if (!isFinite(start) || !isFinite(end)) {
+        throw Error("penetration audit: the tool pose is not finite");
+    }
+    set_ = &set;
+    grid_ = &grid;
+    if (!anySet_ || set.generation != generation_) {
+        anySet_ = true;
+        generation_ = set.generation;
+        placed_ = placedSpheres(set.spheres);
+        checkGrid();
+        takeAllowances(start);
+    } else {
+        checkGrid();
+    }
+    std::fill(behind_.begin(), behind_.end(), uint8_t{0});
+    for (uint32_t leaf : behind) {
+        behind_.at(leaf) = 1;
+    }
+    Worst promised, exempt;
+    for (size_t i = 0; i < leaves_.size(); ++i) {
+        const Worst worst = judge(leaves_[i], centreOf(leaves_[i], end));
+        Worst& sum = behind_[i] != 0 ? exempt : promised;
+        sum.beyond = std::max(sum.beyond, worst.beyond);
+        sum.inside = std::max(sum.inside, worst.inside);
+        sum.any = std::max(sum.any, worst.any);
+    }
+    ++ticks_;
+    maxPenetration_ = std::max(maxPenetration_, promised.beyond);
+    maxEscapeDepth_ = std::max(maxEscapeDepth_, promised.inside);
+    maxBehindDepth_ = std::max(maxBehindDepth_, exempt.any);
+    penetrationTicks_ += promised.beyond > 0.0;
+    escapeTicks_ += promised.inside > 0.0;
+    behindTicks_ += exempt.any > 0.0;
+    set_ = nullptr;
+    grid_ = nullptr;
+}
+
+void PenetrationAudit::checkGrid() const {
+    if (grid_->size() != placed_) {
+        throw Error("penetration audit: the grid has " + std::to_string(grid_->size()) +
+                    " spheres, the set " + std::to_string(placed_));
+    }
+}
+
+// About the set's origin; the origin goes first, so that a base frame far away costs no digits.
+dvec3 PenetrationAudit::centreOf(const Leaf& leaf, const Pose& pose) const {
+    return (pose.position - set_->origin) + pose.rotation * leaf.centre;
+}
+
+double PenetrationAudit::gapTo(const Leaf& leaf, const dvec3& centre, uint32_t sphere) const {
+    const RegionSpheres& s = set_->spheres;
+    const dvec3 region(double{s.x[sphere]}, double{s.y[sphere]}, double{s.z[sphere]});
+    return glm::length(centre - region) - leaf.radius - double{s.radius[sphere]};
+}
+
+// Finds the candidates at `centre`. What a pair had left of its allowance stays with it; a pair that is no
+// candidate any more does not touch, so nothing of its allowance is left.
+void PenetrationAudit::search(Leaf& leaf, const dvec3& centre) {
+    for (const Candidate& candidate : leaf.candidates) {
+        allowed_[candidate.sphere] = candidate.allowance;
+    }
+    before_.swap(leaf.candidates);
+    leaf.candidates.clear();
+    double nearest = kFar;
+    grid_->forEachNear(centre, leaf.radius + grid_->maxRadius() + kFar, [&](uint32_t sphere) {
+        const double gap = gapTo(leaf, centre, sphere);
+        nearest = std::min(nearest, gap);
+        if (gap < kNear) {
+            leaf.candidates.push_back({sphere, allowed_[sphere]});
+        }
+    });
+    for (const Candidate& candidate : before_) {
+        allowed_[candidate.sphere] = 0.0;
+    }
+    leaf.searchedAt = centre;
+    leaf.mayMove = std::max(nearest, kNear);
+}
+
+void PenetrationAudit::takeAllowances(const Pose& start) {
+    allowed_.assign(set_->spheres.size(), 0.0);
+    for (Leaf& leaf : leaves_) {
+        const dvec3 centre = centreOf(leaf, start);
+        leaf.candidates.clear(); // they are of another set
+        search(leaf, centre);
+        for (Candidate& candidate : leaf.candidates) {
+            candidate.allowance = std::max(0.0, -gapTo(leaf, centre, candidate.sphere));
+        }
+    }
+}
+
+// Depths of one leaf after the turn, against its allowances, which shrink to them.
+PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre) {
+    if (glm::length(centre - leaf.searchedAt) + kRounding >= leaf.mayMove) {
+        search(leaf, centre);
+    }
+    Worst worst;
+    for (Candidate& candidate : leaf.candidates) {
+        const double depth = std::max(0.0, -gapTo(leaf, centre, candidate.sphere));
+        const double inside = std::min(depth, candidate.allowance);
+        worst.any = std::max(worst.any, depth);
+        worst.beyond = std::max(worst.beyond, depth - candidate.allowance);
+        worst.inside = std::max(worst.inside, inside);
+        candidate.allowance = inside;
+    }
+    return worst;
+}
+
+} // namespace fathom

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Independent witness of the engine's promise: no tool leaf enters a region sphere of the set in force beyond
+// its allowance (the depth the pair had when the set came into force, shrinking, never growing; 0 if it did
+// not touch).
+#pragma once
+
+#include "engine/contact/fixtures.h"
+#include "engine/contact/region_grid.h"
+#include "engine/contact/tool.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace fathom {
+
+// Sees the poses alone, nothing of the solver: every depth is taken in float64 from the very floats of the
+// set. A search round a leaf finds all spheres near it, and looks at these alone until the leaf has moved so
+// far that another could touch: exact, and a turn in free water costs a few nanoseconds a leaf. Allocates;
+// not for the haptic thread.
+class PenetrationAudit {
+public:
+    explicit PenetrationAudit(const Tool& tool);
+
+    // One turn: the set it obeyed, the grid built from that very set, base_T_tool it started from and ended
+    // at. A new Fixtures::generation is a new set, and its allowances are the depths at `start`. Leaves in
+    // `behind` (indices) are exempt from the promise: their depth is counted apart. A set without frame (-1)
+    // is no set. Throws Error when the grid is not of the set's size or a pose is not finite.
+    void tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
+              std::span<const uint32_t> behind = {});
+
+    double maxPenetration() const { return maxPenetration_; } // [m] largest depth beyond the allowance
+    double maxEscapeDepth() const { return maxEscapeDepth_; } // [m] largest depth inside the allowance
+    double maxBehindDepth() const { return maxBehindDepth_; } // [m] largest depth of a leaf flagged behind
+    uint64_t escapeTicks() const {
+        return escapeTicks_;
+    } // turns that ended with some depth inside the allowance
+    uint64_t behindTicks() const { return behindTicks_; } // turns with a leaf flagged behind that touched
+    uint64_t penetrationTicks() const {
+        return penetrationTicks_;
+    }                                         // turns that ended with depth beyond allowance
+    uint64_t ticks() const { return ticks_; } // turns that had a set
+
+private:
+    struct Candidate {
+        uint32_t sphere;  // index in the set
+        double allowance; // [m] >= 0
+    };
+    struct Leaf {
+        dvec3 centre;                      // tool frame [m]
+        double radius;                     // [m]
+        dvec3 searchedAt{0.0};             // about the set's origin: where the last search was
+        double mayMove = 0.0;              // [m] from there, before any sphere but the candidates can touch
+        std::vector<Candidate> candidates; // all that were near there
+    };
+    struct Worst {
+        double beyond = 0.0, inside = 0.0, any = 0.0; // [m]
+    };
+
+    double gapTo(const Leaf& leaf, const dvec3& centre, uint32_t sphere) const;
+    void search(Leaf& leaf, const dvec3& centre);
+    dvec3 centreOf(const Leaf& leaf, const Pose& pose) const;
+    void checkGrid() const;
+    void takeAllowances(const Pose& start);
+    Worst judge(Leaf& leaf, const dvec3& centre);
+
+    std::vector<Leaf> leaves_;
+    std::vector<double> allowed_;   // scratch, a sphere each: allowance for the leaf at hand [m], else 0
+    std::vector<Candidate> before_; // scratch
+    std::vector<uint8_t> behind_;   // a leaf: flagged in this turn
+    const Fixtures* set_ = nullptr; // during tick() only
+    const RegionGrid* grid_ = nullptr;
+    uint64_t generation_ = 0;
+    size_t placed_ = 0; // finite spheres of the set: what its grid must hold
+    bool anySet_ = false;
+
+    double maxPenetration_ = 0.0, maxEscapeDepth_ = 0.0, maxBehindDepth_ = 0.0;
+    uint64_t escapeTicks_ = 0, behindTicks_ = 0, penetrationTicks_ = 0, ticks_ = 0;
+};
+
+} // namespace fathom

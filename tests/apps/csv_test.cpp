@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/csv.h"
+
+#include "apps/replay/frames_csv.h"
+#include "apps/replay/haptics_csv.h"
+#include "engine/types/error.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <bit>
+#include <cmath>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <limits>
+#include <sstream>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char mark) {
+    std::vector<std::string> parts;
+    std::stringstream stream(text);
+    for (std::string part; std::getline(stream, part, mark);) {
+        parts.push_back(part);
+    }
+    return parts;
+}
+
+TickRecord someTick() {
+    TickRecord tick;
+    tick.t = 0.1;
+    tick.device = {{1, 2, 3}, {0.5, -0.5, 0.5, -0.5}};
+    tick.tool = {{4, 5, 6}, {1, 0, 0, 0}};
+    tick.wrench = {{7, 8, 9}, {10, 11, 12}};
+    tick.contacts = 13;
+    tick.minGap = 14;
+    tick.state = TickState::Escape;
+    tick.guidance = 0.25;
+    tick.frame = 16;
+    tick.sceneAge = 17;
+    tick.stalled = true;
+    tick.marginPassive = 18;
+    tick.marginUncoupled = 19;
+    return tick;
+}
+
+} // namespace
+
+TEST_CASE("17 significant digits bring every double back, subnormal and largest ones too") {
+    CsvRow row;
+    uint64_t bits = 1;
+    for (int i = 0; i < 20000; ++i) {
+        bits = bits * 6364136223846793005u + 1442695040888963407u;
+        const double value = std::bit_cast<double>(bits);
+        row.add(value);
+        const std::string text(row.end());
+        if (std::isfinite(value)) {
+            CHECK(std::bit_cast<uint64_t>(std::strtod(text.c_str(), nullptr)) == bits);
+        }
+    }
+    for (const double value : {0.0, 0.1, 1.0, 5e-324, 1.7976931348623157e308}) {
+        row.add(value);
+        CHECK(std::strtod(std::string(row.end()).c_str(), nullptr) == value);
+    }
+    row.add(0.1);
+    CHECK(row.end() == "0.10000000000000001\n");
+}
+
+TEST_CASE("a value that is not finite is the word nan, inf or -inf whatever its sign bit") {
+    CsvRow row;
+    const double nan = std::numeric_limits<double>::quiet_NaN(),
+                 inf = std::numeric_limits<double>::infinity();
+    row.add(nan);
+    row.add(std::copysign(nan, -1.0));
+    row.add(inf);
+    row.add(-inf);
+    row.add(int64_t{-7});
+    CHECK(row.end() == "nan,nan,inf,-inf,-7\n");
+}
+
+TEST_CASE("haptics.csv has the contract's header and every column in its place") {
+    const ScratchFolder folder;
+    HapticsCsv csv(folder.path() / "haptics.csv");
+    csv.add(someTick());
+    TickRecord start;
+    csv.add(start);
+    csv.commit();
+    const auto lines = split(textOf(folder.path() / "haptics.csv"), '\n');
+    REQUIRE(lines.size() == 3);
+    CHECK(lines[0] ==
+          "t_s,dev_x,dev_y,dev_z,dev_qw,dev_qx,dev_qy,dev_qz,tool_x,tool_y,tool_z,tool_qw,tool_qx,"
+          "tool_qy,tool_qz,fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,"
+          "stalled,margin_passive,margin_uncoupled");
+    CHECK(lines[1] ==
+          "0.10000000000000001,1,2,3,0.5,-0.5,0.5,-0.5,4,5,6,1,0,0,0,7,8,9,10,11,12,13,14,escape,0.25,"
+          "16,17,1,18,19");
+    CHECK(lines[2] == "0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,nan,off,0,-1,nan,0,nan,nan");
+}
+
+TEST_CASE("an empty run gives a header alone") {
+    const ScratchFolder folder;
+    HapticsCsv(folder.path() / "h.csv").commit();
+    FramesCsv(folder.path() / "f.csv", {}).commit();
+    CHECK(split(textOf(folder.path() / "h.csv"), '\n').size() == 1);
+    CHECK(textOf(folder.path() / "f.csv") ==
+          "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms,publish_ms\n");
+}
+
+TEST_CASE("frames.csv has one column a pass, in order of the plan, whatever the order in the row") {
+    const ScratchFolder folder;
+    FramesCsv csv(folder.path() / "f.csv", {"classify", "surface", "tree"});
+    FrameRecord frame{5, 0.5, 100, 40, 30, 7, 9, 11, 0.25, {{"tree", 3.0}, {"classify", 1.0}}, 4.0};
+    csv.add(frame);
+    frame.passes.push_back({"unknown", 1.0});
+    CHECK_THROWS_AS(csv.add(frame), Error);
+    csv.commit();
+    CHECK(textOf(folder.path() / "f.csv") == "index,t_s,valid,forbidden_points,spheres,patches,nodes,"
+                                             "guidance_count,upload_ms,classify_ms,surface_ms,"
+                                             "tree_ms,publish_ms\n5,0.5,100,40,30,7,9,11,0.25,1,nan,3,4\n");
+}
+
+TEST_CASE("the digest is FNV-1a with 128 bits as published") {
+    const auto of = [](const std::string& text) {
+        Digest digest;
+        digest.add(text.data(), text.size());
+        return digest.hex();
+    };
+    CHECK(of("") == "6c62272e07bb014262b821756295c58d");
+    CHECK(of("a") == "d228cb696f1a8caf78912b704e4a8964");
+    CHECK(of("foobar") == "343e1662793c64bf6f0d3597ba446f18");
+}
+
+TEST_CASE("the digest of a run changes with the last bit of any column and with the order of rows, not with "
+          "timings") {
+    const auto digestOf = [](const std::vector<TickRecord>& ticks) {
+        Digest digest;
+        for (const TickRecord& tick : ticks) {
+            digest.add(tick);
+        }
+        return digest.hex();
+    };
+    const TickRecord tick = someTick();
+    const std::string same = digestOf({tick});
+    TickRecord timed = tick;
+    timed.turnMicros = 12.5, timed.late = true, timed.solves = 4, timed.infeasible = true;
+    CHECK(digestOf({timed}) == same);
+    const auto nudged = [&](auto&& change) {
+        TickRecord other = tick;
+        change(other);
+        return digestOf({other}) != same;
+    };
+    const auto up = [](double& value) { value = std::nextafter(value, 1e9); };
+    double TickRecord::*const scalars[] = {
+        &TickRecord::t,        &TickRecord::minGap,        &TickRecord::guidance,
+        &TickRecord::sceneAge, &TickRecord::marginPassive, &TickRecord::marginUncoupled};
+    for (const auto member : scalars) {
+        CHECK(nudged([&](TickRecord& other) { up(other.*member); }));
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        CHECK(nudged([&](TickRecord& other) { up(other.device.position[axis]); }));
+        CHECK(nudged([&](TickRecord& other) { up(other.tool.position[axis]); }));
+        CHECK(nudged([&](TickRecord& other) { up(other.wrench.force[axis]); }));
+        CHECK(nudged([&](TickRecord& other) { up(other.wrench.torque[axis]); }));
+    }
+    for (int part = 0; part < 4; ++part) {
+        CHECK(nudged([&](TickRecord& other) { up(other.device.rotation[part]); }));
+        CHECK(nudged([&](TickRecord& other) { up(other.tool.rotation[part]); }));
+    }
+    CHECK(nudged([](TickRecord& other) { ++other.contacts; }));
+    CHECK(nudged([](TickRecord& other) { ++other.frame; }));
+    CHECK(nudged([](TickRecord& other) { other.stalled = false; }));
+    CHECK(nudged([](TickRecord& other) { other.state = TickState::Contact; }));
+    TickRecord next = tick;
+    next.t = 0.2;
+    CHECK(digestOf({tick, next}) != digestOf({next, tick}));
+}

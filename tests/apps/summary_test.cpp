@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/summary.h"
+
+#include "apps/replay/progress.h"
+#include "apps/replay/tick_totals.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <random>
+
+using namespace fathom;
+using namespace fathom::testing;
+using Json = nlohmann::ordered_json;
+
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<std::string> keysOf(const Json& object) {
+    std::vector<std::string> keys;
+    for (const auto& item : object.items()) {
+        keys.push_back(item.key());
+    }
+    return keys;
+}
+
+using Keys = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("percentiles are the values of nearest rank for 0, 1, 2, 99, 100, 101 and 1000 values") {
+    CHECK(!percentilesOf({}).p50);
+    CHECK(!percentilesOf({std::numeric_limits<float>::quiet_NaN()}).max);
+    std::mt19937 random(3);
+    for (const int count : {1, 2, 99, 100, 101, 1000, 1237}) {
+        std::vector<float> values;
+        for (int i = 1; i <= count; ++i) {
+            values.push_back(static_cast<float>(i));
+        }
+        std::shuffle(values.begin(), values.end(), random);
+        values.push_back(std::numeric_limits<float>::infinity()); // left out
+        const Percentiles p = percentilesOf(values);
+        // Value i has rank i: the percentile is the rank itself, in whole numbers.
+        CHECK(*p.p50 == (count + 1) / 2);
+        CHECK(*p.p99 == (99 * count + 99) / 100);
+        CHECK(*p.p999 == (999 * count + 999) / 1000);
+        CHECK(*p.max == count);
+    }
+    CHECK(*percentilesOf({12.3f}).p50 == 12.3);
+}
+
+TEST_CASE("summary.json has the contract's keys in the contract's order") {
+    ReplaySummary summary;
+    summary.fixtures.push_back({"wheel", "forbidden", 10.0, 5.0, 1.0});
+    summary.guidance.push_back(
+        {"body", dvec3(1, 2, 3), dvec3(0, 0, -1), Pose{{4, 5, 6}, {0.5, 0.5, -0.5, 0.5}}, 77});
+    const Json json = Json::parse(toJson(summary));
+    CHECK(keysOf(json) ==
+          Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
+    CHECK(keysOf(json["frames"]) == Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
+    CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
+    CHECK(keysOf(json["haptic"]) == Keys{"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks",
+                                         "escape_ticks", "max_penetration_m", "max_escape_depth_m",
+                                         "max_force_N", "max_torque_Nm", "max_force_step_N",
+                                         "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
+                                         "margin_passive_min", "margin_uncoupled_min", "solver"});
+    CHECK(keysOf(json["haptic"]["turn_us"]) == Keys{"p50", "p99", "p999", "max"});
+    CHECK(keysOf(json["haptic"]["solver"]) == Keys{"solves_mean", "infeasible"});
+    CHECK(keysOf(json["contact"]) == Keys{"queries", "spheres_max", "overflows", "query_us", "where"});
+    CHECK(keysOf(json["fixtures"][0]) ==
+          Keys{"class", "role", "points_mean", "spheres_mean", "patches_mean"});
+    CHECK(keysOf(json["guidance"][0]) ==
+          Keys{"class", "position_m", "normal", "target_m", "target_qwxyz", "count"});
+    CHECK(json["guidance"][0]["target_qwxyz"] == Json::array({0.5, 0.5, -0.5, 0.5}));
+    CHECK(json["guidance"][0]["position_m"] == Json::array({1.0, 2.0, 3.0}));
+    CHECK(json["contact"]["where"] == "none");
+}
+
+TEST_CASE("what is unknown or not finite is null, and bytes that are no UTF-8 do not spoil the file") {
+    const ScratchFolder folder;
+    ReplaySummary summary;
+    summary.haptic.maxPenetration = kNan;
+    summary.haptic.maxForce = std::numeric_limits<double>::infinity();
+    summary.haptic.marginPassiveMin = 0.1;
+    summary.guidance.push_back({"body", std::nullopt, dvec3(kNan), std::nullopt, 0});
+    summary.device = "bad \xff\xfe name";
+    writeSummary(folder.path() / "summary.json", summary);
+    const std::string text = textOf(folder.path() / "summary.json");
+    const Json json = Json::parse(text);
+    CHECK(json["haptic"]["max_penetration_m"].is_null());
+    CHECK(json["haptic"]["max_escape_depth_m"].is_null());
+    CHECK(json["haptic"]["max_force_N"].is_null());
+    CHECK(json["haptic"]["turn_us"]["p999"].is_null());
+    CHECK(json["haptic"]["margin_passive_min"] == 0.1);
+    CHECK(json["guidance"][0]["position_m"].is_null());
+    CHECK(json["guidance"][0]["normal"].is_null());
+    CHECK(json["guidance"][0]["target_m"].is_null());
+    CHECK(json["guidance"][0]["target_qwxyz"].is_null());
+    CHECK(json["fixtures"].is_array());
+    CHECK(json["fixtures"].empty());
+    CHECK(text.find("inf") != std::string::npos); // "infeasible", and nothing else of that kind
+    CHECK(text.find("nan") == std::string::npos);
+}
+
+TEST_CASE(
+    "tick totals count, keep extremes, measure force steps from zero and leave out what is not finite") {
+    TickTotals totals;
+    TickRecord tick;
+    tick.wrench.force = {3, 0, 4};
+    tick.wrench.torque = {0, 0.5, 0};
+    tick.state = TickState::Escape;
+    tick.marginPassive = 0.4;
+    tick.solves = 3;
+    tick.turnMicros = 10.0;
+    totals.add(tick);
+    tick.wrench.force = {3, 0, -2};
+    tick.wrench.torque = {kNan, 0, 0};
+    tick.state = TickState::Trapped;
+    tick.marginPassive = 0.2;
+    tick.stalled = true;
+    tick.infeasible = true;
+    totals.add(tick);
+    tick.wrench.force = {kNan, 0, 0};
+    tick.state = TickState::Free;
+    tick.marginPassive = kNan;
+    tick.solves = 0;
+    tick.late = true;
+    tick.turnMicros = kNan;
+    totals.add(tick);
+    ReplaySummary::Haptic haptic;
+    haptic.stiffness = 800.0;
+    haptic.take(totals);
+    CHECK(haptic.ticks == 3);
+    CHECK(haptic.late == 1);
+    CHECK(haptic.stalledTicks == 2);
+    CHECK(haptic.trappedTicks == 1);
+    CHECK(haptic.escapeTicks == 1);
+    CHECK(haptic.maxForce == 5.0);
+    CHECK(haptic.maxForceStep == 6.0);
+    CHECK(haptic.maxTorque == 0.5);
+    CHECK(*haptic.marginPassiveMin == 0.2);
+    CHECK(!haptic.marginUncoupledMin);
+    CHECK(*haptic.solvesMean == 2.0);
+    CHECK(haptic.infeasible == 2);
+    CHECK(*haptic.turnMicros.max == 10.0);
+    CHECK(*haptic.stiffness == 800.0);
+    ReplaySummary::Haptic none;
+    none.take(TickTotals{});
+    CHECK(!none.solvesMean);
+}
+
+TEST_CASE(
+    "progress writes nothing where there is no terminal, one line that it takes away where there is one") {
+    const ScratchFolder folder;
+    for (const bool terminal : {false, true}) {
+        const auto path = folder.path() / "out";
+        std::FILE* file = std::fopen(path.c_str(), "w+");
+        REQUIRE(file != nullptr);
+        {
+            Progress progress(file, terminal);
+            for (uint64_t i = 0; i < 100000; ++i) {
+                progress.update({i / 33, 60, i, static_cast<double>(i) / 1000.0});
+            }
+        }
+        {
+            Progress discovered(file); // a file is no terminal
+            discovered.update({1, 2, 3, 4.0});
+        }
+        std::fclose(file);
+        const std::string text = textOf(path);
+        CHECK(text.empty() == !terminal);
+        if (terminal) {
+            CHECK(text.find("frame 0 of 60") != std::string::npos);
+            CHECK(text.find('\n') == std::string::npos);
+            CHECK(text.rfind("\r\x1b[K") == text.size() - 4);
+            CHECK(text.size() < 4000); // ten a second, not a hundred thousand
+        }
+    }
+    CHECK(progressText({12, 60, 4200, 4.2}, 3.0) ==
+          "frame 12 of 60, 4 frames/s, 1.4 k ticks/s, 4.2 s of run, 1.40 x real time");
+    CHECK(progressText({0, 0, 0, 0.0}, 0.0) ==
+          "frame 0, 0 frames/s, 0 ticks/s, 0.0 s of run, 0.00 x real time");
+}

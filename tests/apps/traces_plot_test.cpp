@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/traces_plot.h"
+
+#include "apps/replay/picture.h"
+#include "apps/replay/plot_axis.h"
+#include "apps/replay/trace_phases.h"
+#include "apps/replay/traces_style.h"
+#include "engine/types/error.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <vector>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+TickRecord tickAt(int i, double force, TickState state = TickState::Free) {
+    TickRecord tick;
+    tick.t = i * 0.001;
+    tick.wrench.force = {0.0, force, 0.0};
+    tick.wrench.torque = {0.1 * force, 0.0, 0.0};
+    tick.state = state;
+    tick.frame = i / 33;
+    return tick;
+}
+
+// A PNG read back as 0xAARRGGBB.
+struct Image {
+    explicit Image(const std::filesystem::path& file)
+        : surface(cairo_image_surface_create_from_png(file.c_str())) {}
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+    ~Image() { cairo_surface_destroy(surface); }
+    int width() const { return cairo_image_surface_get_width(surface); }
+    int height() const { return cairo_image_surface_get_height(surface); }
+    uint32_t at(int u, int v) const {
+        const unsigned char* row =
+            cairo_image_surface_get_data(surface) + v * cairo_image_surface_get_stride(surface);
+        return reinterpret_cast<const uint32_t*>(row)[u] & 0xffffffu;
+    }
+    // Highest dark pixel of column u between the rows, or -1.
+    int topInk(int u, int from, int to) const {
+        for (int v = from; v < to; ++v) {
+            if ((at(u, v) >> 16 & 0xffu) < 90 && (at(u, v) & 0xffu) < 110) {
+                return v;
+            }
+        }
+        return -1;
+    }
+    cairo_surface_t* surface;
+};
+
+} // namespace
+
+TEST_CASE("a long run keeps its peaks, its tick count and its frame count in constant memory") {
+    TraceHistory history(64);
+    const int count = 100003;
+    for (int i = 0; i < count; ++i) {
+        history.add(tickAt(i, i == 77777 ? 9.0 : 1.0 + (i % 7 == 0 ? 0.5 : 0.0)));
+    }
+    CHECK(history.bins().size() <= 64);
+    CHECK(history.bins().size() >= 32);
+    CHECK(history.ticks() == count);
+    CHECK(history.newFrames() == (count + 32) / 33);
+    CHECK(history.forcePeak().value == 9.0);
+    CHECK(history.forcePeak().t == doctest::Approx(77.777));
+    uint64_t ticks = 0, frames = 0;
+    double highest = 0.0, previous = -1.0;
+    for (const TraceBin& bin : history.bins()) {
+        ticks += bin.ticks;
+        frames += bin.newFrames;
+        highest = std::max(highest, bin.forceMax);
+        CHECK(bin.forceMin == 1.0);
+        CHECK(bin.begin > previous);
+        CHECK((bin.forceMax == 9.0) == (bin.begin <= 77.777 && bin.end >= 77.7769));
+        previous = bin.end;
+    }
+    CHECK(ticks == count);
+    CHECK(frames == history.newFrames());
+    CHECK(highest == 9.0);
+}
+
+TEST_CASE("values that are not finite leave a gap and never a number") {
+    TraceHistory history(4);
+    for (int i = 0; i < 9; ++i) {
+        TickRecord tick = tickAt(i, 1.0);
+        tick.wrench.force.x = i < 4 ? std::nan("") : 0.0;
+        history.add(tick);
+    }
+    CHECK(history.bins().front().forceMax < history.bins().front().forceMin);
+    CHECK(history.bins().front().torqueMax == doctest::Approx(0.1));
+    CHECK(history.bins().back().forceMax == 1.0);
+    CHECK(history.forcePeak().value == 1.0);
+}
+
+TEST_CASE("phases follow the states, take flicker for what is round it, and put guidance before contact") {
+    TraceHistory history;
+    for (int i = 0; i < 4000; ++i) {
+        const bool touching = (i >= 1000 && i < 2000 && i % 200 >= 20) || i >= 3500;
+        TickRecord tick = tickAt(i, touching ? 3.0 : 0.0, touching ? TickState::Contact : TickState::Free);
+        tick.guidance = i >= 3000 ? 0.5 : 0.0;
+        history.add(tick);
+    }
+    const auto phases = findPhases(history);
+    REQUIRE(phases.size() == 4);
+    CHECK(phases[0].kind == PhaseKind::Free);
+    CHECK(phases[1].kind == PhaseKind::Contact);
+    CHECK(phases[1].begin == doctest::Approx(1.0).epsilon(0.01));
+    CHECK(phases[1].end == doctest::Approx(2.0).epsilon(0.01));
+    CHECK(phases[2].kind == PhaseKind::Free);
+    CHECK(phases[3].kind == PhaseKind::Guidance);
+    CHECK(phases[3].end == doctest::Approx(3.999));
+    CHECK(findPhases(TraceHistory{}).empty());
+}
+
+TEST_CASE("a run of many changes has no more phases than letters, without gaps, and covers the run") {
+    TraceHistory history;
+    for (int i = 0; i < 50000; ++i) {
+        history.add(tickAt(i, 0.0, i / 700 % 2 == 0 ? TickState::Free : TickState::Contact));
+    }
+    const auto phases = findPhases(history);
+    CHECK(phases.size() <= 26);
+    CHECK(!phases.empty());
+    CHECK(phases.front().begin == 0.0);
+    CHECK(phases.back().end == doctest::Approx(49.999));
+    for (size_t i = 1; i < phases.size(); ++i) {
+        CHECK(phases[i].begin == phases[i - 1].end);
+        CHECK(phases[i].kind != phases[i - 1].kind);
+    }
+}
+
+TEST_CASE("axis steps are 1, 2 or 5 times a power of ten and labels have the digits that the step needs") {
+    for (const double range : {1e-6, 0.003, 0.7, 1.0, 9.99, 60.0, 3600.0}) {
+        const double step = roundStep(range, 8);
+        const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
+        CHECK(range / step <= 8.0 + 1e-6);
+        CHECK(range / step > 3.0);
+        CHECK((std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 ||
+               std::abs(mantissa - 5) < 1e-6));
+    }
+    const auto ticks = ticksOf({0.0, 0.6, 0.0, 100.0}, 6);
+    REQUIRE(ticks.size() == 7);
+    CHECK(ticks[0].label == "0.0");
+    CHECK(ticks[3].label == "0.3");
+    CHECK(ticksOf({0.0, 3600.0, 0.0, 1.0}, 12).back().label == "3500");
+    CHECK(shortNumber(0.0) == "0.000");
+    CHECK(shortNumber(7.3149) == "7.315");
+    CHECK(shortNumber(1234.56) == "1235");
+    CHECK(shortNumber(0.01234) == "0.0123");
+    CHECK(roundNumber(20.0) == "20");
+}
+
+TEST_CASE("the force trace lies where its axis says, over 1 tick, 1 s and 1 h") {
+    const ScratchFolder folder;
+    const auto path = folder.path() / "traces.png";
+    for (const int count : {1, 1000, 3600000}) {
+        TraceHistory history;
+        for (int i = 0; i < count; ++i) {
+            history.add(tickAt(i, 2 * i < count - 1 ? 4.0 : i % 2 == 0 ? 8.0 : 6.0)); // axis up to 10 N
+        }
+        writeTraces(path, history, {"title", "subtitle", 20.0, 0.9});
+        const Image image(path);
+        REQUIRE(image.width() == traces::kWidth);
+        REQUIRE(image.height() == traces::kHeight);
+        const int top = static_cast<int>(traces::kForceTop), bottom = static_cast<int>(traces::kForceBottom);
+        const double newton = (traces::kForceBottom - traces::kForceTop) / 10.0;
+        const int late = static_cast<int>(traces::kLeft + 0.9 * (traces::kRight - traces::kLeft));
+        const int early = static_cast<int>(traces::kLeft + 0.3 * (traces::kRight - traces::kLeft));
+        if (count > 1) {
+            int highest = bottom; // a column of a short run may lie between two ticks
+            for (int u = late; u < late + 6; ++u) {
+                highest = std::min(highest, image.topInk(u, top, bottom - 10));
+            }
+            CHECK(std::abs(highest - (bottom - 8.0 * newton)) <= 3.0);
+            CHECK(std::abs(image.topInk(early, top, bottom - 10) - (bottom - 4.0 * newton)) <= 3.0);
+        }
+    }
+}
+
+TEST_CASE("an empty run, a run of zeros and a run of NaN draw a picture and say that there was nothing") {
+    const ScratchFolder folder;
+    TraceHistory zeros, nothing;
+    for (int i = 0; i < 500; ++i) {
+        zeros.add(tickAt(i, 0.0));
+        nothing.add(tickAt(i, std::nan("")));
+    }
+    for (const TraceHistory& history : {TraceHistory{}, zeros, nothing}) {
+        const auto path = folder.path() / "traces.png";
+        writeTraces(path, history, {"t", "bad \xff byte", std::nullopt, std::nan("")});
+        const Image image(path);
+        CHECK(image.width() == 1600);
+        CHECK(image.topInk(static_cast<int>(traces::kLeft) + 300, 160, 300) == -1);
+    }
+    CHECK(folder.files() == 1);
+    CHECK_THROWS_AS(writeTraces(folder.path() / "none" / "a.png", zeros, {}), Error);
+}
