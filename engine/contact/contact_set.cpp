@@ -35,12 +35,4 @@ void ContactSet::clear() noexcept {
     }
 }
 
-uint32_t ContactSet::bandOf(double gap) const noexcept {
-    const double band = gap * (kGapBands / reach);
-    if (!(band > 0.0)) {
-        return 0;
-    }
-    return band >= kGapBands ? kGapBands - 1 : static_cast<uint32_t>(band);
-}
-
 } // namespace fathom

@@ -54,7 +54,13 @@ struct ContactSet {
     size_t leafCount() const { return leafAtQuery.size(); }
 
     // Band of a gap at the query [m]; monotone, so every pair with gap <= g lies in the bands 0..bandOf(g).
-    uint32_t bandOf(double gap) const noexcept;
+    uint32_t bandOf(double gap) const noexcept {
+        const double band = gap * (kGapBands / reach);
+        if (!(band > 0.0)) { // touching, or NaN where reach is 0
+            return 0;
+        }
+        return band >= kGapBands ? kGapBands - 1 : static_cast<uint32_t>(band);
+    }
     // End of the run of pairs of `leaf` that holds every pair whose gap at the query is <= g [m], and some more.
     uint32_t pairsUpTo(size_t leaf, double g) const noexcept { return pairBandEnd[leaf * kGapBands + bandOf(g)]; }
 };

@@ -11,48 +11,71 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kChunk = 2048;           // pairs a kernel call: the gaps stay in the first cache
-constexpr size_t kMostNear = 4096;        // pairs of one leaf that cones are chosen from at once
 constexpr size_t kMostRowsOfLeaf = 8;
-constexpr size_t kMostRemembered = 65536; // pairs
+constexpr size_t kMostListed = 65536;     // pairs of a list
+constexpr size_t kLanes = 8;              // runs of a list are multiples of this
+constexpr float kNowhere = 1e18f;         // [m] where padding lies; its square is far from overflow
 constexpr double kCosCone = 0.86602540378443865; // 30 degrees
-constexpr double kRounding = 1e-9;        // [m] widens searches by gap at the query
 constexpr double kCoincident = 1e-12;     // [m]
-
-PairArrays pairsOf(const ContactSet& set, uint32_t begin, uint32_t end) {
-    return {set.pairX.data() + begin, set.pairY.data() + begin, set.pairZ.data() + begin,
-            set.pairRadius.data() + begin, end - begin};
-}
 
 } // namespace
 
+NarrowPhase::PairList::PairList(size_t leaves, size_t capacity)
+    : x(capacity), y(capacity), z(capacity), radius(capacity), pair(capacity), begin(leaves + 1) {}
+
+void NarrowPhase::PairList::add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
+                                const uint32_t* pairs) noexcept {
+    if (count + chosen.size() + kLanes > pair.size()) {
+        complete = false;
+        return;
+    }
+    for (const uint32_t k : chosen) {
+        x[count] = run.x[k];
+        y[count] = run.y[k];
+        z[count] = run.z[k];
+        radius[count] = run.radius[k];
+        pair[count++] = pairs != nullptr ? pairs[k] : firstPair + k;
+    }
+}
+
+void NarrowPhase::PairList::pad(uint32_t leaf) noexcept {
+    while (complete && count % kLanes != 0) {
+        x[count] = y[count] = z[count] = kNowhere;
+        radius[count] = 0.0f;
+        pair[count++] = 0;
+    }
+    begin[leaf + 1] = count;
+}
+
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows)
     : maxRows_(maxRows), rows_(tool.leafCount() * kMostRowsOfLeaf), leaves_(tool.leafCount()),
-      lastNormal_(tool.leafCount(), dvec3(0.0)), moved_(tool.leafCount(), 0.0), x_(kMostRemembered),
-      y_(kMostRemembered), z_(kMostRemembered), sphereRadius_(kMostRemembered), pair_(kMostRemembered),
-      begin_(tool.leafCount() + 1), gaps_(kChunk), near_(kMostNear) {
+      wideLeaves_(tool.leafCount()), lastNormal_(tool.leafCount(), dvec3(0.0)), moved_(tool.leafCount(), 0.0),
+      wide_(tool.leafCount(), kMostListed), close_(tool.leafCount(), kMostListed), gaps_(kPairChunk),
+      chosen_(kPairChunk) {
     for (const Sphere& leaf : tool.leaves()) {
         radius_.push_back(leaf.radius);
     }
 }
 
-void NarrowPhase::gather(const ContactSet& set, std::span<const dvec3> leaves, const dvec3& toolCentre,
-                         double rowLimit, double checkLimit) noexcept {
-    std::copy(leaves.begin(), leaves.end(), leaves_.begin());
+void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
+                         double checkLimit, bool anew) noexcept {
+    for (size_t i = 0; i < leaves.size(); ++i) {
+        leaves_.set(i, leaves[i]);
+        moved_[i] = glm::distance(leaves[i], set.leafAtQuery[i]);
+    }
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
     rowCount_ = 0;
-    remembered_ = 0;
-    allRemembered_ = true;
     smallestGap_ = rowLimit;
-    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        begin_[leaf] = static_cast<uint32_t>(remembered_);
-        moved_[leaf] = glm::distance(leaves_[leaf], set.leafAtQuery[leaf]);
-        if (set.pairBegin[leaf] != set.pairBegin[leaf + 1]) {
-            gatherLeaf(set, leaf, rowLimit, checkLimit);
-        }
+    if (anew || !wideStillServes(leaves, rowLimit - checkLimit)) {
+        findWide(set, rowLimit);
     }
-    begin_[leaves_.size()] = static_cast<uint32_t>(remembered_);
+    close_.count = 0;
+    close_.complete = true;
+    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+        gatherLeaf(set, leaf, rowLimit, checkLimit);
+        close_.pad(leaf);
+    }
     if (rowCount_ > maxRows_) {
         const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(rowCount_);
         std::nth_element(rows_.begin(), rows_.begin() + static_cast<std::ptrdiff_t>(maxRows_), end,
@@ -61,32 +84,64 @@ void NarrowPhase::gather(const ContactSet& set, std::span<const dvec3> leaves, c
     }
 }
 
+// A gap shrinks by no more than the leaf's way: while that is within the slack, no pair within checkLimit is missing.
+bool NarrowPhase::wideStillServes(const LeafCentres& leaves, double slack) const noexcept {
+    if (!wide_.complete) {
+        return false;
+    }
+    const double most = slack - kPairRounding;
+    bool serves = most > 0.0;
+    for (size_t i = 0; i < leaves.size(); ++i) {
+        const dvec3 way = leaves[i] - wideLeaves_[i];
+        serves = serves && glm::dot(way, way) <= most * most;
+    }
+    return serves;
+}
+
+void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
+    wide_.count = 0;
+    wide_.complete = true;
+    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+        wideLeaves_.set(leaf, leaves_[leaf]);
+        const uint32_t end = set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
+        for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
+            const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
+            if (pairGaps(run, leaves_[leaf], radius_[leaf], limit, gaps_.data()) != 0) {
+                wide_.add(run, {chosen_.data(), choose(run.count, limit)}, begin, nullptr);
+            }
+        }
+        wide_.pad(leaf);
+    }
+}
+
+size_t NarrowPhase::choose(size_t count, double limit) noexcept {
+    size_t chosen = 0;
+    for (size_t k = 0; k < count; ++k) { // without a branch: hits come in no order
+        chosen_[chosen] = static_cast<uint32_t>(k);
+        chosen += gaps_[k] <= limit ? 1 : 0;
+    }
+    return chosen;
+}
+
 void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLimit, double checkLimit) noexcept {
-    const dvec3& centre = leaves_[leaf];
+    const dvec3 centre = leaves_[leaf];
     const size_t firstRow = rowCount_;
-    const uint32_t end = set.pairsUpTo(leaf, rowLimit + moved_[leaf] + kRounding);
-    nearCount_ = 0;
-    for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kChunk) {
-        const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kChunk));
+    PairArrays all = wide_.of(leaf);
+    const uint32_t* pairs = wide_.pair.data() + wide_.begin[leaf];
+    if (!wide_.complete) {
+        all = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, rowLimit + moved_[leaf] + kPairRounding));
+        pairs = nullptr;
+    }
+    for (size_t begin = 0; begin < all.count; begin += kPairChunk) {
+        const PairArrays run = part(all, begin);
         if (pairGaps(run, centre, radius_[leaf], rowLimit, gaps_.data()) == 0) {
             continue;
         }
-        for (uint32_t k = 0; k < run.count; ++k) {
-            const double gap = gaps_[k];
-            if (gap > rowLimit) {
-                continue;
-            }
-            if (gap <= checkLimit) {
-                remember(set, begin + k);
-            }
-            if (nearCount_ == kMostNear) {
-                chooseRows(set, leaf, firstRow);
-            }
-            near_[nearCount_++] = {centre - dvec3(run.x[k], run.y[k], run.z[k]),
-                                   gap + (radius_[leaf] + static_cast<double>(run.radius[k])), gap, begin + k};
-        }
+        const uint32_t first = set.pairBegin[leaf] + static_cast<uint32_t>(begin);
+        const uint32_t* runPairs = pairs != nullptr ? pairs + begin : nullptr;
+        close_.add(run, {chosen_.data(), choose(run.count, checkLimit)}, first, runPairs);
+        chooseRows(set, leaf, run, first, runPairs, firstRow, rowLimit);
     }
-    chooseRows(set, leaf, firstRow);
     if (rowCount_ == firstRow) {
         return;
     }
@@ -97,43 +152,24 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLim
     smallestGap_ = std::min(smallestGap_, deepest.gap);
 }
 
-void NarrowPhase::remember(const ContactSet& set, uint32_t pair) noexcept {
-    if (remembered_ == kMostRemembered) {
-        allRemembered_ = false;
-        return;
-    }
-    x_[remembered_] = set.pairX[pair];
-    y_[remembered_] = set.pairY[pair];
-    z_[remembered_] = set.pairZ[pair];
-    sphereRadius_[remembered_] = set.pairRadius[pair];
-    pair_[remembered_++] = pair;
-}
-
-// Greedy: the nearest, then the nearest outside its cone, and so on. Takes what is in near_ and empties it.
-void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept {
-    size_t count = nearCount_;
-    nearCount_ = 0;
-    const auto dropCone = [&](const ContactRow& row) {
-        size_t kept = 0;
-        for (size_t k = 0; k < count; ++k) {
-            const Near& near = near_[k];
-            if (near.gap < row.gap || glm::dot(near.delta, row.normal) < kCosCone * near.distance) {
-                near_[kept++] = near;
-            }
-        }
-        count = kept;
-    };
+// Greedy over one run, whose gaps_ it uses up: the nearest, then the nearest outside its cone, and so on.
+void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+                             const uint32_t* pairs, size_t firstRow, double limit) noexcept {
+    const dvec3 centre = leaves_[leaf];
+    size_t left = run.count;
     for (size_t r = firstRow; r < rowCount_; ++r) { // chosen from an earlier part of the same leaf
-        dropCone(rows_[r]);
+        left = dropCone(run, centre, rows_[r].normal, kCosCone, rows_[r].gap, limit, gaps_.data());
     }
-    while (count > 0 && rowCount_ < firstRow + kMostRowsOfLeaf) {
-        size_t best = 0;
-        for (size_t k = 1; k < count; ++k) {
-            best = near_[k].gap < near_[best].gap ? k : best;
+    while (left > 0 && rowCount_ < firstRow + kMostRowsOfLeaf) {
+        const size_t best = smallestOf(gaps_.data(), run.count);
+        if (best == run.count || gaps_[best] > limit) {
+            return;
         }
-        rows_[rowCount_] = rowOf(set, leaf, near_[best].delta, near_[best].gap, near_[best].pair);
-        near_[best] = near_[--count];
-        dropCone(rows_[rowCount_++]);
+        const dvec3 delta = centre - dvec3(run.x[best], run.y[best], run.z[best]);
+        const uint32_t pair = pairs != nullptr ? pairs[best] : firstPair + static_cast<uint32_t>(best);
+        const ContactRow& row = rows_[rowCount_++] = rowOf(set, leaf, delta, gaps_[best], pair);
+        gaps_[best] = std::numeric_limits<double>::infinity(); // even if it has no direction
+        left = dropCone(run, centre, row.normal, kCosCone, row.gap, limit, gaps_.data());
     }
 }
 
@@ -157,77 +193,6 @@ ContactRow NarrowPhase::rowOf(const ContactSet& set, uint32_t leaf, const dvec3&
     row.kind = ContactRow::Kind::Sphere;
     row.key = (static_cast<uint64_t>(leaf) << 32) | set.source[set.pairSphere[pair]];
     return row;
-}
-
-size_t NarrowPhase::check(const ContactSet& set, std::span<const dvec3> next, std::span<const dvec3> exempt,
-                          std::span<Violation> out) noexcept {
-    size_t count = 0;
-    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        Violation* worst = count < out.size() ? &out[count] : nullptr;
-        count += checkLeaf(set, leaf, next[leaf], exempt[leaf], worst) ? 1 : 0;
-    }
-    return count;
-}
-
-bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& next, const dvec3& exempt,
-                            Violation* worst) noexcept {
-    const dvec3& from = leaves_[leaf];
-    const double r = radius_[leaf];
-    PairArrays all{x_.data() + begin_[leaf], y_.data() + begin_[leaf], z_.data() + begin_[leaf],
-                   sphereRadius_.data() + begin_[leaf], begin_[leaf + 1] - begin_[leaf]};
-    if (!allRemembered_) {
-        all = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, checkLimit_ + moved_[leaf] + kRounding));
-    }
-    double deepest = 0.0;
-    size_t deepestAt = 0;
-    for (size_t begin = 0; begin < all.count; begin += kChunk) {
-        const PairArrays run{all.x + begin, all.y + begin, all.z + begin, all.radius + begin,
-                             std::min(kChunk, all.count - begin)};
-        size_t left = sweptGaps(run, from, next, r, gaps_.data());
-        for (size_t k = 0; left > 0; ++k) {
-            if (!(gaps_[k] < 0.0)) {
-                continue;
-            }
-            --left;
-            const double depth = std::min(0.0, gapOf(run, k, from, r)) - gaps_[k];
-            const dvec3 delta = from - dvec3(run.x[k], run.y[k], run.z[k]);
-            if (depth > deepest && !(glm::dot(delta, exempt) < 0.0)) {
-                deepest = depth;
-                deepestAt = begin + k;
-            }
-        }
-    }
-    if (deepest > 0.0 && worst != nullptr) {
-        const uint32_t pair =
-            allRemembered_ ? pair_[begin_[leaf] + deepestAt] : set.pairBegin[leaf] + static_cast<uint32_t>(deepestAt);
-        const dvec3 delta = from - dvec3(set.pairX[pair], set.pairY[pair], set.pairZ[pair]);
-        worst->row = rowOf(set, leaf, delta, gapOf(all, deepestAt, from, r), pair);
-        worst->depth = deepest;
-    }
-    return deepest > 0.0;
-}
-
-double NarrowPhase::smallestGapAt(const ContactSet& set, std::span<const dvec3> leaves) noexcept {
-    double smallest = set.reach;
-    // Band 0 of every leaf first: it usually lowers the bound so far that little else need be read.
-    for (const bool first : {true, false}) {
-        for (uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
-            if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
-                continue;
-            }
-            const double moved = glm::distance(leaves[leaf], set.leafAtQuery[leaf]);
-            const uint32_t band0 = set.pairsUpTo(leaf, 0.0);
-            const uint32_t end = first ? band0 : set.pairsUpTo(leaf, smallest + moved + kRounding);
-            for (uint32_t begin = first ? set.pairBegin[leaf] : band0; begin < end; begin += kChunk) {
-                const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kChunk));
-                if (pairGaps(run, leaves[leaf], radius_[leaf], smallest, gaps_.data()) != 0) {
-                    const auto last = gaps_.begin() + static_cast<std::ptrdiff_t>(run.count);
-                    smallest = std::min(smallest, *std::min_element(gaps_.begin(), last));
-                }
-            }
-        }
-    }
-    return smallest;
 }
 
 } // namespace fathom

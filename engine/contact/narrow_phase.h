@@ -4,6 +4,8 @@
 
 #include "engine/contact/contact_row.h"
 #include "engine/contact/contact_set.h"
+#include "engine/contact/leaf_centres.h"
+#include "engine/contact/pair_gaps.h"
 
 #include <cstdint>
 #include <span>
@@ -19,9 +21,11 @@ public:
 
     // Leaf centres are about set.origin [m], one a leaf of the tool. Finds for each leaf, among listed pairs with gap <=
     // rowLimit, the nearest and the nearest in each further 30 degree normal cone: rows(). Remembers all pairs with gap
-    // <= checkLimit for check(); checkLimit <= rowLimit. camera: fallback normal's way, about the origin.
-    void gather(const ContactSet& set, std::span<const dvec3> leaves, const dvec3& toolCentre, double rowLimit,
-                double checkLimit) noexcept;
+    // <= checkLimit for check(); checkLimit <= rowLimit. anew: false when the set is the one of the last call, bit by
+    // bit: pairs found then are looked at again instead of the whole set, as long as no leaf has moved so far that a
+    // pair within checkLimit could be missing (rows beyond rowLimit - that way may be).
+    void gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
+                double checkLimit, bool anew) noexcept;
 
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
     // Distance of each leaf from where it was at the query [m]; of the last gather().
@@ -39,21 +43,39 @@ public:
     // checkLimit. `exempt[leaf]`, when not zero, is the way to the camera of a leaf behind a surface: its pairs whose
     // normal points away from it do not count. Writes the worst of each leaf, at most out.size(); returns how many leaves
     // violate (more than out.size() is possible).
-    size_t check(const ContactSet& set, std::span<const dvec3> next, std::span<const dvec3> exempt,
+    size_t check(const ContactSet& set, const LeafCentres& next, std::span<const dvec3> exempt,
                  std::span<Violation> out) noexcept;
 
     // Smallest gap over all listed pairs with the leaves at `leaves` [m]; set.reach when none is nearer.
-    double smallestGapAt(const ContactSet& set, std::span<const dvec3> leaves) noexcept;
+    double smallestGapAt(const ContactSet& set, const LeafCentres& leaves) noexcept;
 
 private:
-    struct Near {
-        dvec3 delta; // leaf - sphere
-        double distance, gap;
-        uint32_t pair;
+    // Pairs with their floats in one run a leaf, of fixed capacity. begin[0] is 0.
+    struct PairList {
+        std::vector<float> x, y, z, radius;
+        std::vector<uint32_t> pair;
+        std::vector<uint32_t> begin; // leaves + 1
+        uint32_t count = 0;
+        bool complete = false; // nothing was left out for lack of room
+
+        PairList(size_t leaves, size_t capacity);
+        PairArrays of(uint32_t leaf) const {
+            return {x.data() + begin[leaf], y.data() + begin[leaf], z.data() + begin[leaf],
+                    radius.data() + begin[leaf], begin[leaf + 1] - begin[leaf]};
+        }
+        // Adds the elements of `run` named by `chosen`; run element k is pair firstPair + k, or pairs[k].
+        void add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
+                 const uint32_t* pairs) noexcept;
+        // Ends the run of a leaf: fills it up with spheres that nothing reaches, so that kernels see whole registers.
+        void pad(uint32_t leaf) noexcept;
     };
+    bool wideStillServes(const LeafCentres& leaves, double slack) const noexcept;
+    void findWide(const ContactSet& set, double limit) noexcept;
     void gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLimit, double checkLimit) noexcept;
-    void remember(const ContactSet& set, uint32_t pair) noexcept;
-    void chooseRows(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept;
+    // Element numbers of `run` with gaps_ <= limit, into chosen_; returns how many.
+    size_t choose(size_t count, double limit) noexcept;
+    void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
+                    const uint32_t* pairs, size_t firstRow, double limit) noexcept;
     ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap, uint32_t pair) noexcept;
     bool checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& next, const dvec3& exempt,
                    Violation* worst) noexcept;
@@ -62,23 +84,19 @@ private:
     size_t maxRows_;
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
-    std::vector<dvec3> leaves_;     // of the last gather()
+    LeafCentres leaves_;            // of the last gather()
+    LeafCentres wideLeaves_;        // where wide_ was found
     std::vector<dvec3> lastNormal_; // of each leaf's deepest row; zero = none yet
     std::vector<double> moved_;
     dvec3 toolCentre_{0.0};
     double smallestGap_ = 0.0;
     double checkLimit_ = 0.0;
 
-    // Pairs that one step can reach, grouped by leaf. When they do not fit, check() reads the set itself.
-    std::vector<float> x_, y_, z_, sphereRadius_;
-    std::vector<uint32_t> pair_;
-    std::vector<uint32_t> begin_; // leaves + 1
-    size_t remembered_ = 0;
-    bool allRemembered_ = true;
+    PairList wide_;  // gap <= rowLimit where it was found: serves the solves of a turn
+    PairList close_; // gap <= checkLimit at the last gather(): what one step can reach
 
     std::vector<double> gaps_; // of one chunk
-    std::vector<Near> near_;
-    size_t nearCount_ = 0;
+    std::vector<uint32_t> chosen_;
 };
 
 } // namespace fathom

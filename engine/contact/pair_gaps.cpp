@@ -5,10 +5,13 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace fathom {
 
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Everything by value: the compiler then knows that writing gaps changes none of it.
 FATHOM_CLONES
@@ -57,7 +60,65 @@ int64_t sweptKernel(const float* __restrict x, const float* __restrict y, const 
     return below;
 }
 
+FATHOM_CLONES
+int64_t coneKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z, size_t count,
+                   double cx, double cy, double cz, double nx, double ny, double nz, double cosine2,
+                   double keepBelow, double limit, double* __restrict gaps) noexcept {
+    int64_t below = 0;
+    for (size_t k = 0; k < count; ++k) {
+        const double dx = cx - static_cast<double>(x[k]);
+        const double dy = cy - static_cast<double>(y[k]);
+        const double dz = cz - static_cast<double>(z[k]);
+        const double along = dx * nx + dy * ny + dz * nz;
+        const double ahead = along > 0.0 ? along : 0.0;
+        const bool inside = ahead * ahead >= cosine2 * (dx * dx + dy * dy + dz * dz);
+        const double gap = gaps[k];
+        const double left = inside & (gap >= keepBelow) ? kInfinity : gap;
+        gaps[k] = left;
+        below += left <= limit ? 1 : 0;
+    }
+    return below;
+}
+
+FATHOM_CLONES
+double smallestKernel(const double* __restrict gaps, size_t count) noexcept {
+    // Eight running minima: the compiler may not reorder one, and eight fill its widest register.
+    double least[8];
+    for (double& l : least) {
+        l = kInfinity;
+    }
+    size_t k = 0;
+    for (; k + 8 <= count; k += 8) {
+        for (size_t j = 0; j < 8; ++j) {
+            least[j] = gaps[k + j] < least[j] ? gaps[k + j] : least[j];
+        }
+    }
+    for (; k < count; ++k) {
+        least[0] = gaps[k] < least[0] ? gaps[k] : least[0];
+    }
+    double smallest = least[0];
+    for (size_t j = 1; j < 8; ++j) {
+        smallest = least[j] < smallest ? least[j] : smallest;
+    }
+    return smallest;
+}
+
 } // namespace
+
+size_t smallestOf(const double* gaps, size_t count) noexcept {
+    const double smallest = smallestKernel(gaps, count);
+    size_t at = 0;
+    while (at < count && !(gaps[at] == smallest && smallest < kInfinity)) {
+        ++at;
+    }
+    return at;
+}
+
+size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine, double keepBelow,
+                double limit, double* gaps) noexcept {
+    return static_cast<size_t>(coneKernel(run.x, run.y, run.z, run.count, centre.x, centre.y, centre.z, axis.x, axis.y,
+                                          axis.z, cosine * cosine, keepBelow, limit, gaps));
+}
 
 size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit, double* gaps) noexcept {
     return static_cast<size_t>(gapsKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y, centre.z,

@@ -2,9 +2,12 @@
 // The kernels of the narrow phase: gaps between one tool leaf and a run of region spheres, float64.
 #pragma once
 
+#include "engine/contact/contact_set.h"
 #include "engine/types/pose.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace fathom {
 
@@ -17,9 +20,32 @@ struct PairArrays {
     size_t count;
 };
 
+inline constexpr size_t kPairChunk = 2048;    // pairs a kernel call: the gaps stay in the first cache
+inline constexpr double kPairRounding = 1e-9; // [m] widens searches that go by an earlier gap
+
+// Listed pairs [begin, end) of a set.
+inline PairArrays pairsOf(const ContactSet& set, uint32_t begin, uint32_t end) {
+    return {set.pairX.data() + begin, set.pairY.data() + begin, set.pairZ.data() + begin,
+            set.pairRadius.data() + begin, end - begin};
+}
+
+// The chunk of a run that starts at `begin`.
+inline PairArrays part(const PairArrays& run, size_t begin) {
+    return {run.x + begin, run.y + begin, run.z + begin, run.radius + begin,
+            std::min(kPairChunk, run.count - begin)};
+}
+
 // gap = |centre - sphere| - (leafRadius + R) [m], written to gaps[0 .. count). Returns how many are <= limit. The same bits
 // on every instruction set, and the same as gapOf().
 size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit, double* gaps) noexcept;
+
+// Index of the smallest gap, the first of equals; count when every gap is infinite or there is none.
+size_t smallestOf(const double* gaps, size_t count) noexcept;
+
+// Sets the gap to infinity of every pair whose normal lies within the cone about `axis` (unit; cosine of its half angle) and
+// whose gap is not below `keepBelow`. Returns how many are still <= limit.
+size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine, double keepBelow,
+                double limit, double* gaps) noexcept;
 
 // Smallest gap along the straight way of the leaf centre from `from` to `to`, both ends' own gaps included bit by bit.
 // Returns how many are < 0. A step of 2 mm cannot jump over a sphere, however small.

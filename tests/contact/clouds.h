@@ -13,6 +13,8 @@
 
 namespace fathom::testing {
 
+inline const dquat kUpright(1.0, 0.0, 0.0, 0.0);
+
 inline dvec3 randomIn(std::mt19937_64& random, double half) {
     std::uniform_real_distribution<double> u(-half, half);
     const double x = u(random), y = u(random);

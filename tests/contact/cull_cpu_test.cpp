@@ -139,7 +139,7 @@ TEST_CASE("No spheres, or none in reach, give an empty set that certifies its re
     CHECK(query(tool, Pose{}, 0.01, one).size() == 0);
     CHECK(query.set.frame == 5);
     CHECK(query.set.generation == 5);
-    CHECK(query(tool, Pose{dvec3(2.0), {}}, 0.01, one).size() == 1);
+    CHECK(query(tool, Pose{dvec3(2.0), kUpright}, 0.01, one).size() == 1);
     CHECK(query.cull.statistics().queries == 3);
     CHECK(query.cull.statistics().overflows == 0);
 }
@@ -162,7 +162,7 @@ TEST_CASE("An overflow halves the reach until the answer fits, certifies that, a
     Fixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.1, 0.002, 0.01);
     const Tool tool = ballTool(0.01);
-    const Pose pose{dvec3(0, 0, 0.021), {}}; // 1 mm above the wall
+    const Pose pose{dvec3(0, 0, 0.021), kUpright}; // 1 mm above the wall
     SUBCASE("by spheres") {
         Query query({40, 1000000});
         const ContactSet& set = query(tool, pose, 0.016, fixtures);
@@ -194,7 +194,7 @@ TEST_CASE("An overflow halves the reach until the answer fits, certifies that, a
     }
     SUBCASE("touching spheres alone that do not fit raise the capacity at once") {
         Query query({8, 8});
-        const Pose deep{dvec3(0, 0, 0.012), {}};
+        const Pose deep{dvec3(0, 0, 0.012), kUpright};
         const ContactSet& set = query(tool, deep, 0.016, fixtures);
         CHECK(set.size() > 8);
         CHECK(set.source == oracleSources(tool, deep, set.reach, fixtures));

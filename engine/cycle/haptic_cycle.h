@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// One turn of the haptic cadence: hand pose in, wrench out, in the same tick. Design 6.
+#pragma once
+
+#include "engine/cycle/haptic_options.h"
+#include "engine/cycle/turn_record.h"
+#include "engine/haptics/hand_map.h"
+
+namespace fathom {
+
+// One thread (the haptic one). Allocates in the constructor only; turn() is noexcept and never locks, throws,
+// waits or touches Vulkan. The caller owns the device, the clock and the contact sets.
+//
+// Rules of a turn:
+// - Until the first contact set (when the scene needs one) the tool is held, the wrench is zero, the state is
+// off.
+// - Forces off or dead-man open: in that very turn w = 0; the wrench ramps to zero over 0.2 s while the tool
+// follows the
+//   hand and still obeys the regions.
+// - Trapped: the tool is held, the force ramps out over 0.2 s, and back when a way is found. The clutch ramps
+// the same way.
+// - Scene older than staleAfter: the force fades over 0.5 s, and back when a frame comes.
+// - A number that is not finite, anywhere: zero wrench in that turn, counted; the next one slews up from
+// zero.
+class HapticCycle {
+public:
+    // start: raw pose of the hand before the first turn; the tool starts where it commands.
+    HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
+                const Pose& start);
+
+    TurnRecord turn(const TurnInput& input) noexcept;
+
+    const Pose& pose() const { return proxy_.pose(); } // base_T_tool: what the next contact query asks about
+    const Springs& springs() const { return options_.springs; }
+    const HapticOptions& options() const { return options_; }
+    uint64_t notFinite() const { return notFinite_; } // turns with a number that was not
+
+    static constexpr double kRampTime = 0.2;       // [s] forces off, clutch, trapped
+    static constexpr double kFadeTime = 0.5;       // [s] old scene
+    static constexpr double kResumeWithin = 0.005; // [m] tool to hand, before an arm moves again
+
+private:
+    struct Ramps {          // 0..1 each; their product scales the wrench
+        double power = 0.0; // forces on, dead-man closed, clutch up
+        double free = 1.0;  // not trapped
+        double fresh = 1.0; // scene young enough
+        double product() const { return power * free * fresh; }
+    };
+    struct Situation {    // what the rules look at
+        bool sane = true; // the hand's sample is finite
+        bool off = false; // forces off or dead-man open
+        bool clutch = false;
+        bool running = false; // there is a set, or none is needed
+        bool stale = false;
+    };
+
+    const ContactSet* chooseSet(const TurnInput& input, TurnRecord& out) noexcept;
+    double sceneAge(const TurnInput& input, const ContactSet* set) noexcept;
+    ProxyTurn moveTool(const TurnInput& input, const ContactSet* set) noexcept;
+    void stepRamps(const Situation& now, bool trapped) noexcept;
+    Wrench springWrench() noexcept;
+    void finishWrench(const Wrench& spring, const Situation& now, TurnRecord& out) noexcept;
+    void report(const Situation& now, const ProxyTurn& moved, bool hasSet, TurnRecord& out) const noexcept;
+    TurnState stateOf(const Situation& now, const ProxyTurn& moved) const noexcept;
+    void holdArm(const Situation& now, bool trapped, TurnRecord& out) noexcept;
+    void fillMargins(const TurnInput& input, TurnRecord& out) const noexcept;
+
+    HapticOptions options_;
+    HandMap map_;
+    Guidance guidance_;
+    Proxy proxy_;
+
+    Pose device_, handle_;           // last good sample: mapped, raw
+    Pose toolBefore_, deviceBefore_; // at the end of the turn before, for the damping
+    Wrench smooth_;                  // low-pass
+    Wrench previous_;                // delivered, for the slew limit
+    Ramps ramps_;
+    double age_ = 0.0;
+    bool hasAge_ = false;
+    bool armHold_ = true;
+    uint64_t notFinite_ = 0;
+};
+
+} // namespace fathom

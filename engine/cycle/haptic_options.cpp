@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/haptic_options.h"
+
+#include "engine/haptics/limits.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
+    const Scene::Haptics& haptics = scene.haptics;
+    HapticOptions options;
+    options.period = 1.0 / haptics.rateHz;
+    options.device = devicePreset(haptics.device);
+    options.handScale = scene.hand.scale;
+    options.baseRdevice = scene.hand.baseRdevice;
+    options.clutchBit = scene.hand.clutchBit;
+    options.lowPassGain = lowPassGain(haptics.lowpassHz, options.period);
+    options.paperGuidance = haptics.guidance == Scene::Haptics::GuidanceMode::Paper && scene.hasGuidance();
+
+    options.coupling.period = options.period;
+    options.coupling.delayTicks = lowPassDelayTicks(options.lowPassGain);
+    options.coupling.handScale = scene.hand.scale;
+    options.coupling.toolRadius = tool.gyrationRadius();
+    options.coupling.stiffness = haptics.stiffness;
+    options.coupling.rotationalStiffness = haptics.rotationalStiffness;
+    options.coupling.paperGuidance = options.paperGuidance;
+    options.springs = makeSprings(options.device, options.coupling);
+
+    options.proxy.stepCap = haptics.stepCap;
+    options.proxy.solves = haptics.solves;
+    options.forceLimit = haptics.forceLimit.value_or(options.device.forceLimit);
+    // The hand feels tau / s (hand_map.h): with a fine map, s < 1, its limit is the tighter one.
+    const double torqueShare = std::min(1.0, scene.hand.scale);
+    options.torqueLimit = haptics.torqueLimit.value_or(options.device.torqueLimit) * torqueShare;
+    options.slewForce = haptics.slewForce;
+    options.slewTorque = haptics.slewTorque * torqueShare;
+    options.needsContacts = scene.hasForbiddenPoints();
+    return options;
+}
+
+} // namespace fathom

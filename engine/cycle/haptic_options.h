@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that the haptic turn was told before it starts: derived once from scene, tool and device preset.
+#pragma once
+
+#include "engine/contact/tool.h"
+#include "engine/haptics/coupling.h"
+#include "engine/haptics/guidance.h"
+#include "engine/haptics/proxy.h"
+#include "engine/scene/scene.h"
+
+namespace fathom {
+
+struct HapticOptions {
+    double period = 0.001; // T [s] nominal; every ramp, slew and damping counts in it
+    DevicePreset device;
+    CouplingOptions coupling; // what the springs were made from; the margins need it
+    Springs springs;
+    ProxyOptions proxy;
+    GuidanceLimits guidance;
+    bool paperGuidance = false; // mode `paper`, else `target`
+    dquat baseRdevice{1.0, 0.0, 0.0, 0.0};
+    double handScale = 1.0;
+    uint32_t clutchBit = 4;
+    double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] at the tool: the hand's torque limit counts too
+    double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
+    double lowPassGain = 1.0;                     // limits.h; 1 = off
+    bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
+    double staleAfter = 0.1;   // [s] scene age from which forces fade
+};
+
+// Throws BadInput (unknown device) or Error (springs impossible).
+HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool);
+
+} // namespace fathom

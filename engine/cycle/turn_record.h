@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes into one haptic turn and what comes out: plain values, no owners.
+#pragma once
+
+#include "engine/contact/contact_set.h"
+#include "engine/contact/fixtures.h"
+#include "engine/haptics/proxy.h"
+#include "engine/types/pose.h"
+#include "engine/types/wrench.h"
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+namespace fathom {
+
+// In the words of haptics.csv: off, free, contact, escape, trapped, fading.
+enum class TurnState : uint8_t {
+    Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
+    Free,    // no row pushes
+    Contact, // some row pushes
+    Escape,  // new data lies over the tool, which is on its way out
+    Trapped, // no motion obeys every row: the tool is held, the force ramps out
+    Fading,  // scene too old, or forces off and not yet ramped out
+};
+
+inline constexpr uint32_t kGuidanceButton = 1;
+inline constexpr uint32_t kDeadManOpen = 2; // by level; the clutch's bit is an option
+
+struct TurnInput {
+    double time = 0.0;    // [s] of this turn, on the clock of capture times
+    Pose deviceThandle;   // raw, as the device gives it
+    uint32_t buttons = 0; // bit field by level
+    bool forcesOff = false;
+
+    // The set in force (the one that the turn before obeyed; null = none), and a newer answer if there is
+    // one. Both must outlive the turn. When TurnRecord::adopted is true, the newer one is in force from now
+    // on. A set that does not cover the tool is not adopted: keep offering it or a newer one.
+    const ContactSet* contacts = nullptr;
+    const ContactSet* offered = nullptr;
+
+    // News of the frame cadence: its newest fixture set.
+    int64_t frame = -1;
+    uint64_t generation = 0;
+    double captureTime =
+        0.0; // [s] of the newest picture that shows it: later than the set's own while nothing changes
+    std::span<const GuidancePose> guidance;
+    bool sourceEnded = false; // lockstep: the last frame stays in force and does not age
+
+    double measuredPeriod = 0.0; // [s] since the turn before, for the margins; 0 = the nominal one
+    Deadline deadline;           // realtime; none in lockstep
+};
+
+inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
+
+// One row of haptics.csv and what the view shows beside it.
+struct TurnRecord {
+    double t = 0.0;            // [s]
+    Pose device;               // base_T_tool that the hand commands, mapped
+    Pose tool;                 // base_T_tool of the proxy after the turn
+    Wrench wrench;             // on the hand, base axes, after all limits, before projection
+    uint32_t contacts = 0;     // rows with a positive multiplier in the last solve
+    double minGap = kNotKnown; // [m] over the contact set after the turn; its reach when none is nearer
+    TurnState state = TurnState::Off;
+    double guidance = 0.0;                                         // w
+    int64_t frame = -1;                                            // index of the set obeyed
+    double sceneAge = kNotKnown;                                   // [s]
+    bool stalled = false;                                          // cut by the trust region
+    double marginPassive = kNotKnown, marginUncoupled = kNotKnown; // [N s/m]; NaN = b unknown
+
+    Wrench deviceWrench;     // for HapticDevice::write: device axes, about the handle, on actuated axes only
+    Wrench residual;         // base axes: what the device cannot render
+    bool adopted = false;    // TurnInput::offered is in force now
+    bool finite = true;      // false: something was not, and the wrench of this turn is zero
+    bool armHold = true;     // an arm that follows the tool must stand still
+    uint32_t solves = 0;     // linearisations
+    uint32_t infeasible = 0; // solver calls without an answer
+    int guidanceClass = -1;  // index into TurnInput::guidance of the target that pulls
+    Pose guidanceTarget;     // held and slewed; valid when guidanceClass >= 0
+};
+
+} // namespace fathom

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Guidance: which target pulls, how much of it, and in which of the two ways. On by button, eased in and out.
+#pragma once
+
+#include "engine/contact/fixtures.h"
+#include "engine/haptics/coupling.h"
+#include "engine/types/pose.h"
+#include "engine/types/wrench.h"
+
+#include <cstdint>
+#include <span>
+
+namespace fathom {
+
+struct GuidanceLimits {
+    double force = 2.0;    // F_g [N]: most that the pull can be felt as
+    double torque = 0.1;   // tau_g [N m]
+    double easeTime = 0.5; // [s] w from 0 to 1 and back, smoothstep
+    double holdTime = 0.5; // [s] a target whose class fell under min_count stays where it was for so long
+    double slew = 0.1;     // [m/s] of the target, so that a new frame never jerks the hand
+    double turnSlew = 0.5; // [rad/s]
+};
+
+// One thread, noexcept, no allocation. The mean that is reported is not touched: hold, slew and choice act on
+// the target.
+class Guidance {
+public:
+    explicit Guidance(const GuidanceLimits& limits = {})
+        : limits_(limits) {}
+
+    // One turn. poses: one a guidance class, of the newest frame. When the button goes down the class nearest
+    // to the device is chosen among those present (if none is, the first moment one is) and kept until it is
+    // released, even while it is lost. cut = true (forces off) sets w to 0 at once; after it the button must
+    // be pressed again.
+    void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut,
+              double dt) noexcept;
+
+    double weight() const noexcept { return weight_; } // w, 0..1
+    bool hasTarget() const noexcept { return chosen_ >= 0; }
+    int chosen() const noexcept { return chosen_; }         // index into poses; -1 = none
+    const Pose& target() const noexcept { return target_; } // held and slewed
+
+    // What is added to the solver's target x_u in mode `target`: [w clamp(p_g - p_dev, F_g/K_t);
+    // w clamp(log(q_g q_dev^-1), tau_g/K_r)]. The pull at rest is then at most F_g and tau_g, and the proxy
+    // leads the hand by at most F_g/K_t. With the roll free only the axis is turned: no part about the
+    // target's z.
+    struct Lead {
+        dvec3 translation{0.0}; // [m]
+        dvec3 rotation{0.0};    // [rad] base axes
+    };
+    Lead lead(const Pose& device, const Springs& springs) const noexcept;
+
+    // What is added to the wrench in mode `paper`: w K_g (p_g - p_dev), at most F_g, and w K_gr (turn), at
+    // most tau_g, K_gr = k^2 K_g.
+    Wrench pull(const Pose& device, const Springs& springs) const noexcept;
+
+private:
+    void choose(std::span<const GuidancePose> poses, const Pose& device) noexcept;
+    void follow(std::span<const GuidancePose> poses, double dt) noexcept;
+    dvec3 turnFrom(const Pose& device) const noexcept;
+
+    GuidanceLimits limits_;
+    int chosen_ = -1;
+    bool waiting_ = false; // button down, no class present yet
+    bool button_ = false;
+    bool rollFree_ = false;
+    double lost_ = 0.0;  // [s] since the chosen class was last present
+    double phase_ = 0.0; // 0..1, linear in time
+    double weight_ = 0.0;
+    Pose target_;
+};
+
+// Shortest turn that brings the z axis of `from` onto that of `to`, base axes [rad]: has no part about either
+// axis.
+dvec3 axisTurn(const dquat& from, const dquat& to) noexcept;
+
+} // namespace fathom

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// From the hand's raw pose to the device pose in the base frame, and of the wrench back to the device's axes.
+#pragma once
+
+#include "engine/types/pose.h"
+#include "engine/types/wrench.h"
+
+namespace fathom {
+
+// p_dev = offset + s R p_raw, q_dev = R q_raw C. The turn C on the right leaves the hand's own rotations
+// alone: a turn of the hand about any base axis turns the device pose about that axis by the same angle. One
+// thread; noexcept.
+//
+// Wrench on the hand: the tool's potential V(p_dev, q_dev) has the spring wrench (f, tau) = -grad V. Moving
+// the hand by dx moves p_dev by s R dx, so that the hand's own gradient of V is (s R^T f, R^T tau). The port
+// delivers 1/s of it,
+//     f_device = R^T f,  tau_device = R^T tau / s,
+// the gradient of V/s: no closed path of the hand draws energy, forces are felt as they are shown, and the
+// stiffness at the hand is s K_t and K_r / s (coupling.h bounds those).
+class HandMap {
+public:
+    // scale > 0 and baseRdevice of unit length: throws Error otherwise.
+    HandMap(const dquat& baseRdevice, double scale);
+
+    // Device pose of the turn. While `clutch` is true the pose stays where it was at the turn before; the
+    // first turn after that re-takes offset and C, so that it starts from there without a jump.
+    Pose map(const Pose& deviceThandle, bool clutch) noexcept;
+
+    // Re-takes offset and C so that the raw pose means `pose` from now on.
+    void align(const Pose& deviceThandle, const Pose& pose) noexcept;
+
+    // Base axes to device axes, about the handle.
+    Wrench toDevice(const Wrench& base) const noexcept;
+    // Orientation of the handle in the base frame: where the device's motors are, whatever the clutch did.
+    dquat baseRhandle(const Pose& deviceThandle) const noexcept {
+        return baseRdevice_ * deviceThandle.rotation;
+    }
+    double scale() const noexcept { return scale_; }
+    bool clutched() const noexcept { return clutched_; }
+    // Torque at the hand over torque at the tool.
+    double torqueFactor() const noexcept { return 1.0 / scale_; }
+
+private:
+    dquat baseRdevice_;
+    double scale_;
+    dvec3 offset_{0.0};
+    dquat turn_{1.0, 0.0, 0.0, 0.0}; // C
+    Pose held_;                      // last mapped pose
+    bool clutched_ = false;
+    bool started_ = false;
+};
+
+} // namespace fathom

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: Apache-2.0
+// One linearisation: solve, scale to the step cap and the trust region, check every pair exactly, and only then move.
+#include "engine/haptics/proxy.h"
+
+#include "engine/haptics/proxy_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+using proxy::kNothing;
+
+bool isNothing(const Motion& m) {
+    return glm::length(m.a) <= kNothing && glm::length(m.alpha) <= kNothing;
+}
+
+bool same(const Motion& m, const Motion& o) {
+    return m.a == o.a && m.alpha == o.alpha;
+}
+
+
+} // namespace
+
+void Proxy::loadSolver() noexcept {
+    solver_.clearRows();
+    for (size_t i = 0; i < rowCount_; ++i) {
+        const ContactRow& row = rows_[i];
+        const dvec3 turning = glm::cross(row.arm, row.normal) + row.spin;
+        const std::array<double, 6> normal{row.normal.x, row.normal.y, row.normal.z,
+                                           turning.x,    turning.y,    turning.z};
+        solver_.addRow(normal, row.offset);
+        solver_.setKey(i, row.key);
+    }
+}
+
+SolveStatus Proxy::solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out) noexcept {
+    const std::array<double, 6> target{wanted.a.x,     wanted.a.y,     wanted.a.z,
+                                       wanted.alpha.x, wanted.alpha.y, wanted.alpha.z};
+    std::array<double, 6> x{};
+    SolveStatus status = solver_.solve(target, x);
+    if (status != SolveStatus::Optimal) {
+        // Between walls that leave no room for the skin: those that do not overlap stay where they are instead.
+        bool relaxed = false;
+        for (size_t i = 0; i < rowCount_; ++i) {
+            if (rows_[i].gap >= 0.0 && solver_.offset(i) > 0.0 && rows_[i].offset <= proxy::kAsks) {
+                solver_.setOffset(i, 0.0);
+                relaxed = true;
+            }
+        }
+        status = relaxed ? solver_.solve(target, x) : status;
+    }
+    out.infeasible += status == SolveStatus::Optimal ? 0 : 1;
+    answer = {dvec3(x[0], x[1], x[2]), dvec3(x[3], x[4], x[5])};
+    return status;
+}
+
+bool Proxy::solveRows(const Motion& wanted, Step& step, ProxyTurn& out) noexcept {
+    loadSolver();
+    Step answer;
+    if (escaping_ && solveFor(Motion{}, answer.escape, out) != SolveStatus::Optimal) {
+        return false;
+    }
+    if (solveFor(wanted, answer.full, out) != SolveStatus::Optimal) {
+        return false;
+    }
+    step = answer;
+    recordActive();
+    return true;
+}
+
+void Proxy::recordActive() noexcept {
+    activeCount_ = 0;
+    const std::span<const double> multipliers = solver_.multipliers();
+    for (size_t i = 0; i < multipliers.size() && activeCount_ < active_.size(); ++i) {
+        if (multipliers[i] > 0.0) {
+            active_[activeCount_++] = {rows_[i], multipliers[i]};
+        }
+    }
+}
+
+// Share of every row's offset that the fitted motion is sure of: `escape` and `full` both obey all rows.
+double Proxy::answered(const Step& step) noexcept {
+    return step.escapeShare * (1.0 - step.towards) + step.towards;
+}
+
+// Largest share of `rest` after `first` with no leaf farther than the cap: exact travel, from below.
+double Proxy::shareToCap(const Motion& first, const Motion& rest, double firstBound) noexcept {
+    const double cap = options_.stepCap;
+    const auto travel = [&](double s) {
+        places_.place(moved(pose_, first + s * rest), origin_, next_);
+        return longestTravel(leaves_, next_);
+    };
+    if (places_.crudeBound(first + rest) <= cap || travel(1.0) <= cap) {
+        return 1.0;
+    }
+    const double restBound = places_.travelBound(pose_, rest);
+    double s = std::clamp((cap - firstBound) / restBound, 0.0, 1.0);
+    // The bound adds translation and rotation as if they always agreed: take what it gave away.
+    double reached = travel(s);
+    for (int k = 0; k < 3 && reached > 0.0 && reached < 0.98 * cap && s > 0.0; ++k) {
+        const double longer = std::min(1.0, s * cap / reached * (1.0 - 1e-9));
+        const double there = travel(longer);
+        if (there > cap) {
+            break;
+        }
+        s = longer;
+        reached = there;
+    }
+    return s;
+}
+
+// Cuts the answer to the caps and the trust region; leaves nextPose_ and next_ where that leads.
+void Proxy::fit(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step) noexcept {
+    double escapeBound = 0.0;
+    step.escapeShare = 0.0;
+    step.share = 1.0;
+    if (escaping_) {
+        const double bound = places_.travelBound(pose_, step.escape);
+        step.escapeShare = bound > budget.travel ? budget.travel / bound : 1.0;
+        escapeBound = bound * step.escapeShare;
+    }
+    const Motion first = step.escapeShare * step.escape;
+    step.towards = shareToCap(first, step.full - first, escapeBound);
+    step.whole = step.towards == 1.0 && same(step.full, wanted);
+    tryPose(input, step, 1.0);
+    if (input.contacts == nullptr || trust_.surelyContains(places_.crudeBound(motionOf(step, 1.0))) ||
+        trust_.contains(*input.contacts, next_)) {
+        return;
+    }
+    step.whole = false;
+    step.share = trust_.share(*input.contacts, leaves_, next_);
+    for (int k = 0; k < 24; ++k) { // leaves turn on arcs, the share was for straight ways
+        tryPose(input, step, 1.0);
+        if (trust_.contains(*input.contacts, next_)) {
+            return;
+        }
+        step.share *= k < 6 ? 0.98 : 0.5;
+    }
+    step.share = 0.0;
+    tryPose(input, step, 1.0);
+}
+
+Motion Proxy::motionOf(const Step& step, double part) noexcept {
+    const Motion first = step.escapeShare * step.escape;
+    return (step.share * part) * (first + step.towards * (step.full - first));
+}
+
+// The pose that `part` of the fitted step leads to, and its leaves.
+void Proxy::tryPose(const ProxyInput& input, const Step& step, double part) noexcept {
+    if (step.whole && part == 1.0) {
+        nextPose_ = {input.target.position, glm::normalize(input.target.rotation)};
+    } else {
+        nextPose_ = moved(pose_, motionOf(step, part));
+    }
+    places_.place(nextPose_, origin_, next_);
+}
+
+bool Proxy::shapesAllow() noexcept {
+    for (const Shape& shape : shapes_) {
+        if (shape.isEquality()) {
+            std::array<Equality, kMostEqualities> before, after;
+            const size_t count = equalitiesOf(shape, pose_, before);
+            equalitiesOf(shape, nextPose_, after);
+            for (size_t k = 0; k < count; k += 2) { // the length across, then the angle
+                const double was = std::hypot(before[k].error, before[k + 1].error);
+                if (!(std::hypot(after[k].error, after[k + 1].error) <= std::max(proxy::kEqualityRest, was))) {
+                    return false;
+                }
+            }
+            continue;
+        }
+        for (size_t leaf = 0; leaf < radius_.size(); ++leaf) {
+            const dvec3 end = nextPose_.position + nextPose_.rotation * places_.centre(leaf);
+            const double gap = gapTo(shape, end, radius_[leaf]).gap;
+            if (gap >= 0.0) {
+                continue;
+            }
+            const dvec3 start = pose_.position + pose_.rotation * places_.centre(leaf);
+            if (!(gap >= std::min(0.0, gapTo(shape, start, radius_[leaf]).gap))) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool Proxy::isAllowed(const ContactSet* contacts, size_t& violating) noexcept {
+    violating = contacts == nullptr ? 0 : narrow_.check(*contacts, next_, exempt_, violations_);
+    return violating == 0 && shapesAllow();
+}
+
+// Largest part of the step, to 1/2^14, that passes both the exact check and the trust region; 0 always does.
+double Proxy::bisect(const ProxyInput& input, const Step& step) noexcept {
+    double allowed = 0.0, refused = 1.0;
+    for (int k = 0; k < proxy::kBisections; ++k) {
+        const double part = 0.5 * (allowed + refused);
+        size_t violating = 0;
+        tryPose(input, step, part);
+        const bool inside = input.contacts == nullptr || trust_.contains(*input.contacts, next_);
+        (inside && isAllowed(input.contacts, violating) ? allowed : refused) = part;
+    }
+    return allowed;
+}
+
+// Solves and strengthens until the exact check passes. On return `step` holds the last answer; true when it passed as a
+// whole.
+bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step,
+                        ProxyTurn& out) noexcept {
+    for (int round = 0; round < proxy::kRounds; ++round) {
+        fit(input, wanted, budget, step);
+        size_t violating = 0;
+        if (isAllowed(input.contacts, violating)) {
+            return true;
+        }
+        const double share = step.share * answered(step);
+        const bool pairs = strengthen(motionOf(step, 1.0), violating, share);
+        const bool shapes = strengthenShapes(share);
+        if (round + 1 == proxy::kRounds || !(pairs || shapes)) {
+            return false;
+        }
+        ++out.rounds;
+        if (!solveRows(wanted, step, out)) {
+            return false;
+        }
+    }
+    return false;
+}
+
+// One linearisation. True when another one may bring the tool nearer.
+bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexcept {
+    collectRows(input.contacts, budget);
+    out.escape = out.escape || touching_;
+    const Motion wanted = remaining(pose_, input.target);
+    if (out.solves > 0 && !escaping_ && isNothing(wanted)) {
+        return false;
+    }
+    ++out.solves;
+    Step answer;
+    if (!solveRows(wanted, answer, out)) {
+        out.trapped = out.solves == 1; // later in a turn: what was gained stays, the next turn tries again
+        activeCount_ = 0;
+        return false;
+    }
+    double part = 1.0;
+    if (!fitsExactly(input, wanted, budget, answer, out)) {
+        ++out.bisected;
+        part = bisect(input, answer);
+        tryPose(input, answer, part);
+    }
+    out.stalled = out.stalled || answer.share < 1.0;
+    const Motion taken = remaining(pose_, nextPose_);
+    if (isNothing(taken) && escaping_ && part < 1.0) { // rows that only a motion far away would obey: no way out here
+        out.trapped = out.solves == 1;
+        activeCount_ = 0;
+    }
+    if (part == 0.0) {
+        return false;
+    }
+    const double done = part * answer.share;
+    budget.depth = std::max(0.0, budget.depth - done * answered(answer) * largestAsked_);
+    if (escaping_) {
+        budget.travel -= done * answer.escapeShare * places_.travelBound(pose_, answer.escape);
+    }
+    pose_ = nextPose_;
+    leaves_.swap(next_);
+    return !isNothing(taken);
+}
+
+} // namespace fathom

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/tool_motion.h"
+
+#include "engine/contact/clones.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+FATHOM_CLONES
+void placeKernel(const double* __restrict x, const double* __restrict y, const double* __restrict z, size_t count,
+                 const glm::dmat3& rotation, const dvec3& centre, double* __restrict toX, double* __restrict toY,
+                 double* __restrict toZ) noexcept {
+    const glm::dmat3 m = rotation; // copies: writing the columns changes neither
+    const dvec3 c = centre;
+    for (size_t i = 0; i < count; ++i) {
+        toX[i] = c.x + (m[0][0] * x[i] + m[1][0] * y[i] + m[2][0] * z[i]);
+        toY[i] = c.y + (m[0][1] * x[i] + m[1][1] * y[i] + m[2][1] * z[i]);
+        toZ[i] = c.z + (m[0][2] * x[i] + m[1][2] * y[i] + m[2][2] * z[i]);
+    }
+}
+
+} // namespace
+
+Pose moved(const Pose& pose, const Motion& motion) noexcept {
+    return {pose.position + motion.a, glm::normalize(rotationExp(motion.alpha) * pose.rotation)};
+}
+
+Motion remaining(const Pose& pose, const Pose& target) noexcept {
+    if (target.rotation == pose.rotation) { // exactly there: rounding must not keep it turning
+        return {target.position - pose.position, dvec3(0.0)};
+    }
+    return {target.position - pose.position, rotationLog(target.rotation * glm::conjugate(pose.rotation))};
+}
+
+LeafPlaces::LeafPlaces(const Tool& tool) : centres_(tool.leafCount()) {
+    for (size_t i = 0; i < tool.leafCount(); ++i) {
+        centres_.set(i, tool.leaves()[i].centre);
+        farthest_ = std::max(farthest_, glm::length(tool.leaves()[i].centre));
+    }
+}
+
+void LeafPlaces::place(const Pose& pose, const dvec3& origin, LeafCentres& out) const noexcept {
+    placeKernel(centres_.x.data(), centres_.y.data(), centres_.z.data(), centres_.size(),
+                glm::mat3_cast(pose.rotation), pose.position - origin, out.x.data(), out.y.data(), out.z.data());
+}
+
+double LeafPlaces::travelBound(const Pose& pose, const Motion& motion) const noexcept {
+    const dvec3 alpha = glm::conjugate(pose.rotation) * motion.alpha; // |alpha x r| is the same in the tool frame
+    double turning = 0.0;
+    if (alpha != dvec3(0.0)) {
+        for (size_t i = 0; i < centres_.size(); ++i) {
+            const dvec3 way = glm::cross(alpha, centres_[i]);
+            turning = std::max(turning, glm::dot(way, way));
+        }
+    }
+    return glm::length(motion.a) + std::sqrt(turning);
+}
+
+double longestTravel(const LeafCentres& from, const LeafCentres& to) noexcept {
+    double longest = 0.0;
+    for (size_t i = 0; i < from.size(); ++i) {
+        const dvec3 way = to[i] - from[i];
+        longest = std::max(longest, glm::dot(way, way));
+    }
+    return std::sqrt(longest);
+}
+
+void TrustRegion::set(const ContactSet& contacts, std::span<const double> moved) noexcept {
+    const double limit = contacts.reach - kMargin;
+    double farthest = 0.0;
+    for (size_t i = 0; i < bound_.size(); ++i) {
+        bound_[i] = std::max(limit, moved[i]);
+        farthest = std::max(farthest, moved[i]);
+    }
+    room_ = limit - farthest - 1e-9;
+}
+
+bool TrustRegion::contains(const ContactSet& contacts, const LeafCentres& next) const noexcept {
+    for (size_t i = 0; i < bound_.size(); ++i) {
+        if (!(glm::distance(next[i], contacts.leafAtQuery[i]) <= bound_[i])) {
+            return false;
+        }
+    }
+    return true;
+}
+
+double TrustRegion::share(const ContactSet& contacts, const LeafCentres& from,
+                          const LeafCentres& next) const noexcept {
+    double least = 1.0;
+    for (size_t i = 0; i < bound_.size(); ++i) {
+        const dvec3 start = from[i] - contacts.leafAtQuery[i];
+        const dvec3 end = next[i] - contacts.leafAtQuery[i];
+        if (glm::length(end) <= bound_[i]) {
+            continue;
+        }
+        // Where the straight way leaves the ball: |start + t way|^2 = bound^2, the positive root.
+        const dvec3 way = end - start;
+        const double a = glm::dot(way, way), b = glm::dot(start, way);
+        const double c = std::min(0.0, glm::dot(start, start) - bound_[i] * bound_[i]);
+        const double root = std::sqrt(std::max(0.0, b * b - a * c));
+        // The form without cancellation for either sign of b.
+        const double t = b > 0.0 ? -c / (b + root) : (root - b) / a;
+        least = std::min(least, std::clamp(t, 0.0, 1.0));
+    }
+    return least;
+}
+
+bool TrustRegion::covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept {
+    const double limit = contacts.reach - kMargin + 1e-12;
+    if (contacts.leafAtQuery.size() != leaves.size()) {
+        return false;
+    }
+    for (size_t i = 0; i < leaves.size(); ++i) {
+        if (!(glm::distance(leaves[i], contacts.leafAtQuery[i]) <= limit)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+} // namespace fathom

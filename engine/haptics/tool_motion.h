@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// A step of the tool, where it takes each leaf, and the shares of it that the step cap and the trust region leave.
+#pragma once
+
+#include "engine/contact/contact_set.h"
+#include "engine/contact/leaf_centres.h"
+#include "engine/contact/tool.h"
+
+#include <span>
+#include <vector>
+
+namespace fathom {
+
+// [a; alpha]: translation [m] and rotation vector [rad] about the tool's centre, base axes.
+struct Motion {
+    dvec3 a{0.0}, alpha{0.0};
+};
+
+inline Motion operator+(const Motion& m, const Motion& o) {
+    return {m.a + o.a, m.alpha + o.alpha};
+}
+inline Motion operator-(const Motion& m, const Motion& o) {
+    return {m.a - o.a, m.alpha - o.alpha};
+}
+inline Motion operator*(double s, const Motion& m) {
+    return {s * m.a, s * m.alpha};
+}
+
+// The pose after the step; the quaternion is normalised.
+Pose moved(const Pose& pose, const Motion& motion) noexcept;
+
+// What is left from pose to target: [p_target - p; log(q_target q^-1)], shortest arc.
+Motion remaining(const Pose& pose, const Pose& target) noexcept;
+
+// Leaf centres of a tool at poses. noexcept and without allocation after the constructor; one thread.
+class LeafPlaces {
+public:
+    explicit LeafPlaces(const Tool& tool);
+
+    // Leaf centres about `origin` [m].
+    void place(const Pose& pose, const dvec3& origin, LeafCentres& out) const noexcept;
+
+    // Bounds on how far any leaf centre travels [m]: max |a| + |alpha x r|, and a cruder one that looks at no leaf.
+    double travelBound(const Pose& pose, const Motion& motion) const noexcept;
+    double crudeBound(const Motion& motion) const noexcept {
+        return glm::length(motion.a) + glm::length(motion.alpha) * farthest_;
+    }
+
+    size_t count() const { return centres_.size(); }
+    dvec3 centre(size_t leaf) const { return centres_[leaf]; } // tool frame [m]
+
+private:
+    LeafCentres centres_;   // tool frame [m]
+    double farthest_ = 0.0; // [m] largest distance of a centre from the tool's
+};
+
+// Farthest straight way of any leaf [m].
+double longestTravel(const LeafCentres& from, const LeafCentres& to) noexcept;
+
+// Trust region (design 2): no leaf may end farther from where it was at the query than the certified reach less 10 um, or
+// than it already is.
+class TrustRegion {
+public:
+    static constexpr double kMargin = 1e-5; // [m]
+
+    explicit TrustRegion(size_t leaves) : bound_(leaves, 0.0) {}
+
+    // Bounds for a step from where the leaves are. moved: their distances from the query positions [m].
+    void set(const ContactSet& contacts, std::span<const double> moved) noexcept;
+
+    bool contains(const ContactSet& contacts, const LeafCentres& next) const noexcept;
+    // True only if contains() is sure to hold for any step whose leaves travel at most `travel` [m].
+    bool surelyContains(double travel) const noexcept { return travel <= room_; }
+    // Largest share of the straight ways from -> next that stays inside, 0..1.
+    double share(const ContactSet& contacts, const LeafCentres& from, const LeafCentres& next) const noexcept;
+
+    // True when a tool with its leaves there may obey this set at all: no leaf outside its certified reach.
+    static bool covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept;
+
+private:
+    std::vector<double> bound_; // [m] a leaf
+    double room_ = 0.0;         // [m] that every leaf may travel whichever way
+};
+
+} // namespace fathom

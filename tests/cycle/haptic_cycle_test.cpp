@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// The haptic turn rule by rule: start, contact, forces off, dead-man, clutch, trapped, old scene, numbers
+// that are not.
+#include "tests/cycle/haptic_rig.h"
+
+#include "engine/haptics/limits.h"
+#include "engine/types/error.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+static_assert(noexcept(std::declval<HapticCycle&>().turn(std::declval<const TurnInput&>())));
+
+namespace {
+
+double force(const TurnRecord& record) {
+    return glm::length(record.wrench.force);
+}
+
+// Pressed 5 mm into the wall and at rest: 5 N at 1000 N/m.
+HapticRig pressedRig(const Scene& scene = plainScene()) {
+    HapticRig rig(scene, at(0, 0, 0.02));
+    rig.age = false;
+    rig.show(wallSet());
+    rig.age = false;
+    rig.turns(250);
+    rig.hand = at(0, 0, 0.005);
+    rig.turns(100);
+    return rig;
+}
+
+} // namespace
+
+TEST_CASE("Until the first contact set the tool is held, the wrench is zero and the state is off") {
+    HapticRig rig(plainScene(), at(0, 0, 0.05));
+    rig.hand = at(0, 0, -0.05);
+    for (int i = 0; i < 300; ++i) {
+        const auto record = rig.turn();
+        CHECK(record.state == TurnState::Off);
+        CHECK(record.tool.position == dvec3(0, 0, 0.05));
+        CHECK(record.device.position == dvec3(0, 0, -0.05));
+        CHECK(force(record) == 0.0);
+        CHECK(record.frame == -1);
+        CHECK(std::isnan(record.sceneAge));
+        CHECK(record.contacts == 0);
+        CHECK(record.armHold);
+    }
+    rig.hand = at(0, 0, 0.05);
+    rig.show(wallSet(7));
+    const auto record = rig.turn();
+    CHECK(record.adopted);
+    CHECK(record.frame == 7);
+    CHECK(record.state == TurnState::Free);
+    CHECK(record.minGap == rig.inForce->reach); // nothing is nearer than the reach of the query
+}
+
+TEST_CASE("In free space the tool is the hand to the last bit and nothing is felt") {
+    HapticRig rig(plainScene(), at(0, 0.01, 0.05));
+    rig.show(wallSet());
+    for (int i = 0; i < 200; ++i) {
+        rig.hand = {{0.02 * std::sin(0.03 * i), 0.01 * std::cos(0.05 * i), 0.05},
+                    rotationExp({0.0, 0.01 * i, 0.1})};
+        rig.captured = rig.time;
+        const auto record = rig.turn();
+        CHECK(record.state == TurnState::Free);
+        CHECK(record.tool.position == record.device.position);
+        CHECK(force(record) <= 1e-12);
+        CHECK(record.sceneAge == 0.0);
+        CHECK_FALSE(record.stalled);
+        CHECK(record.deviceWrench.force == record.wrench.force);
+    }
+}
+
+TEST_CASE("Pressed into a wall the tool stays outside and the hand feels K times the distance") {
+    auto rig = pressedRig();
+    const auto record = rig.turn();
+    CHECK(record.state == TurnState::Contact);
+    CHECK(record.contacts >= 1);
+    CHECK(rig.gap() >= 0.0);
+    CHECK(rig.gap() <= 1e-6);
+    CHECK(record.minGap == doctest::Approx(rig.gap()).epsilon(1e-6));
+    CHECK(glm::distance(record.wrench.force, 1000.0 * (record.tool.position - record.device.position)) <=
+          1e-9);
+    CHECK(record.wrench.force.z == doctest::Approx(5.0).epsilon(0.05));
+    CHECK(record.marginPassive == doctest::Approx(0.0));
+    CHECK(record.marginUncoupled == doctest::Approx(0.0));
+    CHECK_FALSE(record.armHold); // released while tool and hand were together
+}
+
+TEST_CASE("Force and its change stay within their limits however the hand jumps, and no leaf ever enters") {
+    HapticRig rig(plainScene(), at(0, 0, 0.02));
+    rig.show(wallSet());
+    rig.age = false;
+    dvec3 before(0.0);
+    double largest = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+        rig.hand = at(0.03 * std::sin(0.5 * (i / 50)), 0.02 * std::cos(0.9 * (i / 70)),
+                      i / 100 % 2 == 0 ? -0.08 : 0.03);
+        const auto record = rig.turn();
+        CHECK(glm::distance(record.wrench.force, before) <= 2.0 * (1.0 + 1e-12));
+        CHECK(force(record) <= 20.0 * (1.0 + 1e-12));
+        CHECK(glm::length(record.wrench.torque) <= 2.0);
+        CHECK(rig.gap() >= 0.0);
+        before = record.wrench.force;
+        largest = std::max(largest, force(record));
+    }
+    CHECK(largest == doctest::Approx(20.0));
+}
+
+TEST_CASE("Forces off: w is zero at once, the wrench is gone after 0.2 s, the tool follows and still obeys "
+          "the wall") {
+    for (const bool deadMan : {false, true}) {
+        auto rig = pressedRig();
+        GuidancePose target;
+        target.present = target.planar = true;
+        target.target = at(0.01, 0, 0.011);
+        rig.guidance = {target};
+        rig.buttons = kGuidanceButton;
+        rig.turns(600);
+        REQUIRE(rig.turn().guidance == 1.0);
+        rig.buttons |= deadMan ? kDeadManOpen : 0u;
+        rig.forcesOff = !deadMan;
+        const double start = force(rig.turns(1));
+        auto record = rig.turn();
+        CHECK(record.guidance == 0.0);
+        CHECK(record.state == TurnState::Fading);
+        CHECK(start > 3.0);
+        rig.turns(97);
+        CHECK(force(rig.turn()) == doctest::Approx(2.5).epsilon(0.06)); // halfway through the ramp
+        rig.turns(100);
+        record = rig.turn();
+        CHECK(force(record) <= 1e-12);
+        CHECK(record.state == TurnState::Off);
+        CHECK(record.armHold);
+        rig.hand = at(0.02, 0.01, -0.03); // along and deep inside
+        rig.turns(200);
+        record = rig.turn();
+        CHECK(force(record) == 0.0);
+        CHECK(rig.gap() >= 0.0);
+        CHECK(record.tool.position.x == doctest::Approx(0.02).epsilon(0.1));
+        rig.forcesOff = false;
+        rig.buttons = 0;
+        double before = 0.0;
+        for (int i = 0; i < 250; ++i) {
+            const double now = force(rig.turn());
+            CHECK(now - before <= 2.0);
+            before = now;
+        }
+        CHECK(before == doctest::Approx(20.0).epsilon(1e-6)); // 40 mm inside: at the limit again
+    }
+}
+
+TEST_CASE("The clutch holds the device pose, ramps the force out and in, and lets go without a jump") {
+    auto rig = pressedRig();
+    const auto held = rig.turn();
+    rig.buttons = 4;
+    for (int i = 0; i < 300; ++i) {
+        rig.hand = at(0.0, 0.0, 0.005 + 0.0005 * i);
+        const auto record = rig.turn();
+        CHECK(record.device.position == held.device.position);
+        CHECK(glm::distance(record.tool.position, held.tool.position) <= 1e-8);
+        CHECK(force(record) <= std::max(0.0, 5.0 * (1.0 - (i + 1) / 200.0)) * 1.05 + 1e-9);
+    }
+    rig.buttons = 0;
+    auto record = rig.turn();
+    CHECK(glm::distance(record.device.position, held.device.position) <= 1e-12);
+    rig.turns(100);
+    CHECK(force(rig.turn()) == doctest::Approx(force(held) * 0.51).epsilon(0.02));
+    rig.turns(120);
+    CHECK(force(rig.turn()) == doctest::Approx(force(held)).epsilon(1e-6));
+}
+
+TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes back when there is a way") {
+    HapticRig rig(plainScene(), at(0, 0, 0));
+    rig.show(emptySet(1));
+    rig.age = false;
+    rig.hand = at(0, 0, 0.003);
+    rig.turns(250);
+    Fixtures shell = emptySet(2); // six spheres about where the tool is: wherever it goes, deeper into one
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            dvec3 centre(0, 0, 0.003);
+            centre[axis] += side * 0.035;
+            addSphere(shell, centre, 0.03);
+        }
+    }
+    const Pose where = rig.cycle->pose();
+    rig.show(shell);
+    rig.age = false;
+    rig.hand = at(0, 0, 0.013);
+    auto record = rig.turn();
+    CHECK(record.state == TurnState::Trapped);
+    CHECK(record.infeasible >= 1);
+    CHECK(record.armHold);
+    rig.turns(99);
+    record = rig.turn();
+    CHECK(record.tool.position == where.position);
+    CHECK(force(record) == doctest::Approx(5.0).epsilon(0.02)); // 10 N, half ramped out
+    record = rig.turns(120);
+    CHECK(force(record) <= 1e-12);
+    CHECK(record.state == TurnState::Trapped);
+    rig.show(emptySet(3));
+    rig.age = false;
+    record = rig.turn();
+    CHECK(record.state == TurnState::Free);
+    record = rig.turns(250);
+    CHECK(record.tool.position == record.device.position);
+}
+
+TEST_CASE("A scene older than 100 ms fades the force over half a second, says so, and a fresh frame brings "
+          "it back") {
+    auto rig = pressedRig();
+    const double full = force(rig.turn());
+    rig.age = true;
+    rig.captured = rig.time;
+    auto record = rig.turns(100);
+    CHECK(record.state == TurnState::Contact);
+    CHECK(force(record) == doctest::Approx(full));
+    record = rig.turns(252);
+    CHECK(record.state == TurnState::Fading);
+    CHECK(record.sceneAge == doctest::Approx(0.351));
+    CHECK(force(record) == doctest::Approx(full / 2.0).epsilon(0.01));
+    CHECK(record.armHold);
+    record = rig.turns(260);
+    CHECK(force(record) <= 1e-12);
+    CHECK(record.state == TurnState::Fading);
+    rig.captured = rig.time; // the same picture again: only a new capture time
+    record = rig.turn();
+    CHECK(record.state == TurnState::Contact);
+    rig.age = false;
+    record = rig.turns(510);
+    CHECK(force(record) == doctest::Approx(full));
+}
+
+TEST_CASE("A source that has ended does not age in lockstep, and a set that is not the newest ages by its "
+          "own stamp") {
+    auto rig = pressedRig();
+    rig.age = true;
+    rig.captured = rig.time;
+    rig.turns(31);
+    rig.sourceEnded = true;
+    auto record = rig.turns(3000);
+    CHECK(record.state == TurnState::Contact);
+    CHECK(record.sceneAge == doctest::Approx(0.030));
+    // The set in force stays at frame 1 while frame 2 is already there, captured later.
+    rig.sourceEnded = false;
+    rig.query = false;
+    Fixtures next = wallSet(2);
+    next.captureTime = rig.time;
+    rig.show(next);
+    record = rig.turn();
+    CHECK(record.frame == 1);
+    CHECK(record.sceneAge == doctest::Approx(rig.time - rig.options.period)); // stamped 0 in this rig
+    rig.query = true;
+    record = rig.turn();
+    CHECK(record.frame == 2);
+    CHECK(record.sceneAge == doctest::Approx(0.001));
+}
+
+TEST_CASE(
+    "A sample that is not finite gives a zero wrench in that turn, is counted, and does no lasting harm") {
+    auto rig = pressedRig();
+    const double full = force(rig.turn());
+    const Pose good = rig.hand;
+    for (const double bad :
+         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+        const uint64_t before = rig.cycle->notFinite();
+        rig.hand.position.y = bad;
+        auto record = rig.turn();
+        CHECK_FALSE(record.finite);
+        CHECK(force(record) == 0.0);
+        CHECK(glm::length(record.deviceWrench.force) == 0.0);
+        CHECK(isFinite(record.device));
+        CHECK(isFinite(record.tool));
+        CHECK(rig.cycle->notFinite() == before + 1);
+        rig.hand = good;
+        record = rig.turn();
+        CHECK(record.finite);
+        CHECK(force(record) == doctest::Approx(2.0)); // slews up from zero
+        CHECK(force(rig.turns(5)) == doctest::Approx(full));
+    }
+}

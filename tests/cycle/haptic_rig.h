@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// The haptic cycle run in lockstep by hand: one contact answer before each turn, a clock, a hand that the
+// test moves.
+#pragma once
+
+#include "engine/contact/cull_cpu.h"
+#include "engine/cycle/haptic_cycle.h"
+#include "engine/reference/contact_oracle.h"
+#include "tests/contact/clouds.h"
+
+#include <memory>
+#include <optional>
+
+namespace fathom::testing {
+
+inline Pose at(double x, double y, double z) {
+    return {{x, y, z}, {1.0, 0.0, 0.0, 0.0}};
+}
+
+// One leaf of 10 mm at the tool's origin.
+inline Tool ballTool() {
+    const Sphere ball{{0.0, 0.0, 0.0}, 0.01};
+    return Tool(buildSphereTree({&ball, 1}));
+}
+
+// Horizontal wall of spheres of 40 mm whose tops lie at z = 0 (tool's centre rests near z = 0.01).
+inline Fixtures wallSet(uint64_t generation = 1) {
+    Fixtures fixtures = emptySet(generation);
+    addWall(fixtures, {0.0, 0.0, -0.04}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
+    return fixtures;
+}
+
+class HapticRig {
+public:
+    explicit HapticRig(const Scene& scene, const Pose& start, Tool made = ballTool())
+        : tool(std::move(made))
+        , options(makeHapticOptions(scene, tool))
+        , hand(start) {
+        restart();
+    }
+
+    void restart() { cycle = std::make_unique<HapticCycle>(tool, std::span<const Shape>{}, options, hand); }
+
+    void show(Fixtures set) {
+        fixtures = std::move(set);
+        grid.build(fixtures->spheres);
+        captured = time;
+        age = true;
+    }
+
+    TurnRecord turn() {
+        TurnInput input;
+        input.time = time;
+        input.deviceThandle = hand;
+        input.buttons = buttons;
+        input.forcesOff = forcesOff;
+        input.contacts = inForce.get();
+        if (fixtures && query) {
+            offered = std::make_unique<ContactSet>();
+            cull.query(tool, cycle->pose(), 0.01, *fixtures, grid, *offered);
+            input.offered = offered.get();
+        }
+        if (fixtures) {
+            input.frame = fixtures->frame;
+            input.generation = fixtures->generation;
+            if (!age) {
+                captured = time;
+            }
+            input.captureTime = captured;
+        }
+        input.guidance = guidance;
+        input.sourceEnded = sourceEnded;
+        const TurnRecord record = cycle->turn(input);
+        if (record.adopted) {
+            inForce = std::move(offered);
+        }
+        time += options.period;
+        return record;
+    }
+    TurnRecord turns(int count) {
+        TurnRecord record;
+        for (int i = 0; i < count; ++i) {
+            record = turn();
+        }
+        return record;
+    }
+    double gap() const { return oracleSmallestGap(tool, cycle->pose(), *fixtures); }
+
+    Tool tool;
+    HapticOptions options;
+    std::unique_ptr<HapticCycle> cycle;
+    CullCpu cull;
+    RegionGrid grid;
+    std::optional<Fixtures> fixtures;
+    std::unique_ptr<ContactSet> inForce, offered;
+    std::vector<GuidancePose> guidance;
+    Pose hand;
+    double time = 0.0, captured = 0.0;
+    bool age = true; // false: every turn is a fresh capture
+    bool query = true;
+    uint32_t buttons = 0;
+    bool forcesOff = false, sourceEnded = false;
+};
+
+// A scene with one forbidden class of points.
+inline Scene plainScene(const char* device = "ideal") {
+    Scene scene;
+    scene.fixtures.emplace_back();
+    scene.haptics.device = device;
+    return scene;
+}
+
+} // namespace fathom::testing
