@@ -12,7 +12,8 @@ constexpr double kNearest = 1e-6; // [m] before the camera; nearer points have n
 
 } // namespace
 
-BehindTracker::Sight BehindTracker::look(const Fixtures& fixtures, const Pose& cameraTbase, const dvec3& point) {
+BehindTracker::Sight BehindTracker::look(const Fixtures& fixtures, const Pose& cameraTbase,
+                                         const dvec3& point) {
     Sight sight;
     const Intrinsics& lens = fixtures.camera.depth;
     const dvec3 p = cameraTbase.apply(point);
@@ -40,7 +41,8 @@ BehindTracker::Sight BehindTracker::look(const Fixtures& fixtures, const Pose& c
 
 bool BehindTracker::becameBehind(const Sight& sight, double resting) {
     const double margin = kSigmas * sight.sigma;
-    return sight.known && sight.forbidden && (resting > 2.0 * margin ? sight.before < margin : sight.before < -margin);
+    return sight.known && sight.forbidden &&
+           (resting > 2.0 * margin ? sight.before < margin : sight.before < -margin);
 }
 
 // resting: R + r [m]; ownRange: from the camera to the leaf's centre [m].

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which tool leaves a new frame put on the far side of a surface: overlap alone cannot tell, the depth image can.
+// Which tool leaves a new frame put on the far side of a surface: overlap alone cannot tell, the depth image
+// can.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -9,14 +10,15 @@
 
 namespace fathom {
 
-// Runs on the contact cadence, once a query, after the set is filled (allocates at first use only). A leaf is flagged when
-// a NEW fixture set shows a forbidden surface in front of its centre, by more than 3 sigma of depth, and at the last
-// query on the previous set the centre was in front of a forbidden surface there. Whoever gets behind a surface while the
-// set stays the same, or was not seen in front of one before, came through free space or is hidden: occluded, not
-// behind. The flag stays until the leaf is clear in front (R + r before the surface), or the view to it is free.
-// One step beyond design 5: where R + r is more than 6 sigma, a centre within 3 sigma BEFORE the surface counts as
-// behind too. It can be there only because new data came over it, and left to the normals, which point anywhere so
-// close to the sphere centres, it would be squeezed or come out behind.
+// Runs on the contact cadence, once a query, after the set is filled (allocates at first use only). A leaf is
+// flagged when a NEW fixture set shows a forbidden surface in front of its centre, by more than 3 sigma of
+// depth, and at the last query on the previous set the centre was in front of a forbidden surface there.
+// Whoever gets behind a surface while the set stays the same, or was not seen in front of one before, came
+// through free space or is hidden: occluded, not behind. The flag stays until the leaf is clear in front (R +
+// r before the surface), or the view to it is free. One step beyond design 5: where R + r is more than 6
+// sigma, a centre within 3 sigma BEFORE the surface counts as behind too. It can be there only because new
+// data came over it, and left to the normals, which point anywhere so close to the sphere centres, it would
+// be squeezed or come out behind.
 class BehindTracker {
 public:
     // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). Fills set.behind.
@@ -27,17 +29,18 @@ private:
     struct Sight {
         bool known = false;     // inside the picture, with a depth
         bool forbidden = false; // that pixel
-        double before = 0.0;    // [m] along the optical axis that the point is nearer than the surface; < 0 = deeper
-        double sigma = 0.0;     // [m] of that depth
-        double range = 0.0;     // [m] from the camera to the surface on the point's own ray
+        double before =
+            0.0; // [m] along the optical axis that the point is nearer than the surface; < 0 = deeper
+        double sigma = 0.0; // [m] of that depth
+        double range = 0.0; // [m] from the camera to the surface on the point's own ray
     };
     static Sight look(const Fixtures& fixtures, const Pose& cameraTbase, const dvec3& point);
 
     struct Leaf {
-        bool inFront = false;        // at the last query, of a forbidden surface
-        bool inFrontBefore = false;  // at the last query on the previous set
+        bool inFront = false;       // at the last query, of a forbidden surface
+        bool inFrontBefore = false; // at the last query on the previous set
         bool behind = false;
-        double range = 0.0;          // [m] of the surface that it is behind
+        double range = 0.0; // [m] of the surface that it is behind
     };
     static bool becameBehind(const Sight& sight, double resting);
     static void follow(Leaf& leaf, const Sight& sight, double resting, double ownRange, bool newSet);

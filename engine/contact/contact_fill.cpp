@@ -11,12 +11,13 @@ namespace fathom {
 
 namespace {
 
-constexpr double kPairMargin = 1e-9;       // [m] outward
-constexpr double kTrustMargin = 8e-6;      // [m] of the 10 um that the trust region keeps back
+constexpr double kPairMargin = 1e-9;      // [m] outward
+constexpr double kTrustMargin = 8e-6;     // [m] of the 10 um that the trust region keeps back
 constexpr double kFloatHalfUlp = 0x1p-24; // relative rounding of one float32 operation
 
 void placePairs(size_t leaf, PairScratch& scratch, ContactSet& set) {
-    // Counting sort by band: stable, so the order inside a band is the grid's, which depends on the set alone.
+    // Counting sort by band: stable, so the order inside a band is the grid's, which depends on the set
+    // alone.
     std::array<uint32_t, ContactSet::kGapBands> end{};
     for (const double gap : scratch.gap) {
         ++end[set.bandOf(gap)];

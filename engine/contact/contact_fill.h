@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the list of culled region spheres to a contact set: what the CPU cull and the GPU query share, so that equal lists
-// give equal sets to the last bit.
+// From the list of culled region spheres to a contact set: what the CPU cull and the GPU query share, so that
+// equal lists give equal sets to the last bit.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -12,9 +12,9 @@
 
 namespace fathom {
 
-// Reach that a float32 cull certifies [m]: what was asked for, less what the rounding of leaf positions, distances and
-// limits exceeds the 10 um that the trust region keeps back (design 2). Only leaves beyond about 100 m of the origin
-// or regions of tens of metres lose any.
+// Reach that a float32 cull certifies [m]: what was asked for, less what the rounding of leaf positions,
+// distances and limits exceeds the 10 um that the trust region keeps back (design 2). Only leaves beyond
+// about 100 m of the origin or regions of tens of metres lose any.
 double certifiedReach(const PosedLeaves& leaves, double reach, double maxRegionRadius) noexcept;
 
 // Scratch of the contact cadence, kept to save allocations. One thread.
@@ -30,13 +30,14 @@ struct PairScratch {
 // Sorts indices into `spheres` by source; equal sources keep their order.
 void sortBySource(const RegionSpheres& spheres, std::vector<uint32_t>& indices, PairScratch& scratch);
 
-// Fills everything but the pairs and the behind flags: identity of the fixture set, pose, certified reach, leaf centres,
-// and the spheres in the order of `indices` (sorted by source). ContactSet::query is left alone.
+// Fills everything but the pairs and the behind flags: identity of the fixture set, pose, certified reach,
+// leaf centres, and the spheres in the order of `indices` (sorted by source). ContactSet::query is left
+// alone.
 void fillContactSet(const Tool& tool, const Pose& baseTtool, double certified, const Fixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out);
 
-// Lists every pair of leaf and sphere of `set` whose gap at the query pose, in float64, is at most set.reach (and 1 nm
-// more, outward). False, with the pairs left unfinished, when there are more than `capacity`.
+// Lists every pair of leaf and sphere of `set` whose gap at the query pose, in float64, is at most set.reach
+// (and 1 nm more, outward). False, with the pairs left unfinished, when there are more than `capacity`.
 bool listPairs(const Tool& tool, size_t capacity, PairScratch& scratch, ContactSet& set);
 
 } // namespace fathom

@@ -8,8 +8,8 @@
 
 namespace fathom {
 
-// normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with offset = -gap. An
-// arm manipulator would put its own Jacobian at `arm` in place of [a; alpha].
+// normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with
+// offset = -gap. An arm manipulator would put its own Jacobian at `arm` in place of [a; alpha].
 struct ContactRow {
     enum class Kind : uint8_t { Sphere, Shape, Equality, Behind };
 
@@ -19,9 +19,9 @@ struct ContactRow {
     double gap = 0.0;    // [m] at the pose the row was made for
     double offset = 0.0; // [m] or [rad]
     uint32_t leaf = 0;
-    uint32_t pair = 0;   // Sphere: index into the set's pairs; Shape, Equality: of the shape
+    uint32_t pair = 0; // Sphere: index into the set's pairs; Shape, Equality: of the shape
     Kind kind = Kind::Sphere;
-    uint64_t key = 0;    // names the contact across solves
+    uint64_t key = 0; // names the contact across solves
 };
 
 } // namespace fathom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact set: every region sphere whose gap to some tool leaf is at most `reach`, with the set and pose it was found at.
+// Contact set: every region sphere whose gap to some tool leaf is at most `reach`, with the set and pose it
+// was found at.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -10,31 +11,34 @@
 
 namespace fathom {
 
-// Spheres are sorted by source. Listed pairs are grouped by leaf: pairs of leaf i are pairSphere[pairBegin[i] ..
-// pairBegin[i + 1]), each an index into the spheres; a pair is listed when its gap at the query pose is <= reach. As long
-// as no leaf centre is farther than reach from where it was at the query, no unlisted pair can touch: that is the
-// trust region. All in the base frame, float64 of the very floats of the fixture set plus its origin-relative frame.
+// Spheres are sorted by source. Listed pairs are grouped by leaf: pairs of leaf i are pairSphere[pairBegin[i]
+// .. pairBegin[i + 1]), each an index into the spheres; a pair is listed when its gap at the query pose is <=
+// reach. As long as no leaf centre is farther than reach from where it was at the query, no unlisted pair can
+// touch: that is the trust region. All in the base frame, float64 of the very floats of the fixture set plus
+// its origin-relative frame.
 struct ContactSet {
-    // Pairs of a leaf are stored by bands of their gap at the query, so that the haptic turn reads only the pairs
-    // that can matter near the query pose: gaps below reach / 16 first, then one band for each further 16th.
+    // Pairs of a leaf are stored by bands of their gap at the query, so that the haptic turn reads only the
+    // pairs that can matter near the query pose: gaps below reach / 16 first, then one band for each further
+    // 16th.
     static constexpr uint32_t kGapBands = 16;
 
-    int64_t frame = -1;          // fixture set obeyed; -1 = none yet
-    uint64_t generation = 0;     // of that fixture set
-    double captureTime = 0.0;    // [s] of that fixture set
-    uint64_t query = 0;          // counts answered queries
-    double reach = 0.0;          // [m] certified
-    dvec3 origin{0.0};           // [m] base frame: what all positions here are relative to
-    dvec3 camera{0.0};           // [m] camera centre of that fixture set, about the origin
-    Pose queryPose;              // base_T_tool of the query
+    int64_t frame = -1;       // fixture set obeyed; -1 = none yet
+    uint64_t generation = 0;  // of that fixture set
+    double captureTime = 0.0; // [s] of that fixture set
+    uint64_t query = 0;       // counts answered queries
+    double reach = 0.0;       // [m] certified
+    dvec3 origin{0.0};        // [m] base frame: what all positions here are relative to
+    dvec3 camera{0.0};        // [m] camera centre of that fixture set, about the origin
+    Pose queryPose;           // base_T_tool of the query
 
     std::vector<double> x, y, z, radius; // spheres, about the origin [m]
     std::vector<uint32_t> source;        // slot in the fixture set
     std::vector<uint8_t> fixture;        // row of Scene::fixtures
     std::vector<uint32_t> pairBegin;     // leafCount + 1
-    std::vector<uint32_t> pairSphere;    // by band within a leaf; inside a band the order depends on the set alone
-    std::vector<uint32_t> pairBandEnd;   // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end
-    std::vector<dvec3> leafAtQuery;      // leaf centres at the query pose, about the origin [m]
+    std::vector<uint32_t>
+        pairSphere; // by band within a leaf; inside a band the order depends on the set alone
+    std::vector<uint32_t> pairBandEnd; // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end
+    std::vector<dvec3> leafAtQuery;    // leaf centres at the query pose, about the origin [m]
     // The spheres once more in pair order, so that a kernel reads them in one run. The same floats.
     std::vector<float> pairX, pairY, pairZ, pairRadius;
 
@@ -61,8 +65,11 @@ struct ContactSet {
         }
         return band >= kGapBands ? kGapBands - 1 : static_cast<uint32_t>(band);
     }
-    // End of the run of pairs of `leaf` that holds every pair whose gap at the query is <= g [m], and some more.
-    uint32_t pairsUpTo(size_t leaf, double g) const noexcept { return pairBandEnd[leaf * kGapBands + bandOf(g)]; }
+    // End of the run of pairs of `leaf` that holds every pair whose gap at the query is <= g [m], and some
+    // more.
+    uint32_t pairsUpTo(size_t leaf, double g) const noexcept {
+        return pairBandEnd[leaf * kGapBands + bandOf(g)];
+    }
 };
 
 } // namespace fathom

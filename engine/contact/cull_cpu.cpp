@@ -11,8 +11,8 @@ namespace {
 
 FATHOM_CLONES
 void markKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                const float* __restrict radius, size_t count, float cx, float cy, float cz, float reachAndLeaf,
-                uint8_t* __restrict marks) noexcept {
+                const float* __restrict radius, size_t count, float cx, float cy, float cz,
+                float reachAndLeaf, uint8_t* __restrict marks) noexcept {
     for (size_t k = 0; k < count; ++k) {
         const float dx = cx - x[k];
         const float dy = cy - y[k];
@@ -24,7 +24,8 @@ void markKernel(const float* __restrict x, const float* __restrict y, const floa
 
 } // namespace
 
-void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found) {
+void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid,
+                   std::vector<uint32_t>& found) {
     marks_.assign((grid.size() + 7) / 8 * 8, 0);
     for (size_t i = 0; i < leaves.x.size(); ++i) {
         const float limit = reach + leaves.radius[i];
@@ -33,8 +34,8 @@ void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& gri
         const dvec3 centre(leaves.x[i], leaves.y[i], leaves.z[i]);
         grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
             markKernel(grid.x().data() + begin, grid.y().data() + begin, grid.z().data() + begin,
-                       grid.radius().data() + begin, end - begin, leaves.x[i], leaves.y[i], leaves.z[i], limit,
-                       marks_.data() + begin);
+                       grid.radius().data() + begin, end - begin, leaves.x[i], leaves.y[i], leaves.z[i],
+                       limit, marks_.data() + begin);
         });
     }
     found.clear();

@@ -13,11 +13,12 @@ namespace fathom {
 // One thread, contact cadence: allocates.
 class CullCpu {
 public:
-    explicit CullCpu(const QueryCapacity& capacity = {}) : loop_(capacity) {}
+    explicit CullCpu(const QueryCapacity& capacity = {})
+        : loop_(capacity) {}
 
-    // Fills `out` with every sphere that obeys d^2 <= (reach + r_t + R)^2 for some leaf, all in float32 on the values of
-    // poseLeaves(), d^2 = dx dx + dy dy + dz dz left to right without contraction, sorted by source; and all pairs. `grid`
-    // must have been built from `fixtures`. Overflow: see QueryLoop::run.
+    // Fills `out` with every sphere that obeys d^2 <= (reach + r_t + R)^2 for some leaf, all in float32 on
+    // the values of poseLeaves(), d^2 = dx dx + dy dy + dz dz left to right without contraction, sorted by
+    // source; and all pairs. `grid` must have been built from `fixtures`. Overflow: see QueryLoop::run.
     void query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                const RegionGrid& grid, ContactSet& out);
 

@@ -12,16 +12,21 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostRowsOfLeaf = 8;
-constexpr size_t kMostListed = 65536;     // pairs of a list
-constexpr size_t kLanes = 8;              // runs of a list are multiples of this
-constexpr float kNowhere = 1e18f;         // [m] where padding lies; its square is far from overflow
+constexpr size_t kMostListed = 65536;            // pairs of a list
+constexpr size_t kLanes = 8;                     // runs of a list are multiples of this
+constexpr float kNowhere = 1e18f;                // [m] where padding lies; its square is far from overflow
 constexpr double kCosCone = 0.86602540378443865; // 30 degrees
-constexpr double kCoincident = 1e-12;     // [m]
+constexpr double kCoincident = 1e-12;            // [m]
 
 } // namespace
 
 NarrowPhase::PairList::PairList(size_t leaves, size_t capacity)
-    : x(capacity), y(capacity), z(capacity), radius(capacity), pair(capacity), begin(leaves + 1) {}
+    : x(capacity)
+    , y(capacity)
+    , z(capacity)
+    , radius(capacity)
+    , pair(capacity)
+    , begin(leaves + 1) {}
 
 void NarrowPhase::PairList::add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
                                 const uint32_t* pairs) noexcept {
@@ -48,17 +53,23 @@ void NarrowPhase::PairList::pad(uint32_t leaf) noexcept {
 }
 
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows)
-    : maxRows_(maxRows), rows_(tool.leafCount() * kMostRowsOfLeaf), leaves_(tool.leafCount()),
-      wideLeaves_(tool.leafCount()), lastNormal_(tool.leafCount(), dvec3(0.0)), moved_(tool.leafCount(), 0.0),
-      wide_(tool.leafCount(), kMostListed), close_(tool.leafCount(), kMostListed), gaps_(kPairChunk),
-      chosen_(kPairChunk) {
+    : maxRows_(maxRows)
+    , rows_(tool.leafCount() * kMostRowsOfLeaf)
+    , leaves_(tool.leafCount())
+    , wideLeaves_(tool.leafCount())
+    , lastNormal_(tool.leafCount(), dvec3(0.0))
+    , moved_(tool.leafCount(), 0.0)
+    , wide_(tool.leafCount(), kMostListed)
+    , close_(tool.leafCount(), kMostListed)
+    , gaps_(kPairChunk)
+    , chosen_(kPairChunk) {
     for (const Sphere& leaf : tool.leaves()) {
         radius_.push_back(leaf.radius);
     }
 }
 
-void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
-                         double checkLimit, bool anew) noexcept {
+void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre,
+                         double rowLimit, double checkLimit, bool anew) noexcept {
     for (size_t i = 0; i < leaves.size(); ++i) {
         leaves_.set(i, leaves[i]);
         moved_[i] = glm::distance(leaves[i], set.leafAtQuery[i]);
@@ -84,7 +95,8 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
     }
 }
 
-// A gap shrinks by no more than the leaf's way: while that is within the slack, no pair within checkLimit is missing.
+// A gap shrinks by no more than the leaf's way: while that is within the slack, no pair within checkLimit is
+// missing.
 bool NarrowPhase::wideStillServes(const LeafCentres& leaves, double slack) const noexcept {
     if (!wide_.complete) {
         return false;
@@ -123,7 +135,8 @@ size_t NarrowPhase::choose(size_t count, double limit) noexcept {
     return chosen;
 }
 
-void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLimit, double checkLimit) noexcept {
+void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLimit,
+                             double checkLimit) noexcept {
     const dvec3 centre = leaves_[leaf];
     const size_t firstRow = rowCount_;
     PairArrays all = wide_.of(leaf);
@@ -145,9 +158,10 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLim
     if (rowCount_ == firstRow) {
         return;
     }
-    const ContactRow& deepest = *std::min_element(
-        rows_.begin() + static_cast<std::ptrdiff_t>(firstRow), rows_.begin() + static_cast<std::ptrdiff_t>(rowCount_),
-        [](const ContactRow& a, const ContactRow& b) { return a.gap < b.gap; });
+    const ContactRow& deepest =
+        *std::min_element(rows_.begin() + static_cast<std::ptrdiff_t>(firstRow),
+                          rows_.begin() + static_cast<std::ptrdiff_t>(rowCount_),
+                          [](const ContactRow& a, const ContactRow& b) { return a.gap < b.gap; });
     lastNormal_[leaf] = deepest.normal;
     smallestGap_ = std::min(smallestGap_, deepest.gap);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a contact set and a pose to the few rows that the solver needs, and the exact check of every listed pair.
+// From a contact set and a pose to the few rows that the solver needs, and the exact check of every listed
+// pair.
 #pragma once
 
 #include "engine/contact/contact_row.h"
@@ -19,30 +20,33 @@ public:
     // Rows are kept to the `maxRows` deepest.
     NarrowPhase(const Tool& tool, size_t maxRows);
 
-    // Leaf centres are about set.origin [m], one a leaf of the tool. Finds for each leaf, among listed pairs with gap <=
-    // rowLimit, the nearest and the nearest in each further 30 degree normal cone: rows(). Remembers all pairs with gap
-    // <= checkLimit for check(); checkLimit <= rowLimit. anew: false when the set is the one of the last call, bit by
-    // bit: pairs found then are looked at again instead of the whole set, as long as no leaf has moved so far that a
-    // pair within checkLimit could be missing (rows beyond rowLimit - that way may be).
+    // Leaf centres are about set.origin [m], one a leaf of the tool. Finds for each leaf, among listed pairs
+    // with gap <= rowLimit, the nearest and the nearest in each further 30 degree normal cone: rows().
+    // Remembers all pairs with gap
+    // <= checkLimit for check(); checkLimit <= rowLimit. anew: false when the set is the one of the last
+    // call, bit by bit: pairs found then are looked at again instead of the whole set, as long as no leaf has
+    // moved so far that a pair within checkLimit could be missing (rows beyond rowLimit - that way may be).
     void gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
                 double checkLimit, bool anew) noexcept;
 
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
     // Distance of each leaf from where it was at the query [m]; of the last gather().
     std::span<const double> moved() const { return moved_; }
-    double smallestGap() const { return smallestGap_; } // [m] among pairs up to rowLimit; rowLimit when there is none
+    double smallestGap() const {
+        return smallestGap_;
+    } // [m] among pairs up to rowLimit; rowLimit when there is none
 
-    // A pair that a motion would take in too deep: below min(0, its gap at the start), anywhere on the straight way of
-    // its leaf.
+    // A pair that a motion would take in too deep: below min(0, its gap at the start), anywhere on the
+    // straight way of its leaf.
     struct Violation {
         ContactRow row; // of the pair at the start of the motion; offset 0
         double depth;   // [m] > 0, beyond what is allowed
     };
 
-    // Exact test of every listed pair for leaves that go from where gather() saw them to `next`, none farther than its
-    // checkLimit. `exempt[leaf]`, when not zero, is the way to the camera of a leaf behind a surface: its pairs whose
-    // normal points away from it do not count. Writes the worst of each leaf, at most out.size(); returns how many leaves
-    // violate (more than out.size() is possible).
+    // Exact test of every listed pair for leaves that go from where gather() saw them to `next`, none farther
+    // than its checkLimit. `exempt[leaf]`, when not zero, is the way to the camera of a leaf behind a
+    // surface: its pairs whose normal points away from it do not count. Writes the worst of each leaf, at
+    // most out.size(); returns how many leaves violate (more than out.size() is possible).
     size_t check(const ContactSet& set, const LeafCentres& next, std::span<const dvec3> exempt,
                  std::span<Violation> out) noexcept;
 
@@ -66,7 +70,8 @@ private:
         // Adds the elements of `run` named by `chosen`; run element k is pair firstPair + k, or pairs[k].
         void add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
                  const uint32_t* pairs) noexcept;
-        // Ends the run of a leaf: fills it up with spheres that nothing reaches, so that kernels see whole registers.
+        // Ends the run of a leaf: fills it up with spheres that nothing reaches, so that kernels see whole
+        // registers.
         void pad(uint32_t leaf) noexcept;
     };
     bool wideStillServes(const LeafCentres& leaves, double slack) const noexcept;
@@ -76,7 +81,8 @@ private:
     size_t choose(size_t count, double limit) noexcept;
     void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                     const uint32_t* pairs, size_t firstRow, double limit) noexcept;
-    ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap, uint32_t pair) noexcept;
+    ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap,
+                     uint32_t pair) noexcept;
     bool checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& next, const dvec3& exempt,
                    Violation* worst) noexcept;
 

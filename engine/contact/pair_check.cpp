@@ -23,7 +23,8 @@ bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& n
     const double r = radius_[leaf];
     PairArrays all = close_.of(leaf);
     if (!close_.complete) {
-        all = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, checkLimit_ + moved_[leaf] + kPairRounding));
+        all = pairsOf(set, set.pairBegin[leaf],
+                      set.pairsUpTo(leaf, checkLimit_ + moved_[leaf] + kPairRounding));
     }
     double deepest = 0.0;
     size_t deepestAt = 0;
@@ -44,8 +45,8 @@ bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& n
         }
     }
     if (deepest > 0.0 && worst != nullptr) {
-        const uint32_t pair =
-            close_.complete ? close_.pair[close_.begin[leaf] + deepestAt] : set.pairBegin[leaf] + static_cast<uint32_t>(deepestAt);
+        const uint32_t pair = close_.complete ? close_.pair[close_.begin[leaf] + deepestAt]
+                                              : set.pairBegin[leaf] + static_cast<uint32_t>(deepestAt);
         const dvec3 delta = from - dvec3(set.pairX[pair], set.pairY[pair], set.pairZ[pair]);
         worst->row = rowOf(set, leaf, delta, gapOf(all, deepestAt, from, r), pair);
         worst->depth = deepest;

@@ -44,7 +44,8 @@ int64_t sweptKernel(const float* __restrict x, const float* __restrict y, const 
         const double wx = bx - sx, wy = by - sy, wz = bz - sz;
         const double start = ux * ux + uy * uy + uz * uz;
         const double end = wx * wx + wy * wy + wz * wz;
-        // Nearest point of the whole line; outside the segment an end is nearer, so clamping t costs nothing but care.
+        // Nearest point of the whole line; outside the segment an end is nearer, so clamping t costs nothing
+        // but care.
         double t = -(ux * vx + uy * vy + uz * vz) * inverseLength2;
         t = t > 0.0 ? t : 0.0;
         t = t < 1.0 ? t : 1.0;
@@ -61,9 +62,9 @@ int64_t sweptKernel(const float* __restrict x, const float* __restrict y, const 
 }
 
 FATHOM_CLONES
-int64_t coneKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z, size_t count,
-                   double cx, double cy, double cz, double nx, double ny, double nz, double cosine2,
-                   double keepBelow, double limit, double* __restrict gaps) noexcept {
+int64_t coneKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                   size_t count, double cx, double cy, double cz, double nx, double ny, double nz,
+                   double cosine2, double keepBelow, double limit, double* __restrict gaps) noexcept {
     int64_t below = 0;
     for (size_t k = 0; k < count; ++k) {
         const double dx = cx - static_cast<double>(x[k]);
@@ -73,7 +74,7 @@ int64_t coneKernel(const float* __restrict x, const float* __restrict y, const f
         const double ahead = along > 0.0 ? along : 0.0;
         const bool inside = ahead * ahead >= cosine2 * (dx * dx + dy * dy + dz * dz);
         const double gap = gaps[k];
-        const double left = inside & (gap >= keepBelow) ? kInfinity : gap;
+        const double left = (inside & (gap >= keepBelow)) ? kInfinity : gap;
         gaps[k] = left;
         below += left <= limit ? 1 : 0;
     }
@@ -114,23 +115,25 @@ size_t smallestOf(const double* gaps, size_t count) noexcept {
     return at;
 }
 
-size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine, double keepBelow,
-                double limit, double* gaps) noexcept {
-    return static_cast<size_t>(coneKernel(run.x, run.y, run.z, run.count, centre.x, centre.y, centre.z, axis.x, axis.y,
-                                          axis.z, cosine * cosine, keepBelow, limit, gaps));
+size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
+                double keepBelow, double limit, double* gaps) noexcept {
+    return static_cast<size_t>(coneKernel(run.x, run.y, run.z, run.count, centre.x, centre.y, centre.z,
+                                          axis.x, axis.y, axis.z, cosine * cosine, keepBelow, limit, gaps));
 }
 
-size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit, double* gaps) noexcept {
-    return static_cast<size_t>(gapsKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y, centre.z,
-                                          leafRadius, limit, gaps));
+size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit,
+                double* gaps) noexcept {
+    return static_cast<size_t>(gapsKernel(run.x, run.y, run.z, run.radius, run.count, centre.x, centre.y,
+                                          centre.z, leafRadius, limit, gaps));
 }
 
-size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius, double* gaps) noexcept {
+size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius,
+                 double* gaps) noexcept {
     const dvec3 way = to - from;
     const double length2 = glm::dot(way, way);
     const double inverse = length2 > 1e-300 ? 1.0 / length2 : 0.0;
-    return static_cast<size_t>(sweptKernel(run.x, run.y, run.z, run.radius, run.count, from.x, from.y, from.z, to.x,
-                                           to.y, to.z, inverse, leafRadius, gaps));
+    return static_cast<size_t>(sweptKernel(run.x, run.y, run.z, run.radius, run.count, from.x, from.y, from.z,
+                                           to.x, to.y, to.z, inverse, leafRadius, gaps));
 }
 
 double gapOf(const PairArrays& run, size_t k, const dvec3& centre, double leafRadius) noexcept {

@@ -11,7 +11,8 @@
 
 namespace fathom {
 
-// A run of region spheres, about one origin [m]. The arrays hold float32, the arithmetic is float64: exact values.
+// A run of region spheres, about one origin [m]. The arrays hold float32, the arithmetic is float64: exact
+// values.
 struct PairArrays {
     const float* x;
     const float* y;
@@ -35,21 +36,23 @@ inline PairArrays part(const PairArrays& run, size_t begin) {
             std::min(kPairChunk, run.count - begin)};
 }
 
-// gap = |centre - sphere| - (leafRadius + R) [m], written to gaps[0 .. count). Returns how many are <= limit. The same bits
-// on every instruction set, and the same as gapOf().
-size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit, double* gaps) noexcept;
+// gap = |centre - sphere| - (leafRadius + R) [m], written to gaps[0 .. count). Returns how many are <= limit.
+// The same bits on every instruction set, and the same as gapOf().
+size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit,
+                double* gaps) noexcept;
 
 // Index of the smallest gap, the first of equals; count when every gap is infinite or there is none.
 size_t smallestOf(const double* gaps, size_t count) noexcept;
 
-// Sets the gap to infinity of every pair whose normal lies within the cone about `axis` (unit; cosine of its half angle) and
-// whose gap is not below `keepBelow`. Returns how many are still <= limit.
-size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine, double keepBelow,
-                double limit, double* gaps) noexcept;
+// Sets the gap to infinity of every pair whose normal lies within the cone about `axis` (unit; cosine of its
+// half angle) and whose gap is not below `keepBelow`. Returns how many are still <= limit.
+size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
+                double keepBelow, double limit, double* gaps) noexcept;
 
-// Smallest gap along the straight way of the leaf centre from `from` to `to`, both ends' own gaps included bit by bit.
-// Returns how many are < 0. A step of 2 mm cannot jump over a sphere, however small.
-size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius, double* gaps) noexcept;
+// Smallest gap along the straight way of the leaf centre from `from` to `to`, both ends' own gaps included
+// bit by bit. Returns how many are < 0. A step of 2 mm cannot jump over a sphere, however small.
+size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius,
+                 double* gaps) noexcept;
 
 // One pair: element k of the run.
 double gapOf(const PairArrays& run, size_t k, const dvec3& centre, double leafRadius) noexcept;

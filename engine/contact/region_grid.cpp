@@ -7,10 +7,10 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSmallestCell = 0.005;     // [m]
-constexpr uint64_t kMostCells = 4u << 20;   // 16 MiB of cell starts
-constexpr uint64_t kFewestCells = 4096;     // below this clearing costs nothing
-constexpr uint64_t kCellsPerSphere = 8;     // clearing and summing stay cheaper than sorting the spheres
+constexpr double kSmallestCell = 0.005;   // [m]
+constexpr uint64_t kMostCells = 4u << 20; // 16 MiB of cell starts
+constexpr uint64_t kFewestCells = 4096;   // below this clearing costs nothing
+constexpr uint64_t kCellsPerSphere = 8;   // clearing and summing stay cheaper than sorting the spheres
 constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
 
 bool hasPlace(float x, float y, float z, float radius) {
@@ -29,6 +29,28 @@ void RegionGrid::build(const RegionSpheres& spheres) {
 
 void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                        std::span<const float> radius) {
+    const double meanRadius = measure(x, y, z, radius);
+    if (x_.empty()) {
+        nx_ = ny_ = nz_ = 0;
+        return;
+    }
+    const dvec3 extent = hi_ - lo_;
+    const double most = static_cast<double>(
+        std::min(kMostCells, std::max<uint64_t>(kFewestCells, kCellsPerSphere * x_.size())));
+    size_ = std::max(kSmallestCell, 0.5 * meanRadius);
+    // Coarser until it fits; counted in double because the extent may be anything.
+    while ((extent.x / size_ + 1.0) * (extent.y / size_ + 1.0) * (extent.z / size_ + 1.0) > most) {
+        size_ *= 1.1;
+    }
+    perMetre_ = 1.0 / size_;
+    nx_ = cellsAlong(extent.x, size_);
+    ny_ = cellsAlong(extent.y, size_);
+    nz_ = cellsAlong(extent.z, size_);
+    layOut(x, y, z, radius);
+}
+
+double RegionGrid::measure(std::span<const float> x, std::span<const float> y, std::span<const float> z,
+                           std::span<const float> radius) {
     float lo[3], hi[3];
     std::fill_n(lo, 3, std::numeric_limits<float>::infinity());
     std::fill_n(hi, 3, -std::numeric_limits<float>::infinity());
@@ -49,30 +71,13 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
         ++count;
     }
     maxRadius_ = largest;
-    x_.resize(count);
-    y_.resize(count);
-    z_.resize(count);
-    radius_.resize(count);
-    order_.resize(count);
-    if (count == 0) {
-        nx_ = ny_ = nz_ = 0;
-        return;
-    }
     lo_ = dvec3(lo[0], lo[1], lo[2]);
     hi_ = dvec3(hi[0], hi[1], hi[2]);
-    const dvec3 extent = hi_ - lo_;
-    const double most = static_cast<double>(
-        std::min(kMostCells, std::max<uint64_t>(kFewestCells, kCellsPerSphere * count)));
-    size_ = std::max(kSmallestCell, 0.5 * radii / static_cast<double>(count));
-    // Coarser until it fits; counted in double because the extent may be anything.
-    while ((extent.x / size_ + 1.0) * (extent.y / size_ + 1.0) * (extent.z / size_ + 1.0) > most) {
-        size_ *= 1.1;
+    for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) {
+        column->resize(count);
     }
-    perMetre_ = 1.0 / size_;
-    nx_ = cellsAlong(extent.x, size_);
-    ny_ = cellsAlong(extent.y, size_);
-    nz_ = cellsAlong(extent.z, size_);
-    layOut(x, y, z, radius);
+    order_.resize(count);
+    return count > 0 ? radii / static_cast<double>(count) : 0.0;
 }
 
 void RegionGrid::layOut(std::span<const float> x, std::span<const float> y, std::span<const float> z,
@@ -92,7 +97,8 @@ void RegionGrid::layOut(std::span<const float> x, std::span<const float> y, std:
         ++cellBegin_[cell_[i]];
     }
     uint32_t sum = 0;
-    for (uint32_t& begin : cellBegin_) { // running end of each cell; the scatter below walks it back to its begin
+    for (uint32_t& begin :
+         cellBegin_) { // running end of each cell; the scatter below walks it back to its begin
         sum += begin;
         begin = sum;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uniform grid over the whole set's spheres by counting sort: x-contiguous cells, so a row of cells is one run.
+// Uniform grid over the whole set's spheres by counting sort: x-contiguous cells, so a row of cells is one
+// run.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -12,10 +13,10 @@
 
 namespace fathom {
 
-// Built once a frame on the contact or frame cadence (allocates); queries are const, noexcept and allocate nothing.
-// Cells are about half a mean sphere radius, at least 5 mm, and coarser where the extent would ask for more cells than
-// a bound of 8 a sphere (4 Mi at most): outliers cost speed, never memory or answers. Spheres that are not finite are
-// left out: they have no place.
+// Built once a frame on the contact or frame cadence (allocates); queries are const, noexcept and allocate
+// nothing. Cells are about half a mean sphere radius, at least 5 mm, and coarser where the extent would ask
+// for more cells than a bound of 8 a sphere (4 Mi at most): outliers cost speed, never memory or answers.
+// Spheres that are not finite are left out: they have no place.
 class RegionGrid {
 public:
     void build(const RegionSpheres& spheres);
@@ -26,8 +27,8 @@ public:
     size_t size() const { return x_.size(); }
     double maxRadius() const { return maxRadius_; } // [m], 0 when empty
 
-    // Calls visit(index into RegionSpheres) for a superset of the spheres whose centre is within `distance` of `point`
-    // (about the set's origin) [m].
+    // Calls visit(index into RegionSpheres) for a superset of the spheres whose centre is within `distance`
+    // of `point` (about the set's origin) [m].
     template <class Visit>
     void forEachNear(const dvec3& point, double distance, Visit&& visit) const {
         forEachRun(point, distance, [&](uint32_t begin, uint32_t end) {
@@ -62,9 +63,13 @@ private:
         const double slack = 1e-3 * size_;
         // The first and the last cell also hold what rounding pushed over the edge: they count as open.
         const double below = cell == 0 ? 0.0 : lo + static_cast<double>(cell) * size_ - slack - v;
-        const double above = cell + 1 == count ? 0.0 : v - (lo + static_cast<double>(cell + 1) * size_ + slack);
+        const double above =
+            cell + 1 == count ? 0.0 : v - (lo + static_cast<double>(cell + 1) * size_ + slack);
         return std::max({0.0, below, above});
     }
+    // Bounds and largest radius; sizes the columns. Returns the mean radius [m].
+    double measure(std::span<const float> x, std::span<const float> y, std::span<const float> z,
+                   std::span<const float> radius);
     void layOut(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                 std::span<const float> radius);
 

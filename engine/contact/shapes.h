@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Authored analytic fixtures: exact signed distance of a tool leaf to each shape, and the ways that lines and axes prescribe.
+// Authored analytic fixtures: exact signed distance of a tool leaf to each shape, and the ways that lines and
+// axes prescribe.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -9,10 +10,11 @@
 
 namespace fathom {
 
-// In the shape's own frame: sphere about the origin, size.x = radius. Box about the origin, size = edge lengths. Plane:
-// the half-space z <= 0. Cylinder about the origin along z, size.x = radius, size.y = length. These are solid:
-// forbidden keeps the tool's leaves outside, keep_in inside. Line: the tool's centre stays on the endless line through
-// the origin along z. Axis: the same, and the tool's +z stays along the line's +z.
+// In the shape's own frame: sphere about the origin, size.x = radius. Box about the origin, size = edge
+// lengths. Plane: the half-space z <= 0. Cylinder about the origin along z, size.x = radius, size.y = length.
+// These are solid: forbidden keeps the tool's leaves outside, keep_in inside. Line: the tool's centre stays
+// on the endless line through the origin along z. Axis: the same, and the tool's +z stays along the line's
+// +z.
 struct Shape {
     ShapeKind kind = ShapeKind::None;
     bool keepIn = false;
@@ -28,7 +30,7 @@ std::vector<Shape> shapesOf(const Scene& scene);
 
 // One side of a shape as a tool leaf meets it.
 struct SideGap {
-    double gap = 0.0;       // [m] of the leaf's surface; negative = depth
+    double gap = 0.0;            // [m] of the leaf's surface; negative = depth
     dvec3 normal{0.0, 0.0, 1.0}; // unit, base axes, the way that the gap grows
 };
 
@@ -37,9 +39,10 @@ inline constexpr size_t kMostSides = 6;
 // Exact gap of a leaf (centre in the base frame [m], radius [m]) to the whole shape. Not for equalities.
 SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept;
 
-// The half-spaces that keep the leaf on the allowed side: one for a forbidden shape (they are convex: the nearest point's
-// tangent plane is safe), one a face for keep_in. Returns how many were written.
-size_t sidesOf(const Shape& shape, const dvec3& centre, double radius, std::array<SideGap, kMostSides>& sides) noexcept;
+// The half-spaces that keep the leaf on the allowed side: one for a forbidden shape (they are convex: the
+// nearest point's tangent plane is safe), one a face for keep_in. Returns how many were written.
+size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,
+               std::array<SideGap, kMostSides>& sides) noexcept;
 
 // linear . a + angular . alpha = -error is wanted of the tool's next motion [a; alpha].
 struct Equality {

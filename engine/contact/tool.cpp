@@ -23,7 +23,8 @@ void checkTree(const SphereTree& tree) {
 
 } // namespace
 
-Tool::Tool(SphereTree tree) : tree_(std::move(tree)) {
+Tool::Tool(SphereTree tree)
+    : tree_(std::move(tree)) {
     checkTree(tree_);
     double sumOfSquares = 0.0;
     double largestRadius = 0.0;

@@ -223,13 +223,13 @@ SolveStatus ConstraintSolver::solve(std::span<const double> target, std::span<do
     const ScaledVector s = scaled(target);
     std::copy_n(target.begin(), n_, x.begin());
     const double sLength = norm(s);
+    changes_ = 0;
     if (!std::isfinite(sLength)) {
         return SolveStatus::Infeasible;
     }
     findWarmRows();
     ScaledVector y = s;
-    const int cap = 16 * n_ + 64 + static_cast<int>(rows_.size() / 4);
-    int changes = 0;
+    const int cap = mostChanges();
     SolveStatus status = SolveStatus::Optimal;
     for (;;) {
         const double tolerance = kTolerance * (sLength + norm(y));
@@ -242,11 +242,11 @@ SolveStatus ConstraintSolver::solve(std::span<const double> target, std::span<do
         if (row == rows_.size()) {
             break;
         }
-        if (changes >= cap) {
+        if (changes_ >= cap) {
             status = SolveStatus::IterationLimit;
             break;
         }
-        if (!(violation < kInfinity) || !enforce(row, violation, s, y, changes)) {
+        if (!(violation < kInfinity) || !enforce(row, violation, s, y, changes_)) {
             status = SolveStatus::Infeasible;
             break;
         }

@@ -47,6 +47,9 @@ public:
     // Of the last optimal solve, one a row, >= 0, such that M (x - t) = sum lambda_i n_i.
     std::span<const double> multipliers() const noexcept { return {multipliers_.data(), rows_.size()}; }
     int activeRows() const noexcept { return active_.count; }
+    // Rows taken in or dropped by the last solve, and where it would have given up (cycling guard).
+    int changes() const noexcept { return changes_; }
+    int mostChanges() const noexcept { return 16 * n_ + 64 + static_cast<int>(rows_.size() / 4); }
 
 private:
     ScaledVector scaled(std::span<const double> target) const noexcept;
@@ -57,6 +60,7 @@ private:
     void finish(SolveStatus status, ScaledVector& y, std::span<double> x) noexcept;
 
     int n_ = 0;
+    int changes_ = 0;
     MetricFactor factor_;
     ConstraintRows rows_;
     std::vector<uint64_t> keys_;

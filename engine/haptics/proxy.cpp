@@ -9,10 +9,20 @@
 namespace fathom {
 
 Proxy::Proxy(const Tool& tool, std::span<const Shape> shapes, const ProxyOptions& options, const Pose& start)
-    : places_(tool), boundingRadius_(tool.boundingRadius()), shapes_(shapes.begin(), shapes.end()), options_(options),
-      pose_(start), narrow_(tool, proxy::kMostPairRows), trust_(tool.leafCount()), solver_(6, proxy::kMostRows),
-      rows_(proxy::kMostRows), violations_(proxy::kMostViolations), exempt_(tool.leafCount(), dvec3(0.0)),
-      clearance_(tool.leafCount(), 0.0), leaves_(tool.leafCount()), next_(tool.leafCount()) {
+    : places_(tool)
+    , boundingRadius_(tool.boundingRadius())
+    , shapes_(shapes.begin(), shapes.end())
+    , options_(options)
+    , pose_(start)
+    , narrow_(tool, proxy::kMostPairRows)
+    , trust_(tool.leafCount())
+    , solver_(6, proxy::kMostRows)
+    , rows_(proxy::kMostRows)
+    , violations_(proxy::kMostViolations)
+    , exempt_(tool.leafCount(), dvec3(0.0))
+    , clearance_(tool.leafCount(), 0.0)
+    , leaves_(tool.leafCount())
+    , next_(tool.leafCount()) {
     for (const Sphere& leaf : tool.leaves()) {
         radius_.push_back(leaf.radius);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proxy (virtual tool): the pose that follows the hand and never enters a region. Paper V.B, design 5 and 6.
+// The proxy (virtual tool): the pose that follows the hand and never enters a region. Paper V.B, design 5
+// and 6.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -21,7 +22,8 @@ struct ProxyOptions {
     double escapePerTurn = 0.001; // [m] depth given back in one turn where new data lies over the tool
 };
 
-// True when the turn should end: asked between solves, never in one. noexcept in practice: it is called on the turn.
+// True when the turn should end: asked between solves, never in one. noexcept in practice: it is called on
+// the turn.
 struct Deadline {
     bool (*passed)(const void* context) = nullptr; // null = none
     const void* context = nullptr;
@@ -30,8 +32,8 @@ struct Deadline {
 struct ProxyInput {
     Pose target;               // base_T_tool that the hand (and guidance) asks for
     double metricRadius = 0.1; // [m] k = sqrt(K_r / K_t)
-    // The set in force, which must outlive the turn; null = the scene has no regions of points. Adopt a new set only when
-    // Proxy::covers() it: otherwise spheres that neither set lists could lie between.
+    // The set in force, which must outlive the turn; null = the scene has no regions of points. Adopt a new
+    // set only when Proxy::covers() it: otherwise spheres that neither set lists could lie between.
     const ContactSet* contacts = nullptr;
     Deadline deadline;
 };
@@ -43,24 +45,25 @@ struct ActiveContact {
 };
 
 struct ProxyTurn {
-    Pose pose;                                // base_T_tool after the turn
-    std::span<const ActiveContact> active;    // valid until the next turn
-    double minGap = 0.0;                      // [m] over the contact set; its certified reach if none is nearer
-    bool contact = false;                     // active is not empty
-    bool escape = false;                      // new data lies over the tool: some listed pair overlaps
-    bool trapped = false;                     // no motion obeys every row: held this turn, tried again at the next
-    bool stalled = false;                     // cut by the trust region: waits for the next contact set
-    bool uncovered = false;                   // the set given does not cover the tool (see ProxyInput::contacts)
-    uint32_t solves = 0;                      // linearisations
-    uint32_t rounds = 0;                      // solver calls with strengthened rows
-    uint32_t infeasible = 0;                  // solver calls that found no motion
-    uint32_t bisected = 0;                    // steps that had to be shortened by the exact check
+    Pose pose;                             // base_T_tool after the turn
+    std::span<const ActiveContact> active; // valid until the next turn
+    double minGap = 0.0;                   // [m] over the contact set; its certified reach if none is nearer
+    bool contact = false;                  // active is not empty
+    bool escape = false;                   // new data lies over the tool: some listed pair overlaps
+    bool trapped = false;    // no motion obeys every row: held this turn, tried again at the next
+    bool stalled = false;    // cut by the trust region: waits for the next contact set
+    bool uncovered = false;  // the set given does not cover the tool (see ProxyInput::contacts)
+    uint32_t solves = 0;     // linearisations
+    uint32_t rounds = 0;     // solver calls with strengthened rows
+    uint32_t infeasible = 0; // solver calls that found no motion
+    uint32_t bisected = 0;   // steps that had to be shortened by the exact check
 };
 
-// One thread. Allocates in the constructor only; turn() is noexcept, never locks, throws or waits. The promise, kept by an
-// exact check of every listed pair before a pose is taken: no pair's gap ends below min(0, its gap before), and on the
-// straight way there neither. So a leaf never enters a sphere, and a depth that new data brought never grows.
-// Exempt are pairs of a leaf flagged behind a surface that would hold it there (design 5, "Behind").
+// One thread. Allocates in the constructor only; turn() is noexcept, never locks, throws or waits. The
+// promise, kept by an exact check of every listed pair before a pose is taken: no pair's gap ends below
+// min(0, its gap before), and on the straight way there neither. So a leaf never enters a sphere, and a depth
+// that new data brought never grows. Exempt are pairs of a leaf flagged behind a surface that would hold it
+// there (design 5, "Behind").
 class Proxy {
 public:
     Proxy(const Tool& tool, std::span<const Shape> shapes, const ProxyOptions& options, const Pose& start);
@@ -71,21 +74,22 @@ public:
     bool covers(const ContactSet& contacts) noexcept;
 
     const Pose& pose() const { return pose_; }
-    // Puts the tool somewhere without any check (start of a run, arm re-indexed). A pose that is not finite is ignored.
+    // Puts the tool somewhere without any check (start of a run, arm re-indexed). A pose that is not finite
+    // is ignored.
     void setPose(const Pose& pose) noexcept;
 
 private:
-    struct Budget { // of one turn, all solves together
+    struct Budget {    // of one turn, all solves together
         double depth;  // [m] by which rows may ask touching pairs to part
         double travel; // [m] of leaf travel on account of that
     };
-    struct Step { // what the solver answered and how much of it can be done
-        Motion escape;             // least motion that obeys every row (zero unless some row asks for one)
-        Motion full;               // nearest to the target
-        double escapeShare = 0.0;  // of `escape` that the caps leave
-        double towards = 0.0;      // share from there to `full`
-        double share = 0.0;        // of the result that the trust region leaves
-        bool whole = false;        // the target itself, with nothing cut
+    struct Step {                 // what the solver answered and how much of it can be done
+        Motion escape;            // least motion that obeys every row (zero unless some row asks for one)
+        Motion full;              // nearest to the target
+        double escapeShare = 0.0; // of `escape` that the caps leave
+        double towards = 0.0;     // share from there to `full`
+        double share = 0.0;       // of the result that the trust region leaves
+        bool whole = false;       // the target itself, with nothing cut
     };
 
     // proxy_rows.cpp: the conditions at the present pose.
@@ -132,14 +136,14 @@ private:
 
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
-    bool escaping_ = false;   // some row asks for motion
+    bool escaping_ = false;     // some row asks for motion
     double largestAsked_ = 0.0; // [m] of those rows
-    bool touching_ = false;   // some pair overlaps
-    bool firstSolve_ = true;  // of the turn
+    bool touching_ = false;     // some pair overlaps
+    bool firstSolve_ = true;    // of the turn
     std::vector<NarrowPhase::Violation> violations_;
-    std::vector<dvec3> exempt_;      // a leaf: way to the camera while it is behind, else zero
-    std::vector<double> clearance_;  // a leaf: [m] left along it
-    LeafCentres leaves_, next_; // centres about the set's origin, now and at the pose tried
+    std::vector<dvec3> exempt_;     // a leaf: way to the camera while it is behind, else zero
+    std::vector<double> clearance_; // a leaf: [m] left along it
+    LeafCentres leaves_, next_;     // centres about the set's origin, now and at the pose tried
     Pose nextPose_;
     dvec3 origin_{0.0}; // [m] base frame: of the set in force
     std::array<ActiveContact, kMaxUnknowns> active_;

@@ -148,7 +148,8 @@ void Proxy::addEqualityRows(const Shape& shape, uint32_t index, const Budget& bu
     for (size_t k = 0; k < count; ++k) {
         const Equality& e = equalities[k];
         const bool turning = e.linear == dvec3(0.0);
-        // A turn brings the tool back no faster than new data would push it out; a rotation by what that is at its rim.
+        // A turn brings the tool back no faster than new data would push it out; a rotation by what that is
+        // at its rim.
         const double left = (budget.travel > kSkin ? budget.depth : 0.0) / (turning ? boundingRadius_ : 1.0);
         const double wanted = std::clamp(-e.error, -left, left);
         for (const double sign : {1.0, -1.0}) {
@@ -166,10 +167,10 @@ void Proxy::addEqualityRows(const Shape& shape, uint32_t index, const Budget& bu
     }
 }
 
-// Every violated pair gets a row, or its row asks for more: for what the leaf's actual way, arcs of rotation included,
-// falls short of the pair's tangent plane. A way that stays on the free side of that plane cannot enter the sphere, so
-// one round is enough for a pair unless others push it back. share: of the solver's answer that was tried. False when
-// nothing could be asked for.
+// Every violated pair gets a row, or its row asks for more: for what the leaf's actual way, arcs of rotation
+// included, falls short of the pair's tangent plane. A way that stays on the free side of that plane cannot
+// enter the sphere, so one round is enough for a pair unless others push it back. share: of the solver's
+// answer that was tried. False when nothing could be asked for.
 bool Proxy::strengthen(const Motion& tried, size_t violating, double share) noexcept {
     bool changed = false;
     const double scale = 1.0 / std::max(share, 1e-9); // the row speaks of the whole answer
@@ -180,7 +181,8 @@ bool Proxy::strengthen(const Motion& tried, size_t violating, double share) noex
         // Overlapping pairs without a row lie in the cone of one that has it: they need only not grow deeper.
         const double needed = kSkin - std::max(0.0, row.gap);
         size_t at = 0;
-        while (at < rowCount_ && !(rows_[at].kind == ContactRow::Kind::Sphere && rows_[at].pair == row.pair)) {
+        while (at < rowCount_ &&
+               !(rows_[at].kind == ContactRow::Kind::Sphere && rows_[at].pair == row.pair)) {
             ++at;
         }
         if (at < rowCount_) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One linearisation: solve, scale to the step cap and the trust region, check every pair exactly, and only then move.
+// One linearisation: solve, scale to the step cap and the trust region, check every pair exactly, and only
+// then move.
 #include "engine/haptics/proxy.h"
 
 #include "engine/haptics/proxy_limits.h"
@@ -21,7 +22,6 @@ bool same(const Motion& m, const Motion& o) {
     return m.a == o.a && m.alpha == o.alpha;
 }
 
-
 } // namespace
 
 void Proxy::loadSolver() noexcept {
@@ -42,7 +42,8 @@ SolveStatus Proxy::solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out
     std::array<double, 6> x{};
     SolveStatus status = solver_.solve(target, x);
     if (status != SolveStatus::Optimal) {
-        // Between walls that leave no room for the skin: those that do not overlap stay where they are instead.
+        // Between walls that leave no room for the skin: those that do not overlap stay where they are
+        // instead.
         bool relaxed = false;
         for (size_t i = 0; i < rowCount_; ++i) {
             if (rows_[i].gap >= 0.0 && solver_.offset(i) > 0.0 && rows_[i].offset <= proxy::kAsks) {
@@ -166,7 +167,8 @@ bool Proxy::shapesAllow() noexcept {
             equalitiesOf(shape, nextPose_, after);
             for (size_t k = 0; k < count; k += 2) { // the length across, then the angle
                 const double was = std::hypot(before[k].error, before[k + 1].error);
-                if (!(std::hypot(after[k].error, after[k + 1].error) <= std::max(proxy::kEqualityRest, was))) {
+                if (!(std::hypot(after[k].error, after[k + 1].error) <=
+                      std::max(proxy::kEqualityRest, was))) {
                     return false;
                 }
             }
@@ -205,8 +207,8 @@ double Proxy::bisect(const ProxyInput& input, const Step& step) noexcept {
     return allowed;
 }
 
-// Solves and strengthens until the exact check passes. On return `step` holds the last answer; true when it passed as a
-// whole.
+// Solves and strengthens until the exact check passes. On return `step` holds the last answer; true when it
+// passed as a whole.
 bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step,
                         ProxyTurn& out) noexcept {
     for (int round = 0; round < proxy::kRounds; ++round) {
@@ -252,7 +254,8 @@ bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexce
     }
     out.stalled = out.stalled || answer.share < 1.0;
     const Motion taken = remaining(pose_, nextPose_);
-    if (isNothing(taken) && escaping_ && part < 1.0) { // rows that only a motion far away would obey: no way out here
+    if (isNothing(taken) && escaping_ &&
+        part < 1.0) { // rows that only a motion far away would obey: no way out here
         out.trapped = out.solves == 1;
         activeCount_ = 0;
     }

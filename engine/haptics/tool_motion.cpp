@@ -13,9 +13,9 @@ namespace fathom {
 namespace {
 
 FATHOM_CLONES
-void placeKernel(const double* __restrict x, const double* __restrict y, const double* __restrict z, size_t count,
-                 const glm::dmat3& rotation, const dvec3& centre, double* __restrict toX, double* __restrict toY,
-                 double* __restrict toZ) noexcept {
+void placeKernel(const double* __restrict x, const double* __restrict y, const double* __restrict z,
+                 size_t count, const glm::dmat3& rotation, const dvec3& centre, double* __restrict toX,
+                 double* __restrict toY, double* __restrict toZ) noexcept {
     const glm::dmat3 m = rotation; // copies: writing the columns changes neither
     const dvec3 c = centre;
     for (size_t i = 0; i < count; ++i) {
@@ -38,7 +38,8 @@ Motion remaining(const Pose& pose, const Pose& target) noexcept {
     return {target.position - pose.position, rotationLog(target.rotation * glm::conjugate(pose.rotation))};
 }
 
-LeafPlaces::LeafPlaces(const Tool& tool) : centres_(tool.leafCount()) {
+LeafPlaces::LeafPlaces(const Tool& tool)
+    : centres_(tool.leafCount()) {
     for (size_t i = 0; i < tool.leafCount(); ++i) {
         centres_.set(i, tool.leaves()[i].centre);
         farthest_ = std::max(farthest_, glm::length(tool.leaves()[i].centre));
@@ -47,11 +48,13 @@ LeafPlaces::LeafPlaces(const Tool& tool) : centres_(tool.leafCount()) {
 
 void LeafPlaces::place(const Pose& pose, const dvec3& origin, LeafCentres& out) const noexcept {
     placeKernel(centres_.x.data(), centres_.y.data(), centres_.z.data(), centres_.size(),
-                glm::mat3_cast(pose.rotation), pose.position - origin, out.x.data(), out.y.data(), out.z.data());
+                glm::mat3_cast(pose.rotation), pose.position - origin, out.x.data(), out.y.data(),
+                out.z.data());
 }
 
 double LeafPlaces::travelBound(const Pose& pose, const Motion& motion) const noexcept {
-    const dvec3 alpha = glm::conjugate(pose.rotation) * motion.alpha; // |alpha x r| is the same in the tool frame
+    const dvec3 alpha =
+        glm::conjugate(pose.rotation) * motion.alpha; // |alpha x r| is the same in the tool frame
     double turning = 0.0;
     if (alpha != dvec3(0.0)) {
         for (size_t i = 0; i < centres_.size(); ++i) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A step of the tool, where it takes each leaf, and the shares of it that the step cap and the trust region leave.
+// A step of the tool, where it takes each leaf, and the shares of it that the step cap and the trust region
+// leave.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -40,7 +41,8 @@ public:
     // Leaf centres about `origin` [m].
     void place(const Pose& pose, const dvec3& origin, LeafCentres& out) const noexcept;
 
-    // Bounds on how far any leaf centre travels [m]: max |a| + |alpha x r|, and a cruder one that looks at no leaf.
+    // Bounds on how far any leaf centre travels [m]: max |a| + |alpha x r|, and a cruder one that looks at no
+    // leaf.
     double travelBound(const Pose& pose, const Motion& motion) const noexcept;
     double crudeBound(const Motion& motion) const noexcept {
         return glm::length(motion.a) + glm::length(motion.alpha) * farthest_;
@@ -57,13 +59,14 @@ private:
 // Farthest straight way of any leaf [m].
 double longestTravel(const LeafCentres& from, const LeafCentres& to) noexcept;
 
-// Trust region (design 2): no leaf may end farther from where it was at the query than the certified reach less 10 um, or
-// than it already is.
+// Trust region (design 2): no leaf may end farther from where it was at the query than the certified reach
+// less 10 um, or than it already is.
 class TrustRegion {
 public:
     static constexpr double kMargin = 1e-5; // [m]
 
-    explicit TrustRegion(size_t leaves) : bound_(leaves, 0.0) {}
+    explicit TrustRegion(size_t leaves)
+        : bound_(leaves, 0.0) {}
 
     // Bounds for a step from where the leaves are. moved: their distances from the query positions [m].
     void set(const ContactSet& contacts, std::span<const double> moved) noexcept;

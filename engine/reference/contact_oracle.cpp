@@ -18,7 +18,8 @@ dvec3 leafCentre(const Tool& tool, size_t leaf, const Pose& baseTtool, const dve
 
 } // namespace
 
-std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures) {
+std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach,
+                                    const Fixtures& fixtures) {
     PosedLeaves leaves;
     poseLeaves(tool, baseTtool, fixtures.origin, leaves);
     const RegionSpheres& s = fixtures.spheres;
@@ -38,7 +39,8 @@ std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, dou
     return sources;
 }
 
-std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, double limit, const Fixtures& fixtures) {
+std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, double limit,
+                                    const Fixtures& fixtures) {
     std::vector<OraclePair> pairs;
     const RegionSpheres& s = fixtures.spheres;
     for (uint32_t t = 0; t < tool.leafCount(); ++t) {

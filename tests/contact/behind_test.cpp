@@ -35,7 +35,8 @@ TEST_CASE("A leaf that new data puts behind the surface it was in front of is fl
     CHECK(flags[0].clearance == doctest::Approx(0.03 + 0.05).epsilon(1e-6));
 }
 
-TEST_CASE("The flag stays while the leaf is under the surface or near it, and goes once it is clear in front") {
+TEST_CASE(
+    "The flag stays while the leaf is under the surface or near it, and goes once it is clear in front") {
     Watch watch;
     watch(wallPicture(0.6, 1), dvec3(0, 0, 0.5));
     const Fixtures near = wallPicture(0.47, 2);
@@ -55,7 +56,8 @@ TEST_CASE("A leaf that moves behind a surface while the set stays the same is oc
     CHECK(watch(wallPicture(0.5, 2), dvec3(0, 0, 0.6)).empty());
 }
 
-TEST_CASE("Nothing is behind at the first set, behind what is not forbidden, without depth or outside the picture") {
+TEST_CASE("Nothing is behind at the first set, behind what is not forbidden, without depth or outside the "
+          "picture") {
     Watch watch;
     CHECK(watch(wallPicture(0.4, 1), dvec3(0, 0, 0.5)).empty());
     for (const int what : {0, 1, 2, 3}) {
@@ -98,7 +100,8 @@ TEST_CASE("Noise of the depth does not flag a small tool that rests on a small r
     watch.tool = ballTool(0.001);
     uint64_t generation = 0;
     for (const double z : {0.505, 0.503, 0.5065, 0.5035, 0.505}) {
-        fillContactSet(watch.tool, {dvec3(0, 0, 0.503), kUpright}, 0.01, wallPicture(z, ++generation), {}, watch.set);
+        fillContactSet(watch.tool, {dvec3(0, 0, 0.503), kUpright}, 0.01, wallPicture(z, ++generation), {},
+                       watch.set);
         watch.tracker.update(watch.tool, wallPicture(z, generation), 0.001, watch.set);
         CHECK(watch.set.behind.empty());
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixture sets and tools for the contact and proxy tests: random clouds, walls of spheres, tools of many leaves.
+// Fixture sets and tools for the contact and proxy tests: random clouds, walls of spheres, tools of many
+// leaves.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -49,7 +50,8 @@ inline Fixtures emptySet(uint64_t generation = 1) {
     return fixtures;
 }
 
-inline Fixtures randomCloud(std::mt19937_64& random, size_t count, double half, double smallest, double largest) {
+inline Fixtures randomCloud(std::mt19937_64& random, size_t count, double half, double smallest,
+                            double largest) {
     Fixtures fixtures = emptySet();
     std::uniform_real_distribution<double> logRadius(std::log(smallest), std::log(largest));
     for (size_t i = 0; i < count; ++i) {

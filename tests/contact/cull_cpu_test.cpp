@@ -19,7 +19,8 @@ struct Query {
     CullCpu cull;
     ContactSet set;
 
-    explicit Query(const QueryCapacity& capacity = {}) : cull(capacity) {}
+    explicit Query(const QueryCapacity& capacity = {})
+        : cull(capacity) {}
     const ContactSet& operator()(const Tool& tool, const Pose& pose, double reach, const Fixtures& fixtures) {
         grid.build(fixtures.spheres);
         cull.query(tool, pose, reach, fixtures, grid, set);
@@ -43,7 +44,9 @@ void checkShape(const Tool& tool, const ContactSet& set) {
                 const double gap = glm::distance(set.leafAtQuery[leaf], centre) -
                                    (tool.leaves()[leaf].radius + set.radius[s]);
                 wrong += set.bandOf(gap) == band ? 0 : 1;
-                wrong += set.pairX[at] == set.x[s] && set.pairY[at] == set.y[s] && set.pairZ[at] == set.z[s] ? 0 : 1;
+                wrong += set.pairX[at] == set.x[s] && set.pairY[at] == set.y[s] && set.pairZ[at] == set.z[s]
+                             ? 0
+                             : 1;
                 wrong += set.pairRadius[at] == set.radius[s] ? 0 : 1;
             }
         }
@@ -109,7 +112,8 @@ TEST_CASE("The cull equals brute force when the base frame's origin is kilometre
     CHECK(total > 1000);
 }
 
-TEST_CASE("A tool kilometres from the origin loses certified reach to rounding and misses no pair within it") {
+TEST_CASE(
+    "A tool kilometres from the origin loses certified reach to rounding and misses no pair within it") {
     std::mt19937_64 random(13);
     Fixtures fixtures = emptySet();
     const dvec3 far(3000.0, -2000.0, 500.0);
@@ -157,7 +161,8 @@ TEST_CASE("Radii of 0.1 mm to 10 m in one cloud are all found") {
     }
 }
 
-TEST_CASE("An overflow halves the reach until the answer fits, certifies that, and doubles the capacity for the next") {
+TEST_CASE("An overflow halves the reach until the answer fits, certifies that, and doubles the capacity for "
+          "the next") {
     std::mt19937_64 random(16);
     Fixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.1, 0.002, 0.01);
@@ -224,8 +229,8 @@ TEST_CASE("The time of a query at 10 mm reach, 60 k spheres and 256 leaves in co
         times.push_back(took.count());
     }
     std::sort(times.begin(), times.end());
-    MESSAGE(fixtures.spheres.size() << " spheres, query p50 " << times[times.size() / 2] << " us, most spheres "
-                                    << query.cull.statistics().spheresMax << ", most pairs "
-                                    << query.cull.statistics().pairsMax);
+    MESSAGE(fixtures.spheres.size() << " spheres, query p50 " << times[times.size() / 2]
+                                    << " us, most spheres " << query.cull.statistics().spheresMax
+                                    << ", most pairs " << query.cull.statistics().pairsMax);
     CHECK(query.set.size() > 0);
 }

@@ -23,7 +23,10 @@ struct Bench {
     LeafCentres leaves;
 
     Bench(Tool t, Fixtures f, const Pose& pose, double reach = 0.01, size_t maxRows = 512)
-        : tool(std::move(t)), fixtures(std::move(f)), narrow(tool, maxRows), leaves(tool.leafCount()) {
+        : tool(std::move(t))
+        , fixtures(std::move(f))
+        , narrow(tool, maxRows)
+        , leaves(tool.leafCount()) {
         grid.build(fixtures.spheres);
         cull.query(tool, pose, reach, fixtures, grid, set);
         place(pose);
@@ -51,7 +54,8 @@ size_t checkAgainst(Bench& bench, const LeafCentres& next) {
     return bench.narrow.check(bench.set, next, exempt, violations);
 }
 
-// How many leaves the motion takes deeper than allowed into any sphere of the whole set, by dense samples of the way.
+// How many leaves the motion takes deeper than allowed into any sphere of the whole set, by dense samples of
+// the way.
 size_t sampledViolations(const Bench& bench, const LeafCentres& next) {
     size_t count = 0;
     const RegionSpheres& all = bench.fixtures.spheres;
@@ -73,7 +77,8 @@ size_t sampledViolations(const Bench& bench, const LeafCentres& next) {
 
 } // namespace
 
-TEST_CASE("Every leaf gets a row for its nearest sphere, and every near sphere lies in a cone that has a nearer row") {
+TEST_CASE("Every leaf gets a row for its nearest sphere, and every near sphere lies in a cone that has a "
+          "nearer row") {
     std::mt19937_64 random(51);
     for (int k = 0; k < 20; ++k) {
         const Pose pose{randomIn(random, 0.1), randomRotation(random)};
@@ -94,9 +99,11 @@ TEST_CASE("Every leaf gets a row for its nearest sphere, and every near sphere l
                 ++rowsOfLeaf;
                 const uint32_t s = bench.set.pairSphere[row.pair];
                 CHECK(row.gap == bench.gapOfSource(row.leaf, bench.set.source[s]));
-                const auto at = std::lower_bound(bench.set.source.begin(), bench.set.source.end(), pair.source) -
-                                bench.set.source.begin();
-                const dvec3 d = bench.leaves[pair.leaf] - dvec3(bench.set.x[at], bench.set.y[at], bench.set.z[at]);
+                const auto at =
+                    std::lower_bound(bench.set.source.begin(), bench.set.source.end(), pair.source) -
+                    bench.set.source.begin();
+                const dvec3 d =
+                    bench.leaves[pair.leaf] - dvec3(bench.set.x[at], bench.set.y[at], bench.set.z[at]);
                 covered = covered || (row.gap <= gap && glm::dot(glm::normalize(d), row.normal) > 0.866025);
             }
             CHECK((covered || rowsOfLeaf == 8)); // eight cones are kept at most

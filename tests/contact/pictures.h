@@ -8,8 +8,9 @@
 
 namespace fathom::testing {
 
-// Every pixel sees the wall at depth z [m] (to the unit of the depth image, 0.1 mm) and is forbidden. spheres: one a
-// pixel on the middle part of the wall, with +-noise [m] along the ray, if spacing is wanted; none when radius is 0.
+// Every pixel sees the wall at depth z [m] (to the unit of the depth image, 0.1 mm) and is forbidden.
+// spheres: one a pixel on the middle part of the wall, with +-noise [m] along the ray, if spacing is wanted;
+// none when radius is 0.
 inline Fixtures wallPicture(double z, uint64_t generation, double radius = 0.0, double noise = 0.0) {
     Fixtures set = emptySet(generation);
     Intrinsics& lens = set.camera.depth;
@@ -25,7 +26,8 @@ inline Fixtures wallPicture(double z, uint64_t generation, double radius = 0.0, 
     for (uint32_t v = 0; v < lens.height; ++v) {
         for (uint32_t u = 0; u < lens.width; ++u) {
             const double seen = z + noise * n(random);
-            set.depth[v * lens.width + u] = static_cast<uint16_t>(std::lround(seen / set.camera.metresPerUnit));
+            set.depth[v * lens.width + u] =
+                static_cast<uint16_t>(std::lround(seen / set.camera.metresPerUnit));
             if (radius > 0.0) {
                 const glm::dvec2 ray = lens.ray(u, v);
                 addSphere(set, seen * dvec3(ray.x, ray.y, 1.0), radius);

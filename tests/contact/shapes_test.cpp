@@ -39,7 +39,8 @@ const ShapeKind kSolids[] = {ShapeKind::Sphere, ShapeKind::Box, ShapeKind::Plane
 
 } // namespace
 
-TEST_CASE("The gap of every solid is a true signed distance: right sign, slope one along its normal, never steeper") {
+TEST_CASE("The gap of every solid is a true signed distance: right sign, slope one along its normal, never "
+          "steeper") {
     std::mt19937_64 random(41);
     for (const ShapeKind kind : kSolids) {
         const Pose pose{randomIn(random, 1.0), randomRotation(random)};
@@ -63,7 +64,8 @@ TEST_CASE("The gap of every solid is a true signed distance: right sign, slope o
 TEST_CASE("The sides of a keep-in solid together say what its gap says") {
     std::mt19937_64 random(42);
     for (const ShapeKind kind : kSolids) {
-        const Shape shape = shapeOf(kind, dvec3(0.3, 0.5, 0.2), true, {randomIn(random, 1.0), randomRotation(random)});
+        const Shape shape =
+            shapeOf(kind, dvec3(0.3, 0.5, 0.2), true, {randomIn(random, 1.0), randomRotation(random)});
         for (int k = 0; k < 500; ++k) {
             const dvec3 p = shape.baseTshape.apply(randomIn(random, 0.4));
             std::array<SideGap, kMostSides> sides;
@@ -90,7 +92,8 @@ TEST_CASE("At the very centre of a sphere and on the axis of a cylinder there is
     }
 }
 
-TEST_CASE("A line asks for the way across, an axis also for the turn onto it, and both for nothing when there") {
+TEST_CASE(
+    "A line asks for the way across, an axis also for the turn onto it, and both for nothing when there") {
     std::mt19937_64 random(43);
     const Pose pose{randomIn(random, 1.0), randomRotation(random)};
     const Shape line = shapeOf(ShapeKind::Line, dvec3(0.0), false, pose);
@@ -102,7 +105,8 @@ TEST_CASE("A line asks for the way across, an axis also for the turn onto it, an
     for (const Equality& row : rows) {
         CHECK(std::abs(row.error) < 1e-12);
     }
-    const Pose off{pose.apply(dvec3(0.03, -0.02, 0.7)), rotationExp(pose.rotation * dvec3(0.2, 0.1, 0)) * on.rotation};
+    const Pose off{pose.apply(dvec3(0.03, -0.02, 0.7)),
+                   rotationExp(pose.rotation * dvec3(0.2, 0.1, 0)) * on.rotation};
     equalitiesOf(axis, off, rows);
     dvec3 a{0.0}, alpha{0.0};
     for (const Equality& row : rows) {

@@ -63,8 +63,12 @@ World groove() { // 20 degrees between the walls
 }
 
 World needle() { // thin spikes and a thin tool: steps are longer than both
-    World w{"needle", emptySet(), makeTool({{dvec3(0.0), 0.0005}, {dvec3(0, 0, 0.02), 0.0005}}),
-            {dvec3(0.006, 0.003, -0.01), kUpright}, dvec3(0.0), 0.012};
+    World w{"needle",
+            emptySet(),
+            makeTool({{dvec3(0.0), 0.0005}, {dvec3(0, 0, 0.02), 0.0005}}),
+            {dvec3(0.006, 0.003, -0.01), kUpright},
+            dvec3(0.0),
+            0.012};
     for (int i = -20; i <= 20; ++i) {
         addSphere(w.fixtures, dvec3(0, 0.0005 * i, 0), 0.0002);
         addSphere(w.fixtures, dvec3(0, 0, 0.0005 * i), 0.0002);
@@ -75,7 +79,8 @@ World needle() { // thin spikes and a thin tool: steps are longer than both
 
 World rubble() {
     std::mt19937_64 random(99);
-    World w{"rubble", randomCloud(random, 1500, 0.25, 0.002, 0.02), probe(0.006), {dvec3(0, 0, 0.29), kUpright}};
+    World w{
+        "rubble", randomCloud(random, 1500, 0.25, 0.002, 0.02), probe(0.006), {dvec3(0, 0, 0.29), kUpright}};
     w.fixtures.origin = dvec3(7321.5, -2204.25, 99.0);
     w.start.position += w.fixtures.origin;
     w.focus = w.fixtures.origin;
@@ -86,7 +91,11 @@ World rubble() {
 class Hand {
 public:
     Hand(const World& world, double speed, uint64_t seed)
-        : focus_(world.focus), arena_(world.arena), pose_(world.start), speed_(speed), random_(seed) {}
+        : focus_(world.focus)
+        , arena_(world.arena)
+        , pose_(world.start)
+        , speed_(speed)
+        , random_(seed) {}
 
     Pose next() {
         std::uniform_real_distribution<double> u(0.0, 1.0);
@@ -116,7 +125,8 @@ private:
 
 struct Figures {
     double worst = -1e9, longest = 0.0, path = 0.0;
-    uint64_t contact = 0, stalled = 0, trapped = 0, escape = 0, solves = 0, rounds = 0, bisected = 0, uncovered = 0;
+    uint64_t contact = 0, stalled = 0, trapped = 0, escape = 0, solves = 0, rounds = 0, bisected = 0,
+             uncovered = 0;
 };
 
 Figures run(ProxyRig& rig, Hand& hand, int turns, uint32_t slowest, double loss, uint64_t seed) {
@@ -159,10 +169,11 @@ TEST_CASE("No hand, however violent, and no lateness of the contact answers make
                 REQUIRE(rig.depth() < 0.0);
                 Hand hand(world, speed, 1000 + slowest);
                 const Figures f = run(rig, hand, 2000, slowest, slowest == 0 ? 0.0 : 0.3, 5);
-                MESSAGE(world.name << " " << speed << " m/s late<=" << slowest << ": depth " << f.worst << " path "
-                                   << f.path << " contact " << f.contact << " stalled " << f.stalled << " trapped "
-                                   << f.trapped << " solves " << f.solves << " rounds " << f.rounds << " bisected "
-                                   << f.bisected << " refused " << rig.refused);
+                MESSAGE(world.name << " " << speed << " m/s late<=" << slowest << ": depth " << f.worst
+                                   << " path " << f.path << " contact " << f.contact << " stalled "
+                                   << f.stalled << " trapped " << f.trapped << " solves " << f.solves
+                                   << " rounds " << f.rounds << " bisected " << f.bisected << " refused "
+                                   << rig.refused);
                 CHECK(f.worst <= 0.0);
                 CHECK(f.longest <= 4 * 0.002 + 1e-9);
                 CHECK(f.trapped == 0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tool, a fixture set and a proxy run turn by turn as the haptic cadence would, with contact answers that come late or
-// get lost, and every pose judged by brute force over the whole set.
+// A tool, a fixture set and a proxy run turn by turn as the haptic cadence would, with contact answers that
+// come late or get lost, and every pose judged by brute force over the whole set.
 #pragma once
 
 #include "engine/contact/behind.h"
@@ -20,8 +20,10 @@ class ProxyRig {
 public:
     ProxyRig(Tool tool, Fixtures fixtures, const Pose& start, const ProxyOptions& options = {},
              std::span<const Shape> shapes = {}, double reach = 0.01)
-        : tool_(std::move(tool)), fixtures_(std::move(fixtures)), reach_(reach),
-          proxy_(tool_, shapes, options, start) {
+        : tool_(std::move(tool))
+        , fixtures_(std::move(fixtures))
+        , reach_(reach)
+        , proxy_(tool_, shapes, options, start) {
         grid_.build(fixtures_.spheres);
         answer(inForce_);
     }
@@ -33,7 +35,8 @@ public:
         pending_.clear();
     }
 
-    // One turn with an answer of a query asked `delay` turns ago (none yet: the old one stays); lost = no query.
+    // One turn with an answer of a query asked `delay` turns ago (none yet: the old one stays); lost = no
+    // query.
     ProxyTurn turn(const Pose& target, uint32_t delay = 0, bool lost = false) {
         if (!lost) {
             pending_.push_back({now_ + delay, std::make_unique<ContactSet>()});

@@ -40,7 +40,8 @@ TEST_CASE("No hand pushes the tool into a forbidden shape or out of a keep-in sh
             shape.keepIn = keepIn;
             shape.size = dvec3(0.2, 0.25, 0.3);
             shape.baseTshape = {dvec3(4000.0, -0.2, 0.3), randomRotation(random)};
-            const dvec3 start = keepIn ? dvec3(0, 0, kind == ShapeKind::Plane ? -0.1 : 0.0) : dvec3(0, 0, 0.4);
+            const dvec3 start =
+                keepIn ? dvec3(0, 0, kind == ShapeKind::Plane ? -0.1 : 0.0) : dvec3(0, 0, 0.4);
             const Pose home = at(shape.baseTshape.apply(start));
             Proxy proxy(tool, std::span(&shape, 1), {}, home);
             REQUIRE(deepest(shape, tool, proxy.pose()) < 0.0);
@@ -57,8 +58,8 @@ TEST_CASE("No hand pushes the tool into a forbidden shape or out of a keep-in sh
                 contact += turn.contact ? 1 : 0;
                 bisected += turn.bisected;
             }
-            MESSAGE(static_cast<int>(kind) << (keepIn ? " keep in" : " forbidden") << ": deepest " << worst
-                                           << " contact " << contact << " bisected " << bisected);
+            MESSAGE(static_cast<int>(kind) << std::string(keepIn ? " keep in" : " forbidden") << ": deepest "
+                                           << worst << " contact " << contact << " bisected " << bisected);
             CHECK(worst <= 0.0);
             CHECK(contact > 100);
         }
@@ -93,7 +94,8 @@ TEST_CASE("On a line the tool's centre stays on it and follows the hand along it
     Proxy proxy(tool, std::span(&line, 1), {}, at(line.baseTshape.apply(dvec3(0.0))));
     double worst = 0.0;
     for (int k = 1; k <= 1000; ++k) {
-        const Pose hand{line.baseTshape.apply(dvec3(0.05 * std::sin(0.01 * k), 0.03, 0.001 * k)), randomRotation(random)};
+        const Pose hand{line.baseTshape.apply(dvec3(0.05 * std::sin(0.01 * k), 0.03, 0.001 * k)),
+                        randomRotation(random)};
         proxy.turn({hand, 0.03, nullptr, {}});
         const dvec3 offset = proxy.pose().position - line.baseTshape.position;
         worst = std::max(worst, glm::length(offset - glm::dot(offset, along) * along));
@@ -139,8 +141,9 @@ TEST_CASE("A frame that jumps past the tool brings it out on the camera's side, 
                 flagged = flagged || !rig.inForce().behind.empty();
                 ++turns;
             }
-            MESSAGE("noise " << noise << " jump " << jump * 1e3 << " mm: " << turns << " turns, flagged " << flagged
-                             << ", ends " << (front - rig.proxy().pose().position.z) * 1e3 << " mm in front");
+            MESSAGE("noise " << noise << " jump " << (jump * 1e3) << " mm: " << turns << " turns, flagged "
+                             << flagged << ", ends " << (front - rig.proxy().pose().position.z) * 1e3
+                             << " mm in front");
             CHECK(turns < 400);
             CHECK(turns >= static_cast<int>((jump - 0.012) / 0.002));
             CHECK(front - rig.proxy().pose().position.z > 0.045);

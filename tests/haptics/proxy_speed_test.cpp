@@ -43,9 +43,10 @@ TEST_CASE("The time of a turn of 256 leaves in contact with 60 k spheres is prin
             REQUIRE(turn.minGap >= 0.0);
         }
         std::sort(times.begin(), times.end());
-        MESSAGE(speed << " m/s, " << rig.inForce().pairSphere.size() << " pairs: turn p50 " << times[times.size() / 2]
-                      << " p99 " << times[times.size() * 99 / 100] << " us; solves " << solves << " rounds " << rounds
-                      << " bisected " << bisected << " in contact " << contact << " of " << times.size());
+        MESSAGE(speed << " m/s, " << rig.inForce().pairSphere.size() << " pairs: turn p50 "
+                      << times[times.size() / 2] << " p99 " << times[times.size() * 99 / 100]
+                      << " us; solves " << solves << " rounds " << rounds << " bisected " << bisected
+                      << " in contact " << contact << " of " << times.size());
         CHECK(contact > times.size() / 2);
     }
 }

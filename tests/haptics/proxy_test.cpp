@@ -11,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-const dvec3 kX(1, 0, 0), kY(0, 1, 0), kZ(0, 0, 1);
+const dvec3 kX(1, 0, 0), kY(0, 1, 0);
 
 Fixtures flatWall(double z, uint64_t generation = 1) {
     Fixtures fixtures = emptySet(generation);
@@ -23,8 +23,8 @@ Pose at(double x, double y, double z) {
     return {dvec3(x, y, z), kUpright};
 }
 
-// Turns until nothing overlaps; checks that no pair's depth ever grows and that a turn gives back at most 1 mm of the
-// deepest. Returns the turns, or limit.
+// Turns until nothing overlaps; checks that no pair's depth ever grows and that a turn gives back at most 1
+// mm of the deepest. Returns the turns, or limit.
 int turnsToLeave(ProxyRig& rig, const Pose& target, int limit) {
     double depth = rig.depth();
     for (int k = 1; k <= limit; ++k) {
@@ -115,14 +115,15 @@ TEST_CASE("No leaf travels farther than the step cap in a solve, whatever the ha
     }
 }
 
-TEST_CASE("New data over the tool lets it go within the turns that 1 mm a turn allows, and no depth ever grows") {
+TEST_CASE(
+    "New data over the tool lets it go within the turns that 1 mm a turn allows, and no depth ever grows") {
     for (const double over : {0.005, 0.012, 0.02, 0.03, 0.045}) {
         ProxyRig rig(ballTool(0.01), flatWall(-0.001), at(0.001, 0.0013, 0.0501));
         rig.replace(flatWall(over, 2));
         const double depth = rig.depth();
         REQUIRE(depth > over - 0.002);
         const int turns = turnsToLeave(rig, rig.proxy().pose(), 200);
-        MESSAGE(over * 1e3 << " mm: " << turns << " turns");
+        MESSAGE((over * 1e3) << " mm: " << turns << " turns");
         CHECK(turns >= static_cast<int>(depth / 0.002)); // 2 mm of travel a turn at most
         CHECK(turns <= static_cast<int>(std::ceil(depth / 0.001)) + 3);
         CHECK(rig.proxy().pose().position.z > over);
@@ -166,7 +167,8 @@ TEST_CASE("Between two walls that leave no room the tool is trapped and held, an
     CHECK(!turn.trapped);
 }
 
-TEST_CASE("Without answers the tool stops at the edge of the trust region, is let back, and says that it stalled") {
+TEST_CASE(
+    "Without answers the tool stops at the edge of the trust region, is let back, and says that it stalled") {
     ProxyRig rig(ballTool(0.01), flatWall(-1.0), at(0, 0, 0));
     uint64_t stalled = 0;
     for (int k = 0; k < 20; ++k) {
@@ -181,7 +183,8 @@ TEST_CASE("Without answers the tool stops at the edge of the trust region, is le
     CHECK(rig.turn(at(0.001, 0, 0), 0, true).pose.position == dvec3(0.001, 0, 0));
 }
 
-TEST_CASE("A set found too far from where the tool is now is not covered, and using it all the same is reported") {
+TEST_CASE(
+    "A set found too far from where the tool is now is not covered, and using it all the same is reported") {
     ProxyRig rig(ballTool(0.01), flatWall(0.0), at(0, 0, 0.06));
     ContactSet far = rig.inForce();
     rig.proxy().setPose(at(0, 0.0, 0.0705));
@@ -211,7 +214,9 @@ TEST_CASE("A target that is not finite, or a set of another tool, holds the tool
     CHECK(rig.proxy().turn({at(0.1, 0, 0), 0.1, &foreign, {}}).pose.position == dvec3(0.0));
     rig.proxy().setPose(bad);
     CHECK(isFinite(rig.proxy().pose()));
-    CHECK(rig.proxy().turn({at(0.001, 0, 0), std::numeric_limits<double>::quiet_NaN(), &rig.inForce(), {}}).solves > 0);
+    CHECK(rig.proxy()
+              .turn({at(0.001, 0, 0), std::numeric_limits<double>::quiet_NaN(), &rig.inForce(), {}})
+              .solves > 0);
 }
 
 TEST_CASE("The rows that push balance the way that is left: multipliers times rows are M (x - x_u)") {
