@@ -7,11 +7,39 @@
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <iostream>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
 namespace {
+
+// What the command line did not mean, as one line: where, value, what is allowed.
+std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    const std::vector<std::string> rest = app.remaining(true);
+    std::string allowed;
+    const auto allow = [&](const std::string& name) { allowed += (allowed.empty() ? "" : ", ") + name; };
+    if (chosen.empty()) {
+        for (const CLI::App* command : app.get_subcommands(nullptr)) {
+            allow(command->get_name());
+        }
+        return "subcommand: " + (rest.empty() ? "missing" : "'" + rest.front() + "'") + " (allowed: " + allowed + ")";
+    }
+    if (!rest.empty()) {
+        for (const CLI::App* owner : {static_cast<const CLI::App*>(chosen.back()), &app}) {
+            for (const CLI::Option* option : owner->get_options()) {
+                if (owner != &app || option != app.get_help_ptr()) { // the subcommand has one of its own
+                    allow(option->get_name());
+                }
+            }
+        }
+        return chosen.back()->get_name() + ": '" + rest.front() + "' (allowed: " + allowed + ")";
+    }
+    std::string text = chosen.back()->get_name() + ": " + error.what();
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    return text;
+}
 
 int run(int argc, char** argv) {
     CLI::App app("Haptic virtual fixtures from a live depth camera");
@@ -30,7 +58,11 @@ int run(int argc, char** argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? 0 : 2;
+        if (e.get_exit_code() == 0) {
+            return app.exit(e); // --help
+        }
+        std::cerr << "fathom: " << refusalOf(app, e) << "\n";
+        return 2;
     }
     return result;
 }

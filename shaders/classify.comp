@@ -11,6 +11,7 @@ layout(constant_id = 2) const uint kColour = 1;  // 0 no class asks, 1 registere
 layout(constant_id = 3) const uint kHold = 0;    // 1: patches that hold points are listed too
 layout(constant_id = 4) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the loop over them unrolls
+layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
@@ -52,9 +53,9 @@ bool colourOf(uint pixel, vec3 p, out uint rgba) {
     return true;
 }
 
-bool inClass(ClassParams c, uint rgba, bool seen, vec3 base) {
+bool inClass(ClassParams c, Hsl colourHere, bool seen, vec3 base) {
     bool asks = c.hue.z != 0.0 || c.satLight.x > 0.0 || c.satLight.y < 1.0 || c.satLight.z > 0.0 || c.satLight.w < 1.0;
-    if (asks && (!seen || !passesColour(rgba, c.hue, c.satLight))) {
+    if (asks && (!seen || !passesColour(colourHere, c.hue, c.satLight))) {
         return false;
     }
     return c.boxMin.w == 0.0 || (all(greaterThanEqual(base, c.boxMin.xyz)) && all(lessThanEqual(base, c.boxMax.xyz)));
@@ -72,10 +73,11 @@ uint classBits(uvec2 at, uint pixel, float z) {
     vec3 p = vec3(rayOf(at) * z, z);
     uint rgba = 0;
     bool seen = kColour != 0 && colourOf(pixel, p, rgba);
-    vec3 base = transformPoint(params.baseTcamera, p);
+    Hsl colourHere = hslOf(rgba);
+    vec3 base = kBox != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     uint mask = 0;
     for (uint c = 0; c < kClasses; ++c) {
-        if (inClass(params.classes[c], rgba, seen, base)) {
+        if (inClass(params.classes[c], colourHere, seen, base)) {
             mask |= 1u << c;
             atomicAdd(counters.classPixels[c], 1u);
         }
@@ -84,12 +86,12 @@ uint classBits(uvec2 at, uint pixel, float z) {
 }
 
 void main() {
-    uint slot = gl_GlobalInvocationID.x;
-    if (slot >= params.size.z * params.size.w * 256u) {
-        return;
-    }
+    // Groups are laid out as the patches are: no division finds the pixel.
+    uint patchIndex = gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x;
+    uint inside = gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    uint slot = patchIndex * 256u + inside;
+    uvec2 at = gl_WorkGroupID.xy * 16u + pixelInPatch(inside);
     uint mask = 0;
-    uvec2 at = pixelOfSlot(slot, params.size.z);
     if (all(lessThan(at, params.size.xy))) {
         uint pixel = at.y * params.size.x + at.x;
         float z = depthAt(pixel);
@@ -98,7 +100,7 @@ void main() {
         }
     }
     masks[slot] = mask;
-    if (mask != 0 || (kHold != 0 && (slot & 255u) == 0 && live[slot >> 8] != 0)) {
-        putOnList(slot >> 8);
+    if (mask != 0 || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
+        putOnList(patchIndex);
     }
 }

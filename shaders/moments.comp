@@ -21,17 +21,17 @@ PatchMoments subMoments(uint firstSlot, uint c) {
     for (uint p = 0; p < 16u; ++p) {
         vec4 point = points[firstSlot + p];
         if (point.w != 0.0 && (masks[firstSlot + p] >> c & 1u) != 0) {
-            anchor = count == 0.0 ? point.xyz : anchor; // sums of small differences keep their digits
+            anchor = count == 0.0 ? point.xyz : anchor; // differences of neighbours are exact: sums of them keep their digits
             sum += point.xyz - anchor;
             count += 1.0;
         }
     }
-    vec3 mean = anchor + (count > 0.0 ? sum / count : vec3(0.0));
-    PatchMoments m = PatchMoments(vec4(mean, count), vec4(0.0), vec4(0.0));
+    vec3 offset = count > 0.0 ? sum / count : vec3(0.0);
+    PatchMoments m = PatchMoments(vec4(anchor, count), vec4(offset, 0.0), vec4(0.0), vec4(0.0));
     for (uint p = 0; p < 16u; ++p) {
         vec4 point = points[firstSlot + p];
         if (point.w != 0.0 && (masks[firstSlot + p] >> c & 1u) != 0) {
-            vec3 d = point.xyz - mean;
+            vec3 d = (point.xyz - anchor) - offset;
             m.first += vec4(d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y);
             m.second.xy += vec2(d.y * d.z, d.z * d.z);
         }
@@ -40,14 +40,14 @@ PatchMoments subMoments(uint firstSlot, uint c) {
 }
 
 PatchMoments merge(PatchMoments a, PatchMoments b) {
-    if (a.mean.w == 0.0 || b.mean.w == 0.0) {
-        return a.mean.w == 0.0 ? b : a;
+    if (a.anchor.w == 0.0 || b.anchor.w == 0.0) {
+        return a.anchor.w == 0.0 ? b : a;
     }
-    float n = a.mean.w + b.mean.w, w = a.mean.w * b.mean.w / n;
-    vec3 d = b.mean.xyz - a.mean.xyz;
+    float n = a.anchor.w + b.anchor.w, w = a.anchor.w * b.anchor.w / n;
+    vec3 d = (b.anchor.xyz - a.anchor.xyz) + (b.offset.xyz - a.offset.xyz);
     vec4 first = a.first + b.first + w * vec4(d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y);
     vec4 second = a.second + b.second + w * vec4(d.y * d.z, d.z * d.z, 0.0, 0.0);
-    return PatchMoments(vec4(a.mean.xyz + d * (b.mean.w / n), n), first, second);
+    return PatchMoments(vec4(a.anchor.xyz, n), vec4(a.offset.xyz + d * (b.anchor.w / n), 0.0), first, second);
 }
 
 void main() {

@@ -53,34 +53,39 @@ vec3 pointAt(ivec2 at, float z) {
     return vec3(rayOf(uvec2(at)) * z, z);
 }
 
-// -1: all valid neighbours of that side are nearer by more than the edge; +1: all farther; 0: neither.
-int sideJump(ivec2 at, ivec2 side, float z, ivec2 patchOrigin) {
-    ivec2 along = side.yx;
-    int nearer = 0, farther = 0, valid = 0;
-    for (int k = -1; k <= 1; ++k) {
-        float d = windowDepth(at + side + along * k, patchOrigin);
-        valid += d != 0.0 ? 1 : 0;
-        nearer += d != 0.0 && d < z * (1.0 - params.more.w) ? 1 : 0;
-        farther += d > z * (1.0 + params.more.w) ? 1 : 0;
+// The pixel and its eight neighbours, row by row; 0 = no depth there.
+float[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
+    float around[9];
+    for (int k = 0; k < 9; ++k) {
+        around[k] = windowDepth(at + ivec2(k % 3 - 1, k / 3 - 1), patchOrigin);
     }
-    return valid == 0 ? 0 : (nearer == valid ? -1 : (farther == valid ? 1 : 0));
+    return around;
+}
+
+// Three neighbours on one side. -1: all valid ones are nearer than z by more than the edge; +1: all farther; 0: neither.
+int sideJump(vec3 side, float z) {
+    bvec3 valid = notEqual(side, vec3(0.0));
+    bvec3 nearer = lessThan(side, vec3(z * (1.0 - params.more.w))), farther = greaterThan(side, vec3(z * (1.0 + params.more.w)));
+    bool allNearer = all(equal(valid, bvec3(uvec3(valid) * uvec3(nearer))));
+    bool allFarther = all(equal(valid, farther)); // no depth is never farther
+    return !any(valid) ? 0 : (allNearer ? -1 : (allFarther ? 1 : 0));
 }
 
 // Between a nearer surface on one side and a farther one on the other: a mixed pixel that lies on neither. A silhouette or
 // a thin rod has jumps of one sign only and stays.
-bool isFlying(ivec2 at, float z, ivec2 patchOrigin) {
-    return sideJump(at, ivec2(1, 0), z, patchOrigin) * sideJump(at, ivec2(-1, 0), z, patchOrigin) < 0 ||
-           sideJump(at, ivec2(0, 1), z, patchOrigin) * sideJump(at, ivec2(0, -1), z, patchOrigin) < 0;
+bool isFlying(float n[9]) {
+    return sideJump(vec3(n[2], n[5], n[8]), n[4]) * sideJump(vec3(n[0], n[3], n[6]), n[4]) < 0 ||
+           sideJump(vec3(n[6], n[7], n[8]), n[4]) * sideJump(vec3(n[0], n[1], n[2]), n[4]) < 0;
 }
 
 // Fewer than 2 of the 8 neighbours within the isolation distance: marine snow, a speck of noise.
-bool isIsolated(ivec2 at, vec3 p, ivec2 patchOrigin) {
-    float limit = max(params.filterParams.z, params.filterParams.w * p.z);
+bool isIsolated(ivec2 at, float n[9]) {
+    float limit = max(params.filterParams.z, params.filterParams.w * n[4]);
+    vec3 p = pointAt(at, n[4]);
     int near = 0;
     for (int k = 0; k < 9; ++k) {
         ivec2 q = at + ivec2(k % 3 - 1, k / 3 - 1);
-        float d = windowDepth(q, patchOrigin);
-        near += k != 4 && d != 0.0 && distance(pointAt(q, d), p) <= limit ? 1 : 0;
+        near += k != 4 && n[k] != 0.0 && distance(pointAt(q, n[k]), p) <= limit ? 1 : 0;
     }
     return near < 2;
 }
@@ -115,8 +120,9 @@ void main() {
         vec4 result = vec4(0.0);
         if (masks[slot] != 0) {
             ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
-            vec3 p = pointAt(at, windowDepth(at, patchOrigin));
-            if (!(kEdge != 0 && isFlying(at, p.z, patchOrigin)) && !isIsolated(at, p, patchOrigin)) {
+            float around[9] = aroundOf(at, patchOrigin);
+            if (!(kEdge != 0 && isFlying(around)) && !isIsolated(at, around)) {
+                vec3 p = pointAt(at, around[4]);
                 float z = kRadius != 0 ? filtered(at, p, patchOrigin) : p.z;
                 result = vec4(transformPoint(params.baseTcamera, pointAt(at, z)), z);
             }

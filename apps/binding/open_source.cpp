@@ -4,6 +4,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
+#include "engine/haptics/device_preset.h"
 #include "engine/model/sph_file.h"
 #include "engine/types/error.h"
 
@@ -23,6 +24,18 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
 }
 
 } // namespace
+
+Scene openScene(const std::filesystem::path& file) {
+    Scene scene = loadScene(file);
+    std::string names;
+    for (const DevicePreset& preset : devicePresets()) {
+        if (preset.name == scene.haptics.device) {
+            return scene;
+        }
+        names += (names.empty() ? "" : ", ") + preset.name;
+    }
+    throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
+}
 
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source) {
     if (source) {

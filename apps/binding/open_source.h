@@ -12,6 +12,9 @@
 
 namespace fathom {
 
+// The scene file, read and checked, names of device presets included. Throws BadInput.
+Scene openScene(const std::filesystem::path& file);
+
 // The scene's camera, or the recording in `source` when given. Throws BadInput.
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source);
 

@@ -17,7 +17,7 @@ struct PlanOptions {
 };
 
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
-    const Scene scene = loadScene(options.scene);
+    const Scene scene = openScene(options.scene);
     const auto camera = openCamera(scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     const Tool tool = openTool(scene);
     const gpu::Instance instance;

@@ -20,10 +20,12 @@ double micros(std::chrono::steady_clock::time_point since) {
 
 } // namespace
 
-LockstepReplay::LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder)
+LockstepReplay::LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+                               CadenceTrace* trace)
     : session_(session)
     , options_(options)
     , recorder_(recorder)
+    , trace_(trace)
     , shapes_(shapesOf(session.scene))
     , haptics_(makeHapticOptions(session.scene, session.tool))
     , audit_(session.tool) {}
@@ -41,6 +43,9 @@ void LockstepReplay::fetch() {
 void LockstepReplay::processNext() {
     lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
     ready_ = session_.frames.process(std::move(*next_));
+    if (trace_ != nullptr) {
+        trace_->frame(*ready_);
+    }
     next_.reset();
     const auto set = session_.frames.sets().newest();
     if (!ready_->unchanged) {
@@ -73,6 +78,9 @@ void LockstepReplay::query(double) {
         const auto start = std::chrono::steady_clock::now();
         session_.contact.query(*session_.frames.sets().newest(), cycle_->pose(), *answer);
         recorder_.query(micros(start));
+        if (trace_ != nullptr) {
+            trace_->query(start, std::chrono::steady_clock::now(), answer->size());
+        }
         answers_.push_back(std::move(answer));
     }
     if (answers_.size() > session_.scene.contact.delay) {
@@ -125,6 +133,10 @@ void LockstepReplay::tick(double t) {
     const auto began = std::chrono::steady_clock::now();
     const TurnRecord record = cycle_->turn(input);
     const double took = micros(began);
+    if (trace_ != nullptr) {
+        trace_->turn(began, std::chrono::steady_clock::now(), 0.0);
+        trace_->file().drain();
+    }
     if (record.adopted) {
         inForce_ = std::move(offered_);
         dropOldSets();
@@ -132,6 +144,11 @@ void LockstepReplay::tick(double t) {
     hand_->write(record.deviceWrench, haptics_.period);
     audit(record, start);
     recorder_.tick(tickOf(record, took, took > haptics_.period * 1e6));
+    if (inForce_ && recorder_.wantsMoment()) {
+        if (const Kept* obeyed = keptSet(inForce_->generation)) {
+            recorder_.moment(obeyed->fixtures, lastColour_);
+        }
+    }
     ++ticks_;
 }
 
@@ -140,7 +157,9 @@ ReplayRecorder::Ending LockstepReplay::run() {
     if (!next_) {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
     }
-    pathStart_ = nextTime_;
+    // The built-in path waits for the first set; a CSV tells the time from the run's start.
+    const bool builtIn = options_.operatorCsv.empty() && session_.scene.hand.builtIn;
+    pathStart_ = builtIn ? nextTime_ : 0.0;
     processNext(); // early: the built-in path needs the first set; it is in force from its own time on
     path_.emplace(openHandPath(session_, options_, *session_.frames.sets().newest()));
     hand_ = openHand(*path_, session_, options_);

@@ -4,6 +4,7 @@
 
 #include "apps/replay/replay_recorder.h"
 #include "apps/replay/replay_session.h"
+#include "engine/cycle/cadence_trace.h"
 #include "engine/cycle/haptic_cycle.h"
 #include "engine/reference/penetration_audit.h"
 
@@ -18,7 +19,8 @@ namespace fathom {
 // hand path both have.
 class LockstepReplay {
 public:
-    LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder);
+    // trace: null = none.
+    LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder, CadenceTrace* trace = nullptr);
 
     // Runs to the end and hands over what only the loop knows.
     ReplayRecorder::Ending run();
@@ -45,6 +47,7 @@ private:
     ReplaySession& session_;
     const ReplayOptions& options_;
     ReplayRecorder& recorder_;
+    CadenceTrace* trace_;
     std::vector<Shape> shapes_;
     HapticOptions haptics_;
     std::optional<HandPath> path_;

@@ -12,6 +12,8 @@ namespace fathom {
 
 namespace {
 
+constexpr double kMomentMargin = 1.05; // a picture is copied for this much more force, not for every tick of a rising one
+
 std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
     prepareOutputFolder(out, withFixtures);
     return out;
@@ -92,6 +94,20 @@ void ReplayRecorder::tick(const TickRecord& tick) {
     lastTick_ = tick;
 }
 
+bool ReplayRecorder::wantsMoment() const {
+    const double force = glm::length(lastTick_.wrench.force);
+    return force > kMomentMargin * moment_.force || (force > moment_.force && lastTick_.frame != moment_.tick.frame);
+}
+
+void ReplayRecorder::moment(const Fixtures& set, std::span<const uint32_t> colour) {
+    moment_.force = glm::length(lastTick_.wrench.force);
+    moment_.tick = lastTick_;
+    if (moment_.set.generation != set.generation) {
+        moment_.set = set;
+        moment_.colour.assign(colour.begin(), colour.end());
+    }
+}
+
 std::vector<ReplaySummary::FixtureRow> ReplayRecorder::fixtureRows() const {
     std::vector<ReplaySummary::FixtureRow> rows;
     for (size_t i = 0; i < scene_.fixtures.size(); ++i) {
@@ -119,17 +135,18 @@ void ReplayRecorder::writePictures(const Ending& ending) const {
 
     OverlayInput overlay;
     overlay.camera = ending.camera;
-    overlay.colour = ending.colour;
-    overlay.set = ending.lastSet;
-    if (ending.lastSet != nullptr) {
-        overlay.baseTcamera = ending.lastSet->baseTcamera;
-        overlay.depth = ending.lastSet->depth;
+    const bool strongest = moment_.force > 0.0;
+    overlay.colour = strongest ? std::span<const uint32_t>(moment_.colour) : ending.colour;
+    overlay.set = strongest ? &moment_.set : ending.lastSet;
+    overlay.tick = strongest ? moment_.tick : lastTick_;
+    if (overlay.set != nullptr) {
+        overlay.baseTcamera = overlay.set->baseTcamera;
+        overlay.depth = overlay.set->depth;
     }
     for (const FixtureClass& f : scene_.fixtures) {
         overlay.classNames.push_back(f.name);
     }
     overlay.leaves = ending.leaves;
-    overlay.tick = lastTick_;
     overlay.title = ending.title;
     writeOverlay(out_ / "overlay.png", overlay);
 }

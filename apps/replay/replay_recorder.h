@@ -25,6 +25,10 @@ public:
     // A used frame, at t [s] of the run, with the set it made; unchanged frames too.
     void frame(const FrameReport& report, double t, const Fixtures& set);
     void tick(const TickRecord& tick);
+    // overlay.png shows the strongest moment of the run: true when the last tick was it so far, by a clear margin or on a new frame;
+    // then moment() wants what the hand felt (copied) and saw.
+    bool wantsMoment() const;
+    void moment(const Fixtures& set, std::span<const uint32_t> colour);
     void query(double micros) { queryMicros_.push_back(static_cast<float>(micros)); }
 
     // What only the caller knows.
@@ -39,7 +43,7 @@ public:
         std::string title;                           // scene and source
         double forceLimit = 0.0, torqueLimit = 0.0;  // [N], [N m]
         CameraInfo camera;
-        std::span<const uint32_t> colour;            // of the last frame; may be empty
+        std::span<const uint32_t> colour;            // of the last frame, for runs without any force; may be empty
         const Fixtures* lastSet = nullptr;
         std::span<const Sphere> leaves;
     };
@@ -65,6 +69,12 @@ private:
     TickTotals totals_;
     TraceHistory history_;
     TickRecord lastTick_;
+    struct Moment {
+        double force = 0.0; // [N]
+        TickRecord tick;
+        Fixtures set;
+        std::vector<uint32_t> colour;
+    } moment_;
     uint64_t frameCount_ = 0;
     std::vector<ClassSums> sums_; // rows of the scene
     std::vector<ReplaySummary::GuidanceRow> guidance_;

@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 Scene sceneOf(const ReplayOptions& options) {
-    Scene scene = loadScene(options.scene);
+    Scene scene = openScene(options.scene);
     if (options.query == "cpu") {
         scene.contact.where = Scene::Contact::Where::Cpu;
     } else if (options.query == "gpu") {

@@ -101,12 +101,21 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
     return Frame(content, slot.giveBack());
 }
 
+// Named at once in a recording that has shown a good frame; before that when one comes. Should none come, the one
+// refusal says it all.
 void RecordedCamera::skip(uint32_t index, const std::string& fault) {
     ++skipped_;
-    spdlog::warn("{}: frame {} skipped: {}", folder_.string(), index, fault);
+    unnamed_.push_back("frame " + std::to_string(index) + " skipped: " + fault);
     if (firstFault_.empty()) {
         firstFault_ = fault;
     }
+}
+
+void RecordedCamera::nameSkipped() {
+    for (const std::string& line : unnamed_) {
+        spdlog::warn("{}: {}", folder_.string(), line);
+    }
+    unnamed_.clear();
 }
 
 std::optional<Frame> RecordedCamera::next() {
@@ -122,12 +131,15 @@ std::optional<Frame> RecordedCamera::next() {
         const std::string fault = read(index_[index], *slot);
         if (fault.empty()) {
             lastStamp_ = index_[index].depthStamp;
+            nameSkipped();
             return lease(index, *slot);
         }
         skip(index, fault);
     }
     slot->release();
-    if (!lastStamp_) {
+    if (lastStamp_) {
+        nameSkipped();
+    } else {
         throw BadInput(folder_.string(), "frames",
                        "none of " + std::to_string(index_.size()) + " is usable; first: " + firstFault_,
                        "at least one good pair of pictures");

@@ -36,6 +36,7 @@ private:
     std::string read(const IndexLine& line, FrameSlot& slot) const; // what is wrong; empty = read
     Frame lease(uint32_t index, FrameSlot& slot) const;
     void skip(uint32_t index, const std::string& fault);
+    void nameSkipped();
 
     std::filesystem::path folder_;
     RecordingIntrinsics intrinsics_;
@@ -46,6 +47,7 @@ private:
     uint32_t skipped_ = 0;
     std::optional<double> lastStamp_; // [s] of the last delivered frame
     std::string firstFault_;
+    std::vector<std::string> unnamed_; // skipped frames that the log has not named yet
 };
 
 } // namespace fathom

@@ -69,25 +69,30 @@ void SimulatedHand::write(const Wrench& deviceWrench, double dt) noexcept {
     const auto substeps = static_cast<uint32_t>(wanted);
     const double h = dt / wanted;
     for (uint32_t i = 0; i < substeps; ++i) {
-        substep(wrench, now_ + (i + 1) * h, h);
+        substep(wrench, now_ + (i + 0.5) * h, h);
     }
     now_ += dt;
 }
 
-// The damper is taken implicitly, so that no damping, however large, can make the step unstable.
+// Half a drift, a kick, half a drift: exact under a constant force, so that the hand sees the wrench as late as a sampled
+// one is (half a period) and not earlier, and neither feeds nor brakes its own swing. The damper acts by its exact decay
+// about the kick: no damping, however large, can make the step unstable. t: the middle of the step.
 void SimulatedHand::substep(const Wrench& wrench, double t, double h) noexcept {
     const HandLoop& loop = options_.loop;
     const Pose intended = path_.at(t).deviceThandle;
-    const double slowing = 1.0 / (1.0 + h * loop.damping / loop.mass);
+    const double slowing = std::exp(-0.5 * h * loop.damping / loop.mass);
+    handle_.position += 0.5 * h * velocity_;
     const dvec3 pull = loop.stiffness * (intended.position - handle_.position) + wrench.force;
-    velocity_ = slowing * (velocity_ + (h / loop.mass) * pull);
-    handle_.position += h * velocity_;
+    velocity_ = slowing * (slowing * velocity_ + (h / loop.mass) * pull);
+    handle_.position += 0.5 * h * velocity_;
 
     const double kk = options_.armLength * options_.armLength;
-    const dvec3 away = rotationLog(intended.rotation * glm::conjugate(handle_.rotation));
+    const dquat half = rotationExp(0.5 * h * spin_);
+    const dquat middle = half * handle_.rotation;
+    const dvec3 away = rotationLog(intended.rotation * glm::conjugate(middle));
     const dvec3 twist = loop.stiffness * kk * away + wrench.torque;
-    spin_ = slowing * (spin_ + (h / (loop.mass * kk)) * twist);
-    handle_.rotation = glm::normalize(rotationExp(h * spin_) * handle_.rotation);
+    spin_ = slowing * (slowing * spin_ + (h / (loop.mass * kk)) * twist);
+    handle_.rotation = glm::normalize(rotationExp(0.5 * h * spin_) * middle);
 }
 
 double SimulatedHand::energy(double t) const noexcept {

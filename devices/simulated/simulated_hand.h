@@ -33,8 +33,8 @@ struct SimulatedHandOptions {
 };
 
 // A hand that holds the handle: per axis m a = K (path - x) - D v + F, with damping against the ground so
-// that it can only take energy out, and the same about the handle's centre with J = m k^2. Semi-implicit
-// Euler in at least 4 substeps a write. Starts at rest at the path's first pose.
+// that it can only take energy out, and the same about the handle's centre with J = m k^2. Drift-kick-drift
+// in at least 4 substeps a write: exact for a constant wrench. Starts at rest at the path's first pose.
 class SimulatedHand final : public HapticDevice {
 public:
     // Throws Error unless mass > 0, stiffness >= 0, damping >= 0, k > 0, steps >= 0, delay <= 64, all finite.

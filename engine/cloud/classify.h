@@ -16,7 +16,7 @@ private:
     gpu::Pipeline pipeline_;
     std::array<gpu::Bindings, kUploads> bindings_;
     const WorkBuffers& work_;
-    uint32_t groups_;
+    std::array<uint32_t, 3> groups_; // patches across, down; groups a patch
 };
 
 } // namespace fathom::cloud

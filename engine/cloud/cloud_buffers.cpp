@@ -45,9 +45,10 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         live = Buffer(device, patches * 4, MemoryKind::Device, "live");
     }
     if (plan.occlusion) {
-        // A cell at least as wide as the distance between neighbouring depth pixels in the colour picture: no gaps.
+        // A cell half as wide again as the distance between neighbouring depth pixels in the colour picture: a surface that turns
+        // its face to the colour camera is stretched there, and a gap would let what it hides show through.
         const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
-        cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(ratio)));
+        cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(1.5 * ratio)));
         cellsAcross = (camera.colour.width + cellEdge - 1) / cellEdge;
         cellsDown = (camera.colour.height + cellEdge - 1) / cellEdge;
         nearest = Buffer(device, 4ull * cellsAcross * cellsDown, MemoryKind::Device, "nearest");

@@ -37,8 +37,10 @@ shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene
     const Band s = f.saturation.value_or(Band{0.0, 1.0}), l = f.lightness.value_or(Band{0.0, 1.0});
     c.satLight = {s.lo, s.hi, l.lo, l.hi};
     if (f.box) {
-        c.boxMin = vec4(glm::vec3(f.box->min - origin), 1.0f);
-        c.boxMax = vec4(glm::vec3(f.box->max - origin), 0.0f);
+        // Outward by what float32 may round away: a point exactly on a face is inside.
+        const double slack = 3e-7 * std::max(1.0, scene.farZ);
+        c.boxMin = vec4(glm::vec3(f.box->min - origin - slack), 1.0f);
+        c.boxMax = vec4(glm::vec3(f.box->max - origin + slack), 0.0f);
     }
     c.role = {f.radius + 3.0 * scene.registrationSigma, f.role == Role::Forbidden ? 1.0 : 0.0,
               f.role == Role::Guidance ? 1.0 : 0.0, row};

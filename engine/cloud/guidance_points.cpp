@@ -44,7 +44,8 @@ std::vector<Pixel> flood(const ClassPicture& picture, Pixel seed, double edge, s
             if (u >= picture.width() || v >= picture.height() || open[v * picture.width() + u] == 0) {
                 continue;
             }
-            if (edge > 0.0 && std::abs(picture.at(u, v).w - z) > edge * z) {
+            const float w = picture.at(u, v).w;
+            if (edge > 0.0 && std::abs(w - z) > edge * std::min(w, z)) { // the same from either side
                 continue;
             }
             open[v * picture.width() + u] = 0;
@@ -63,7 +64,9 @@ std::vector<Pixel> largestPart(const ClassPicture& picture, const std::vector<Pi
     for (const Pixel& p : all) {
         if (open[p.v * picture.width() + p.u] != 0) {
             std::vector<Pixel> part = flood(picture, p, edge, open);
-            best = part.size() > best.size() ? std::move(part) : std::move(best);
+            if (part.size() > best.size()) {
+                best = std::move(part);
+            }
         }
     }
     return best;

@@ -16,7 +16,9 @@ constexpr size_t kMostListed = 65536;            // pairs of a list
 constexpr size_t kLanes = 8;                     // runs of a list are multiples of this
 constexpr float kNowhere = 1e18f;                // [m] where padding lies; its square is far from overflow
 constexpr double kCosCone = 0.86602540378443865; // 30 degrees
-constexpr double kCoincident = 1e-12;            // [m]
+// Nearer than this there is no direction [m]. Above it the difference of two centres is exact, however small, and only a
+// step along it makes no pair deeper on the way.
+constexpr double kCoincident = 1e-150;
 
 } // namespace
 
@@ -158,12 +160,30 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLim
     if (rowCount_ == firstRow) {
         return;
     }
+    agreeOnNormal(set, leaf, firstRow);
     const ContactRow& deepest =
         *std::min_element(rows_.begin() + static_cast<std::ptrdiff_t>(firstRow),
                           rows_.begin() + static_cast<std::ptrdiff_t>(rowCount_),
                           [](const ContactRow& a, const ContactRow& b) { return a.gap < b.gap; });
     lastNormal_[leaf] = deepest.normal;
     smallestGap_ = std::min(smallestGap_, deepest.gap);
+}
+
+// Where a sphere's centre lies on the leaf's every way leads out, and rowOf() had to pick one: the way of the leaf's deepest
+// other row, so that the two do not contradict each other.
+void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept {
+    const auto anyWay = [&](const ContactRow& row) {
+        return row.gap <= -(radius_[leaf] + static_cast<double>(set.pairRadius[row.pair]));
+    };
+    size_t guide = rowCount_;
+    for (size_t r = firstRow; r < rowCount_; ++r) {
+        if (!anyWay(rows_[r]) && (guide == rowCount_ || rows_[r].gap < rows_[guide].gap)) {
+            guide = r;
+        }
+    }
+    for (size_t r = firstRow; r < rowCount_ && guide < rowCount_; ++r) {
+        rows_[r].normal = anyWay(rows_[r]) ? rows_[guide].normal : rows_[r].normal;
+    }
 }
 
 // Greedy over one run, whose gaps_ it uses up: the nearest, then the nearest outside its cone, and so on.

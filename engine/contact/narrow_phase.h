@@ -81,6 +81,7 @@ private:
     size_t choose(size_t count, double limit) noexcept;
     void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                     const uint32_t* pairs, size_t firstRow, double limit) noexcept;
+    void agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept;
     ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap,
                      uint32_t pair) noexcept;
     bool checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& next, const dvec3& exempt,

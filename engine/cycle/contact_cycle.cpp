@@ -23,9 +23,8 @@ void ContactCycle::query(const cloud::FixtureSet& set, const Pose& baseTtool, Co
     switch (where_) {
     case Plan::Query::None:
         fillContactSet(tool_, baseTtool, kNothingToTouch, set.host, {}, out);
-        out.pairSphere.clear();
         out.pairBegin.assign(tool_.leafCount() + 1, 0);
-        out.behind.clear();
+        out.pairBandEnd.assign(tool_.leafCount() * ContactSet::kGapBands, 0);
         return;
     case Plan::Query::Cpu: cpu_.query(tool_, baseTtool, reach_, set.host, set.grid, out); break;
     case Plan::Query::Gpu: {

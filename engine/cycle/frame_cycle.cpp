@@ -11,8 +11,10 @@ namespace fathom {
 
 namespace {
 
-double clockMs() {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+using Clock = std::chrono::steady_clock;
+
+double millis(Clock::time_point begin, Clock::time_point end) {
+    return std::chrono::duration<double, std::milli>(end - begin).count();
 }
 
 std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
@@ -89,7 +91,7 @@ FrameReport FrameCycle::process(Frame frame) {
 
 void FrameCycle::upload(Frame frame) {
     InFlight f;
-    f.startMs = clockMs();
+    f.times.started = Clock::now();
     f.pose = frame->baseTcamera.value_or(scene_.baseTcamera);
     f.unchanged = lastSource_ == frame->sourceNumber;
     f.slot = nextSlot_;
@@ -106,12 +108,14 @@ void FrameCycle::upload(Frame frame) {
     lastSource_ = frame->sourceNumber;
     lastCapture_ = frame->captureTime;
     f.frame = std::move(frame);
-    f.uploadMs = clockMs() - f.startMs;
+    f.times.uploaded = Clock::now();
+    f.uploadMs = millis(f.times.started, f.times.uploaded);
     uploaded_ = std::move(f);
 }
 
 void FrameCycle::submit() {
     submitted_ = std::move(uploaded_);
+    submitted_->times.submitted = Clock::now();
     uploaded_.reset();
     dispatches_ = 0;
     if (submitted_->unchanged || !plan_.cloud) {
@@ -121,6 +125,7 @@ void FrameCycle::submit() {
     gpu::Commands& commands = passes_.commands(submitted_->slot);
     passes_.record(commands, passes_.watch(submitted_->slot), submitted_->slot, pool_.backIndex());
     dispatches_ = commands.dispatches();
+    submitted_->times.submitted = Clock::now();
     device_.submit(commands.handle(), timeline_.handle(), ticket_, ticket_ + 1);
     ++ticket_;
 }
@@ -151,14 +156,15 @@ FrameReport FrameCycle::finish() {
             timeline_.wait(ticket_);
             report.passMs = passes_.watch(f.slot).intervalsMs();
         }
-        const double landed = clockMs();
+        f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
         lastCounts_ = cloud::collect(set, scene_, plan_, layout_);
         if (plan_.spheres) {
             set.grid.build(set.host.spheres);
         }
         pool_.publish();
-        report.publishMs = clockMs() - landed;
+        f.times.published = Clock::now();
+        report.publishMs = millis(f.times.landed, f.times.published);
         warnLeaks(lastCounts_);
     }
     report.counts = lastCounts_;
@@ -167,7 +173,8 @@ FrameReport FrameCycle::finish() {
         report.guidanceCount += scene_.fixtures[rows[c]].role == Role::Guidance ? report.counts.classPixels[c] : 0;
     }
     captureTime_.store(f.frame->captureTime, std::memory_order_release);
-    report.latencyMs = clockMs() - f.startMs;
+    report.latencyMs = millis(f.times.started, Clock::now());
+    report.times = f.times;
     return report;
 }
 

@@ -9,6 +9,7 @@
 #include "engine/types/frame.h"
 
 #include <atomic>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,9 @@ struct FrameReport {
     uint32_t guidanceCount = 0;       // pixels in guidance classes, as classify marks them
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;
     std::vector<double> passMs;       // in the order of FrameCycle::passNames(); device time
+    struct Times { // on the host's monotonic clock
+        std::chrono::steady_clock::time_point started, uploaded, submitted, landed, published;
+    } times;
 };
 
 // One thread (the frame cadence) calls everything but sets() and captureTime(), which any reader may use.
@@ -55,7 +59,7 @@ private:
         uint32_t slot = 0;
         bool unchanged = false;
         double uploadMs = 0.0;
-        double startMs = 0.0; // clock at the start of the upload
+        FrameReport::Times times;
         Pose pose;
     };
 

@@ -44,9 +44,10 @@ void Commands::bind(const Pipeline& pipeline, const Bindings& bindings, const vo
     ++dispatches_;
 }
 
-void Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups, const void* push) {
+void Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings, const std::array<uint32_t, 3>& groups,
+                        const void* push) {
     bind(pipeline, bindings, push);
-    vkCmdDispatch(handle_, groups, 1, 1);
+    vkCmdDispatch(handle_, groups[0], groups[1], groups[2]);
 }
 
 void Commands::dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments,

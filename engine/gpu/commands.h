@@ -5,6 +5,8 @@
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/timeline.h"
 
+#include <array>
+
 namespace fathom::gpu {
 
 // One thread at a time. Recorded anew for each submission; the previous one must have completed.
@@ -22,7 +24,11 @@ public:
     void begin();
     void end();
 
-    void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups, const void* push = nullptr);
+    void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups, const void* push = nullptr) {
+        dispatch(pipeline, bindings, {groups, 1, 1}, push);
+    }
+    void dispatch(const Pipeline& pipeline, const Bindings& bindings, const std::array<uint32_t, 3>& groups,
+                  const void* push = nullptr);
     void dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments, uint64_t offset,
                           const void* push = nullptr);
     void fill(const Buffer& buffer, uint32_t value);

@@ -231,9 +231,19 @@ bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Bud
     return false;
 }
 
+// True when the next pose lies nearer to the target by the metric: when the springs' energy falls. The solver's answer does
+// so by its linearisation; what arcs and raised offsets add can undo it where the rows of several leaves meet, and then
+// the tool would dance about the place although the hand is still. Written so that a target far away costs no digits.
+bool Proxy::comesNearer(const Pose& target) const noexcept {
+    const Motion now = remaining(pose_, target), next = remaining(nextPose_, target);
+    const double turning = glm::dot(next.alpha - now.alpha, next.alpha + now.alpha);
+    return glm::dot(next.a - now.a, next.a + now.a) + metricRadius_ * metricRadius_ * turning < 0.0;
+}
+
 // One linearisation. True when another one may bring the tool nearer.
 bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexcept {
     collectRows(input.contacts, budget);
+    const bool newData = escaping_; // rows raised for arcs ask too, later
     out.escape = out.escape || touching_;
     const Motion wanted = remaining(pose_, input.target);
     if (out.solves > 0 && !escaping_ && isNothing(wanted)) {
@@ -259,7 +269,7 @@ bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexce
         out.trapped = out.solves == 1;
         activeCount_ = 0;
     }
-    if (part == 0.0) {
+    if (part == 0.0 || (!newData && !comesNearer(input.target))) {
         return false;
     }
     const double done = part * answer.share;

@@ -23,7 +23,11 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
     for (const FixtureClass& f : scene.fixtures) {
         plan.classes += f.isPoints() ? 1 : 0;
+        plan.box = plan.box || (f.isPoints() && f.box);
         plan.guidancePoints = plan.guidancePoints || (f.isPoints() && f.role == Role::Guidance && (f.largestPart || f.trim > 0.0));
+    }
+    while (plan.pixelGroup > device.maxInvocations) {
+        plan.pixelGroup /= 2;
     }
     plan.rays = plan.cloud && camera.depth.distorted();
     plan.filterRadius = scene.filter.radius;
@@ -76,7 +80,7 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
     buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u), "of one fixture set");
     buffer("tree nodes", plan.spheres, 20ull * layout.nodes(), "of one fixture set");
-    buffer("moments", plan.moments, 48ull * 8 * layout.patches(), "of one fixture set");
+    buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
     buffer("query copy", plan.query == Plan::Query::Gpu, slots * (plan.hold ? 32u : 16u), "spheres where the GPU query reads them");
 }
 

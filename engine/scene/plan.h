@@ -36,9 +36,10 @@ struct Plan {
     bool colour = false;    // some class asks for colour: it is uploaded
     bool tiled = false;     // the filter's window from shared memory
     uint32_t classes = 0;   // classes of points
+    bool box = false;       // some class has a box
     uint32_t filterRadius = 0;
     bool edge = false;
-    uint32_t pixelGroup = 256; // invocations a group of the pixel passes
+    uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
     // Contact query.
     enum class Query { None, Cpu, Gpu } query = Query::None;

@@ -12,27 +12,28 @@ bool inBand(float value, float lo, float hi, float scale) {
     return value >= lo * scale - slackOf(lo * scale) && value <= hi * scale + slackOf(hi * scale);
 }
 
-bool passesColour(uint rgba, vec4 hue, vec4 satLight) {
+// The integers behind hue, saturation and lightness, once a pixel; every class then compares products.
+struct Hsl {
+    float sum;      // max + min = 510 L
+    float d;        // max - min = S x satScale
+    float satScale;
+    float hue;      // hue x d [degree]
+};
+
+Hsl hslOf(uint rgba) {
     ivec3 c = ivec3(rgba & 255u, (rgba >> 8) & 255u, (rgba >> 16) & 255u);
     int hi = max(c.r, max(c.g, c.b)), lo = min(c.r, min(c.g, c.b));
     int d = hi - lo, sum = hi + lo;
-    if (!inBand(float(sum), satLight.z, satLight.w, 510.0)) {
-        return false;
-    }
-    if (d == 0 ? satLight.x > 0.0 : !inBand(float(d), satLight.x, satLight.y, float(255 - abs(sum - 255)))) {
-        return false; // grey, black and white have no saturation
-    }
-    if (hue.z == 0.0) {
-        return true;
-    }
-    if (d == 0) {
-        return false; // grey has no hue
-    }
     int sector = c.r == hi ? c.g - c.b : (c.g == hi ? c.b - c.r + 2 * d : c.r - c.g + 4 * d);
     sector += sector < 0 ? 6 * d : 0;
-    float h = float(60 * sector), scale = float(d); // hue x d
-    if (hue.w == 0.0) {
-        return inBand(h, hue.x, hue.y, scale);
-    }
-    return h >= hue.x * scale - slackOf(hue.x * scale) || h <= hue.y * scale + slackOf(hue.y * scale);
+    return Hsl(float(sum), float(d), float(255 - abs(sum - 255)), float(60 * sector));
+}
+
+bool passesColour(Hsl c, vec4 hue, vec4 satLight) {
+    bool light = inBand(c.sum, satLight.z, satLight.w, 510.0);
+    // grey, black and white have no saturation
+    bool saturated = c.d == 0.0 ? satLight.x <= 0.0 : inBand(c.d, satLight.x, satLight.y, c.satScale);
+    bool above = c.hue >= hue.x * c.d - slackOf(hue.x * c.d), below = c.hue <= hue.y * c.d + slackOf(hue.y * c.d);
+    bool inHue = c.d != 0.0 && (hue.w != 0.0 ? above || below : above && below); // grey has no hue
+    return light && saturated && (hue.z == 0.0 || inHue);
 }

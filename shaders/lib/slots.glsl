@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Slots: where a pixel's results lie. Patch-major, then 4x4 sub-patch, then pixel: slot = patch * 256 + sub * 16 + p.
 
+// Pixel within the patch of a slot within the patch (0..255).
+uvec2 pixelInPatch(uint inside) {
+    uint sub = inside >> 4, p = inside & 15u;
+    return uvec2((sub & 3u) * 4u + (p & 3u), (sub >> 2) * 4u + (p >> 2));
+}
+
 uvec2 pixelOfSlot(uint slot, uint patchesAcross) {
-    uint patchIndex = slot >> 8, sub = (slot >> 4) & 15u, p = slot & 15u;
-    return uvec2((patchIndex % patchesAcross) * 16u + (sub & 3u) * 4u + (p & 3u),
-                 (patchIndex / patchesAcross) * 16u + (sub >> 2) * 4u + (p >> 2));
+    uint patchIndex = slot >> 8;
+    return uvec2(patchIndex % patchesAcross, patchIndex / patchesAcross) * 16u + pixelInPatch(slot & 255u);
 }
 
 uint slotOfPixel(uvec2 pixel, uint patchesAcross) {

@@ -48,13 +48,15 @@ struct FrameCounters {
 };
 FATHOM_SIZE(FrameCounters, 144);
 
-// Moments of one guidance class in one patch, about the patch mean.
+// Moments of one guidance class in one patch, about the patch mean. The mean is anchor + offset: as one float32 it would lose
+// digits that the covariance of a small class needs.
 struct PatchMoments {
-    vec4 mean;  // base axes about the origin [m]; w = count
-    vec4 first; // sums of xx, xy, xz, yy [m^2]
+    vec4 anchor; // a point of the class, base axes about the origin [m]; w = count
+    vec4 offset; // mean - anchor [m]
+    vec4 first;  // sums of xx, xy, xz, yy [m^2]
     vec4 second; // sums of yz, zz; -, -
 };
-FATHOM_SIZE(PatchMoments, 48);
+FATHOM_SIZE(PatchMoments, 64);
 
 // Levels of the region tree: 0 = 4x4 pixels (patch-major), 1 = patches, then 4x4 of the level below up to one root.
 FATHOM_CONST kMaxLevels = 6;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that passes between the threads of a realtime run, and nothing else does. Design 2.
+#pragma once
+
+#include "engine/contact/contact_set.h"
+#include "engine/cycle/frame_cycle.h"
+#include "engine/cycle/turn_record.h"
+#include "engine/types/latest.h"
+#include "engine/types/lease_pool.h"
+#include "engine/types/ring.h"
+#include "shaders/shared/frame_params.h"
+
+#include <array>
+#include <atomic>
+#include <vector>
+
+namespace fathom {
+
+// Frame cadence to haptic cadence: what the newest fixture set brings besides its spheres. Times are of the run's clock [s].
+struct SceneNews {
+    int64_t frame = -1;
+    uint64_t generation = 0;
+    double captureTime = 0.0;   // of the newest picture that shows it
+    bool sourceEnded = false;   // there will be no more: the last frame stays in force and does not age
+    bool cameraGone = false;    // there may be more: the last frame ages
+    uint32_t guidanceCount = 0;
+    std::array<GuidancePose, shared::kMaxClasses> guidance;
+};
+
+// Haptic cadence to writer: one turn.
+struct TurnRow {
+    TurnRecord record;
+    Pose start;              // base_T_tool that the turn started from
+    uint64_t generation = 0; // of the fixture set obeyed; 0 = none
+    uint64_t query = 0;      // whose answer was obeyed; 0 = none
+    double wokenLate = 0.0;  // [s] from when the turn was due to its start
+    double micros = 0.0;     // [us] compute time of the turn
+    bool late = false;       // ended more than one period after its start was due
+    uint32_t missed = 0;     // periods before this one in which no turn ran
+};
+
+// Contact cadence to writer: one answer. Its leaves behind a surface are exempt from the promise that the writer audits.
+struct QueryNote {
+    uint64_t query = 0;
+    double micros = 0.0;
+    std::vector<uint32_t> behind; // leaves
+};
+
+// Frame cadence to writer: a frame and the host copy of its set. Comes back to be filled again.
+struct PublishedFrame {
+    FrameReport report;
+    double t = 0.0;        // [s] capture time in the run
+    bool changed = false;  // false: the same picture again, no new set
+    Fixtures fixtures;
+    RegionGrid grid;       // over fixtures.spheres
+    std::vector<uint32_t> colour;
+};
+
+// One thread at each end, named by the cadence. Sized once; only the note's vector may grow, on the contact cadence.
+struct Crossings {
+    // turns: how many the writer may fall behind.
+    explicit Crossings(uint64_t turnCapacity)
+        : contacts(2, [] { return std::make_unique<ContactSet>(); })
+        , turns(turnCapacity)
+        , queries(turnCapacity)
+        , frames(kFramesInFlight)
+        , emptied(2 * kFramesInFlight) {}
+
+    Latest<SceneNews> scene;          // frame -> haptic
+    Latest<Pose> proxy;               // haptic -> contact: base_T_tool
+    LeasePool<ContactSet> contacts;   // contact -> haptic: two leases, in force and offered
+    Ring<TurnRow> turns;              // haptic -> writer
+    Ring<QueryNote> queries;          // contact -> writer
+    Ring<PublishedFrame*> frames;     // frame -> writer
+    Ring<PublishedFrame*> emptied;    // writer -> frame
+    std::atomic<bool> hapticDone{false}; // the last wrench is written
+
+    static constexpr uint64_t kFramesInFlight = 64; // sets that the writer may hold for records that still obey them
+};
+
+} // namespace fathom

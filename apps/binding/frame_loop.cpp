@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/frame_loop.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
+
+} // namespace
+
+FrameLoop::FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period, CadenceTrace* trace)
+    : feed_(feed)
+    , crossings_(crossings)
+    , clock_(clock)
+    , period_(period)
+    , trace_(trace) {}
+
+bool FrameLoop::first() {
+    const std::optional<uint32_t> index = feed_.fetch();
+    if (!index) {
+        return false;
+    }
+    firstIndex_ = *index;
+    publish(0.0);
+    return true;
+}
+
+// A camera that is gone is asked again, more and more seldom, while the last set ages and the forces fade.
+std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
+    for (double pause = kFirstRetry; !stop.load(std::memory_order_relaxed); pause = std::min(2.0 * pause, kLongestRetry)) {
+        try {
+            const std::optional<uint32_t> index = feed_.fetch();
+            if (news_.cameraGone) {
+                spdlog::warn("camera is back");
+                news_.cameraGone = false;
+                origin_ = clock_.now() - period_ * ((index ? *index : firstIndex_) - firstIndex_);
+            }
+            ended_ = !index;
+            return index;
+        } catch (const DeviceLost& e) {
+            if (!news_.cameraGone) {
+                spdlog::warn("camera is gone ({}): the scene ages, forces fade", e.what());
+                news_.cameraGone = true;
+                tell();
+            }
+            clock_.sleepUntil(clock_.now() + pause, stop);
+        }
+    }
+    return std::nullopt;
+}
+
+void FrameLoop::run(const std::atomic<bool>& stop) {
+    while (const std::optional<uint32_t> index = fetch(stop)) {
+        const double due = origin_ + period_ * (*index - firstIndex_);
+        clock_.sleepUntil(due, stop);
+        if (stop.load(std::memory_order_relaxed)) {
+            return;
+        }
+        publish(clock_.now());
+        countLost(due);
+    }
+    if (ended_) {
+        news_.sourceEnded = true;
+        tell();
+    }
+}
+
+void FrameLoop::countLost(double due) {
+    const double periods = std::floor((clock_.now() - due) / period_);
+    if (periods >= 2.0) { // the next-but-one was due before this one was done
+        lost_ += static_cast<uint64_t>(periods) - 1;
+        origin_ += (periods - 1.0) * period_;
+    }
+}
+
+PublishedFrame* FrameLoop::emptyFrame() {
+    PublishedFrame* frame = nullptr;
+    while (!crossings_.emptied.pop(frame)) {
+        if (owned_.size() < Crossings::kFramesInFlight) {
+            owned_.push_back(std::make_unique<PublishedFrame>());
+            return owned_.back().get();
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // only the writer can be this far behind
+    }
+    return frame;
+}
+
+void FrameLoop::publish(double t) {
+    PublishedFrame* frame = emptyFrame();
+    feed_.publish(t, *frame);
+    frame->t = t;
+    if (frame->changed) {
+        const Fixtures& set = frame->fixtures;
+        news_.frame = set.frame;
+        news_.generation = set.generation;
+        news_.guidanceCount = static_cast<uint32_t>(std::min(set.guidance.size(), news_.guidance.size()));
+        std::copy_n(set.guidance.begin(), news_.guidanceCount, news_.guidance.begin());
+    }
+    news_.captureTime = t;
+    tell();
+    if (trace_ != nullptr) {
+        trace_->frame(frame->report);
+    }
+    crossings_.frames.push(frame); // holds as many as there are
+}
+
+void FrameLoop::tell() {
+    crossings_.scene.back() = news_;
+    crossings_.scene.publish();
+}
+
+} // namespace fathom

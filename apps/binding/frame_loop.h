@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame cadence in real time: paces the source, has each picture turned into a fixture set, tells the haptic cadence.
+#pragma once
+
+#include "apps/binding/crossings.h"
+#include "apps/binding/run_clock.h"
+#include "engine/cycle/cadence_trace.h"
+
+#include <deque>
+#include <memory>
+#include <optional>
+
+namespace fathom {
+
+// What the loop needs of a camera and the passes behind it. One thread.
+class FrameFeed {
+public:
+    virtual ~FrameFeed() = default;
+    // Gets the next picture ready; its index, or nothing when the source has ended. Throws DeviceLost when the camera is gone (it
+    // is asked again later), Error otherwise.
+    virtual std::optional<uint32_t> fetch() = 0;
+    // That picture, captured at t [s], becomes the newest fixture set. Fills everything in `out` but its t. A picture
+    // that is the same again makes no set: `changed` false, the set and the colour in `out` are left alone.
+    virtual void publish(double t, PublishedFrame& out) = 0;
+};
+
+// The source's pictures come at period x (index - first index), by the clock: a picture counts as captured when its turn comes. When
+// one takes so long that a live camera would have thrown pictures away meanwhile, these are counted as lost and the source plays
+// on from there: no recorded picture is left out.
+class FrameLoop {
+public:
+    FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period, CadenceTrace* trace);
+
+    // Before the clock starts: the first picture, at t = 0. False when the source has none.
+    bool first();
+    // Until the source ends or `stop`. Throws what the feed throws, but retries when the camera is gone.
+    void run(const std::atomic<bool>& stop);
+
+    uint64_t lost() const { return lost_; } // after run()
+    const SceneNews& news() const { return news_; }
+
+private:
+    std::optional<uint32_t> fetch(const std::atomic<bool>& stop);
+    void publish(double t);
+    void tell();
+    PublishedFrame* emptyFrame();
+    void countLost(double due);
+
+    FrameFeed& feed_;
+    Crossings& crossings_;
+    const RunClock& clock_;
+    double period_;
+    CadenceTrace* trace_;
+    std::deque<std::unique_ptr<PublishedFrame>> owned_; // all there are, wherever they are now
+    SceneNews news_;
+    uint32_t firstIndex_ = 0;
+    double origin_ = 0.0; // [s] when the first picture would have been due
+    bool ended_ = false;
+    uint64_t lost_ = 0;
+};
+
+} // namespace fathom

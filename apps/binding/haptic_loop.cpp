@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/haptic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+HapticLoop::HapticLoop(HapticCycle& cycle, HapticDevice& hand, Crossings& crossings, const RunClock& clock, const Ends& ends,
+                       CadenceTrace* trace)
+    : cycle_(cycle)
+    , hand_(hand)
+    , crossings_(crossings)
+    , clock_(clock)
+    , ends_(ends)
+    , trace_(trace)
+    , period_(cycle.options().period) {}
+
+bool HapticLoop::Until::passed(const void* context) noexcept {
+    const auto* until = static_cast<const Until*>(context);
+    return until->clock->now() >= until->t;
+}
+
+bool HapticLoop::ended(double t) const noexcept {
+    const SceneNews& news = crossings_.scene.front();
+    const bool frames = news.cameraGone || (news.sourceEnded && t >= news.captureTime + ends_.framePeriod);
+    return frames && t >= ends_.pathDuration;
+}
+
+void HapticLoop::run(const std::atomic<bool>& stop) noexcept {
+    uint64_t slot = 0;
+    while (!stop.load(std::memory_order_relaxed)) {
+        const double due = static_cast<double>(slot) * period_;
+        clock_.sleepUntil(due);
+        const double woken = clock_.now();
+        if (ended(woken)) {
+            break;
+        }
+        const double over = turn(due);
+        // One turn a period at most, however late this one was.
+        const auto ran = static_cast<uint64_t>(std::max(0.0, woken / period_));
+        const auto now = static_cast<uint64_t>(std::max(0.0, over / period_));
+        const uint64_t next = std::max(std::max(ran, slot) + 1, now);
+        missedNow_ = static_cast<uint32_t>(next - slot - 1);
+        missed_ += missedNow_;
+        slot = next;
+    }
+    hand_.write(Wrench{}, period_);
+    crossings_.hapticDone.store(true, std::memory_order_release);
+}
+
+// A newer answer takes the place of one that was not adopted; the old lease goes first.
+void HapticLoop::offerNewest() noexcept {
+    offered_ = {};
+    offered_ = crossings_.contacts.newest();
+    if (offered_ && inForce_ && offered_->query == inForce_->query) {
+        offered_ = {};
+    }
+}
+
+TurnInput HapticLoop::inputFor(double now, const HandSample& sample, const Until& until) const noexcept {
+    const SceneNews& news = crossings_.scene.front();
+    TurnInput input;
+    input.time = now;
+    input.deviceThandle = sample.deviceThandle;
+    input.buttons = sample.buttons;
+    input.contacts = inForce_ ? &*inForce_ : nullptr;
+    input.offered = offered_ ? &*offered_ : nullptr;
+    input.frame = news.frame;
+    input.generation = news.generation;
+    input.captureTime = news.captureTime;
+    input.guidance = {news.guidance.data(), news.guidanceCount};
+    input.sourceEnded = news.sourceEnded;
+    input.measuredPeriod = first_ ? 0.0 : now - before_;
+    input.deadline = {&Until::passed, &until};
+    return input;
+}
+
+double HapticLoop::turn(double due) noexcept {
+    crossings_.scene.refresh();
+    offerNewest();
+    const double began = clock_.now();
+    const HandSample sample = hand_.read(std::max(0.0, began));
+    // The end of the period that the clock is in: after a late wake-up that is not the one that was due.
+    const Until until{&clock_, (std::floor(began / period_) + 1.0) * period_};
+    const TurnInput input = inputFor(began, sample, until);
+    const Pose start = cycle_.pose();
+    const auto turnBegan = std::chrono::steady_clock::now();
+    const TurnRecord record = cycle_.turn(input);
+    const auto turnOver = std::chrono::steady_clock::now();
+    hand_.write(record.deviceWrench, input.measuredPeriod > 0.0 ? input.measuredPeriod : period_);
+    if (record.adopted) {
+        inForce_ = std::move(offered_);
+        offered_ = {};
+    }
+    crossings_.proxy.back() = cycle_.pose();
+    crossings_.proxy.publish();
+    const double over = clock_.now();
+    report(record, start, due, began, std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over);
+    if (trace_ != nullptr) {
+        trace_->turn(turnBegan, turnOver, began - due);
+    }
+    before_ = began;
+    first_ = false;
+    return over;
+}
+
+void HapticLoop::report(const TurnRecord& record, const Pose& start, double due, double began, double took, double over) noexcept {
+    TurnRow row;
+    row.record = record;
+    row.start = start;
+    row.generation = inForce_ ? inForce_->generation : 0;
+    row.query = inForce_ ? inForce_->query : 0;
+    row.wokenLate = began - due;
+    row.micros = took;
+    row.late = over > due + period_;
+    row.missed = missedNow_;
+    crossings_.turns.push(row);
+}
+
+} // namespace fathom

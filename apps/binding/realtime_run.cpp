@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/realtime_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kSecondsOfTurns = 8.0; // that the writer may fall behind
+constexpr double kHeadStart = 0.02;     // [s] for the threads to get ready before t = 0
+constexpr auto kWriterPause = std::chrono::milliseconds(2);
+
+uint64_t turnCapacity(double period) {
+    return static_cast<uint64_t>(std::max(1024.0, std::ceil(kSecondsOfTurns / period)));
+}
+
+// Sets the flag and waits for the thread, however its scope is left.
+class Joined {
+public:
+    template <class Body>
+    Joined(std::atomic<bool>& stop, Body&& body)
+        : stop_(stop)
+        , thread_(std::forward<Body>(body)) {}
+    Joined(const Joined&) = delete;
+    Joined& operator=(const Joined&) = delete;
+    ~Joined() {
+        stop_.store(true);
+        thread_.join();
+    }
+
+private:
+    std::atomic<bool>& stop_;
+    std::thread thread_;
+};
+
+// Tells of a scene that is too old, but not of each short spell while a machine is too slow: these are counted.
+class AgeAlarm {
+public:
+    explicit AgeAlarm(double staleAfter)
+        : staleAfter_(staleAfter) {}
+
+    void see(const TurnRecord& record) {
+        const bool stale = record.sceneAge > staleAfter_;
+        staleTurns_ += stale ? 1 : 0;
+        if (stale && !stale_ && record.t >= quietUntil_) {
+            spdlog::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t, record.sceneAge * 1e3);
+            quietUntil_ = record.t + kQuiet;
+            told_ = true;
+        } else if (!stale && told_) {
+            spdlog::warn("at {:.2f} s the scene is fresh again", record.t);
+            told_ = false;
+        }
+        stale_ = stale;
+    }
+    uint64_t staleTurns() const { return staleTurns_; }
+
+private:
+    static constexpr double kQuiet = 5.0; // [s]
+    double staleAfter_;
+    double quietUntil_ = 0.0;
+    bool stale_ = false, told_ = false;
+    uint64_t staleTurns_ = 0;
+};
+
+// Puts the alarm between the drain and the sink.
+class WatchedSink final : public RunSink {
+public:
+    WatchedSink(RunSink& sink, double staleAfter)
+        : sink_(sink)
+        , alarm_(staleAfter) {}
+    void frame(const PublishedFrame& frame, const Fixtures& set) override { sink_.frame(frame, set); }
+    void query(const QueryNote& note) override { sink_.query(note); }
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known, std::span<const uint32_t> behind) override {
+        alarm_.see(row.record);
+        sink_.turn(row, obeyed, known, behind);
+    }
+    uint64_t staleTurns() const { return alarm_.staleTurns(); }
+
+private:
+    RunSink& sink_;
+    AgeAlarm alarm_;
+};
+
+} // namespace
+
+RealtimeRun::RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const RealtimeOptions& options)
+    : options_(options)
+    , crossings_(turnCapacity(options.hapticPeriod))
+    , frames_(frames, crossings_, clock_, options.framePeriod, options.trace) {
+    if (contacts != nullptr) {
+        contact_.emplace(*contacts, crossings_, clock_, 0.5 * options.hapticPeriod, options.trace);
+    }
+}
+
+void RealtimeRun::guarded(const std::function<void()>& body) noexcept {
+    try {
+        body();
+    } catch (...) {
+        const std::lock_guard lock(failureMutex_);
+        failure_ = failure_ ? failure_ : std::current_exception();
+        stop_.store(true);
+    }
+}
+
+void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
+                      const std::atomic<bool>& stop) {
+    HapticLoop haptic(cycle, hand, crossings_, clock_, {pathDuration, options_.framePeriod}, options_.trace);
+    WatchedSink watched(sink, options_.staleAfter);
+    RecordDrain drain(crossings_, watched);
+    crossings_.proxy.back() = cycle.pose();
+    crossings_.proxy.publish();
+    clock_.start(kHeadStart);
+    {
+        Joined camera(stop_, [this] { guarded([this] { pinThread(options_.placement.rest), frames_.run(stop_); }); });
+        std::optional<Joined> contact;
+        if (contact_) {
+            contact.emplace(stop_, [this] { guarded([this] { pinThread(options_.placement.contact), contact_->run(stop_); }); });
+        }
+        Joined turns(stop_, [this, &haptic] {
+            std::string refused;
+            guarded([&] { refused = makeHapticThread(options_.placement); });
+            if (!refused.empty()) {
+                spdlog::warn("haptic thread: refused {}; wake-ups will be later", refused);
+            }
+            haptic.run(stop_);
+        });
+        write(drain, stop);
+    }
+    releaseLockedMemory();
+    drain.drain(true);
+    missed_ = haptic.missed();
+    staleTurns_ = watched.staleTurns();
+    last_ = drain.newest();
+}
+
+void RealtimeRun::write(RecordDrain& drain, const std::atomic<bool>& stop) {
+    for (bool done = false; !done;) {
+        done = crossings_.hapticDone.load(std::memory_order_acquire);
+        drain.drain();
+        if (options_.trace != nullptr) {
+            options_.trace->file().drain();
+        }
+        if (options_.progress) {
+            options_.progress(clock_.now(), drain.frames(), drain.turns());
+        }
+        if (stop.load(std::memory_order_relaxed)) {
+            stop_.store(true);
+        }
+        if (!done) {
+            std::this_thread::sleep_for(kWriterPause);
+        }
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/record_drain.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+void RecordDrain::drain(bool all) {
+    takeFrames();
+    takeQueries();
+    for (TurnRow row;;) {
+        if (!waiting_) {
+            if (!crossings_.turns.pop(row)) {
+                return;
+            }
+            waiting_ = row;
+            // Whatever this turn obeyed was published before it: what the turn knows of has arrived, or is about to.
+            takeFrames();
+            takeQueries();
+        }
+        if (!all && waiting_->generation > newestGeneration_) {
+            return;
+        }
+        hand(*waiting_);
+        waiting_.reset();
+    }
+}
+
+void RecordDrain::takeFrames() {
+    PublishedFrame* frame = nullptr;
+    while (crossings_.frames.pop(frame)) {
+        if (frame->changed) {
+            kept_.push_back(frame);
+            newestGeneration_ = frame->fixtures.generation;
+        }
+        ++frames_;
+        sink_.frame(*frame, kept_.back()->fixtures); // the first frame of a run is always a change
+        if (!frame->changed) {
+            crossings_.emptied.push(frame);
+        }
+    }
+    while (kept_.size() > kKept) {
+        letGo(1); // the front may be in force
+    }
+}
+
+void RecordDrain::letGo(size_t i) {
+    crossings_.emptied.push(kept_[i]);
+    kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(i));
+}
+
+void RecordDrain::takeQueries() {
+    QueryNote note;
+    while (crossings_.queries.pop(note)) {
+        sink_.query(note);
+        notes_.push_back(std::move(note));
+    }
+}
+
+void RecordDrain::hand(const TurnRow& row) {
+    while (kept_.size() > 1 && kept_.front()->fixtures.generation < row.generation) {
+        letGo(0);
+    }
+    while (!notes_.empty() && notes_.front().query < row.query) {
+        notes_.pop_front();
+    }
+    const PublishedFrame* obeyed = nullptr;
+    bool known = row.generation == 0;
+    std::span<const uint32_t> behind;
+    if (row.generation != 0 && !kept_.empty() && kept_.front()->fixtures.generation == row.generation) {
+        obeyed = kept_.front();
+        known = !notes_.empty() && notes_.front().query == row.query;
+        behind = known ? std::span<const uint32_t>(notes_.front().behind) : behind;
+    }
+    ++turns_;
+    sink_.turn(row, obeyed, known, behind);
+}
+
+} // namespace fathom

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clock of a realtime run: seconds since its start on the host's monotonic clock.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+
+namespace fathom {
+
+// start() before the threads that read it; everything else from any thread, noexcept, without allocation.
+class RunClock {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    // t = 0 lies `ahead` seconds from now, so that threads can get ready.
+    void start(double ahead) noexcept { zero_ = std::chrono::steady_clock::now() + nanoseconds(ahead); }
+
+    double now() const noexcept { return at(std::chrono::steady_clock::now()); }
+    double at(Time time) const noexcept { return std::chrono::duration<double>(time - zero_).count(); }
+    Time timeAt(double t) const noexcept { return zero_ + nanoseconds(t); }
+
+    // Sleeps until t, or not at all when it has passed; signals do not cut it short.
+    void sleepUntil(double t) const noexcept {
+        const auto since = timeAt(t).time_since_epoch();
+        const auto whole = std::chrono::duration_cast<std::chrono::seconds>(since);
+        timespec when{};
+        when.tv_sec = static_cast<time_t>(whole.count());
+        when.tv_nsec = static_cast<long>(std::chrono::duration_cast<std::chrono::nanoseconds>(since - whole).count());
+        while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, nullptr) != 0) {
+        }
+    }
+    // The same, but back early, at most 20 ms after `stop` is set.
+    void sleepUntil(double t, const std::atomic<bool>& stop) const noexcept {
+        while (!stop.load(std::memory_order_relaxed) && now() < t) {
+            sleepUntil(std::fmin(t, now() + 0.02));
+        }
+    }
+
+private:
+    static std::chrono::nanoseconds nanoseconds(double seconds) noexcept {
+        return std::chrono::nanoseconds(static_cast<int64_t>(std::llround(seconds * 1e9)));
+    }
+    Time zero_ = std::chrono::steady_clock::now();
+};
+
+} // namespace fathom

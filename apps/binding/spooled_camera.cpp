@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/spooled_camera.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <unistd.h>
+
+namespace fathom {
+
+SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder,
+                             const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress)
+    : info_(source->info())
+    , description_(source->description())
+    , folder_(folder.string()) {
+    std::string name = (folder / ".frames-XXXXXX").string();
+    descriptor_ = ::mkstemp(name.data());
+    if (descriptor_ < 0) {
+        fail("cannot be written");
+    }
+    ::unlink(name.c_str());
+    try {
+        while (contents_.empty() || !stop.load()) {
+            const std::optional<Frame> frame = source->next();
+            if (!frame) {
+                break;
+            }
+            store(*frame);
+            progress(contents_.size());
+        }
+    } catch (...) {
+        ::close(descriptor_);
+        throw;
+    }
+    skipped_ = source->skipped();
+    const auto pixels = std::max(info_.depth.pixels(), static_cast<uint32_t>(colourPixels_));
+    slots_ = std::make_unique<FrameSlots>(pixels, colourPixels_ > 0, kFramesInFlight + 1);
+}
+
+SpooledCamera::~SpooledCamera() {
+    ::close(descriptor_);
+}
+
+void SpooledCamera::fail(const char* what) const {
+    throw Error("frames kept in " + folder_ + ": " + what + " (" + std::strerror(errno) + ")");
+}
+
+void SpooledCamera::store(const Frame& frame) {
+    colourPixels_ = frame->colour.size();
+    writeAll(frame->depth.data(), frame->depth.size_bytes());
+    writeAll(frame->colour.data(), frame->colour.size_bytes());
+    contents_.push_back(*frame);
+    contents_.back().depth = {};
+    contents_.back().colour = {};
+}
+
+void SpooledCamera::writeAll(const void* bytes, size_t count) {
+    for (size_t done = 0; done < count;) {
+        const ssize_t n = ::pwrite(descriptor_, static_cast<const char*>(bytes) + done, count - done, written_);
+        if (n < 0 && errno != EINTR) {
+            fail("cannot be written");
+        }
+        const size_t moved = n > 0 ? static_cast<size_t>(n) : 0;
+        done += moved;
+        written_ += static_cast<int64_t>(moved);
+    }
+}
+
+void SpooledCamera::readAll(void* bytes, size_t count) {
+    for (size_t done = 0; done < count;) {
+        const ssize_t n = ::pread(descriptor_, static_cast<char*>(bytes) + done, count - done, read_);
+        if (n == 0 || (n < 0 && errno != EINTR)) {
+            fail("cannot be read");
+        }
+        const size_t moved = n > 0 ? static_cast<size_t>(n) : 0;
+        done += moved;
+        read_ += static_cast<int64_t>(moved);
+    }
+}
+
+std::optional<Frame> SpooledCamera::next() {
+    if (next_ == contents_.size()) {
+        return std::nullopt;
+    }
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error("camera: too many frames in flight");
+    }
+    Frame::Content content = contents_[next_++];
+    content.depth = slot->depth().first(info_.depth.pixels());
+    content.colour = slot->colour().first(colourPixels_);
+    Frame frame(content, slot->giveBack());
+    readAll(slot->depth().data(), content.depth.size_bytes());
+    readAll(slot->colour().data(), content.colour.size_bytes());
+    return frame;
+}
+
+} // namespace fathom

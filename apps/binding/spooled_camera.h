@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// All pictures of a slow source, taken beforehand into an unnamed file, and given out at the speed of a copy.
+#pragma once
+
+#include "devices/camera.h"
+#include "devices/frame_slots.h"
+
+#include <atomic>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// For sources that cannot keep up with the clock: a simulated camera renders for longer than a frame lasts, which no real one asks of
+// the machine. The file has no name and is gone with the process, however it ends.
+class SpooledCamera final : public Camera {
+public:
+    // Takes pictures until the source ends or `stop`, at least one. `folder`: where the file lies. progress(pictures so far) after
+    // each. Throws Error that names the folder, and what the source throws.
+    SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder, const std::atomic<bool>& stop,
+                  const std::function<void(uint64_t)>& progress);
+    ~SpooledCamera() override;
+
+    const CameraInfo& info() const override { return info_; }
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return skipped_; }
+    std::string description() const override { return description_; }
+
+private:
+    void store(const Frame& frame);
+    void writeAll(const void* bytes, size_t count);
+    void readAll(void* bytes, size_t count);
+    [[noreturn]] void fail(const char* what) const;
+
+    CameraInfo info_;
+    std::string description_, folder_;
+    uint32_t skipped_ = 0;
+    int descriptor_ = -1;
+    size_t colourPixels_ = 0; // of a frame
+    std::vector<Frame::Content> contents_; // without their pixels
+    size_t next_ = 0;
+    int64_t written_ = 0, read_ = 0; // [bytes]
+    std::unique_ptr<FrameSlots> slots_;
+};
+
+} // namespace fathom

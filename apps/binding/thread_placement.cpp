@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/thread_placement.h"
+
+#include <cerrno>
+#include <cstring>
+
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kHapticPriority = 80;         // of 1..99: over the threads of most drivers, under the kernel's watchdogs
+constexpr size_t kStackTouched = 256 * 1024; // [bytes] more than a turn uses
+constexpr size_t kCpusForOwnContact = 4;
+
+__attribute__((noinline)) void touchStack() noexcept {
+    volatile char stack[kStackTouched];
+    for (size_t i = 0; i < kStackTouched; i += 1024) {
+        stack[i] = 0;
+    }
+    (void)stack[0];
+}
+
+void add(std::string& refused, const char* what, int fault) {
+    refused += (refused.empty() ? "" : ", ") + std::string(what) + " (" + std::strerror(fault) + ")";
+}
+
+} // namespace
+
+ThreadPlacement ThreadPlacement::ofThisProcess() {
+    ThreadPlacement p;
+    cpu_set_t allowed;
+    CPU_ZERO(&allowed);
+    if (::sched_getaffinity(0, sizeof allowed, &allowed) != 0) {
+        return p;
+    }
+    for (int cpu = 0; cpu < CPU_SETSIZE; ++cpu) {
+        if (CPU_ISSET(cpu, &allowed)) {
+            p.all.push_back(cpu);
+        }
+    }
+    p.rest = p.all;
+    p.haptic = {p.all.back()};
+    if (p.pinned()) {
+        p.rest.pop_back();
+    }
+    p.contact = p.rest;
+    if (p.all.size() >= kCpusForOwnContact) {
+        p.contact = {p.rest.back()};
+        p.rest.pop_back();
+    }
+    return p;
+}
+
+int pinThread(const std::vector<int>& cpus) noexcept {
+    cpu_set_t set;
+    CPU_ZERO(&set);
+    for (int cpu : cpus) {
+        CPU_SET(cpu, &set);
+    }
+    return ::pthread_setaffinity_np(::pthread_self(), sizeof set, &set);
+}
+
+CpuConfinement::CpuConfinement(const std::vector<int>& cpus) noexcept {
+    changed_ = ::pthread_getaffinity_np(::pthread_self(), sizeof before_, &before_) == 0 && pinThread(cpus) == 0;
+}
+
+CpuConfinement::~CpuConfinement() {
+    if (changed_) {
+        ::pthread_setaffinity_np(::pthread_self(), sizeof before_, &before_);
+    }
+}
+
+std::string makeHapticThread(const ThreadPlacement& placement) {
+    std::string refused;
+    if (const int fault = placement.pinned() ? pinThread(placement.haptic) : 0; fault != 0) {
+        add(refused, "a CPU of its own", fault);
+    }
+    sched_param priority{};
+    priority.sched_priority = kHapticPriority;
+    if (const int fault = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &priority); fault != 0) {
+        add(refused, "real-time priority", fault);
+    }
+    ::prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0); // [ns] without real-time priority wake-ups are else rounded by 50 us
+    // As touched: locking whole stacks and driver reservations would make memory resident that nobody uses.
+    if (::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
+        add(refused, "locked memory", errno);
+    }
+    touchStack();
+    return refused;
+}
+
+void releaseLockedMemory() noexcept {
+    ::munlockall();
+}
+
+} // namespace fathom

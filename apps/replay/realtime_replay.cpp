@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/realtime_replay.h"
+
+#include "apps/binding/spooled_camera.h"
+#include "apps/replay/lockstep_replay.h"
+#include "apps/replay/turn_to_tick.h"
+#include "engine/types/error.h"
+
+namespace fathom {
+
+namespace {
+
+std::string listed(const std::vector<int>& cpus) {
+    std::string text;
+    for (int cpu : cpus) {
+        text += (text.empty() ? "" : ",") + std::to_string(cpu);
+    }
+    return text;
+}
+
+} // namespace
+
+std::string describe(const ThreadPlacement& placement) {
+    if (!placement.pinned()) {
+        return "one CPU: the haptic thread shares it with everything else";
+    }
+    return "haptic on CPU " + listed(placement.haptic) + ", contact on " + listed(placement.contact) +
+           ", camera, device workers and writer on " + listed(placement.rest);
+}
+
+// Camera and frame cycle as the frame loop sees them.
+class RealtimeReplay::Feed final : public FrameFeed {
+public:
+    explicit Feed(ReplaySession& session)
+        : session_(session) {}
+
+    std::optional<uint32_t> fetch() override {
+        next_ = session_.camera->next();
+        return next_ ? std::optional((*next_)->index) : std::nullopt;
+    }
+
+    void publish(double t, PublishedFrame& out) override {
+        next_->retime(t);
+        colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
+        out.report = session_.frames.process(std::move(*next_));
+        next_.reset();
+        out.changed = !out.report.unchanged;
+        if (out.changed) { // a copy for the writer: the set itself goes round among the cadences
+            const auto set = session_.frames.sets().newest();
+            out.fixtures = set->host;
+            out.grid = set->grid;
+            out.colour.swap(colour_);
+        }
+    }
+
+private:
+    ReplaySession& session_;
+    std::optional<Frame> next_;
+    std::vector<uint32_t> colour_;
+};
+
+// The contact cycle on a lease of the newest fixture set.
+class RealtimeReplay::Answers final : public ContactAnswers {
+public:
+    explicit Answers(ReplaySession& session)
+        : session_(session) {}
+
+    bool answer(const Pose& baseTtool, ContactSet& out) override {
+        const auto set = session_.frames.sets().newest();
+        if (!set) {
+            return false;
+        }
+        session_.contact.query(*set, baseTtool, out);
+        return true;
+    }
+
+private:
+    ReplaySession& session_;
+};
+
+RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+                               const ThreadPlacement& placement, CadenceTrace* trace)
+    : session_(session)
+    , options_(options)
+    , recorder_(recorder)
+    , placement_(placement)
+    , shapes_(shapesOf(session.scene))
+    , haptics_(makeHapticOptions(session.scene, session.tool))
+    , audit_(session.tool)
+    , feed_(std::make_unique<Feed>(session))
+    , answers_(session.plan.query != Plan::Query::None ? std::make_unique<Answers>(session) : nullptr)
+    , run_(std::make_unique<RealtimeRun>(*feed_, answers_.get(), runOptions(trace))) {
+    if (options.source.empty() && session.scene.source.kind == CameraSource::Kind::Simulated) {
+        spool();
+    }
+}
+
+RealtimeReplay::~RealtimeReplay() = default;
+
+RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
+    RealtimeOptions o;
+    o.placement = placement_;
+    o.hapticPeriod = haptics_.period;
+    o.framePeriod = LockstepReplay::kFramePeriod;
+    o.staleAfter = haptics_.staleAfter;
+    o.trace = trace;
+    o.progress = [this](double t, uint64_t frames, uint64_t turns) { progress_.update({frames, 0, turns, t}); };
+    return o;
+}
+
+// On all CPUs: nothing else runs yet.
+void RealtimeReplay::spool() {
+    const CpuConfinement everywhere(placement_.all);
+    session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(), signals_.asked(),
+                                                      [&](uint64_t frames) { progress_.update({frames, 0, 0, 0.0}); });
+}
+
+ReplayRecorder::Ending RealtimeReplay::run() {
+    if (!run_->firstFrame()) {
+        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
+    }
+    const HandPath path = openHandPath(session_, options_, *session_.frames.sets().newest());
+    const std::unique_ptr<HapticDevice> hand = openHand(path, session_, options_);
+    HapticCycle cycle(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle);
+    run_->run(cycle, *hand, path.duration(), *this, signals_.asked());
+    progress_.finish();
+    figures_.wokenLateMicros = percentilesOf(std::move(wokenLateMicros_));
+    figures_.framesLost = run_->framesLost();
+    figures_.periodsMissed = run_->periodsMissed();
+    figures_.staleTurns = run_->staleTurns();
+    figures_.recordsLost = run_->recordsLost();
+    figures_.stopped = signals_.asked().load();
+    return ending(cycle);
+}
+
+ReplayRecorder::Ending RealtimeReplay::ending(const HapticCycle& cycle) {
+    ReplayRecorder::Ending ending;
+    ending.skipped = session_.camera->skipped();
+    ending.contact = session_.contact.statistics();
+    ending.where = session_.where();
+    if (audited_ && figures_.recordsLost == 0) {
+        ending.maxPenetration = audit_.maxPenetration();
+        ending.maxEscapeDepth = audit_.maxEscapeDepth();
+    }
+    ending.stiffness = cycle.springs().stiffness;
+    ending.rotationalStiffness = cycle.springs().rotationalStiffness;
+    ending.device = session_.device.facts().name;
+    ending.lockstep = false;
+    ending.title = session_.title();
+    ending.forceLimit = haptics_.forceLimit;
+    ending.torqueLimit = haptics_.torqueLimit;
+    ending.camera = session_.frames.camera();
+    if (const PublishedFrame* last = run_->lastFrame()) {
+        ending.colour = last->colour;
+        ending.lastSet = &last->fixtures;
+    }
+    ending.leaves = session_.tool.leaves();
+    return ending;
+}
+
+void RealtimeReplay::rethrowFailure() const {
+    if (run_->failure()) {
+        std::rethrow_exception(run_->failure());
+    }
+}
+
+void RealtimeReplay::frame(const PublishedFrame& frame, const Fixtures& set) {
+    recorder_.frame(frame.report, frame.t, set);
+}
+
+void RealtimeReplay::query(const QueryNote& note) {
+    recorder_.query(note.micros);
+}
+
+void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+                          std::span<const uint32_t> behind) {
+    wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
+    recorder_.tick(tickOf(row.record, row.micros, row.late));
+    audit(row, obeyed, obeyedKnown, behind);
+    if (obeyed != nullptr && recorder_.wantsMoment()) {
+        recorder_.moment(obeyed->fixtures, obeyed->colour);
+    }
+}
+
+void RealtimeReplay::audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+                           std::span<const uint32_t> behind) {
+    if (!session_.plan.spheres) {
+        return;
+    }
+    audited_ = audited_ && obeyedKnown;
+    if (obeyed != nullptr && audited_) {
+        audit_.tick(obeyed->fixtures, obeyed->grid, row.start, row.record.tool, behind);
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// `replay --realtime`: the session's cycles on threads, by the wall clock; the caller's thread writes and audits.
+#pragma once
+
+#include "apps/binding/realtime_run.h"
+#include "apps/binding/stop_signals.h"
+#include "apps/replay/percentiles.h"
+#include "apps/replay/progress.h"
+#include "apps/replay/replay_recorder.h"
+#include "apps/replay/replay_session.h"
+#include "engine/reference/penetration_audit.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+// What only a realtime run has to tell.
+struct RealtimeFigures {
+    Percentiles wokenLateMicros; // [us] wake-ups after they were due, compute time apart
+    uint64_t framesLost = 0;     // that a live camera would have thrown away
+    uint64_t periodsMissed = 0;  // without a turn
+    uint64_t staleTurns = 0;     // with a scene old enough for forces to fade
+    uint64_t recordsLost = 0;    // the writer fell behind
+    bool stopped = false;        // by a signal
+};
+
+// Where the haptic thread goes and where everything else does, in one line.
+std::string describe(const ThreadPlacement& placement);
+
+// Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is captured at
+// (index j - index 0) / 30 s by the clock. Ends when frames (plus 1/30 s) and hand path both have, or on SIGINT or SIGTERM: then too
+// every file is whole.
+class RealtimeReplay final : private RunSink {
+public:
+    // The session must have been built on a thread confined to placement.rest: a software device's workers stay where it is.
+    // Takes the pictures of a simulated camera beforehand (SpooledCamera): rendering is not what a run measures. trace may be null.
+    RealtimeReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+                   const ThreadPlacement& placement, CadenceTrace* trace);
+    ~RealtimeReplay() override;
+
+    // Runs to the end and hands over what only the run knows. Throws BadInput when no frame is usable.
+    ReplayRecorder::Ending run();
+
+    const RealtimeFigures& figures() const { return figures_; }
+    // Throws what ended the run early, if anything did: after the files are written.
+    void rethrowFailure() const;
+
+private:
+    class Feed;
+    class Answers;
+
+    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void query(const QueryNote& note) override;
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown, std::span<const uint32_t> behind) override;
+    void audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown, std::span<const uint32_t> behind);
+    RealtimeOptions runOptions(CadenceTrace* trace);
+    void spool();
+    ReplayRecorder::Ending ending(const HapticCycle& cycle);
+
+    ReplaySession& session_;
+    const ReplayOptions& options_;
+    ReplayRecorder& recorder_;
+    ThreadPlacement placement_;
+    StopSignals signals_;
+    Progress progress_;
+    std::vector<Shape> shapes_;
+    HapticOptions haptics_;
+    PenetrationAudit audit_;
+    bool audited_ = true; // every turn so far could be
+    std::unique_ptr<Feed> feed_;
+    std::unique_ptr<Answers> answers_;
+    std::unique_ptr<RealtimeRun> run_;
+    std::vector<float> wokenLateMicros_;
+    RealtimeFigures figures_;
+};
+
+} // namespace fathom

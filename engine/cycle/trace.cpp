@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/trace.h"
+
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <cstdio>
+#include <system_error>
+
+namespace fathom {
+
+namespace {
+
+constexpr uint64_t kRoomForTheEnd = 4096; // [bytes] of maxBytes: names of tracks, counts
+
+std::string quoted(const char* text) {
+    std::string out = "\"";
+    for (const char* c = text; *c != '\0'; ++c) {
+        const auto byte = static_cast<unsigned char>(*c);
+        if (byte == '"' || byte == '\\') {
+            out += '\\';
+            out += *c;
+        } else {
+            out += byte < 0x20 ? ' ' : *c;
+        }
+    }
+    return out + "\"";
+}
+
+std::string number(double value) {
+    if (!std::isfinite(value)) {
+        return "null";
+    }
+    char text[40];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
+}
+
+std::string micros(std::chrono::nanoseconds time) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.3f", static_cast<double>(time.count()) * 1e-3);
+    return text;
+}
+
+std::string arguments(const TraceDetail& detail) {
+    if (detail.name == nullptr) {
+        return {};
+    }
+    const std::string value = detail.word != nullptr ? quoted(detail.word) : number(detail.number);
+    return ",\"args\":{" + quoted(detail.name) + ":" + value + "}";
+}
+
+} // namespace
+
+Trace::Trace(std::filesystem::path file, uint64_t maxBytes)
+    : file_(std::move(file))
+    , temporary_(file_.string() + ".part")
+    , maxBytes_(maxBytes)
+    , out_(temporary_, std::ios::binary | std::ios::trunc)
+    , start_(std::chrono::steady_clock::now()) {
+    if (!out_) {
+        throw Error("trace " + file_.string() + ": cannot be written");
+    }
+    put("{\"displayTimeUnit\":\"ms\",\"traceEvents\":[\n");
+    put(R"({"ph":"M","name":"process_name","pid":1,"tid":0,"args":{"name":"fathom"}})");
+}
+
+Trace::~Trace() {
+    try {
+        finish();
+    } catch (...) { // the run's own error, if any, is the one to hear of
+    }
+}
+
+TraceTrack& Trace::track(std::string name, uint64_t capacity) {
+    tracks_.push_back(std::make_unique<TraceTrack>(std::move(name), capacity));
+    return *tracks_.back();
+}
+
+const char* Trace::keep(std::string text) {
+    kept_.push_back(std::make_unique<std::string>(std::move(text)));
+    return kept_.back()->c_str();
+}
+
+void Trace::put(const std::string& text) {
+    out_.write(text.data(), static_cast<std::streamsize>(text.size()));
+    bytes_ += text.size();
+}
+
+void Trace::write(const TraceEvent& event, size_t track) {
+    if (event.frequent && event.length < kLongSpan && bytes_ > maxBytes_ / 2) {
+        ++shortLeftOut_;
+        return;
+    }
+    const std::string place = ",\"pid\":1,\"tid\":" + std::to_string(track + 1) + ",\"ts\":" + micros(event.begin - start_);
+    const std::string kind = event.instant ? ",\"ph\":\"i\",\"s\":\"t\"" : ",\"ph\":\"X\",\"dur\":" + micros(event.length);
+    const std::string text = ",\n{\"name\":" + quoted(event.name) + kind + place + arguments(event.detail) + "}";
+    if (bytes_ + text.size() + kRoomForTheEnd > maxBytes_) {
+        ++leftOut_;
+        return;
+    }
+    put(text);
+    ++written_;
+}
+
+void Trace::drain() {
+    TraceEvent event;
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+        while (tracks_[i]->ring_.pop(event)) {
+            write(event, i);
+        }
+    }
+}
+
+// Tracks in the order in which they were added, whatever their names.
+void Trace::writeNames() {
+    for (size_t i = 0; i < tracks_.size(); ++i) {
+        const std::string where = ",\"pid\":1,\"tid\":" + std::to_string(i + 1) + ",\"args\":{";
+        put(",\n{\"ph\":\"M\",\"name\":\"thread_name\"" + where + "\"name\":" + quoted(tracks_[i]->name_.c_str()) + "}}");
+        put(",\n{\"ph\":\"M\",\"name\":\"thread_sort_index\"" + where + "\"sort_index\":" + std::to_string(i) + "}}");
+    }
+}
+
+void Trace::finish() {
+    if (finished_) {
+        return;
+    }
+    finished_ = true;
+    drain();
+    writeNames();
+    uint64_t lost = 0;
+    for (const auto& track : tracks_) {
+        lost += track->ring_.dropped();
+    }
+    put("\n],\"otherData\":{\"events\":" + std::to_string(written_) +
+        ",\"short_frequent_spans_left_out\":" + std::to_string(shortLeftOut_) +
+        ",\"left_out_for_size\":" + std::to_string(leftOut_) + ",\"lost\":" + std::to_string(lost) + "}}\n");
+    out_.close();
+    std::error_code fault;
+    if (out_) {
+        std::filesystem::rename(temporary_, file_, fault);
+    }
+    if (!out_ || fault) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary_, ignored);
+        throw Error("trace " + file_.string() + ": cannot be written");
+    }
+}
+
+} // namespace fathom

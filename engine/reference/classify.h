@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of shaders/classify.comp: class bits of every pixel (paper IV.B, gates of the design).
+#pragma once
+
+#include "engine/reference/occlusion.h"
+
+namespace fathom::reference {
+
+// Hexagonal HSL of stored sRGB bytes. Hue in degrees 0..360; grey (max = min) has none.
+struct Hsl {
+    double hue = 0.0, saturation = 0.0, lightness = 0.0;
+    bool grey = false;
+};
+Hsl hslOf(uint32_t rgba); // 0xAABBGGRR
+
+struct ClassPicture {
+    std::vector<uint32_t> masks;
+    std::vector<uint8_t> unsure; // 1: a coordinate, a depth or a picture position lies within 1e-6 m (1e-3
+                                 // pixels) of its threshold
+};
+
+// cells: what the occlusion pass found, nullptr when colour is registered to depth or the camera has none.
+// Colour gates are fractions of bytes and never unsure.
+ClassPicture classify(const FrameView& view, const CellPicture* cells);
+
+// Pixels with a depth in near..far.
+uint32_t validPixels(const FrameView& view);
+
+} // namespace fathom::reference

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame as the float64 twins see it: the plain scene, camera and pose, row-major pictures. Every twin of
+// a GPU pass lives in namespace reference and is written from the formulas of the design, not from the
+// shader.
+#pragma once
+
+#include "engine/scene/scene.h"
+#include "engine/types/camera_info.h"
+
+#include <span>
+#include <vector>
+
+namespace fathom::reference {
+
+// The classes of points of a scene in file order: bit c of a pixel's mask is pointClasses(scene)[c].
+std::vector<const FixtureClass*> pointClasses(const Scene& scene);
+
+// Keeps references: scene, camera and pictures must outlive it. Rays are computed once.
+class FrameView {
+public:
+    FrameView(const Scene& scene, const CameraInfo& camera, const Pose& baseTcamera,
+              std::span<const uint16_t> depth, std::span<const uint32_t> colour);
+
+    const Scene& scene() const { return scene_; }
+    const CameraInfo& camera() const { return camera_; }
+    const Pose& baseTcamera() const { return baseTcamera_; }
+    int width() const { return static_cast<int>(camera_.depth.width); }
+    int height() const { return static_cast<int>(camera_.depth.height); }
+    size_t pixels() const { return depth_.size(); }
+    size_t index(int u, int v) const {
+        return static_cast<size_t>(v) * camera_.depth.width + static_cast<size_t>(u);
+    }
+
+    // Depth [m]; 0 where there is no measurement in near..far and outside the picture. The bounds are
+    // inclusive; 1e-9 of a depth unit absorbs the rounding of near / unit.
+    double z(int u, int v) const noexcept;
+    // Point at depth z [m] on the pixel's ray, camera frame.
+    dvec3 point(int u, int v, double z) const noexcept;
+    uint32_t colour(int u, int v) const {
+        return colour_[static_cast<size_t>(v) * camera_.colour.width + static_cast<size_t>(u)];
+    }
+
+private:
+    const Scene& scene_;
+    const CameraInfo& camera_;
+    Pose baseTcamera_;
+    std::span<const uint16_t> depth_;
+    std::span<const uint32_t> colour_;
+    std::vector<glm::dvec2> rays_;
+};
+
+// Points of a picture, row-major, base frame [m]; z = depth along the optical axis, 0 = no point.
+struct PointPicture {
+    std::vector<dvec3> at;
+    std::vector<double> z;
+};
+
+// Where a point of the camera frame (z > 0) falls: the nearest pixel, and whether that choice hangs on less
+// than slack [pixels].
+struct NearestPixel {
+    int u = 0, v = 0;
+    bool unsure = false;
+    double fu = 0.0, fv = 0.0; // the position itself
+};
+NearestPixel nearestPixel(const Intrinsics& lens, const dvec3& point, double slack);
+
+} // namespace fathom::reference

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory of points: scripted sequences of tiny frames, and whole noisy sequences against the float64 twin.
+#include "engine/reference/hold.h"
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+constexpr uint32_t kRed = 0xff2020c0, kGrey = 0xff808080;
+constexpr double kWall = 0.6; // [m]
+
+Scene holdScene(double seconds) {
+    Scene scene = plainScene();
+    scene.holdSeconds = seconds;
+    scene.fixtures[0].hue = Band{330, 30};
+    return scene;
+}
+
+bool inTarget(int u, int v) {
+    return u >= 18 && u < 24 && v >= 10 && v < 14;
+}
+constexpr uint32_t kTarget = 24; // pixels
+
+// A grey wall with a red target, whose depth and colour the script sets.
+Picture script(const CameraInfo& camera, double targetDepth, uint32_t targetColour = kRed) {
+    Picture picture = drawnPicture(
+        camera, [&](int u, int v) { return inTarget(u, v) ? targetDepth : kWall; }, kGrey);
+    for (int v = 0; v < static_cast<int>(camera.depth.height); ++v) {
+        for (int u = 0; u < static_cast<int>(camera.depth.width); ++u) {
+            if (inTarget(u, v)) {
+                picture.colour[static_cast<size_t>(v) * camera.depth.width + static_cast<size_t>(u)] =
+                    targetColour;
+            }
+        }
+    }
+    return picture;
+}
+
+uint32_t countOf(const std::vector<reference::RegionSphere>& spheres) {
+    return static_cast<uint32_t>(
+        std::count_if(spheres.begin(), spheres.end(), [](const auto& s) { return s.radius >= 0.0; }));
+}
+
+// Shows the red target once at t = 0, then `later` at 30 Hz. Number of spheres held in each of those frames.
+std::vector<uint32_t> heldAfter(CloudRig& rig, const Picture& later, int frames) {
+    rig.run(script(rig.camera(), kWall), 0.0);
+    REQUIRE(countOf(rig.spheres()) == kTarget);
+    const auto seen = rig.spheres();
+    std::vector<uint32_t> counts;
+    for (int k = 1; k <= frames; ++k) {
+        const FrameReport report = rig.run(later, k / 30.0);
+        const auto held = rig.spheres(true);
+        counts.push_back(countOf(held));
+        CHECK(report.counts.spheres == countOf(held) + countOf(rig.spheres()));
+        for (size_t i = 0; i < held.size(); ++i) {
+            if (held[i].radius >= 0.0) {
+                CHECK(glm::distance(held[i].centre, seen[i].centre) < 1e-12);
+                CHECK(held[i].radius == seen[i].radius);
+                CHECK(held[i].cls == 0);
+            }
+        }
+    }
+    return counts;
+}
+
+// A frame through which a bar sweeps, nearer than everything.
+Picture sweptPicture(const Frame& frame, uint32_t width) {
+    Picture picture{{frame->depth.begin(), frame->depth.end()}, {frame->colour.begin(), frame->colour.end()}};
+    for (size_t i = 0; i < picture.depth.size(); ++i) {
+        if (i % width / 12 == frame->index % 13) {
+            picture.depth[i] = 300;
+        }
+    }
+    return picture;
+}
+
+struct Agreement {
+    uint32_t held = 0, different = 0, wrong = 0; // wrong: different although sure
+    double worst = 0.0;                          // [m]
+};
+
+void compareHeld(const std::vector<reference::RegionSphere>& here,
+                 const std::vector<reference::RegionSphere>& there, const std::vector<uint8_t>& unsure,
+                 Agreement& a) {
+    for (size_t i = 0; i < here.size(); ++i) {
+        const double apart = std::max(glm::distance(here[i].centre, there[i].centre),
+                                      std::abs(here[i].radius - there[i].radius));
+        const bool same = here[i].cls == there[i].cls && (here[i].cls < 0 || apart < 1e-6);
+        a.held += here[i].radius >= 0.0;
+        a.different += !same;
+        a.wrong += !same && unsure[i] == 0;
+        a.worst = same && here[i].cls >= 0 ? std::max(a.worst, apart) : a.worst;
+    }
+}
+
+const CameraInfo kCamera = pinholeCamera(40, 24);
+const std::vector<uint32_t> kSixFrames{24, 24, 24, 24, 24, 24, 0, 0};
+const std::vector<uint32_t> kNothing(8, 0);
+
+} // namespace
+
+TEST_CASE("Points that drop out stay for hold_s after they were seen last, and then go") {
+    CloudRig rig(holdScene(0.2), kCamera);
+    CHECK(heldAfter(rig, script(kCamera, 0.0), 8) == kSixFrames); // 0.2 s are six frames
+    CHECK(rig.counters().patchGroups.x == 0);                     // no patch is kept on the list for nothing
+}
+
+TEST_CASE("Points behind a nearer occluder stay for hold_s") {
+    CloudRig rig(holdScene(0.2), kCamera);
+    CHECK(heldAfter(rig, script(kCamera, 0.4, kGrey), 8) == kSixFrames);
+}
+
+TEST_CASE(
+    "Points whose pixel is now deeper go at once, and so do those of another colour at the same depth") {
+    CloudRig deeper(holdScene(0.2), kCamera), other(holdScene(0.2), kCamera);
+    CHECK(heldAfter(deeper, script(kCamera, 0.9, kGrey), 8) == kNothing);
+    CHECK(heldAfter(other, script(kCamera, kWall, kGrey), 8) == kNothing);
+}
+
+TEST_CASE("Nearer counts from 3 sigma of depth on") {
+    const double three = 3.0 * depthSigma(kWall); // 4.2 mm
+    CloudRig within(holdScene(0.2), kCamera), beyond(holdScene(0.2), kCamera);
+    CHECK(heldAfter(within, script(kCamera, kWall - three + 0.0012, kGrey), 8) == kNothing);
+    CHECK(heldAfter(beyond, script(kCamera, kWall - three - 0.0012, kGrey), 8) == kSixFrames);
+}
+
+TEST_CASE("With hold 0 nothing is held and no memory exists") {
+    CloudRig rig(holdScene(0.0), kCamera);
+    rig.run(script(kCamera, kWall));
+    const FrameReport report = rig.run(script(kCamera, 0.0));
+    CHECK(report.counts.spheres == 0);
+    CHECK_FALSE(rig.plan().hold);
+    for (const gpu::Buffer* buffer :
+         {&rig.cycle().work().seen, &rig.cycle().work().kept, &rig.cycle().work().keptTime,
+          &rig.cycle().work().live, &rig.set().device.held}) {
+        CHECK_FALSE(static_cast<bool>(*buffer));
+    }
+}
+
+TEST_CASE("A pixel that flickers is covered in every frame and never twice") {
+    CloudRig rig(holdScene(0.1), kCamera);
+    rig.run(script(kCamera, kWall));
+    for (int k = 1; k < 12; ++k) {
+        const FrameReport report = rig.run(script(kCamera, k % 3 == 0 ? kWall : 0.0));
+        CHECK(report.counts.spheres == kTarget);
+        CHECK(countOf(rig.spheres(k % 3 != 0)) == kTarget);
+        CHECK(rig.host().spheres.source[0] >= (k % 3 != 0 ? kCamera.depth.pixels() : 0u));
+    }
+}
+
+TEST_CASE(
+    "A held point stays where it is in the base frame while the camera moves, also out of the picture") {
+    Scene scene = holdScene(0.2);
+    scene.baseTcamera = {{1000.0, -2000.0, 5.0}, rotationExp({0.3, -0.2, 0.1})};
+    CloudRig rig(scene, kCamera);
+    rig.run(script(kCamera, kWall), 0.0, scene.baseTcamera);
+    const auto seen = rig.spheres();
+    for (int k = 1; k <= 6; ++k) {
+        const Pose aside{{0.8 * k, 0.0, 0.0}, rotationExp({0.0, 0.02 * k, 0.0})}; // far off the first view
+        rig.run(drawnPicture(
+                    kCamera, [](int, int) { return kWall; }, kGrey),
+                k / 30.0, scene.baseTcamera * aside);
+        const auto held = rig.spheres(true);
+        REQUIRE(countOf(held) == kTarget);
+        for (size_t i = 0; i < held.size(); ++i) {
+            CHECK((held[i].radius < 0.0 || glm::distance(held[i].centre, seen[i].centre) < 1e-9));
+        }
+    }
+    // Back in view where a hole shows the wall behind: contradicted.
+    rig.run(drawnPicture(
+                kCamera, [](int, int) { return 1.5; }, kGrey),
+            6 / 30.0 + 0.001, scene.baseTcamera);
+    CHECK(countOf(rig.spheres(true)) == 0);
+}
+
+TEST_CASE("The clock of the memory wraps at 2^32 us without losing or keeping points") {
+    for (const double start : {4294.80, 4294.967, 1.7e9}) {
+        CAPTURE(start);
+        CloudRig rig(holdScene(0.2), kCamera);
+        rig.run(script(kCamera, kWall), start);
+        for (int k = 1; k <= 8; ++k) {
+            rig.run(script(kCamera, 0.0), start + k / 30.0);
+            if (k != 6) { // lies on the bound to within the rounding of the clock
+                CHECK(countOf(rig.spheres(true)) == (k < 6 ? kTarget : 0u));
+            }
+        }
+    }
+}
+
+TEST_CASE(
+    "Held points equal the twin's over noisy sequences with a moving camera, dropouts and an occluder") {
+    Agreement a;
+    for (const char* name : {"tank", "torus"}) {
+        SimulatedCameraOptions options;
+        options.width = 161, options.height = 119, options.frames = 14, options.dropShare = 0.2;
+        SimulatedCamera camera(*analyticScene(name), options);
+        Scene scene = holdScene(0.15);
+        scene.fixtures[0].saturation = Band{0.3, 1};
+        scene.filter.radius = 1, scene.filter.edge = 0.03, scene.errorBudget = 0.0002;
+        scene.fixtures.push_back(forbiddenClass("box", 0.02));
+        scene.fixtures[1].box = Box{{-0.2, -0.2, 0.0}, {0.1, 0.1, 2.0}};
+        CloudRig rig(scene, camera.info());
+        reference::HoldMemory twin;
+        double before = 0.0;
+        while (const std::optional<Frame> frame = camera.next()) {
+            const double now = (*frame)->index / 30.0;
+            rig.run(sweptPicture(*frame, options.width), now, (*frame)->baseTcamera);
+            const auto expected = twin.step(rig.view(), now, before, rig.forbidden(), rig.points());
+            compareHeld(rig.spheres(true), expected, twin.unsure(), a);
+            before = now;
+        }
+    }
+    CHECK(a.held > 10000);
+    CHECK(a.wrong == 0);
+    CHECK(a.different < a.held / 1000);
+    MESSAGE("hold: ", a.held, " held points, largest error ", a.worst * 1e6, " um, ", a.different,
+            " differ, all on a threshold");
+}

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// surface.comp against its float64 twin: rejection, filter, base-frame points.
+#include "engine/reference/surface.h"
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+struct Agreement {
+    uint32_t points = 0, rejected = 0, unsure = 0,
+             wrong = 0; // wrong: one keeps what the other rejects, although sure
+    double worst = 0.0; // [m] distance to the twin's point, at ranges over 1 m divided by the range
+};
+
+Agreement comparePoints(const CloudRig& rig) {
+    const std::vector<uint32_t> masks = rig.masks();
+    const reference::SurfacePicture twin = reference::surface(rig.view(), masks);
+    const reference::PointPicture points = rig.points();
+    Agreement a;
+    for (size_t i = 0; i < masks.size(); ++i) {
+        const bool here = points.z[i] != 0.0, there = twin.points.z[i] != 0.0;
+        a.points += here, a.rejected += masks[i] != 0 && !here;
+        a.unsure += twin.unsure[i];
+        a.wrong += here != there && twin.unsure[i] == 0;
+        if (here && there) {
+            const double scale = std::max(1.0, twin.points.z[i]);
+            a.worst = std::max(a.worst, glm::distance(points.at[i], twin.points.at[i]) / scale);
+            a.worst = std::max(a.worst, std::abs(points.z[i] - twin.points.z[i]) / scale);
+        }
+    }
+    return a;
+}
+
+bool keeps(const CloudRig& rig, int u, int v) {
+    return rig.points().z[static_cast<size_t>(v * rig.width() + u)] != 0.0;
+}
+
+Scene edgeScene(double edge) {
+    Scene scene = plainScene();
+    scene.filter.edge = edge;
+    return scene;
+}
+
+} // namespace
+
+TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixels are rejected, for every "
+          "size and option") {
+    Agreement all;
+    for (const CloudCase& c : cloudCases()) {
+        CAPTURE(c.name);
+        CloudRig rig(c.scene, c.camera);
+        rig.run(c.picture);
+        const Agreement a = comparePoints(rig);
+        CHECK(a.wrong == 0);
+        CHECK(a.worst < 1e-6);
+        all.points += a.points, all.rejected += a.rejected, all.unsure += a.unsure,
+            all.worst = std::max(all.worst, a.worst);
+    }
+    CHECK(all.points > 300000);
+    CHECK(all.rejected > 3000);
+    MESSAGE("surface: largest error ", all.worst * 1e6, " um a metre of range over ", all.points, " points; ",
+            all.rejected, " pixels rejected, ", all.unsure, " on a threshold");
+}
+
+TEST_CASE("Windows from shared memory and direct reads give the same points") {
+    for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
+        for (const double edge : {0.0, 0.03}) {
+            CAPTURE(radius);
+            CAPTURE(edge);
+            const CameraInfo camera = radius % 2 == 0 ? pinholeCamera(67, 41) : freiburgCamera(67, 41);
+            Scene scene = edgeScene(edge);
+            scene.filter.radius = radius;
+            const Picture picture = stressPicture(camera, radius + 20);
+            CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = false; });
+            CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true; });
+            direct.run(picture), tiled.run(picture);
+            const reference::PointPicture a = direct.points(), b = tiled.points();
+            CHECK(a.z == b.z);
+            CHECK(a.at == b.at);
+            const Agreement agreement = comparePoints(tiled);
+            CHECK(agreement.wrong == 0);
+            CHECK(agreement.worst < 1e-6);
+        }
+    }
+}
+
+TEST_CASE(
+    "Unfiltered points of a distorted lens project back onto their pixels by Brown and Conrady's formula") {
+    const CameraInfo camera = freiburgCamera(428, 240);
+    CloudRig rig(plainScene(), camera);
+    rig.run(drawnPicture(camera, [](int u, int v) { return 0.5 + 0.004 * u + 0.002 * v; }));
+    const reference::PointPicture points = rig.points();
+    double worst = 0.0;
+    const Intrinsics& lens = camera.depth;
+    for (int v = 0; v < rig.height(); ++v) {
+        for (int u = 0; u < rig.width(); ++u) {
+            const size_t i = static_cast<size_t>(v * rig.width() + u);
+            REQUIRE(points.z[i] != 0.0);
+            const double x = points.at[i].x / points.at[i].z, y = points.at[i].y / points.at[i].z,
+                         r2 = x * x + y * y;
+            const double k = 1 + 0.2624 * r2 - 0.9531 * r2 * r2 + 1.1633 * r2 * r2 * r2;
+            const double px = lens.fx * (x * k + 2 * -0.0054 * x * y + 0.0026 * (r2 + 2 * x * x)) + lens.cx;
+            const double py = lens.fy * (y * k + -0.0054 * (r2 + 2 * y * y) + 2 * 0.0026 * x * y) + lens.cy;
+            worst = std::max({worst, std::abs(px - u), std::abs(py - v)});
+        }
+    }
+    CHECK(worst < 2e-4);
+    MESSAGE("largest distance from its pixel ", worst, " pixels");
+}
+
+TEST_CASE("A base frame 100 km away and a camera that moves there cost no precision") {
+    SimulatedCameraOptions options;
+    options.width = 321, options.height = 241;
+    const Shot shot = simulatedShot("torus", options);
+    Scene scene = edgeScene(0.03);
+    scene.filter.radius = 2;
+    const Pose near{{0.2, -0.1, 0.4}, rotationExp({0.3, 0.2, -0.8})};
+    const Pose far{near.position + dvec3(1e5, -1e5, 2e4), near.rotation};
+    const Pose step{{0.05, 0.02, -0.03}, rotationExp({0.02, -0.03, 0.05})};
+    CloudRig here(scene, shot.camera), there(scene, shot.camera);
+    here.run(shot.picture, 0.0, near), there.run(shot.picture, 0.0, far);
+    CHECK(here.host().spheres.x == there.host().spheres.x);
+    CHECK(here.host().spheres.y == there.host().spheres.y);
+    CHECK(here.host().spheres.z == there.host().spheres.z);
+    CHECK(here.origin() == near.position);
+    CHECK(there.origin() == far.position);
+    here.run(shot.picture, 0.1, near * step), there.run(shot.picture, 0.1, far * step);
+    const Agreement a = comparePoints(there);
+    CHECK(a.points > 1000);
+    CHECK(a.wrong == 0);
+    CHECK(a.worst < 1e-6);
+    MESSAGE("140 km away: largest error ", a.worst * 1e6, " um a metre of range");
+}
+
+TEST_CASE(
+    "A mixed pixel between two surfaces is rejected; a silhouette, a thin rod and a smooth slope stay") {
+    const CameraInfo camera = pinholeCamera(40, 30);
+    const auto depth = [](int u, int v) {
+        if (v < 10) { // a mixed column between a near surface and a far one
+            return u < 20 ? 0.8 : u == 20 ? 0.9 : 1.0;
+        }
+        if (v < 20) { // a bare step, then a rod before it
+            return u < 20 ? 0.8 : u == 30 ? 0.7 : 1.0;
+        }
+        return 0.8 + 0.004 * u;
+    };
+    CloudRig on(edgeScene(0.03), camera), off(edgeScene(0.0), camera);
+    on.run(drawnPicture(camera, depth)), off.run(drawnPicture(camera, depth));
+    CHECK_FALSE(keeps(on, 20, 5));
+    CHECK(keeps(off, 20, 5));
+    for (const int u : {19, 21}) {
+        CHECK(keeps(on, u, 5));
+    }
+    for (const int u : {19, 20, 29, 30, 31}) {
+        CHECK(keeps(on, u, 15));
+    }
+    for (int u = 0; u < 40; ++u) {
+        CHECK(keeps(on, u, 25));
+    }
+}
+
+TEST_CASE("A speck of up to two pixels is rejected as marine snow, three pixels in a bunch stay") {
+    const CameraInfo camera = pinholeCamera(64, 48);
+    const auto depth = [](int u, int v) {
+        const bool one = u == 10 && v == 10, two = (u == 30 || u == 31) && v == 10,
+                   three = (u == 50 || u == 51) && v == 10;
+        const bool third = u == 50 && v == 11, gap = u == 10 && (v == 30 || v == 32);
+        return one || two || three || third || gap ? 0.6 : u == 10 && v == 31 ? 0.65 : 0.0;
+    };
+    CloudRig rig(edgeScene(0.03), camera);
+    const FrameReport report = rig.run(drawnPicture(camera, depth));
+    CHECK(report.counts.forbidden == 9);
+    CHECK_FALSE(keeps(rig, 10, 10));
+    CHECK_FALSE(keeps(rig, 30, 10));
+    CHECK(keeps(rig, 50, 10));
+    CHECK(keeps(rig, 51, 10));
+    CHECK(keeps(rig, 50, 11));
+    CHECK_FALSE(keeps(rig, 10, 31)); // two neighbours, both more than 20 mm away
+    CHECK(report.counts.spheres == 3);
+}
+
+TEST_CASE("The filter flattens noise on a plane by what its weights promise and leaves a step standing") {
+    const CameraInfo camera = pinholeCamera(120, 60, 0.0001);
+    const auto noise = [](int u, int v) {
+        return 0.001 * std::sin(u * 12.9898 + v * 78.233) * std::cos(u * 3.1 - v * 7.7);
+    };
+    const auto depth = [&](int u, int v) { return (u < 60 ? 0.6 : 0.9) + noise(u, v); };
+    Scene scene = plainScene();
+    const auto spread = [&](uint32_t radius) {
+        scene.filter.radius = radius;
+        CloudRig rig(scene, camera);
+        rig.run(drawnPicture(camera, depth));
+        const reference::PointPicture points = rig.points();
+        double sum = 0.0;
+        for (int v = 5; v < 55; ++v) {
+            for (int u = 30; u < 90; ++u) {
+                const double z = points.z[static_cast<size_t>(v * 120 + u)];
+                CHECK(std::abs(z - (u < 60 ? 0.6 : 0.9)) < 0.0012);
+                sum += (z - (u < 60 ? 0.6 : 0.9)) * (z - (u < 60 ? 0.6 : 0.9)) / 3000.0;
+            }
+        }
+        return std::sqrt(sum);
+    };
+    const double raw = spread(0), filtered = spread(2);
+    MESSAGE("rms ", raw * 1e3, " mm unfiltered, ", filtered * 1e3, " mm filtered");
+    CHECK(filtered < 0.5 * raw);
+}

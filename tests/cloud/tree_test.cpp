@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// The region tree of spheres.comp (sub-patches) and tree.comp (all levels above) against the validator and
+// the float64 twin.
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+struct Agreement {
+    uint32_t nodes = 0, escaped = 0, wrong = 0; // escaped: spheres that stick out of their sub-patch's bound
+    double centre = 0.0, radius = 0.0;          // [m] largest errors, of radii over 1 m as a share of them
+};
+
+// Bounds of the 4x4 sub-patches of the picture over seen and held spheres; every sphere inside, in float64.
+std::vector<reference::Bound> checkLeaves(const CloudRig& rig, const std::vector<reference::Bound>& bounds,
+                                          Agreement& a) {
+    const auto seen = rig.spheres();
+    const auto held = rig.plan().hold ? rig.spheres(true) : std::vector<reference::RegionSphere>{};
+    std::vector<reference::Bound> twin;
+    for (size_t i = 0; i < bounds.size(); ++i) {
+        const int across = static_cast<int>(rig.cycle().layout().across) * 4;
+        const int u0 = static_cast<int>(i) % across * 4, v0 = static_cast<int>(i) / across * 4;
+        std::vector<reference::RegionSphere> inside;
+        for (int v = v0; v < std::min(v0 + 4, rig.height()); ++v) {
+            for (int u = u0; u < std::min(u0 + 4, rig.width()); ++u) {
+                const auto p = static_cast<size_t>(v * rig.width() + u);
+                inside.push_back(seen[p]);
+                inside.push_back(held.empty() ? reference::RegionSphere{} : held[p]);
+            }
+        }
+        for (const reference::RegionSphere& s : inside) {
+            a.escaped +=
+                s.radius >= 0.0 &&
+                !(glm::distance(s.centre - rig.origin(), bounds[i].centre - rig.origin()) + s.radius <=
+                  bounds[i].radius);
+        }
+        twin.push_back(reference::boundOf(inside));
+    }
+    return twin;
+}
+
+void compare(const std::vector<reference::Bound>& here, const std::vector<reference::Bound>& there,
+             Agreement& a) {
+    REQUIRE(here.size() == there.size());
+    for (size_t i = 0; i < here.size(); ++i) {
+        a.wrong += here[i].count != there[i].count || (here[i].radius < 0.0) != (here[i].count == 0);
+        if (here[i].count != 0 && there[i].count != 0) {
+            ++a.nodes;
+            a.centre = std::max(a.centre, glm::distance(here[i].centre, there[i].centre));
+            a.radius = std::max(a.radius,
+                                std::abs(here[i].radius - there[i].radius) / std::max(1.0, there[i].radius));
+        }
+    }
+}
+
+// Every level of the device feeds the twin of the level above, so that errors do not add up.
+Agreement checkTree(CloudRig& rig, const FrameReport& report) {
+    auto levels = rig.tree();
+    Agreement a;
+    compare(levels[0], checkLeaves(rig, levels[0], a), a);
+    for (size_t l = 1; l < levels.size(); ++l) {
+        compare(levels[l], reference::parents(rig.cycle().layout(), l, levels[l - 1]), a);
+    }
+    for (auto& level : levels) { // float32 centres about the origin: exact in float64
+        for (reference::Bound& b : level) {
+            b.centre -= rig.origin();
+        }
+    }
+    CHECK(reference::validateTree(rig.cycle().layout(), levels) == "");
+    CHECK(levels.back().size() == 1);
+    CHECK(levels.back()[0].count == report.counts.spheres);
+    CHECK(report.counts.nodes == a.nodes);
+    CHECK(a.escaped == 0);
+    CHECK(a.wrong == 0);
+    return a;
+}
+
+} // namespace
+
+TEST_CASE("Every leaf sphere lies inside its sub-patch, every child inside its parent, up to one root, for "
+          "every size") {
+    Agreement all;
+    for (const CloudCase& c : cloudCases()) {
+        CAPTURE(c.name);
+        CloudRig rig(c.scene, c.camera);
+        const FrameReport report = rig.run(c.picture);
+        const Agreement a = checkTree(rig, report);
+        CHECK(a.centre < 1e-6);
+        CHECK(a.radius < 2e-6); // rounded outward by 1e-6 of itself
+        all.nodes += a.nodes, all.centre = std::max(all.centre, a.centre),
+                              all.radius = std::max(all.radius, a.radius);
+    }
+    CHECK(all.nodes > 20000);
+    MESSAGE("tree: largest error of a centre ", all.centre * 1e6, " um, of a radius ", all.radius * 1e6,
+            " um over ", all.nodes, " nodes");
+}
+
+TEST_CASE("The tree holds for tall, wide and odd pictures with held points in it") {
+    for (const std::pair<uint32_t, uint32_t>& size : std::vector<std::pair<uint32_t, uint32_t>>{
+             {16u, 16u}, {17u, 16u}, {64u, 64u}, {65u, 64u}, {300u, 5u}, {5u, 300u}, {257u, 129u}}) {
+        CAPTURE(size.first);
+        CAPTURE(size.second);
+        const CameraInfo camera = pinholeCamera(size.first, size.second);
+        Scene scene = plainScene();
+        scene.holdSeconds = 0.5;
+        scene.errorBudget = 0.0002;
+        CloudRig rig(scene, camera);
+        rig.run(stressPicture(camera, 50));
+        const FrameReport report = rig.run(stressPicture(camera, 51)); // other dropouts: some points are held
+        checkTree(rig, report);
+        const auto held = rig.spheres(true);
+        CHECK(std::any_of(held.begin(), held.end(), [](const auto& s) { return s.radius >= 0.0; }));
+    }
+}
+
+TEST_CASE("A set without spheres has an empty root, and old data of unlisted patches never comes back") {
+    const CameraInfo camera = pinholeCamera(100, 80);
+    CloudRig rig(plainScene(), camera);
+    checkTree(rig, rig.run(drawnPicture(camera, [](int, int) { return 0.7; })));
+    for (int frame = 0; frame < 4; ++frame) { // through all sets of the pool
+        const FrameReport corner =
+            rig.run(drawnPicture(camera, [](int u, int v) { return u < 3 && v < 3 ? 0.7 : 0.0; }));
+        CHECK(corner.counts.spheres == 9);
+        CHECK(corner.counts.nodes == rig.cycle().layout().levels.size());
+        checkTree(rig, corner);
+    }
+    const FrameReport none = rig.run(drawnPicture(camera, [](int, int) { return 0.0; }));
+    CHECK(none.counts.nodes == 0);
+    CHECK(rig.tree().back()[0].radius < 0.0);
+    checkTree(rig, none);
+}

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+// The frame cadence as a whole: what a scene does not need is not built, equal frames give equal bits, sets
+// are stamped.
+#include "tests/support/cloud_rig.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+struct Need {
+    std::string name;
+    Scene scene;
+    CameraInfo camera;
+    Names passes;
+    uint32_t dispatches;
+};
+
+Scene guidanceOnly() {
+    Scene scene = plainScene();
+    scene.fixtures = {guidanceClass("goal")};
+    return scene;
+}
+
+Scene shapesOnly() {
+    Scene scene = plainScene();
+    scene.fixtures[0].shape = ShapeKind::Box;
+    scene.fixtures[0].size = dvec3(1.0);
+    return scene;
+}
+
+// Everything a scene can ask for.
+Scene fullScene() {
+    Scene scene = classesScene(5);
+    scene.filter = {2, 0.01, 0.03};
+    scene.errorBudget = 0.0003;
+    scene.holdSeconds = 0.2;
+    scene.fixtures[1].largestPart = true;
+    return scene;
+}
+
+CameraInfo unregistered(CameraInfo camera) {
+    camera.registered = false;
+    camera.colourTdepth.position.x = 0.02;
+    return camera;
+}
+
+std::vector<Need> needs() {
+    const CameraInfo plain = pinholeCamera(100, 60);
+    Scene coloured = plainScene(), thinned = plainScene(), full = fullScene();
+    coloured.fixtures[0].hue = Band{330, 30};
+    thinned.errorBudget = 0.001;
+    CameraInfo blind = plain;
+    blind.hasColour = false;
+    return {
+        {"one class of every point", plainScene(), plain, {"classify", "surface", "spheres", "tree"}, 5},
+        {"guidance alone", guidanceOnly(), plain, {"classify", "surface", "moments"}, 3},
+        {"shapes alone", shapesOnly(), plain, {}, 0},
+        {"colour, registered", coloured, plain, {"classify", "surface", "spheres", "tree"}, 5},
+        {"colour, unregistered",
+         coloured,
+         unregistered(plain),
+         {"occlusion", "classify", "surface", "spheres", "tree"},
+         6},
+        {"no colour, unregistered",
+         plainScene(),
+         unregistered(plain),
+         {"classify", "surface", "spheres", "tree"},
+         5},
+        {"colour, but the camera has none", coloured, blind, {"classify", "surface", "spheres", "tree"}, 5},
+        {"error budget", thinned, plain, {"classify", "surface", "thin", "spheres", "tree"}, 6},
+        {"all of it",
+         full,
+         unregistered(freiburgCamera(100, 60)),
+         {"occlusion", "classify", "surface", "thin", "spheres", "tree", "moments"},
+         8}};
+}
+
+bool built(const gpu::Buffer& buffer) {
+    return static_cast<bool>(buffer);
+}
+
+// Each buffer exists exactly when the plan has it, and is as large as the plan says.
+void checkBuffers(const CloudRig& rig) {
+    const Plan& plan = rig.plan();
+    const cloud::WorkBuffers& w = rig.cycle().work();
+    const cloud::SetBuffers& s = rig.set().device;
+    CHECK(built(w.growth) == plan.thin);
+    CHECK(built(w.nearest) == plan.occlusion);
+    CHECK(built(w.rays) == plan.rays);
+    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live, &s.held}) {
+        CHECK(built(*b) == plan.hold);
+    }
+    for (const gpu::Buffer* b :
+         {&w.masks, &w.listed, &w.list, &w.counters, &w.points, &s.counters, &s.listed}) {
+        CHECK(built(*b) == plan.cloud);
+    }
+    for (const gpu::Buffer* b : {&s.spheres, &s.classes, &s.bits, &s.nodes, &s.nodeCounts}) {
+        CHECK(built(*b) == plan.spheres);
+    }
+    CHECK(built(s.moments) == plan.moments);
+    CHECK((built(s.points) && built(s.masks)) == plan.guidancePoints);
+    CHECK_FALSE(built(s.deviceSpheres)); // the query is on the CPU here
+    const auto sizeOf = [&](const char* name, uint64_t bytes) {
+        const auto item = std::find_if(plan.items.begin(), plan.items.end(), [&](const Plan::Item& i) {
+            return i.kind == "buffer" && i.name == name;
+        });
+        REQUIRE(item != plan.items.end());
+        CAPTURE(name);
+        CHECK(item->in == (bytes != 0));
+        CHECK((item->bytes + 15) / 16 * 16 == bytes);
+    };
+    sizeOf("masks and points", w.masks.bytes() + w.points.bytes());
+    sizeOf("thinning cells", w.growth.bytes());
+    sizeOf("rays", w.rays.bytes());
+    sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
+    sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes() + s.classes.bytes());
+    sizeOf("moments", s.moments.bytes());
+}
+
+// Everything in a set that a reader can see, but the lease's own address.
+bool sameBits(const Fixtures& a, const Fixtures& b) {
+    const auto pose = [](const Pose& p, const Pose& q) {
+        return p.position == q.position && p.rotation == q.rotation;
+    };
+    const RegionSpheres &s = a.spheres, &t = b.spheres;
+    bool same = s.x == t.x && s.y == t.y && s.z == t.z && s.radius == t.radius && s.source == t.source &&
+                s.fixture == t.fixture;
+    same = same && a.forbiddenBits == b.forbiddenBits && a.depth == b.depth && a.origin == b.origin &&
+           pose(a.baseTcamera, b.baseTcamera);
+    same = same && a.guidance.size() == b.guidance.size();
+    for (size_t i = 0; same && i < a.guidance.size(); ++i) {
+        const GuidancePose &g = a.guidance[i], &h = b.guidance[i];
+        same = g.count == h.count && g.present == h.present && g.position == h.position &&
+               g.normal == h.normal && g.planar == h.planar && g.rollFree == h.rollFree &&
+               pose(g.target, h.target) && g.fixture == h.fixture;
+    }
+    return same;
+}
+
+Frame frameOf(const Picture& picture, uint32_t number, double time) {
+    Frame::Content content;
+    content.index = number, content.sourceNumber = number, content.captureTime = time;
+    content.depth = picture.depth, content.colour = picture.colour;
+    return Frame(content, nullptr);
+}
+
+} // namespace
+
+TEST_CASE("Passes, dispatches and buffers are those that the scene needs and no other") {
+    for (const Need& need : needs()) {
+        CAPTURE(need.name);
+        CloudRig rig(need.scene, need.camera);
+        const FrameReport report = rig.run(stressPicture(need.camera, 5));
+        CHECK(rig.cycle().passNames() == need.passes);
+        CHECK(report.passMs.size() == need.passes.size());
+        CHECK(rig.cycle().dispatches() == need.dispatches);
+        CHECK(rig.plan().dispatchesPerFrame() == need.dispatches);
+        checkBuffers(rig);
+        CHECK(rig.host().guidance.size() ==
+              (rig.plan().moments ? static_cast<size_t>(need.name == "all of it" ? 2 : 1) : 0));
+        CHECK(rig.host().spheres.size() == report.counts.spheres);
+        CHECK((report.counts.spheres > 0) == (rig.plan().spheres && need.camera.hasColour));
+        CHECK(report.counts.valid == reference::validPixels(rig.view()));
+    }
+}
+
+TEST_CASE("Two cycles give the same bits for the same frames, held points, guidance and all") {
+    SimulatedCameraOptions options;
+    options.width = 214, options.height = 120, options.frames = 6, options.dropShare = 0.1;
+    for (const bool tiled : {false, true}) {
+        SimulatedCamera camera(*analyticScene("tank"), options);
+        CloudRig a(fullScene(), camera.info(), [&](Plan& plan) { plan.tiled = tiled; });
+        CloudRig b(fullScene(), camera.info(), [&](Plan& plan) { plan.tiled = tiled; });
+        b.cycle().sets().back(); // another set of the pool comes first
+        uint32_t spheres = 0, held = 0;
+        while (const std::optional<Frame> frame = camera.next()) {
+            const Picture picture{{(*frame)->depth.begin(), (*frame)->depth.end()},
+                                  {(*frame)->colour.begin(), (*frame)->colour.end()}};
+            a.run(picture, -1.0, (*frame)->baseTcamera);
+            b.run(picture, -1.0, (*frame)->baseTcamera);
+            CHECK(sameBits(a.host(), b.host()));
+            spheres += static_cast<uint32_t>(a.host().spheres.size());
+            for (const uint32_t source : a.host().spheres.source) {
+                held += source >= camera.info().depth.pixels();
+            }
+        }
+        CHECK(spheres > 5000);
+        CHECK(held > 100);
+    }
+}
+
+TEST_CASE("Without hold a frame's set does not depend on the frames before it") {
+    const CameraInfo camera = freiburgCamera(123, 77);
+    Scene scene = fullScene();
+    scene.holdSeconds = 0.0;
+    CloudRig fresh(scene, camera), used(scene, camera);
+    for (uint64_t seed = 1; seed <= 5; ++seed) {
+        used.run(stressPicture(camera, seed));
+    }
+    const Picture picture = stressPicture(camera, 9);
+    fresh.run(picture), used.run(picture);
+    CHECK(sameBits(fresh.host(), used.host()));
+    CHECK(used.host().generation == 6);
+    CHECK(used.host().frame == 5);
+}
+
+TEST_CASE(
+    "Uploading the next frame while the device works gives the sets that one frame after the other gives") {
+    const CameraInfo camera = pinholeCamera(160, 90);
+    CloudRig one(fullScene(), camera), overlapped(fullScene(), camera);
+    std::vector<Picture> pictures;
+    for (uint64_t seed = 1; seed <= 6; ++seed) {
+        pictures.push_back(stressPicture(camera, seed));
+    }
+    FrameCycle& cycle = overlapped.cycle();
+    cycle.upload(frameOf(pictures[0], 0, 0.0));
+    for (uint32_t k = 0; k < pictures.size(); ++k) {
+        cycle.submit();
+        if (k + 1 < pictures.size()) {
+            cycle.upload(frameOf(pictures[k + 1], k + 1, (k + 1) / 30.0));
+        }
+        CHECK(cycle.finish().index == k);
+        one.run(pictures[k]);
+        const auto lease = cycle.sets().newest();
+        CHECK(sameBits(one.host(), lease->host));
+        CHECK(lease->host.frame == k);
+        CHECK(lease->host.captureTime == doctest::Approx(k / 30.0));
+    }
+}
+
+TEST_CASE("Generations count published sets, a leased set stays whole, an unchanged picture costs no work") {
+    const CameraInfo camera = pinholeCamera(90, 60);
+    CloudRig rig(fullScene(), camera);
+    FrameCycle& cycle = rig.cycle();
+    CHECK_FALSE(static_cast<bool>(cycle.sets().newest()));
+    const Picture first = stressPicture(camera, 1), second = stressPicture(camera, 2);
+    cycle.process(frameOf(first, 0, 0.0));
+    const auto lease = cycle.sets().newest();
+    const Fixtures copy = lease->host;
+    CHECK(copy.generation == 1);
+    for (uint32_t k = 1; k <= 5; ++k) {
+        cycle.process(frameOf(k % 2 == 0 ? first : second, k, k / 30.0));
+        CHECK(lease->host.generation == 1);
+    }
+    CHECK(sameBits(lease->host, copy));
+    const FrameReport same = cycle.process(frameOf(second, 5, 0.9));
+    CHECK(same.unchanged);
+    CHECK(cycle.dispatches() == 0);
+    CHECK(cycle.captureTime() == 0.9);
+    CHECK(cycle.process(frameOf(second, 6, 1.0)).unchanged == false);
+}
+
+TEST_CASE("A picture smaller than the camera said is refused, and the next good one works") {
+    const CameraInfo camera = pinholeCamera(64, 48);
+    CloudRig rig(fullScene(), camera);
+    Picture small = stressPicture(camera, 1);
+    small.depth.pop_back();
+    CHECK_THROWS_AS(rig.cycle().process(frameOf(small, 0, 0.0)), Error);
+    CHECK(rig.cycle().process(frameOf(stressPicture(camera, 2), 1, 0.1)).counts.spheres > 0);
+}
+
+TEST_CASE("The totals of the report are those of the set") {
+    const CameraInfo camera = pinholeCamera(200, 130);
+    CloudRig rig(fullScene(), camera);
+    rig.run(stressPicture(camera, 1));
+    const FrameReport report = rig.run(stressPicture(camera, 2));
+    const auto rows = static_cast<uint32_t>(rig.scene().fixtures.size());
+    std::vector<uint32_t> spheres(rows, 0);
+    std::vector<std::vector<uint8_t>> patches(rows, std::vector<uint8_t>(rig.cycle().layout().patches(), 0));
+    const RegionSpheres& s = rig.host().spheres;
+    for (size_t i = 0; i < s.size(); ++i) {
+        const uint32_t pixel = s.source[i] % camera.depth.pixels();
+        ++spheres[s.fixture[i]];
+        patches[s.fixture[i]][pixel / 200 / 16 * rig.cycle().layout().across + pixel % 200 / 16] = 1;
+    }
+    uint32_t any = 0;
+    for (size_t p = 0; p < patches[0].size(); ++p) {
+        any += std::any_of(patches.begin(), patches.end(), [&](const auto& row) { return row[p] != 0; });
+    }
+    CHECK(report.counts.classSpheres == spheres);
+    for (size_t c = 0; c < rows; ++c) {
+        CHECK(report.counts.classPatches[c] ==
+              static_cast<uint32_t>(std::count(patches[c].begin(), patches[c].end(), 1)));
+    }
+    CHECK(report.counts.patches == any);
+    CHECK(report.guidanceCount == report.counts.classPixels[1] + report.counts.classPixels[4]);
+    CHECK(report.latencyMs > 0.0);
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames that are bad, empty, full or odd: skipped and named, or run through.
+#include "tests/program/stage.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+// A recording of four frames of which frame `bad` was damaged runs, counts it as skipped and names it in one line.
+void checkSkips(const Stage& stage, int bad, const std::vector<std::string>& parts) {
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}});
+    const ProgramRun run = runFathom(stage.command());
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    CHECK(run.errorLines().size() == 1);
+    CHECK(run.err.find("frame " + std::to_string(bad) + " skipped") != std::string::npos);
+    for (const std::string& part : parts) {
+        CAPTURE(part);
+        CHECK(run.err.find(part) != std::string::npos);
+    }
+    const Replay replay = readReplay(stage / "out", run);
+    checkContract(replay, {});
+    CHECK(replay.summary.at("frames").at("count") == 3);
+    CHECK(replay.summary.at("frames").at("skipped") == 1);
+    CHECK(run.out.find("3 used, 1 skipped") != std::string::npos);
+    std::vector<uint32_t> used;
+    for (const FrameRow& row : replay.frames) {
+        used.push_back(row.index);
+    }
+    std::vector<uint32_t> wanted{0, 1, 2, 3};
+    wanted.erase(wanted.begin() + bad);
+    CHECK(used == wanted);
+    if (bad != 3) { // the run lasts until 1/30 s after the last frame that came
+        CHECK(replay.ticks.size() == 134);
+    }
+}
+
+void withFour(const std::function<void(const Stage&)>& damage, int bad, const std::vector<std::string>& parts) {
+    Stage stage;
+    stage.recording(std::vector<Picture>(4, bumpPicture()));
+    damage(stage);
+    checkSkips(stage, bad, parts);
+}
+
+void replaceText(const Stage& stage, const std::string& from, const std::string& to) {
+    std::string text = stage.read("rec/associations.txt");
+    const size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    stage.write("rec/associations.txt", text.replace(at, from.size(), to));
+}
+
+} // namespace
+
+TEST_CASE("a truncated, missing or wrong picture in a good recording skips its frame alone and is named") {
+    withFour([](const Stage& s) {
+        const std::string whole = s.read("rec/depth/000001.png");
+        s.write("rec/depth/000001.png", whole.substr(0, whole.size() / 2));
+    }, 1, {"depth/000001.png"});
+    withFour([](const Stage& s) { s.write("rec/rgb/000002.png", ""); }, 2, {"rgb/000002.png"});
+    withFour([](const Stage& s) { std::filesystem::remove(s / "rec/depth/000003.png"); }, 3, {"depth/000003.png"});
+    withFour([](const Stage& s) { std::filesystem::remove(s / "rec/depth/000000.png"); }, 0, {"depth/000000.png"});
+    withFour([](const Stage& s) { writeDepth(s / "rec/depth/000001.png", 32, 24, 600); }, 1, {"32x24", "64x48"});
+    withFour([](const Stage& s) { writeColour(s / "rec/depth/000001.png", kWidth, kHeight, 1, 2, 3); }, 1, {"16-bit grey"});
+    withFour([](const Stage& s) {
+        writePng(s / "rec/depth/000002.png", kWidth, kHeight, 8, 0, std::vector<uint8_t>(kWidth * kHeight, 60));
+    }, 2, {"8-bit", "16-bit grey"});
+}
+
+TEST_CASE("a stamp that goes back or a line that is none skips its frame alone and is named") {
+    withFour([](const Stage& s) { replaceText(s, "0.066667 depth/000002", "0.010000 depth/000002"); }, 2, {"0.01", "goes back"});
+    withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png", "noise rgb/000001.png"); }, 1, {"line 3"});
+    withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png ", ""); }, 1, {"line 3"});
+}
+
+TEST_CASE("frames with no valid depth, with every pixel selected and with none selected run through") {
+    Stage stage;
+    const PixelBox all{0, 0, kWidth, kHeight};
+    stage.recording({Picture(kWidth, kHeight, 600).paint(all, kRed), Picture(kWidth, kHeight, 0).paint(all, kRed),
+                     Picture(kWidth, kHeight, 600), Picture(kWidth, kHeight, 65535).paint(all, kRed),
+                     Picture(kWidth, kHeight, 600).paint(all, kRed)});
+    SceneText scene;
+    scene.fixtures.push_back(SceneText::kGuideYellow);
+    scene.more = "hold_s: 0\nerror_budget: 0\n";
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.17, {0.0, 0.0, 0.57}}});
+    const Replay replay = stage.replay({"--save-fixtures"});
+    const uint64_t whole = kWidth * kHeight;
+    const std::vector<uint64_t> valid{whole, 0, whole, 0, whole}, forbidden{whole, 0, 0, 0, whole};
+    for (size_t i = 0; i < 5; ++i) {
+        CAPTURE(i);
+        CHECK(replay.frames.at(i).valid == valid[i]);
+        CHECK(replay.frames.at(i).forbidden == forbidden[i]);
+        CHECK(replay.frames.at(i).spheres == forbidden[i]); // budget 0 keeps every point of a wall
+    }
+    CHECK(replay.frames.at(0).patches == 12);
+}
+
+TEST_CASE("a forbidden point whose pixel drops out is held for hold_s and one whose pixel is deeper goes at once") {
+    Stage stage;
+    const PixelBox box{24, 14, 44, 34};
+    const auto seen = [&] { return Picture(kWidth, kHeight, 800).set(box, 600).paint(box, kRed); };
+    std::vector<Picture> pictures{seen()};
+    for (int i = 0; i < 4; ++i) {
+        pictures.push_back(seen().set(box, 0)); // 1..4: no depth there
+    }
+    pictures.push_back(seen());                        // 5
+    pictures.push_back(seen().set(box, 300));          // 6: something nearer, and red too: it is forbidden itself
+    pictures.push_back(Picture(kWidth, kHeight, 800)); // 7: gone, the wall behind is seen
+    stage.recording(pictures);
+    SceneText scene;
+    scene.more = "hold_s: 0.08\n"; // frames at 1/30 and 2/30 s still hold it, 3/30 s does not
+    scene.filter = "radius: 0";
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.03, {0.0, 0.0, 0.56}}, {0.27, {0.0, 0.0, 0.56}}});
+    const Replay replay = stage.replay({"--save-fixtures"});
+    const auto held = [&](int frame) {
+        const std::vector<SavedSphere> all = readPly(replay.ply(frame));
+        return std::count_if(all.begin(), all.end(), [](const SavedSphere& s) { return s.held != 0; });
+    };
+    const auto first = static_cast<int64_t>(replay.frames.at(0).spheres);
+    CHECK(first > 50);
+    CHECK(held(0) == 0);
+    for (int frame : {1, 2}) {
+        CHECK(replay.frames.at(static_cast<size_t>(frame)).forbidden == 0);
+        CHECK(held(frame) == first);
+    }
+    CHECK(replay.frames.at(3).spheres == 0);
+    CHECK(replay.frames.at(4).spheres == 0);
+    CHECK(held(5) == 0);
+    CHECK(held(6) == first);
+    CHECK(replay.frames.at(7).spheres == 0);
+    CHECK(replay.at(0.09).state == "contact"); // kept out by what is only remembered
+    CHECK(replay.at(0.09).tool.position.z < 0.551);
+    CHECK(replay.at(0.16).state == "free"); // nothing is there any more
+    CHECK(replay.at(0.16).tool.position.z == doctest::Approx(0.56));
+}
+
+TEST_CASE("pictures of odd sizes run, from one pixel on") {
+    for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{17u, 1u}, std::pair{7u, 5u}, std::pair{33u, 17u}, std::pair{257u, 3u}}) {
+        CAPTURE(width);
+        Stage stage;
+        stage.recording({Picture(width, height, 500).paint({0, 0, width, height}, kRed), Picture(width, height, 500)});
+        stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.05, {0.0, 0.0, 0.47}}});
+        const Replay replay = stage.replay({"--save-fixtures"});
+        CHECK(replay.frames.at(0).forbidden == width * height);
+        CHECK(replay.frames.at(1).forbidden == 0);
+    }
+}
+
+TEST_CASE("colour of another size with extrinsics is looked up through the registration") {
+    Stage stage;
+    const PixelBox all{0, 0, kWidth, kHeight};
+    stage.recording({Picture(kWidth, kHeight, 600).paint(all, kRed)});
+    writeColour(stage / "rec/rgb/000000.png", 128, 96, 200, 20, 20);
+    stage.write("rec/intrinsics.json", R"({"registered_to_color": false, "depth_scale_m_per_unit": 0.001,
+ "depth": {"width": 64, "height": 48, "fx": 60, "fy": 60, "cx": 31.5, "cy": 23.5, "distortion": []},
+ "color": {"width": 128, "height": 96, "fx": 120, "fy": 120, "cx": 63.5, "cy": 47.5, "distortion": []},
+ "extrinsics_topic_tf": {"Depth": {"t": [0, 0, 0], "q_xyzw": [0, 0, 0, 1]}, "Color": {"t": [0.015, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})");
+    stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.1, {0.0, 0.0, 0.56}}});
+    const Replay replay = stage.replay();
+    // 15 mm to the right at 600 mm: 3 columns of colour pixels, one and a half of depth, leave the picture.
+    CHECK(replay.frames.at(0).valid == kWidth * kHeight);
+    CHECK(replay.frames.at(0).forbidden >= 62 * kHeight);
+    CHECK(replay.frames.at(0).forbidden <= 63 * kHeight);
+    CHECK(replay.frames.at(0).times.count("occlusion_ms") == 1);
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom plan`: what is in, what is left out, and why; and that a replay runs just that. Progress on a terminal alone.
+#include "tests/program/stage.h"
+
+#include <doctest/doctest.h>
+#include <map>
+#include <set>
+#include <sstream>
+
+using namespace fathom;
+
+namespace {
+
+struct Item {
+    bool in;
+    std::string why;
+};
+
+// Items by "kind name"; every one must say in or out and why.
+std::map<std::string, Item> planOf(const Stage& stage) {
+    const ProgramRun run = runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(run.err == "");
+    CHECK(run.out.find((stage / "scene.yaml").string()) != std::string::npos);
+    CHECK(run.out.find("64x48") != std::string::npos);
+    std::map<std::string, Item> items;
+    std::istringstream lines(run.out);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::string in, kind;
+        words >> in >> kind;
+        if ((in != "in" && in != "out") || (kind != "pass" && kind != "buffer" && kind != "thread")) {
+            continue;
+        }
+        CAPTURE(line);
+        const size_t gap = line.find("  ", 13); // the name ends at two spaces
+        REQUIRE(gap != std::string::npos);
+        const size_t mib = line.find("MiB"), why = line.find_first_not_of(' ', mib == std::string::npos ? gap : mib + 3);
+        REQUIRE(why != std::string::npos);
+        CHECK((mib == std::string::npos || in == "in")); // what is left out costs no memory
+        items[kind + " " + line.substr(13, gap - 13)] = {in == "in", line.substr(why)};
+    }
+    CHECK(items.size() >= 15);
+    return items;
+}
+
+// The passes of the plan are the passes that a replay reports times of.
+void checkRunsThat(const Stage& stage, const std::map<std::string, Item>& plan) {
+    std::set<std::string> planned{"upload_ms", "publish_ms"};
+    for (const auto& [name, item] : plan) {
+        if (item.in && name.rfind("pass ", 0) == 0 && name != "pass tree_query") {
+            planned.insert(name.substr(5) + "_ms");
+        }
+    }
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}});
+    const Replay replay = stage.replay();
+    CHECK(std::set<std::string>(replay.timeColumns.begin(), replay.timeColumns.end()) == planned);
+    const std::string where = replay.summary.at("contact").at("where");
+    CHECK(plan.at("pass tree_query").in == (where == "gpu"));
+}
+
+} // namespace
+
+TEST_CASE("the plan of a scene with everything has every pass in that it needs and says what each is for") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    SceneText scene;
+    scene.fixtures.push_back(SceneText::kGuideYellow);
+    stage.scene(scene);
+    const auto plan = planOf(stage);
+    for (const char* name : {"pass classify", "pass surface", "pass thin", "pass spheres", "pass tree", "pass moments",
+                             "buffer colour upload", "buffer memory of points", "thread contact"}) {
+        CAPTURE(name);
+        CHECK(plan.at(name).in);
+    }
+    CHECK(!plan.at("pass occlusion").in);
+    CHECK(plan.at("pass occlusion").why.find("registered") != std::string::npos);
+    CHECK(plan.at("pass surface").why.find("5x5") != std::string::npos);
+    checkRunsThat(stage, plan);
+}
+
+TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out, with the reason") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    SceneText scene;
+    scene.fixtures = {"name: all, role: forbidden"};
+    scene.filter = "radius: 0";
+    scene.more = "error_budget: 0\nhold_s: 0\n";
+    stage.scene(scene);
+    const auto plan = planOf(stage);
+    CHECK(plan.at("pass surface").why.find("no filter") != std::string::npos);
+    const std::map<std::string, std::string> out{{"pass thin", "error budget 0"}, {"pass moments", "no guidance"},
+                                                 {"pass occlusion", "no class asks for colour"}, {"buffer colour upload", "no class asks for colour"},
+                                                 {"buffer memory of points", "hold_s is 0"}, {"buffer rays", "no lens distortion"}};
+    for (const auto& [name, why] : out) {
+        CAPTURE(name);
+        CHECK(!plan.at(name).in);
+        CHECK(plan.at(name).why.find(why) != std::string::npos);
+    }
+    checkRunsThat(stage, plan);
+}
+
+TEST_CASE("guidance alone needs no spheres, no tree and no query; shapes alone need no pass at all") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    SceneText scene;
+    scene.fixtures = {SceneText::kGuideYellow};
+    stage.scene(scene);
+    const auto guidance = planOf(stage);
+    CHECK(guidance.at("pass moments").in);
+    for (const char* name : {"pass thin", "pass spheres", "pass tree", "pass tree_query", "thread contact"}) {
+        CAPTURE(name);
+        CHECK(!guidance.at(name).in);
+    }
+    checkRunsThat(stage, guidance);
+
+    scene.fixtures = {"name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, -1]}"};
+    stage.scene(scene);
+    const auto shapes = planOf(stage);
+    for (const auto& [name, item] : shapes) {
+        CAPTURE(name);
+        CHECK((name.rfind("thread", 0) == 0 || !item.in));
+    }
+    checkRunsThat(stage, shapes);
+}
+
+TEST_CASE("a scene that asks for the query on the GPU gets it in the plan and in the run") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    SceneText scene;
+    scene.contact = "where: gpu";
+    stage.scene(scene);
+    const auto plan = planOf(stage);
+    CHECK(plan.at("pass tree_query").in);
+    CHECK(plan.at("buffer query copy").in);
+    checkRunsThat(stage, plan);
+}
+
+TEST_CASE("every scene file that ships has a plan; the built-in scene needs no recording") {
+    for (const char* scene : {"demo", "task1", "task2"}) {
+        const ProgramRun run = runFathom({"plan", std::string("apps/scenes/") + scene + ".yaml"});
+        CAPTURE(run.err);
+        CHECK(run.exitCode == 0);
+        CHECK(run.out.find("simulated tank") != std::string::npos);
+    }
+}
+
+TEST_CASE("progress shows on a terminal and is gone in the end; elsewhere standard error stays silent") {
+    Stage stage;
+    stage.recording(std::vector<Picture>(3, bumpPicture()));
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.5, {0.0, 0.0, 0.41}}});
+    RunSetting setting;
+    setting.terminal = true;
+    const ProgramRun seen = runFathom(stage.command(), setting);
+    CHECK(seen.exitCode == 0);
+    CHECK(seen.err.find("frame ") != std::string::npos);
+    CHECK(seen.err.find("ticks/s") != std::string::npos);
+    CHECK(seen.err.ends_with("\r\x1b[K"));
+    CHECK(seen.err.find('\n') == std::string::npos);
+    const ProgramRun silent = runFathom(stage.command());
+    CHECK(silent.exitCode == 0);
+    CHECK(silent.err == "");
+    for (const ProgramRun& run : {seen, silent}) { // the result itself goes to standard output in both
+        CHECK(run.out.find("digest") != std::string::npos);
+        CHECK(run.out.find("\r") == std::string::npos);
+        CHECK(run.out.find((stage / "out").string()) != std::string::npos);
+    }
+}

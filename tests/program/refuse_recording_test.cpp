@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings that are unusable as a whole, hand paths and command lines that cannot be meant, output that cannot be written.
+#include "tests/program/refusal.h"
+
+#include <doctest/doctest.h>
+#include <functional>
+
+using namespace fathom;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// intrinsics.json with `from` replaced by `to` is refused so.
+void checkIntrinsics(const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    std::string text = lensJson(kWidth, kHeight);
+    const size_t at = text.find(from);
+    REQUIRE(at != std::string::npos);
+    stage.write("rec/intrinsics.json", text.replace(at, from.size(), to));
+    INFO(text);
+    checkRefused(stage, parts);
+}
+
+} // namespace
+
+TEST_CASE("a recording folder that is missing, empty, a file or without an index is refused") {
+    Stage stage;
+    const std::string folder = (stage / "rec").string();
+    checkRefused(stage, {folder, "folder", "missing", "TUM RGB-D"}, {"--source", folder});
+    stage.write("rec", "a file");
+    checkRefused(stage, {folder, "folder", "allowed: "});
+    fs::remove(stage / "rec");
+    fs::create_directories(stage / "rec");
+    checkRefused(stage, {folder, "folder", "empty", "allowed: "});
+
+    stage.recording({bumpPicture()});
+    fs::remove(stage / "rec/associations.txt");
+    checkRefused(stage, {folder, "associations.txt", "missing"});
+    stage.write("rec/associations.txt", "# nothing\n");
+    checkRefused(stage, {folder, "associations.txt", "no pair of pictures", "at least one"});
+    fs::remove(stage / "rec/intrinsics.json");
+    checkRefused(stage, {"intrinsics.json", "cannot be read"});
+}
+
+TEST_CASE("a recording of which no frame is usable is refused in one line that names the first fault") {
+    Stage stage;
+    stage.recording({bumpPicture(), bumpPicture(), bumpPicture()});
+    for (const char* name : {"rec/depth/000000.png", "rec/depth/000001.png", "rec/depth/000002.png"}) {
+        const std::string whole = stage.read(name);
+        stage.write(name, whole.substr(0, whole.size() / 2));
+    }
+    checkRefused(stage, {(stage / "rec").string(), "frames", "none of 3", "depth/000000.png", "at least one good pair"});
+    fs::remove_all(stage / "rec/depth");
+    checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "cannot be opened"});
+    stage.write("rec/associations.txt", "this is no index\n");
+    checkRefused(stage, {"frames", "none of 1", "line 1"});
+}
+
+TEST_CASE("colour of another size than depth without registration is refused") {
+    Stage stage;
+    stage.recording({bumpPicture(), bumpPicture()});
+    for (const char* name : {"rec/rgb/000000.png", "rec/rgb/000001.png"}) {
+        writeColour(stage / name, 32, 24, 200, 20, 20);
+    }
+    checkRefused(stage, {"intrinsics.json", "32x24", "64x48", "extrinsics_topic_tf"});
+}
+
+TEST_CASE("intrinsics that are zero, negative, no number, missing or too large are refused") {
+    checkIntrinsics("\"fx\": 60", "\"fx\": NaN", {"intrinsics.json", "fx", "N", "NaN"});
+    checkIntrinsics("\"fx\": 60", "\"fx\": 0", {"intrinsics.json: fx: 0 ", "above 0"});
+    checkIntrinsics("\"fy\": 60", "\"fy\": -60", {"intrinsics.json: fy: -60 ", "above 0"});
+    checkIntrinsics("\"fy\": 60", "\"fy\": \"60\"", {"intrinsics.json: fy: \"60\"", "above 0"});
+    checkIntrinsics("\"fy\": 60", "\"f\": 60", {"intrinsics.json: fy: missing"});
+    checkIntrinsics("\"cx\": 31.5", "\"cx\": null", {"intrinsics.json: cx: null", "finite"});
+    checkIntrinsics("\"width\": 64", "\"width\": 0", {"intrinsics.json: width: 0", "1 to 3840"});
+    checkIntrinsics("\"width\": 64", "\"width\": 4096", {"intrinsics.json: width: 4096", "1 to 3840"});
+    checkIntrinsics("0.001", "0", {"intrinsics.json: depth_scale_m_per_unit: 0", "above 0"});
+    checkIntrinsics("[]", "[0.1, 0, 0, 0]", {"intrinsics.json: distortion_model: \"none\"", "plumb_bob"});
+    checkIntrinsics("\"none\", \"distortion\": []", "\"plumb_bob\", \"distortion\": [1e9, 0, 0, 0]",
+                    {"intrinsics.json: distortion", "1000000000", "inverted"});
+    checkIntrinsics("true", "false", {"intrinsics.json: registered_to_color: false", "extrinsics_topic_tf"});
+}
+
+TEST_CASE("a poses.txt with a number that is none is refused with its line") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    stage.write("rec/poses.txt", "0 0 0 0 0 0 0 1\n1 0 nan 0 0 0 0 1\n");
+    checkRefused(stage, {"poses.txt", "line 2", "nan", "eight finite numbers"});
+}
+
+TEST_CASE("a hand path that is missing, empty, malformed or goes back in time is refused with line and column") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    const std::string header = "t_s,x,y,z,qw,qx,qy,qz,button\n", path = (stage / "hand.csv").string();
+    checkRefused(stage, {"absent.csv", "cannot be read"}, {"--operator", (stage / "absent.csv").string()});
+    const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
+        stage.write("hand.csv", text);
+        INFO(text);
+        std::vector<std::string> all = parts;
+        all.push_back(path);
+        all.push_back("allowed: ");
+        checkRefused(stage, all);
+    };
+    refused("", {"line 1", "header"});
+    refused(header, {"line 2", "at least one row"});
+    refused("t,x,y,z\n0,0,0,0\n", {"line 1", "t,x,y,z", "t_s,x,y,z,qw,qx,qy,qz[,button]"});
+    refused(header + "0,0,0,oops,1,0,0,0,0\n", {"line 2, z", "'oops'", "finite"});
+    refused(header + "0,0,0,nan,1,0,0,0,0\n", {"line 2, z", "'nan'", "finite"});
+    refused(header + "0,0,0,0,0,0,0,0,0\n", {"line 2", "0,0,0,0", "non-zero length"});
+    refused(header + "0,0,0,0,1,0,0,0,-1\n", {"line 2, button", "'-1'", "whole number"});
+    refused(header + "0,0,0,0,1,0,0,0,0\n1,0,0,0,1,0,0,0\n", {"line 3", "8 fields", "9"});
+    refused(header + "1,0,0,0,1,0,0,0,0\n0.5,0,0,0,1,0,0,0,0\n", {"line 3, t_s", "'0.5'", "later"});
+}
+
+TEST_CASE("a command line that cannot be meant is refused with what is allowed") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    const std::string scene = (stage / "scene.yaml").string(), out = (stage / "out").string();
+    checkRefusal({}, {"subcommand", "missing", "replay", "plan"});
+    checkRefusal({"repaly", scene}, {"subcommand", "'repaly'", "replay", "plan"});
+    checkRefusal({"replay"}, {"replay", "SCENE"});
+    checkRefusal({"replay", scene}, {"replay", "--out"});
+    checkRefusal({"replay", scene, "--out"}, {"replay", "--out"});
+    checkRefusal({"replay", scene, "--out", out, "--fast"}, {"replay", "'--fast'", "--source", "--operator", "--device"});
+    checkRefusal({"replay", scene, "--out", out, "more"}, {"replay", "'more'"});
+    checkRefused(stage, {"--query", "both", "cpu", "gpu"}, {"--query", "both"});
+    checkRefused(stage, {"--device", "no such thing", "0 = "}, {"--device", "no such thing"});
+    checkRefused(stage, {"--device", "99", "0 = "}, {"--device", "99"});
+}
+
+TEST_CASE("an output folder that cannot be written ends with exit code 1 and one line that names it") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}});
+    stage.write("file", "in the way");
+    checkRefusal(stage.command({}, "file"), {(stage / "file").string(), "output folder"}, 1);
+    checkRefusal(stage.command({}, "file/deep"), {(stage / "file/deep").string(), "output folder"}, 1);
+    fs::create_directories(stage / "out/summary.json/full");
+    checkRefusal(stage.command(), {(stage / "out/summary.json").string(), "cannot write"}, 1);
+    fs::create_directories(stage / "out2/haptics.csv.partial");
+    checkRefusal(stage.command({}, "out2"), {(stage / "out2/haptics.csv").string(), "cannot create"}, 1);
+}
+
+TEST_CASE("help is no fault: it goes to standard output with exit code 0") {
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
+             {"--help"}, {"replay", "--help"}, {"plan", "--help"}}) {
+        const ProgramRun run = runFathom(words);
+        CHECK(run.exitCode == 0);
+        CHECK(run.err == "");
+        CHECK(run.out.find("Usage") != std::string::npos);
+    }
+}

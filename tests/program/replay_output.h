@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readers of what `replay --out` leaves, written from the contract alone: they share no code with the program.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct Tick { // a row of haptics.csv
+    double t;
+    Pose device, tool;
+    dvec3 force, torque;
+    uint32_t contacts;
+    double minGap;
+    std::string state;
+    double guidance;
+    int frame;
+    double sceneAge;
+    uint32_t stalled;
+    double marginPassive, marginUncoupled;
+};
+
+struct FrameRow { // a row of frames.csv
+    uint32_t index;
+    double t;
+    uint64_t valid, forbidden, spheres, patches, nodes, guidance;
+    std::map<std::string, double> times; // upload_ms, <pass>_ms.., publish_ms
+};
+
+struct SavedSphere { // a vertex of fixtures/NNNNNN.ply
+    dvec3 centre;
+    double radius;
+    int fixture, held;
+};
+
+struct ReadImage {
+    uint32_t width = 0, height = 0;
+    std::vector<uint32_t> pixels;
+};
+
+// All throw std::runtime_error with file and place when the file is not as the contract says.
+std::vector<Tick> readTicks(const std::filesystem::path& file);
+std::vector<FrameRow> readFrames(const std::filesystem::path& file, std::vector<std::string>* timeColumns = nullptr);
+std::vector<SavedSphere> readPly(const std::filesystem::path& file);
+ReadImage readImage(const std::filesystem::path& file);
+std::string readWhole(const std::filesystem::path& file);
+
+} // namespace fathom

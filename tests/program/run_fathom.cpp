@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/run_fathom.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdexcept>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+struct Descriptor {
+    int value = -1;
+    ~Descriptor() { reset(); }
+    void reset() {
+        if (value >= 0) {
+            ::close(value);
+        }
+        value = -1;
+    }
+};
+
+// What the child writes to `write` comes out of `read`.
+struct Channel {
+    Descriptor read, write;
+
+    explicit Channel(bool terminal) {
+        int ends[2] = {-1, -1};
+        if (terminal) {
+            read.value = ::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+            if (read.value < 0 || ::grantpt(read.value) != 0 || ::unlockpt(read.value) != 0) {
+                throw std::runtime_error("the test gets no pseudo terminal");
+            }
+            write.value = ::open(::ptsname(read.value), O_RDWR | O_NOCTTY | O_CLOEXEC);
+        } else if (::pipe2(ends, O_CLOEXEC) == 0) {
+            read.value = ends[0];
+            write.value = ends[1];
+        }
+        if (write.value < 0) {
+            throw std::runtime_error("the test gets no channel to its child");
+        }
+    }
+};
+
+[[noreturn]] void becomeFathom(const std::vector<std::string>& arguments, const RunSetting& setting, int out,
+                               int err) {
+    std::vector<std::string> words{FATHOM_PROGRAM};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+        argv.push_back(word.data());
+    }
+    argv.push_back(nullptr);
+    // Of a sanitized program: the font library keeps a cache until the process ends.
+    const std::string leaks = std::filesystem::absolute("tests/program/leaks.supp").string();
+    ::setenv("LSAN_OPTIONS", ("print_suppressions=0:suppressions=" + leaks).c_str(), 0);
+    const int nothing = ::open("/dev/null", O_RDONLY);
+    const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&
+                       (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0);
+    if (ready) {
+        ::execv(argv[0], argv.data());
+    }
+    ::_exit(126);
+}
+
+// Reads both channels to their ends. False when the time limit came first.
+bool drain(Channel& out, Channel& err, ProgramRun& run, double limit) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
+    std::string* texts[2] = {&run.out, &run.err};
+    pollfd watched[2] = {{out.read.value, POLLIN, 0}, {err.read.value, POLLIN, 0}};
+    int open = 2;
+    while (open > 0) {
+        if (std::chrono::steady_clock::now() >= end) {
+            return false;
+        }
+        if (::poll(watched, 2, 200) <= 0) {
+            continue;
+        }
+        for (int i = 0; i < 2; ++i) {
+            if (watched[i].fd < 0 || watched[i].revents == 0) {
+                continue;
+            }
+            char bytes[1 << 16];
+            const ssize_t count = ::read(watched[i].fd, bytes, sizeof bytes);
+            if (count > 0) {
+                texts[i]->append(bytes, static_cast<size_t>(count));
+            } else if (count == 0 || errno != EINTR) { // a terminal whose other end is closed says EIO
+                watched[i].fd = -1;
+                --open;
+            }
+        }
+    }
+    return true;
+}
+
+} // namespace
+
+std::vector<std::string> ProgramRun::errorLines() const {
+    std::vector<std::string> lines;
+    for (size_t begin = 0; begin < err.size();) {
+        const size_t end = std::min(err.find('\n', begin), err.size());
+        lines.push_back(err.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return lines;
+}
+
+ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting) {
+    Channel out(false), err(setting.terminal);
+    const pid_t child = ::fork();
+    if (child < 0) {
+        throw std::runtime_error("the test cannot start a child");
+    }
+    if (child == 0) {
+        becomeFathom(arguments, setting, out.write.value, err.write.value);
+    }
+    out.write.reset();
+    err.write.reset();
+    ProgramRun run;
+    if (!drain(out, err, run, setting.timeLimit)) {
+        ::kill(child, SIGKILL);
+        run.err += "\nthe test's time limit";
+    }
+    int status = 0;
+    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    run.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return run;
+}
+
+} // namespace fathom

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Starts the built program as a child and takes what it says: exit code, standard output, standard error.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct ProgramRun {
+    int exitCode = -1; // -1 = it died of a signal or of our time limit
+    std::string out, err;
+
+    std::vector<std::string> errorLines() const; // of standard error, without line ends
+};
+
+struct RunSetting {
+    bool terminal = false;        // standard error is a terminal (a pseudo one), not a pipe
+    double timeLimit = 240.0;     // [s]; then the child is killed
+    std::filesystem::path folder; // working folder; empty = ours
+};
+
+// Throws std::runtime_error when no child can be made. Its standard input is empty.
+ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting = {});
+
+} // namespace fathom

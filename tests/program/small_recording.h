@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Recordings and scene files small enough for a test to write: a wall of one depth, painted where it matters.
+#pragma once
+
+#include "tests/devices/recorded_folder.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct Paint3 {
+    uint8_t r, g, b;
+};
+inline constexpr Paint3 kGrey{128, 128, 128}; // no hue
+inline constexpr Paint3 kRed{200, 20, 20};    // hue 0
+inline constexpr Paint3 kYellow{200, 180, 20}; // hue 53
+
+struct PixelBox { // [from, to)
+    uint32_t u0, v0, u1, v1;
+};
+
+// One pair of pictures. Depth in millimetres.
+struct Picture {
+    uint32_t width, height;
+    std::vector<uint16_t> depth;
+    std::vector<Paint3> colour;
+
+    Picture(uint32_t w, uint32_t h, uint16_t millimetres)
+        : width(w), height(h), depth(w * h, millimetres), colour(w * h, kGrey) {}
+    Picture& paint(const PixelBox& box, const Paint3& paint);
+    Picture& set(const PixelBox& box, uint16_t millimetres);
+    // Lifts the box towards the camera as part of a ball: its middle by `millimetres`, its edges by nothing.
+    Picture& dome(const PixelBox& box, double millimetres);
+};
+
+// The usual lens of these tests: 64x48 pixels, focal length 60 pixels, principal point in the middle.
+inline constexpr uint32_t kWidth = 64, kHeight = 48;
+inline constexpr double kFocal = 60.0, kCx = 31.5, kCy = 23.5;
+std::string lensJson(uint32_t width, uint32_t height);
+
+// Writes pictures as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's size.
+void writeRecording(const std::filesystem::path& folder, const std::vector<Picture>& pictures);
+
+// A grey wall 600 mm away with a red bump of 60 mm in the middle, and a yellow square at the left.
+Picture bumpPicture();
+
+// Scene file sections; what is empty takes the program's own default. `fixtures` is a list of rows, each in braces.
+struct SceneText {
+    std::string camera = "near: 0.1, far: 3.0";
+    std::vector<std::string> fixtures{kForbidRed};
+    std::string tool = "spheres: [[0, 0, 0, 0.01]]";
+    std::string hand, haptics, contact, filter;
+    std::string more; // whole lines
+
+    static constexpr const char* kForbidRed =
+        "name: red, role: forbidden, hue: [345, 20], saturation: [0.4, 1], radius: 0.04";
+    static constexpr const char* kGuideYellow =
+        "name: yellow, role: guidance, hue: [40, 70], saturation: [0.4, 1], min_count: 10";
+
+    std::string text() const;
+};
+
+// One row of a hand path.
+struct HandRow {
+    double t;
+    std::array<double, 3> at;
+    std::array<double, 4> wxyz{1.0, 0.0, 0.0, 0.0};
+    uint32_t buttons = 0;
+};
+std::string handCsv(const std::vector<HandRow>& rows);
+
+} // namespace fathom

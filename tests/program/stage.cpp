@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <set>
+
+namespace fathom {
+
+namespace {
+
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+void checkKeys(const json& object, const std::set<std::string>& wanted) {
+    std::set<std::string> found;
+    for (const auto& item : object.items()) {
+        found.insert(item.key());
+    }
+    CHECK(found == wanted);
+}
+
+void checkPercentiles(const json& object, const std::set<std::string>& keys) {
+    checkKeys(object, keys);
+    if (object.at("p50").is_null()) {
+        return;
+    }
+    CHECK(object.at("p50").get<double>() >= 0.0);
+    CHECK(object.at("p50").get<double>() <= object.at("p99").get<double>());
+    CHECK(object.at("p99").get<double>() <= object.at("max").get<double>());
+}
+
+void checkSummaryKeys(const json& s) {
+    const std::set<std::string> three{"p50", "p99", "max"};
+    checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
+    checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
+    for (const char* key : {"gpu_ms", "upload_ms", "latency_ms"}) {
+        checkPercentiles(s.at("frames").at(key), three);
+    }
+    checkKeys(s.at("haptic"),
+              {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks", "max_penetration_m",
+               "max_escape_depth_m", "max_force_N", "max_torque_Nm", "max_force_step_N", "stiffness_N_per_m",
+               "rotational_stiffness_Nm_per_rad", "margin_passive_min", "margin_uncoupled_min", "solver"});
+    checkPercentiles(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"});
+    checkKeys(s.at("haptic").at("solver"), {"solves_mean", "infeasible"});
+    checkKeys(s.at("contact"), {"queries", "spheres_max", "overflows", "query_us", "where"});
+    checkPercentiles(s.at("contact").at("query_us"), three);
+    for (const json& row : s.at("fixtures")) {
+        checkKeys(row, {"class", "role", "points_mean", "spheres_mean", "patches_mean"});
+    }
+    for (const json& row : s.at("guidance")) {
+        checkKeys(row, {"class", "position_m", "normal", "target_m", "target_qwxyz", "count"});
+    }
+    const std::string where = s.at("contact").at("where"), digest = s.at("digest");
+    CHECK((where == "cpu" || where == "gpu" || where == "none"));
+    CHECK(s.at("lockstep") == true);
+    CHECK(!s.at("device").get<std::string>().empty());
+    CHECK(digest.size() >= 16);
+    CHECK(digest.find_first_not_of("0123456789abcdef") == std::string::npos);
+}
+
+void checkFiles(const Replay& replay) {
+    for (const char* name : {"traces.png", "overlay.png"}) {
+        const ReadImage image = readImage(replay.out / name);
+        CHECK(image.width >= 64);
+        CHECK(image.height >= 48);
+        CHECK(std::set<uint32_t>(image.pixels.begin(), image.pixels.end()).size() > 8);
+    }
+    for (const auto& entry : fs::directory_iterator(replay.out)) {
+        CHECK(entry.path().extension() != ".partial");
+    }
+}
+
+// What is wrong with a row taken alone; empty = nothing.
+std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
+    const std::set<std::string> states{"off", "free", "contact", "escape", "trapped", "fading"};
+    if (!isFinite(tick.device) || !isFinite(tick.tool) || !isFinite(tick.force) || !isFinite(tick.torque)) {
+        return "a pose or the wrench is not finite";
+    }
+    if (std::abs(glm::length(tick.device.rotation) - 1.0) > 1e-9 || std::abs(glm::length(tick.tool.rotation) - 1.0) > 1e-9) {
+        return "a quaternion is not of unit length";
+    }
+    if (glm::length(tick.force) > terms.forceLimit * (1.0 + 1e-12) || glm::length(tick.torque) > terms.torqueLimit * (1.0 + 1e-12)) {
+        return "the wrench is over its limits";
+    }
+    if (tick.stalled > 1 || !(tick.guidance >= 0.0) || !(tick.guidance <= 1.0) || states.count(tick.state) == 0) {
+        return "stalled, guidance or state is none";
+    }
+    if (tick.contacts > 0 && (tick.state == "free" || tick.state == "trapped")) {
+        return "contacts while " + tick.state;
+    }
+    if (tick.state == "off" && (glm::length(tick.force) > 0.0 || glm::length(tick.torque) > 0.0)) {
+        return "a wrench while off";
+    }
+    if (tick.frame < 0 ? !std::isnan(tick.sceneAge) : !(tick.sceneAge >= -1e-9)) {
+        return "a scene age without a frame, or none with one";
+    }
+    return tick.minGap < -allowance ? "min_gap_m is beyond the allowance" : "";
+}
+
+// What the rows add up to.
+struct Sums {
+    size_t stalled = 0, trapped = 0, escape = 0;
+    double force = 0.0, torque = 0.0, step = 0.0;
+
+    void add(const Tick& tick, const dvec3& forceBefore) {
+        stalled += tick.stalled;
+        trapped += tick.state == "trapped";
+        escape += tick.state == "escape";
+        force = std::max(force, glm::length(tick.force));
+        torque = std::max(torque, glm::length(tick.torque));
+        step = std::max(step, glm::length(tick.force - forceBefore));
+    }
+};
+
+Sums checkRows(const Replay& replay, const Terms& terms, double allowance) {
+    Sums sums;
+    std::string fault;
+    size_t faults = 0, at = 0;
+    bool touched = false;
+    dvec3 before(0.0);
+    int frame = -1;
+    for (size_t i = 0; i < replay.ticks.size(); ++i) {
+        const Tick& tick = replay.ticks[i];
+        std::string why = faultOf(tick, terms, allowance);
+        touched = touched || tick.contacts > 0 || tick.stalled > 0 || tick.guidance > 0.0 || tick.state == "escape" ||
+                  tick.state == "trapped";
+        if (terms.calm && !touched && (glm::length(tick.force) > 1e-9 || glm::length(tick.torque) > 1e-9)) {
+            why = "a wrench before any contact";
+        } else if (std::abs(tick.t - static_cast<double>(i) / terms.rate) > 1e-9) {
+            why = "t_s is not i / rate";
+        } else if (tick.frame < frame) {
+            why = "an older frame comes into force";
+        }
+        if (!why.empty() && faults++ == 0) {
+            fault = why, at = i;
+        }
+        frame = tick.frame;
+        sums.add(tick, before);
+        before = tick.force;
+    }
+    CHECK_MESSAGE(faults == 0, "row ", at, ": ", fault);
+    return sums;
+}
+
+void checkTicks(const Replay& replay, const Terms& terms) {
+    const json& haptic = replay.haptic();
+    REQUIRE(!replay.ticks.empty());
+    CHECK(haptic.at("ticks") == replay.ticks.size());
+    const double penetration = haptic.at("max_penetration_m"), depth = haptic.at("max_escape_depth_m");
+    const Sums sums = checkRows(replay, terms, depth + penetration + 1e-9);
+    CHECK(haptic.at("stalled_ticks") == sums.stalled);
+    CHECK(haptic.at("trapped_ticks") == sums.trapped);
+    CHECK(haptic.at("escape_ticks") == sums.escape);
+    CHECK(haptic.at("max_force_N").get<double>() == doctest::Approx(sums.force).epsilon(1e-12));
+    CHECK(haptic.at("max_torque_Nm").get<double>() == doctest::Approx(sums.torque).epsilon(1e-12));
+    CHECK(haptic.at("max_force_step_N").get<double>() == doctest::Approx(sums.step).epsilon(1e-12));
+    CHECK(penetration <= 1e-5);
+    CHECK(depth >= 0.0);
+}
+
+void checkFrames(const Replay& replay) {
+    const json& summary = replay.summary;
+    CHECK(summary.at("frames").at("count") == replay.frames.size());
+    std::set<int> used;
+    double forbidden = 0.0, guidance = 0.0, spheres = 0.0;
+    for (const FrameRow& row : replay.frames) {
+        CAPTURE(row.index);
+        CHECK(std::abs(row.t - row.index / 30.0) < 1e-9);
+        CHECK((used.empty() || static_cast<int>(row.index) > *used.rbegin()));
+        used.insert(static_cast<int>(row.index));
+        CHECK((row.spheres > 0) == (row.patches > 0));
+        CHECK(row.patches <= row.spheres);
+        CHECK((row.spheres == 0 || row.nodes > row.patches));
+        CHECK(row.forbidden <= row.valid);
+        CHECK(row.guidance <= row.valid);
+        forbidden += static_cast<double>(row.forbidden);
+        guidance += static_cast<double>(row.guidance);
+        spheres += static_cast<double>(row.spheres);
+        const fs::path file = replay.ply(static_cast<int>(row.index));
+        if (fs::exists(replay.out / "fixtures")) {
+            const std::vector<SavedSphere> saved = readPly(file);
+            CHECK(saved.size() == row.spheres);
+            const auto seen = std::count_if(saved.begin(), saved.end(), [](const SavedSphere& s) { return s.held == 0; });
+            CHECK(static_cast<uint64_t>(seen) <= row.forbidden);
+        }
+    }
+    for (const Tick& tick : replay.ticks) {
+        CHECK((tick.frame == -1 || used.count(tick.frame) == 1));
+    }
+    // A pixel may be in several classes: the sum of the classes is at least what any of them marks.
+    double classPoints = 0.0, classSpheres = 0.0;
+    for (const json& row : summary.at("fixtures")) {
+        classPoints += row.at("points_mean").is_null() ? 0.0 : row.at("points_mean").get<double>();
+        classSpheres += row.at("spheres_mean").is_null() ? 0.0 : row.at("spheres_mean").get<double>();
+    }
+    const double n = static_cast<double>(std::max<size_t>(1, replay.frames.size()));
+    CHECK(classPoints >= std::max(forbidden, guidance) / n - 1e-6);
+    CHECK(classSpheres == doctest::Approx(spheres / n));
+}
+
+} // namespace
+
+fs::path Replay::ply(int frame) const {
+    const std::string digits = std::to_string(frame);
+    return out / "fixtures" / (std::string(6 - digits.size(), '0') + digits + ".ply");
+}
+
+const Tick& Replay::at(double t) const {
+    return *std::find_if(ticks.begin(), ticks.end() - 1, [t](const Tick& tick) { return tick.t >= t - 1e-9; });
+}
+
+Replay readReplay(const fs::path& out, const ProgramRun& run) {
+    Replay replay{out, run, {}, {}, {}, {}};
+    replay.summary = json::parse(readWhole(out / "summary.json"));
+    replay.ticks = readTicks(out / "haptics.csv");
+    replay.frames = readFrames(out / "frames.csv", &replay.timeColumns);
+    return replay;
+}
+
+void checkContract(const Replay& replay, const Terms& terms) {
+    checkSummaryKeys(replay.summary);
+    checkFiles(replay);
+    checkTicks(replay, terms);
+    checkFrames(replay);
+}
+
+Stage::Stage() {
+    scene(SceneText{});
+}
+
+std::vector<std::string> Stage::command(const std::vector<std::string>& more, const std::string& out) const {
+    std::vector<std::string> words{"replay", (*this / "scene.yaml").string(), "--out", (*this / out).string()};
+    if (fs::exists(*this / "rec")) {
+        words.insert(words.end(), {"--source", (*this / "rec").string()});
+    }
+    if (fs::exists(*this / "hand.csv")) {
+        words.insert(words.end(), {"--operator", (*this / "hand.csv").string()});
+    }
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+Replay Stage::replay(const std::vector<std::string>& more, const Terms& terms, const std::string& out) const {
+    const ProgramRun run = runFathom(command(more, out));
+    CHECK(run.err == "");
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    const Replay replay = readReplay(*this / out, run);
+    checkContract(replay, terms);
+    return replay;
+}
+
+} // namespace fathom

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// A temporary folder with a recording, a scene and a hand path, and replays of it whose contract is checked each time.
+#pragma once
+
+#include "tests/program/replay_output.h"
+#include "tests/program/run_fathom.h"
+#include "tests/program/small_recording.h"
+
+#include <optional>
+
+namespace fathom {
+
+struct Replay {
+    std::filesystem::path out;
+    ProgramRun run;
+    nlohmann::json summary;
+    std::vector<Tick> ticks;
+    std::vector<FrameRow> frames;
+    std::vector<std::string> timeColumns; // of frames.csv
+
+    const nlohmann::json& haptic() const { return summary.at("haptic"); }
+    // Of the frame's saved set; empty file = none.
+    std::filesystem::path ply(int frame) const;
+    const Tick& at(double t) const; // the first tick at or after t [s]
+};
+
+// What checkContract compares with.
+struct Terms {
+    double rate = 1000.0;                         // [Hz]
+    double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m]
+    bool calm = true; // the hand never outruns the tool: no force before the first contact, stall or guidance
+};
+
+// Reads and checks a finished replay: files, keys, columns, counts, invariants (design 8).
+Replay readReplay(const std::filesystem::path& out, const ProgramRun& run);
+void checkContract(const Replay& replay, const Terms& terms);
+
+class Stage {
+public:
+    Stage();
+    const std::filesystem::path& path() const { return folder_.path(); }
+    std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
+
+    void recording(const std::vector<Picture>& pictures) const { writeRecording(*this / "rec", pictures); }
+    void scene(const SceneText& scene) const { folder_.write("scene.yaml", scene.text()); }
+    void hand(const std::vector<HandRow>& rows) const { folder_.write("hand.csv", handCsv(rows)); }
+    void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
+    std::string read(const std::string& name) const { return folder_.read(name); }
+
+    // Command line of a replay of scene.yaml; rec and hand.csv are used where they are there.
+    std::vector<std::string> command(const std::vector<std::string>& more = {}, const std::string& out = "out") const;
+    // Runs it, demands exit 0 and a silent standard error, and checks the contract.
+    Replay replay(const std::vector<std::string>& more = {}, const Terms& terms = {}, const std::string& out = "out") const;
+
+private:
+    TemporaryFolder folder_;
+};
+
+} // namespace fathom

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene without camera or device for the threads of a realtime run: hand-made walls, the CPU query, a hand on a path, a sink that
+// audits.
+#pragma once
+
+#include "apps/binding/realtime_run.h"
+#include "devices/simulated/simulated_hand.h"
+#include "engine/contact/cull_cpu.h"
+#include "engine/reference/penetration_audit.h"
+#include "tests/cycle/haptic_rig.h"
+
+#include <cmath>
+#include <functional>
+#include <vector>
+
+namespace fathom::testing {
+
+struct FakeSet {
+    Fixtures host;
+    RegionGrid grid;
+};
+
+// `frames` pictures of a wall whose top lies at z = 0 and heaves by half a millimetre.
+class FakeFeed final : public FrameFeed {
+public:
+    FakeFeed(LeasePool<FakeSet>& pool, uint32_t frames)
+        : pool_(pool)
+        , frames_(frames) {}
+
+    std::function<void(uint32_t)> beforeFetch = [](uint32_t) {};
+    std::function<void(uint32_t)> beforePublish = [](uint32_t) {};
+    uint32_t published = 0;
+    std::vector<double> captured;
+
+    std::optional<uint32_t> fetch() override {
+        beforeFetch(index_);
+        return index_ < frames_ ? std::optional(index_) : std::nullopt;
+    }
+
+    void publish(double t, PublishedFrame& out) override {
+        beforePublish(index_);
+        FakeSet& set = pool_.back();
+        set.host = wallSet(index_ + 1);
+        set.host.frame = index_;
+        set.host.captureTime = t;
+        for (float& z : set.host.spheres.z) {
+            z += index_ % 2 == 0 ? 0.0f : 0.0005f;
+        }
+        set.grid.build(set.host.spheres);
+        out.fixtures = set.host;
+        out.grid = set.grid;
+        out.report.index = index_;
+        out.changed = true;
+        pool_.publish();
+        captured.push_back(t);
+        ++published;
+        ++index_;
+    }
+
+private:
+    LeasePool<FakeSet>& pool_;
+    uint32_t frames_;
+    uint32_t index_ = 0;
+};
+
+class FakeAnswers final : public ContactAnswers {
+public:
+    FakeAnswers(LeasePool<FakeSet>& pool, const Tool& tool)
+        : pool_(pool)
+        , tool_(tool) {}
+
+    std::function<void()> before = [] {};
+
+    bool answer(const Pose& baseTtool, ContactSet& out) override {
+        before();
+        const auto set = pool_.newest();
+        if (!set) {
+            return false;
+        }
+        cull_.query(tool_, baseTtool, 0.01, set->host, set->grid, out);
+        return true;
+    }
+
+private:
+    LeasePool<FakeSet>& pool_;
+    const Tool& tool_;
+    CullCpu cull_;
+};
+
+class FakeHand final : public HapticDevice {
+public:
+    explicit FakeHand(HandPath path)
+        : path_(std::move(path)) {}
+    HandSample read(double t) noexcept override { return path_.at(t); }
+    void write(const Wrench& wrench, double) noexcept override {
+        last = wrench;
+        ++writes;
+    }
+    Wrench last{dvec3(1.0), dvec3(1.0)};
+    uint64_t writes = 0;
+
+private:
+    HandPath path_;
+};
+
+struct AuditingSink final : RunSink {
+    explicit AuditingSink(const Tool& tool)
+        : audit(tool) {}
+    std::function<void(const TurnRow&)> onTurn = [](const TurnRow&) {};
+    PenetrationAudit audit;
+    std::vector<TurnRow> rows;
+    uint64_t frames = 0, queries = 0, unknown = 0;
+
+    void frame(const PublishedFrame&, const Fixtures& set) override {
+        CHECK(set.frame == static_cast<int64_t>(frames));
+        ++frames;
+    }
+    void query(const QueryNote&) override { ++queries; }
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known, std::span<const uint32_t> behind) override {
+        unknown += known ? 0 : 1;
+        if (obeyed != nullptr) {
+            audit.tick(obeyed->fixtures, obeyed->grid, row.start, row.record.tool, behind);
+        }
+        rows.push_back(row);
+        onTurn(row);
+    }
+};
+
+// Presses 10 mm into the wall and wipes to and fro over it at up to 0.13 m/s.
+inline HandPath wipingPath(double seconds) {
+    std::vector<HandWaypoint> waypoints{{0.0, at(0.0, 0.0, 0.03), 0}};
+    for (double t = 0.2; t <= seconds; t += 0.01) {
+        waypoints.push_back({t, at(0.04 * std::sin(3.2 * (t - 0.2)), 0.0, 0.0), 0});
+    }
+    return HandPath(std::move(waypoints));
+}
+
+// Presses and stays.
+inline HandPath pressingPath(double seconds) {
+    return HandPath({{0.0, at(0.0, 0.0, 0.03), 0}, {0.2, at(0.0, 0.0, 0.0), 0}, {seconds, at(0.0, 0.0, 0.0), 0}});
+}
+
+struct FakeRun {
+    FakeRun(uint32_t frames, HandPath handPath)
+        : path(handPath)
+        , pool(2, [] { return std::make_unique<FakeSet>(); })
+        , tool(ballTool())
+        , feed(pool, frames)
+        , answers(pool, tool)
+        , hand(std::move(handPath))
+        , options(makeHapticOptions(plainScene(), tool))
+        , sink(tool) {
+        realtime.placement = ThreadPlacement::ofThisProcess();
+    }
+
+    void go(bool withContacts = true) {
+        run.emplace(feed, withContacts ? &answers : nullptr, realtime);
+        REQUIRE(run->firstFrame());
+        cycle.emplace(tool, std::span<const Shape>{}, options, path.at(0.0).deviceThandle);
+        run->run(*cycle, hand, path.duration(), sink, stop);
+    }
+
+    // Rows with t in [from, to).
+    template <class Visit>
+    void during(double from, double to, Visit&& visit) const {
+        for (const TurnRow& row : sink.rows) {
+            if (row.record.t >= from && row.record.t < to) {
+                visit(row.record);
+            }
+        }
+    }
+
+    HandPath path;
+    LeasePool<FakeSet> pool;
+    Tool tool;
+    FakeFeed feed;
+    FakeAnswers answers;
+    FakeHand hand;
+    HapticOptions options;
+    RealtimeOptions realtime;
+    AuditingSink sink;
+    std::atomic<bool> stop{false};
+    std::optional<HapticCycle> cycle;
+    std::optional<RealtimeRun> run;
+};
+
+inline double forceOf(const TurnRecord& record) {
+    return std::sqrt(glm::dot(record.wrench.force, record.wrench.force));
+}
+
+} // namespace fathom::testing

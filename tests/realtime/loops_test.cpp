@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// The loops one at a time, without threads.
+#include "apps/binding/contact_loop.h"
+#include "apps/binding/frame_loop.h"
+#include "apps/binding/haptic_loop.h"
+#include "apps/binding/record_drain.h"
+#include "apps/binding/spooled_camera.h"
+#include "devices/simulated/simulated_camera.h"
+#include "engine/types/error.h"
+#include "tests/haptics/allocation_count.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <thread>
+
+#include "tests/realtime/fake_scene.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a trace") {
+    FakeRun fake(2, wipingPath(2.0));
+    Crossings crossings(4096);
+    RunClock clock;
+    const auto file = std::filesystem::temp_directory_path() / "fathom-loops-test.json";
+    CadenceTrace trace(file, {});
+    HapticCycle cycle(fake.tool, {}, fake.options, fake.path.at(0.0).deviceThandle);
+    HapticLoop loop(cycle, fake.hand, crossings, clock, {}, &trace);
+    FrameLoop frames(fake.feed, crossings, clock, 1.0 / 30.0, nullptr);
+    REQUIRE(frames.first());
+    SceneNews news = frames.news();
+    news.guidanceCount = 1;
+    news.guidance[0].present = true;
+    news.guidance[0].target = at(0.0, 0.0, 0.05);
+
+    uint64_t during = 0, contacts = 0;
+    uint64_t query = 0;
+    TurnRow row;
+    clock.start(0.0);
+    const uint64_t beforeAny = allocationCount();
+    for (int i = 0; i < 1000; ++i) {
+        ContactSet& set = crossings.contacts.back();
+        REQUIRE(fake.answers.answer(cycle.pose(), set));
+        query = set.query;
+        crossings.contacts.publish();
+        news.captureTime = clock.now();
+        crossings.scene.back() = news;
+        crossings.scene.publish();
+        const uint64_t before = allocationCount();
+        loop.turn(clock.now());
+        during += allocationCount() - before;
+        REQUIRE(crossings.turns.pop(row));
+        CHECK(row.query == query);
+        contacts += row.record.contacts > 0 ? 1 : 0;
+        std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    CHECK(allocationCount() > beforeAny); // the count counts
+    CHECK(during == 0);
+    CHECK(contacts > 100);
+    trace.file().finish();
+    std::filesystem::remove(file);
+}
+
+TEST_CASE("Frames are captured a period apart by the clock, and only a slow one counts as lost") {
+    FakeRun fake(12, pressingPath(1.0));
+    fake.feed.beforePublish = [](uint32_t index) {
+        if (index == 6) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(230));
+        }
+    };
+    Crossings crossings(16);
+    RunClock clock;
+    FrameLoop loop(fake.feed, crossings, clock, 0.05, nullptr);
+    REQUIRE(loop.first());
+    clock.start(0.0);
+    std::atomic<bool> stop{false};
+    loop.run(stop);
+    REQUIRE(fake.feed.captured.size() == 12);
+    CHECK(fake.feed.captured[0] == 0.0);
+    for (size_t i = 1; i < 12; ++i) {
+        CHECK(fake.feed.captured[i] > fake.feed.captured[i - 1]);
+        CHECK(fake.feed.captured[i] >= 0.05 * static_cast<double>(i) - 1e-6);
+    }
+    CHECK(fake.feed.captured[7] >= 0.05 * 6 + 0.23 - 1e-6);
+    CHECK(loop.lost() >= 3); // 230 ms run over four periods of 50
+    CHECK(loop.lost() <= 8);
+    CHECK(loop.news().sourceEnded);
+}
+
+TEST_CASE("A turn whose set has not reached the writer waits for it, and goes through at the end in any case") {
+    FakeRun fake(2, pressingPath(1.0));
+    Crossings crossings(16);
+    RecordDrain drain(crossings, fake.sink);
+    TurnRow row;
+    crossings.turns.push(row); // obeys nothing
+    row.generation = 1;
+    row.query = 1;
+    crossings.turns.push(row);
+    drain.drain();
+    CHECK(fake.sink.rows.size() == 1);
+
+    RunClock clock;
+    FrameLoop frames(fake.feed, crossings, clock, 0.05, nullptr);
+    REQUIRE(frames.first());
+    crossings.queries.push({1, 5.0, {0}});
+    drain.drain();
+    CHECK(fake.sink.rows.size() == 2);
+    CHECK(fake.sink.unknown == 0);
+
+    row.generation = 7; // never comes
+    crossings.turns.push(row);
+    drain.drain();
+    CHECK(fake.sink.rows.size() == 2);
+    drain.drain(true);
+    CHECK(fake.sink.rows.size() == 3);
+    CHECK(fake.sink.unknown == 1); // not to be audited
+}
+
+TEST_CASE("Sets that no turn can obey any more go back to the frame cadence") {
+    FakeRun fake(400, pressingPath(1.0));
+    Crossings crossings(16);
+    RecordDrain drain(crossings, fake.sink);
+    RunClock clock;
+    FrameLoop frames(fake.feed, crossings, clock, 0.0, nullptr);
+    REQUIRE(frames.first());
+    TurnRow row;
+    for (uint64_t generation = 1; generation < 300; ++generation) {
+        REQUIRE(frames.first()); // the next one
+        row.generation = generation;
+        crossings.turns.push(row);
+        drain.drain();
+    }
+    CHECK(drain.newest()->fixtures.generation == 300);
+    for (int i = 0; i < 99; ++i) {
+        REQUIRE(frames.first()); // nobody obeys them: the writer lets the oldest go
+        drain.drain();
+    }
+    CHECK(fake.sink.frames == 399);
+    CHECK(drain.newest()->fixtures.generation == 399);
+}
+
+TEST_CASE("A spooled camera gives the very pictures of its source, once, and leaves no file behind") {
+    SimulatedCameraOptions options;
+    options.width = 70;
+    options.height = 50;
+    options.frames = 5;
+    SimulatedCamera plain(*analyticScene("tank"), options);
+    const auto folder = std::filesystem::temp_directory_path() / "fathom-spool-test";
+    std::filesystem::create_directories(folder);
+    std::atomic<bool> stop{false};
+    uint64_t told = 0;
+    SpooledCamera spooled(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
+                          [&](uint64_t frames) { told = frames; });
+    CHECK(told == 5);
+    CHECK(std::filesystem::is_empty(folder));
+    while (auto wanted = plain.next()) {
+        const auto frame = spooled.next();
+        REQUIRE(frame.has_value());
+        CHECK((*frame)->index == (*wanted)->index);
+        CHECK((*frame)->sourceNumber == (*wanted)->sourceNumber);
+        CHECK(std::ranges::equal((*frame)->depth, (*wanted)->depth));
+        CHECK(std::ranges::equal((*frame)->colour, (*wanted)->colour));
+        CHECK((*frame)->baseTcamera->position == (*wanted)->baseTcamera->position);
+    }
+    CHECK_FALSE(spooled.next().has_value());
+
+    stop = true; // asked to stop: the first picture is still there
+    SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop, [](uint64_t) {});
+    CHECK(one.next().has_value());
+    CHECK_FALSE(one.next().has_value());
+    std::filesystem::remove(folder);
+    const auto unspooled = [&] {
+        SpooledCamera nowhere(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop, [](uint64_t) {});
+    };
+    CHECK_THROWS_AS(unspooled(), Error);
+}
+
+TEST_CASE("The haptic thread has a CPU that nothing else is placed on") {
+    const ThreadPlacement placement = ThreadPlacement::ofThisProcess();
+    REQUIRE(!placement.all.empty());
+    REQUIRE(placement.haptic.size() == 1);
+    if (!placement.pinned()) {
+        MESSAGE("one CPU: nothing to place apart");
+        return;
+    }
+    for (const auto& others : {placement.contact, placement.rest}) {
+        CHECK(!others.empty());
+        CHECK(std::ranges::find(others, placement.haptic[0]) == others.end());
+    }
+    const CpuConfinement confined(placement.rest);
+    CHECK(ThreadPlacement::ofThisProcess().all == placement.rest);
+}

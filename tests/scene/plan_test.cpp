@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan: what a scene gets on a device, and why. Pure data.
+#include "engine/scene/plan.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <set>
+
+using namespace fathom;
+
+namespace {
+
+CameraInfo cameraOf(uint32_t width, uint32_t height) {
+    CameraInfo camera;
+    camera.depth.width = width, camera.depth.height = height;
+    camera.depth.fx = camera.depth.fy = 500.0;
+    camera.colour = camera.depth;
+    return camera;
+}
+
+DeviceFacts deviceOf(DeviceKind kind) {
+    DeviceFacts facts;
+    facts.kind = kind;
+    facts.maxInvocations = 1024;
+    return facts;
+}
+
+FixtureClass points(Role role) {
+    FixtureClass f;
+    f.name = "class";
+    f.role = role;
+    return f;
+}
+
+Scene sceneOf(std::vector<FixtureClass> fixtures) {
+    Scene scene;
+    scene.fixtures = std::move(fixtures);
+    return scene;
+}
+
+Plan planOf(const Scene& scene, const CameraInfo& camera = cameraOf(640, 480),
+            DeviceKind kind = DeviceKind::Cpu, uint32_t leaves = 1) {
+    return makePlan(scene, camera, leaves, deviceOf(kind));
+}
+
+uint64_t bytesOf(const Plan& plan) {
+    uint64_t bytes = 0;
+    for (const Plan::Item& item : plan.items) {
+        bytes += item.bytes;
+    }
+    return bytes;
+}
+
+} // namespace
+
+TEST_CASE("A scene without classes of points gets no pass, no buffer and no contact thread") {
+    FixtureClass wall = points(Role::Forbidden);
+    wall.shape = ShapeKind::Plane;
+    for (const Scene& scene : {sceneOf({}), sceneOf({wall})}) {
+        const Plan plan = planOf(scene);
+        CHECK_FALSE((plan.cloud || plan.spheres || plan.thin || plan.hold || plan.moments || plan.colour ||
+                     plan.occlusion || plan.rays));
+        CHECK(plan.query == Plan::Query::None);
+        CHECK(plan.dispatchesPerFrame() == 0);
+        CHECK(bytesOf(plan) == 0);
+        CHECK(plan.has("haptic"));
+        CHECK_FALSE(plan.has("contact"));
+    }
+}
+
+TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come in one by one") {
+    Scene scene = sceneOf({points(Role::Guidance)});
+    Plan plan = planOf(scene);
+    CHECK(plan.moments);
+    CHECK_FALSE((plan.spheres || plan.thin || plan.hold || plan.colour || plan.guidancePoints));
+    CHECK(plan.query == Plan::Query::None);
+    CHECK(plan.dispatchesPerFrame() == 3);
+
+    scene = sceneOf({points(Role::Forbidden)});
+    plan = planOf(scene);
+    CHECK((plan.spheres && plan.thin && plan.hold && !plan.moments && !plan.colour && !plan.box));
+    CHECK(plan.query == Plan::Query::Cpu);
+    CHECK(plan.dispatchesPerFrame() == 6);
+    CHECK(plan.filterRadius == 2);
+    CHECK(plan.edge);
+
+    scene.errorBudget = 0.0, scene.holdSeconds = 0.0, scene.filter.radius = 0, scene.filter.edge = 0.0;
+    plan = planOf(scene);
+    CHECK_FALSE((plan.thin || plan.hold || plan.edge || plan.tiled));
+    CHECK(plan.filterRadius == 0);
+    CHECK(plan.dispatchesPerFrame() == 5);
+
+    scene.fixtures.push_back(points(Role::Guidance));
+    scene.fixtures[1].lightness = Band{0.1, 0.9};
+    scene.fixtures[0].box = Box{dvec3(-1), dvec3(1)};
+    plan = planOf(scene);
+    CHECK((plan.colour && plan.moments && plan.box && !plan.occlusion && !plan.guidancePoints));
+    CHECK(plan.classes == 2);
+    scene.fixtures[1].trim = 0.1;
+    CHECK(planOf(scene).guidancePoints);
+}
+
+TEST_CASE("Occlusion, colour and rays follow the camera") {
+    Scene scene = sceneOf({points(Role::Forbidden)});
+    CameraInfo camera = cameraOf(640, 480);
+    camera.registered = false;
+    CHECK_FALSE(planOf(scene, camera).occlusion); // no class asks for colour
+    scene.fixtures[0].hue = Band{350, 10};
+    CHECK(planOf(scene, camera).occlusion);
+    CHECK(planOf(scene, camera).dispatchesPerFrame() == 7);
+    camera.registered = true;
+    CHECK_FALSE(planOf(scene, camera).occlusion);
+    CHECK(planOf(scene, camera).colour);
+    camera.hasColour = false;
+    CHECK_FALSE(planOf(scene, camera).colour);
+    CHECK_FALSE(planOf(scene, camera).rays);
+    camera.depth.distortion[4] = 0.01;
+    CHECK(planOf(scene, camera).rays);
+}
+
+TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter and by tool size, unless the "
+          "scene says") {
+    Scene scene = sceneOf({points(Role::Forbidden)});
+    const CameraInfo camera = cameraOf(640, 480);
+    CHECK(planOf(scene, camera, DeviceKind::Discrete).tiled);
+    CHECK_FALSE(planOf(scene, camera, DeviceKind::Cpu).tiled);
+    scene.filter.radius = 1;
+    CHECK_FALSE(planOf(scene, camera, DeviceKind::Discrete).tiled);
+    CHECK(planOf(scene, camera, DeviceKind::Discrete, kGpuQueryLeaves - 1).query == Plan::Query::Cpu);
+    CHECK(planOf(scene, camera, DeviceKind::Discrete, kGpuQueryLeaves).query == Plan::Query::Gpu);
+    CHECK(planOf(scene, camera, DeviceKind::Cpu, kGpuQueryLeaves).query == Plan::Query::Cpu);
+    scene.contact.where = Scene::Contact::Where::Gpu;
+    CHECK(planOf(scene, camera, DeviceKind::Cpu).query == Plan::Query::Gpu);
+    scene.contact.where = Scene::Contact::Where::Cpu;
+    CHECK(planOf(scene, camera, DeviceKind::Discrete, kGpuQueryLeaves).query == Plan::Query::Cpu);
+    DeviceFacts small = deviceOf(DeviceKind::Integrated);
+    small.maxInvocations = 128;
+    CHECK(makePlan(scene, camera, 1, small).pixelGroup == 128);
+    CHECK(planOf(scene, camera).pixelGroup == 256);
+}
+
+TEST_CASE("Every item says why, what is left out takes no memory, what is in takes some") {
+    Scene all = sceneOf({points(Role::Forbidden), points(Role::Guidance)});
+    all.fixtures[0].hue = Band{0, 10};
+    all.contact.where = Scene::Contact::Where::Gpu;
+    CameraInfo camera = cameraOf(428, 240);
+    camera.depth.distortion[0] = 0.1;
+    camera.registered = false;
+    const Plan everything = planOf(all, camera), nothing = planOf(sceneOf({}), camera);
+    CHECK(everything.items.size() == nothing.items.size());
+    std::set<std::string> names;
+    for (const Plan* plan : {&everything, &nothing}) {
+        for (const Plan::Item& item : plan->items) {
+            CAPTURE(item.name);
+            CHECK_FALSE(item.why.empty());
+            CHECK((item.kind == "pass" || item.kind == "buffer" || item.kind == "thread"));
+            CHECK((item.bytes > 0) == (item.kind == "buffer" && item.in));
+            CHECK((plan == &nothing || item.in));
+            CHECK((plan == &everything || item.kind == "thread" || !item.in));
+            CHECK((plan == &nothing || names.insert(item.kind + item.name).second));
+        }
+    }
+    CHECK(everything.has("tree_query"));
+    CHECK_FALSE(everything.has("no such thing"));
+}
+
+TEST_CASE("Patches and tree levels of any size from 1x1 to 3840x2160; larger is refused") {
+    const PatchLayout one = patchLayout(1, 1);
+    CHECK((one.across == 1 && one.down == 1 && one.levels.size() == 2 && one.nodes() == 17 &&
+           one.slots() == 256));
+    const PatchLayout odd = patchLayout(428, 240);
+    CHECK((odd.across == 27 && odd.down == 15 && odd.patches() == 405 && odd.levels.size() == 5));
+    const PatchLayout full = patchLayout(3840, 2160);
+    CHECK((full.patches() == 32400 && full.levels.size() == 6 && full.slots() * 16ull <= (1ull << 27)));
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, {16u, 16u}, {17u, 1u}, {3840u, 1u}, {1u, 2160u}, {640u, 480u}, {3840u, 2160u}}) {
+        const PatchLayout layout = patchLayout(width, height);
+        uint32_t first = 0;
+        for (size_t l = 0; l < layout.levels.size(); ++l) {
+            CHECK(layout.levels[l].first == first);
+            first += layout.levels[l].across * layout.levels[l].down;
+            if (l > 0) {
+                CHECK(layout.levels[l].across == (layout.levels[l - 1].across + 3) / 4);
+                CHECK(layout.levels[l].down == (layout.levels[l - 1].down + 3) / 4);
+            }
+        }
+        CHECK(layout.levels.back().across * layout.levels.back().down == 1);
+        CHECK(layout.nodes() == first);
+    }
+    for (const auto& [width, height] : {std::pair{0u, 1u}, {1u, 0u}, {3841u, 1u}, {1u, 2161u}}) {
+        CHECK_THROWS_AS(patchLayout(width, height), BadInput);
+    }
+}
+
+TEST_CASE("Every pixel has a slot of its own, in its patch and its 4x4 sub-patch") {
+    const uint32_t width = 53, height = 38;
+    const PatchLayout layout = patchLayout(width, height);
+    std::set<uint32_t> slots;
+    for (uint32_t v = 0; v < height; ++v) {
+        for (uint32_t u = 0; u < width; ++u) {
+            const uint32_t slot = slotOfPixel(u, v, layout.across);
+            CHECK(slots.insert(slot).second);
+            CHECK(slot < layout.slots());
+            CHECK(slot / 256 == v / 16 * layout.across + u / 16);
+            CHECK(slot / 16 == slotOfPixel(u / 4 * 4, v / 4 * 4, layout.across) / 16);
+        }
+    }
+}
