@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not hold or an internal
-// error, 2 bad input, 3 device lost.
+// fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not
+// hold or an internal error, 2 bad input, 3 device lost.
 #include "apps/global_options.h"
 #include "apps/plan/plan_command.h"
 #include "apps/replay/replay_command.h"
@@ -24,7 +24,8 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
         for (const CLI::App* command : app.get_subcommands(nullptr)) {
             allow(command->get_name());
         }
-        return "subcommand: " + (rest.empty() ? "missing" : "'" + rest.front() + "'") + " (allowed: " + allowed + ")";
+        return "subcommand: " + (rest.empty() ? "missing" : "'" + rest.front() + "'") +
+               " (allowed: " + allowed + ")";
     }
     if (!rest.empty()) {
         for (const CLI::App* owner : {static_cast<const CLI::App*>(chosen.back()), &app}) {
@@ -49,9 +50,8 @@ int run(int argc, char** argv) {
     app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and turns");
     app.add_flag("-v,--verbose", global.verbose, "log more");
     app.fallthrough();
-    app.parse_complete_callback([&global] {
-        spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn);
-    });
+    app.parse_complete_callback(
+        [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
     fathom::addPlanCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);

@@ -10,7 +10,8 @@
 
 namespace fathom {
 
-// One thread calls it. A source that ends (a recording, a scripted scene) returns no frame once and for ever after.
+// One thread calls it. A source that ends (a recording, a scripted scene) returns no frame once and for ever
+// after.
 class Camera {
 public:
     virtual ~Camera() = default;

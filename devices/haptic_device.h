@@ -11,16 +11,16 @@ namespace fathom {
 
 // The hand, as one sample.
 struct HandSample {
-    Pose deviceThandle;      // raw, device frame: position [m], orientation
-    uint32_t buttons = 0;    // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
+    Pose deviceThandle;   // raw, device frame: position [m], orientation
+    uint32_t buttons = 0; // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
 };
 
-// Called by the haptic thread only, once a turn: read, then write. Never allocates, locks, throws or waits longer than
-// the device's own exchange.
+// Called by the haptic thread only, once a turn: read, then write. Never allocates, locks, throws or waits
+// longer than the device's own exchange.
 class HapticDevice {
 public:
     virtual ~HapticDevice() = default;
-    virtual HandSample read(double t) noexcept = 0;                   // t [s] since the run's start
+    virtual HandSample read(double t) noexcept = 0;                         // t [s] since the run's start
     virtual void write(const Wrench& deviceWrench, double dt) noexcept = 0; // device axes, about the handle
 };
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact cadence in real time: the newest tool pose against the newest fixture set, as often as there is a new pose.
+// The contact cadence in real time: the newest tool pose against the newest fixture set, as often as there is
+// a new pose.
 #pragma once
 
 #include "apps/binding/crossings.h"
@@ -19,7 +20,8 @@ public:
 class ContactLoop {
 public:
     // pause [s]: between looks at the mailbox; about half a haptic period.
-    ContactLoop(ContactAnswers& answers, Crossings& crossings, const RunClock& clock, double pause, CadenceTrace* trace)
+    ContactLoop(ContactAnswers& answers, Crossings& crossings, const RunClock& clock, double pause,
+                CadenceTrace* trace)
         : answers_(answers)
         , crossings_(crossings)
         , clock_(clock)

@@ -16,13 +16,14 @@
 
 namespace fathom {
 
-// Frame cadence to haptic cadence: what the newest fixture set brings besides its spheres. Times are of the run's clock [s].
+// Frame cadence to haptic cadence: what the newest fixture set brings besides its spheres. Times are of the
+// run's clock [s].
 struct SceneNews {
     int64_t frame = -1;
     uint64_t generation = 0;
-    double captureTime = 0.0;   // of the newest picture that shows it
-    bool sourceEnded = false;   // there will be no more: the last frame stays in force and does not age
-    bool cameraGone = false;    // there may be more: the last frame ages
+    double captureTime = 0.0; // of the newest picture that shows it
+    bool sourceEnded = false; // there will be no more: the last frame stays in force and does not age
+    bool cameraGone = false;  // there may be more: the last frame ages
     uint32_t guidanceCount = 0;
     std::array<GuidancePose, shared::kMaxClasses> guidance;
 };
@@ -39,7 +40,8 @@ struct TurnRow {
     uint32_t missed = 0;     // periods before this one in which no turn ran
 };
 
-// Contact cadence to writer: one answer. Its leaves behind a surface are exempt from the promise that the writer audits.
+// Contact cadence to writer: one answer. Its leaves behind a surface are exempt from the promise that the
+// writer audits.
 struct QueryNote {
     uint64_t query = 0;
     double micros = 0.0;
@@ -49,14 +51,15 @@ struct QueryNote {
 // Frame cadence to writer: a frame and the host copy of its set. Comes back to be filled again.
 struct PublishedFrame {
     FrameReport report;
-    double t = 0.0;        // [s] capture time in the run
-    bool changed = false;  // false: the same picture again, no new set
+    double t = 0.0;       // [s] capture time in the run
+    bool changed = false; // false: the same picture again, no new set
     Fixtures fixtures;
-    RegionGrid grid;       // over fixtures.spheres
+    RegionGrid grid; // over fixtures.spheres
     std::vector<uint32_t> colour;
 };
 
-// One thread at each end, named by the cadence. Sized once; only the note's vector may grow, on the contact cadence.
+// One thread at each end, named by the cadence. Sized once; only the note's vector may grow, on the contact
+// cadence.
 struct Crossings {
     // turns: how many the writer may fall behind.
     explicit Crossings(uint64_t turnCapacity)
@@ -66,16 +69,17 @@ struct Crossings {
         , frames(kFramesInFlight)
         , emptied(2 * kFramesInFlight) {}
 
-    Latest<SceneNews> scene;          // frame -> haptic
-    Latest<Pose> proxy;               // haptic -> contact: base_T_tool
-    LeasePool<ContactSet> contacts;   // contact -> haptic: two leases, in force and offered
-    Ring<TurnRow> turns;              // haptic -> writer
-    Ring<QueryNote> queries;          // contact -> writer
-    Ring<PublishedFrame*> frames;     // frame -> writer
-    Ring<PublishedFrame*> emptied;    // writer -> frame
+    Latest<SceneNews> scene;             // frame -> haptic
+    Latest<Pose> proxy;                  // haptic -> contact: base_T_tool
+    LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, in force and offered
+    Ring<TurnRow> turns;                 // haptic -> writer
+    Ring<QueryNote> queries;             // contact -> writer
+    Ring<PublishedFrame*> frames;        // frame -> writer
+    Ring<PublishedFrame*> emptied;       // writer -> frame
     std::atomic<bool> hapticDone{false}; // the last wrench is written
 
-    static constexpr uint64_t kFramesInFlight = 64; // sets that the writer may hold for records that still obey them
+    static constexpr uint64_t kFramesInFlight =
+        64; // sets that the writer may hold for records that still obey them
 };
 
 } // namespace fathom

@@ -16,7 +16,8 @@ constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
 
 } // namespace
 
-FrameLoop::FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period, CadenceTrace* trace)
+FrameLoop::FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period,
+                     CadenceTrace* trace)
     : feed_(feed)
     , crossings_(crossings)
     , clock_(clock)
@@ -35,7 +36,8 @@ bool FrameLoop::first() {
 
 // A camera that is gone is asked again, more and more seldom, while the last set ages and the forces fade.
 std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
-    for (double pause = kFirstRetry; !stop.load(std::memory_order_relaxed); pause = std::min(2.0 * pause, kLongestRetry)) {
+    for (double pause = kFirstRetry; !stop.load(std::memory_order_relaxed);
+         pause = std::min(2.0 * pause, kLongestRetry)) {
         try {
             const std::optional<uint32_t> index = feed_.fetch();
             if (news_.cameraGone) {

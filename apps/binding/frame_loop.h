@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame cadence in real time: paces the source, has each picture turned into a fixture set, tells the haptic cadence.
+// The frame cadence in real time: paces the source, has each picture turned into a fixture set, tells the
+// haptic cadence.
 #pragma once
 
 #include "apps/binding/crossings.h"
@@ -16,20 +17,22 @@ namespace fathom {
 class FrameFeed {
 public:
     virtual ~FrameFeed() = default;
-    // Gets the next picture ready; its index, or nothing when the source has ended. Throws DeviceLost when the camera is gone (it
-    // is asked again later), Error otherwise.
+    // Gets the next picture ready; its index, or nothing when the source has ended. Throws DeviceLost when
+    // the camera is gone (it is asked again later), Error otherwise.
     virtual std::optional<uint32_t> fetch() = 0;
-    // That picture, captured at t [s], becomes the newest fixture set. Fills everything in `out` but its t. A picture
-    // that is the same again makes no set: `changed` false, the set and the colour in `out` are left alone.
+    // That picture, captured at t [s], becomes the newest fixture set. Fills everything in `out` but its t. A
+    // picture that is the same again makes no set: `changed` false, the set and the colour in `out` are left
+    // alone.
     virtual void publish(double t, PublishedFrame& out) = 0;
 };
 
-// The source's pictures come at period x (index - first index), by the clock: a picture counts as captured when its turn comes. When
-// one takes so long that a live camera would have thrown pictures away meanwhile, these are counted as lost and the source plays
-// on from there: no recorded picture is left out.
+// The source's pictures come at period x (index - first index), by the clock: a picture counts as captured
+// when its turn comes. When one takes so long that a live camera would have thrown pictures away meanwhile,
+// these are counted as lost and the source plays on from there: no recorded picture is left out.
 class FrameLoop {
 public:
-    FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period, CadenceTrace* trace);
+    FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period,
+              CadenceTrace* trace);
 
     // Before the clock starts: the first picture, at t = 0. False when the source has none.
     bool first();

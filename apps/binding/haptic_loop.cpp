@@ -6,8 +6,8 @@
 
 namespace fathom {
 
-HapticLoop::HapticLoop(HapticCycle& cycle, HapticDevice& hand, Crossings& crossings, const RunClock& clock, const Ends& ends,
-                       CadenceTrace* trace)
+HapticLoop::HapticLoop(HapticCycle& cycle, HapticDevice& hand, Crossings& crossings, const RunClock& clock,
+                       const Ends& ends, CadenceTrace* trace)
     : cycle_(cycle)
     , hand_(hand)
     , crossings_(crossings)
@@ -96,7 +96,8 @@ double HapticLoop::turn(double due) noexcept {
     crossings_.proxy.back() = cycle_.pose();
     crossings_.proxy.publish();
     const double over = clock_.now();
-    report(record, start, due, began, std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over);
+    report(record, start, due, began, std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(),
+           over);
     if (trace_ != nullptr) {
         trace_->turn(turnBegan, turnOver, began - due);
     }
@@ -105,7 +106,8 @@ double HapticLoop::turn(double due) noexcept {
     return over;
 }
 
-void HapticLoop::report(const TurnRecord& record, const Pose& start, double due, double began, double took, double over) noexcept {
+void HapticLoop::report(const TurnRecord& record, const Pose& start, double due, double began, double took,
+                        double over) noexcept {
     TurnRow row;
     row.record = record;
     row.start = start;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic cadence in real time: read the hand, one turn, write the wrench, in the same tick. Never allocates, locks, throws or
-// waits for anybody.
+// The haptic cadence in real time: read the hand, one turn, write the wrench, in the same tick. Never
+// allocates, locks, throws or waits for anybody.
 #pragma once
 
 #include "apps/binding/crossings.h"
@@ -13,15 +13,15 @@ namespace fathom {
 
 class HapticLoop {
 public:
-    struct Ends { // the run is over when the hand's path and the frames both are
-        double pathDuration = 0.0; // [s]
+    struct Ends {                        // the run is over when the hand's path and the frames both are
+        double pathDuration = 0.0;       // [s]
         double framePeriod = 1.0 / 30.0; // [s] that the last frame is shown
     };
-    HapticLoop(HapticCycle& cycle, HapticDevice& hand, Crossings& crossings, const RunClock& clock, const Ends& ends,
-               CadenceTrace* trace);
+    HapticLoop(HapticCycle& cycle, HapticDevice& hand, Crossings& crossings, const RunClock& clock,
+               const Ends& ends, CadenceTrace* trace);
 
-    // Ticks by the clock until the end or `stop`; the last thing that the hand gets is a zero wrench. A period that a late turn
-    // ran over is left out and counted: turns never come in bursts.
+    // Ticks by the clock until the end or `stop`; the last thing that the hand gets is a zero wrench. A
+    // period that a late turn ran over is left out and counted: turns never come in bursts.
     void run(const std::atomic<bool>& stop) noexcept;
 
     // One turn, due at `due` [s] and started now; the tick that run() does. Returns when it was over [s].
@@ -38,7 +38,8 @@ private:
     bool ended(double t) const noexcept;
     void offerNewest() noexcept;
     TurnInput inputFor(double now, const HandSample& sample, const Until& until) const noexcept;
-    void report(const TurnRecord& record, const Pose& start, double due, double began, double took, double over) noexcept;
+    void report(const TurnRecord& record, const Pose& start, double due, double began, double took,
+                double over) noexcept;
 
     HapticCycle& cycle_;
     HapticDevice& hand_;

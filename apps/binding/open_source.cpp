@@ -42,9 +42,12 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         return std::make_unique<RecordedCamera>(*source);
     }
     switch (scene.source.kind) {
-    case CameraSource::Kind::Simulated: return openSimulated(scene);
-    case CameraSource::Kind::Recorded: return std::make_unique<RecordedCamera>(scene.source.value);
-    case CameraSource::Kind::V4l2: break;
+    case CameraSource::Kind::Simulated:
+        return openSimulated(scene);
+    case CameraSource::Kind::Recorded:
+        return std::make_unique<RecordedCamera>(scene.source.value);
+    case CameraSource::Kind::V4l2:
+        break;
     }
     throw BadInput(scene.file.string(), "camera.source.v4l2", scene.source.value,
                    "simulated or recorded: this build has no live camera");
@@ -63,7 +66,8 @@ Tool openTool(const Scene& scene) {
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput(scene.file.string(), "tool", e.what(), "1 to 4096 spheres with finite centres and positive radii");
+        throw BadInput(scene.file.string(), "tool", e.what(),
+                       "1 to 4096 spheres with finite centres and positive radii");
     }
 }
 

@@ -37,7 +37,8 @@ private:
     std::thread thread_;
 };
 
-// Tells of a scene that is too old, but not of each short spell while a machine is too slow: these are counted.
+// Tells of a scene that is too old, but not of each short spell while a machine is too slow: these are
+// counted.
 class AgeAlarm {
 public:
     explicit AgeAlarm(double staleAfter)
@@ -47,7 +48,8 @@ public:
         const bool stale = record.sceneAge > staleAfter_;
         staleTurns_ += stale ? 1 : 0;
         if (stale && !stale_ && record.t >= quietUntil_) {
-            spdlog::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t, record.sceneAge * 1e3);
+            spdlog::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t,
+                         record.sceneAge * 1e3);
             quietUntil_ = record.t + kQuiet;
             told_ = true;
         } else if (!stale && told_) {
@@ -74,7 +76,8 @@ public:
         , alarm_(staleAfter) {}
     void frame(const PublishedFrame& frame, const Fixtures& set) override { sink_.frame(frame, set); }
     void query(const QueryNote& note) override { sink_.query(note); }
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known, std::span<const uint32_t> behind) override {
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+              std::span<const uint32_t> behind) override {
         alarm_.see(row.record);
         sink_.turn(row, obeyed, known, behind);
     }
@@ -115,10 +118,13 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     crossings_.proxy.publish();
     clock_.start(kHeadStart);
     {
-        Joined camera(stop_, [this] { guarded([this] { pinThread(options_.placement.rest), frames_.run(stop_); }); });
+        Joined camera(
+            stop_, [this] { guarded([this] { pinThread(options_.placement.rest), frames_.run(stop_); }); });
         std::optional<Joined> contact;
         if (contact_) {
-            contact.emplace(stop_, [this] { guarded([this] { pinThread(options_.placement.contact), contact_->run(stop_); }); });
+            contact.emplace(stop_, [this] {
+                guarded([this] { pinThread(options_.placement.contact), contact_->run(stop_); });
+            });
         }
         Joined turns(stop_, [this, &haptic] {
             std::string refused;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run in real time: camera, contact and haptic threads over their crossings, the caller's thread as the writer. Knows no Vulkan: what
-// the threads do is behind FrameFeed, ContactAnswers, HapticCycle and HapticDevice.
+// A run in real time: camera, contact and haptic threads over their crossings, the caller's thread as the
+// writer. Knows no Vulkan: what the threads do is behind FrameFeed, ContactAnswers, HapticCycle and
+// HapticDevice.
 #pragma once
 
 #include "apps/binding/contact_loop.h"
@@ -18,11 +19,12 @@ namespace fathom {
 
 struct RealtimeOptions {
     ThreadPlacement placement;
-    double hapticPeriod = 0.001;       // [s]
-    double framePeriod = 1.0 / 30.0;   // [s]
-    double staleAfter = 0.1;           // [s] scene age that is worth a warning
+    double hapticPeriod = 0.001;     // [s]
+    double framePeriod = 1.0 / 30.0; // [s]
+    double staleAfter = 0.1;         // [s] scene age that is worth a warning
     CadenceTrace* trace = nullptr;
-    std::function<void(double t, uint64_t frames, uint64_t turns)> progress; // on the writer thread, now and then
+    std::function<void(double t, uint64_t frames, uint64_t turns)>
+        progress; // on the writer thread, now and then
 };
 
 class RealtimeRun {
@@ -30,13 +32,15 @@ public:
     // contacts null: the scene has nothing to collide with and gets no contact thread.
     RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const RealtimeOptions& options);
 
-    // The first picture through the passes, on this thread, before the clock starts. False when the source has none.
+    // The first picture through the passes, on this thread, before the clock starts. False when the source
+    // has none.
     bool firstFrame() { return frames_.first(); }
 
-    // Runs until frames and path have ended, `stop` is set or something fails; then the hand has zero force, all threads have
-    // ended and the sink has every record. What a thread threw is in failure(). An exception of the sink passes through, after the
-    // same end.
-    void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink, const std::atomic<bool>& stop);
+    // Runs until frames and path have ended, `stop` is set or something fails; then the hand has zero force,
+    // all threads have ended and the sink has every record. What a thread threw is in failure(). An exception
+    // of the sink passes through, after the same end.
+    void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
+             const std::atomic<bool>& stop);
 
     uint64_t framesLost() const { return frames_.lost(); }
     uint64_t periodsMissed() const { return missed_; }

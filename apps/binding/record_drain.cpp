@@ -14,7 +14,8 @@ void RecordDrain::drain(bool all) {
                 return;
             }
             waiting_ = row;
-            // Whatever this turn obeyed was published before it: what the turn knows of has arrived, or is about to.
+            // Whatever this turn obeyed was published before it: what the turn knows of has arrived, or is
+            // about to.
             takeFrames();
             takeQueries();
         }

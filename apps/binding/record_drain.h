@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writer's end of the crossings: brings turns, queries and frames together again, in an order that can be audited.
+// The writer's end of the crossings: brings turns, queries and frames together again, in an order that can be
+// audited.
 #pragma once
 
 #include "apps/binding/crossings.h"
@@ -14,12 +15,14 @@ namespace fathom {
 class RunSink {
 public:
     virtual ~RunSink() = default;
-    // A used frame; frame.fixtures may be empty when the picture was the same again: `set` is the one in force from it on.
+    // A used frame; frame.fixtures may be empty when the picture was the same again: `set` is the one in
+    // force from it on.
     virtual void frame(const PublishedFrame& frame, const Fixtures& set) = 0;
     virtual void query(const QueryNote& note) = 0;
-    // `obeyed`: the frame whose set the turn obeyed, null when there is none or it is no longer kept (obeyedKnown false). `behind`:
-    // the leaves flagged in the answer it obeyed.
-    virtual void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown, std::span<const uint32_t> behind) = 0;
+    // `obeyed`: the frame whose set the turn obeyed, null when there is none or it is no longer kept
+    // (obeyedKnown false). `behind`: the leaves flagged in the answer it obeyed.
+    virtual void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+                      std::span<const uint32_t> behind) = 0;
 };
 
 // One thread. Keeps host copies of published sets until no turn obeys them any more.
@@ -42,7 +45,8 @@ private:
     void hand(const TurnRow& row);
     void letGo(size_t i);
 
-    static constexpr size_t kKept = Crossings::kFramesInFlight * 3 / 4; // the frame cadence always finds one to fill
+    static constexpr size_t kKept =
+        Crossings::kFramesInFlight * 3 / 4; // the frame cadence always finds one to fill
 
     Crossings& crossings_;
     RunSink& sink_;

@@ -27,7 +27,8 @@ public:
         const auto whole = std::chrono::duration_cast<std::chrono::seconds>(since);
         timespec when{};
         when.tv_sec = static_cast<time_t>(whole.count());
-        when.tv_nsec = static_cast<long>(std::chrono::duration_cast<std::chrono::nanoseconds>(since - whole).count());
+        when.tv_nsec =
+            static_cast<long>(std::chrono::duration_cast<std::chrono::nanoseconds>(since - whole).count());
         while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, nullptr) != 0) {
         }
     }

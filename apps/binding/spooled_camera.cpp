@@ -59,7 +59,8 @@ void SpooledCamera::store(const Frame& frame) {
 
 void SpooledCamera::writeAll(const void* bytes, size_t count) {
     for (size_t done = 0; done < count;) {
-        const ssize_t n = ::pwrite(descriptor_, static_cast<const char*>(bytes) + done, count - done, written_);
+        const ssize_t n =
+            ::pwrite(descriptor_, static_cast<const char*>(bytes) + done, count - done, written_);
         if (n < 0 && errno != EINTR) {
             fail("cannot be written");
         }

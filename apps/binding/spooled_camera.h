@@ -14,14 +14,14 @@
 
 namespace fathom {
 
-// For sources that cannot keep up with the clock: a simulated camera renders for longer than a frame lasts, which no real one asks of
-// the machine. The file has no name and is gone with the process, however it ends.
+// For sources that cannot keep up with the clock: a simulated camera renders for longer than a frame lasts,
+// which no real one asks of the machine. The file has no name and is gone with the process, however it ends.
 class SpooledCamera final : public Camera {
 public:
-    // Takes pictures until the source ends or `stop`, at least one. `folder`: where the file lies. progress(pictures so far) after
-    // each. Throws Error that names the folder, and what the source throws.
-    SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder, const std::atomic<bool>& stop,
-                  const std::function<void(uint64_t)>& progress);
+    // Takes pictures until the source ends or `stop`, at least one. `folder`: where the file lies.
+    // progress(pictures so far) after each. Throws Error that names the folder, and what the source throws.
+    SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder,
+                  const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress);
     ~SpooledCamera() override;
 
     const CameraInfo& info() const override { return info_; }
@@ -39,7 +39,7 @@ private:
     std::string description_, folder_;
     uint32_t skipped_ = 0;
     int descriptor_ = -1;
-    size_t colourPixels_ = 0; // of a frame
+    size_t colourPixels_ = 0;              // of a frame
     std::vector<Frame::Content> contents_; // without their pixels
     size_t next_ = 0;
     int64_t written_ = 0, read_ = 0; // [bytes]

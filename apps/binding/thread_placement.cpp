@@ -12,7 +12,8 @@ namespace fathom {
 
 namespace {
 
-constexpr int kHapticPriority = 80;         // of 1..99: over the threads of most drivers, under the kernel's watchdogs
+constexpr int kHapticPriority =
+    80; // of 1..99: over the threads of most drivers, under the kernel's watchdogs
 constexpr size_t kStackTouched = 256 * 1024; // [bytes] more than a turn uses
 constexpr size_t kCpusForOwnContact = 4;
 
@@ -65,7 +66,8 @@ int pinThread(const std::vector<int>& cpus) noexcept {
 }
 
 CpuConfinement::CpuConfinement(const std::vector<int>& cpus) noexcept {
-    changed_ = ::pthread_getaffinity_np(::pthread_self(), sizeof before_, &before_) == 0 && pinThread(cpus) == 0;
+    changed_ =
+        ::pthread_getaffinity_np(::pthread_self(), sizeof before_, &before_) == 0 && pinThread(cpus) == 0;
 }
 
 CpuConfinement::~CpuConfinement() {
@@ -84,7 +86,8 @@ std::string makeHapticThread(const ThreadPlacement& placement) {
     if (const int fault = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &priority); fault != 0) {
         add(refused, "real-time priority", fault);
     }
-    ::prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0); // [ns] without real-time priority wake-ups are else rounded by 50 us
+    ::prctl(PR_SET_TIMERSLACK, 1, 0, 0,
+            0); // [ns] without real-time priority wake-ups are else rounded by 50 us
     // As touched: locking whole stacks and driver reservations would make memory resident that nobody uses.
     if (::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
         add(refused, "locked memory", errno);

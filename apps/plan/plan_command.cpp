@@ -18,13 +18,15 @@ struct PlanOptions {
 
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
-    const auto camera = openCamera(scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
+    const auto camera = openCamera(
+        scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     const Tool tool = openTool(scene);
     const gpu::Instance instance;
     const gpu::Device device(instance, global.device);
-    const Plan plan = makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts());
-    std::cout << "scene   " << options.scene << ", " << camera->description() << ", " << camera->info().depth.width << "x"
-              << camera->info().depth.height << "\n"
+    const Plan plan =
+        makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts());
+    std::cout << "scene   " << options.scene << ", " << camera->description() << ", "
+              << camera->info().depth.width << "x" << camera->info().depth.height << "\n"
               << "device  " << device.facts().name << " (" << device.facts().driver << ")\n"
               << "tool    " << tool.leafCount() << " leaves\n\n";
     printPlan(std::cout, plan);
@@ -35,12 +37,14 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
 
 void printPlan(std::ostream& out, const Plan& plan) {
     for (const Plan::Item& item : plan.items) {
-        out << (item.in ? "in   " : "out  ") << std::left << std::setw(8) << item.kind << std::setw(18) << item.name << std::right
-            << std::setw(9);
+        out << (item.in ? "in   " : "out  ") << std::left << std::setw(8) << item.kind << std::setw(18)
+            << item.name << std::right << std::setw(9);
         if (item.bytes != 0) {
-            out << std::fixed << std::setprecision(2) << static_cast<double>(item.bytes) / (1 << 20) << " MiB  ";
+            out << std::fixed << std::setprecision(2) << static_cast<double>(item.bytes) / (1 << 20)
+                << " MiB  ";
         } else {
-            out << "" << "      ";
+            out << ""
+                << "      ";
         }
         out << item.why << "\n";
     }
@@ -48,7 +52,8 @@ void printPlan(std::ostream& out, const Plan& plan) {
 
 void addPlanCommand(CLI::App& app, const GlobalOptions& global) {
     auto options = std::make_shared<PlanOptions>();
-    CLI::App* command = app.add_subcommand("plan", "print which passes, buffers and threads a scene gets, and why");
+    CLI::App* command =
+        app.add_subcommand("plan", "print which passes, buffers and threads a scene gets, and why");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
     command->add_option("--source", options->source, "recording folder in place of the scene's camera");
     command->callback([options, &global] { runPlan(*options, global); });

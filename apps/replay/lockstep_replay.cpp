@@ -90,7 +90,8 @@ void LockstepReplay::query(double) {
 }
 
 const LockstepReplay::Kept* LockstepReplay::keptSet(uint64_t generation) const {
-    const auto found = std::find_if(kept_.begin(), kept_.end(), [&](const auto& k) { return k->fixtures.generation == generation; });
+    const auto found = std::find_if(kept_.begin(), kept_.end(),
+                                    [&](const auto& k) { return k->fixtures.generation == generation; });
     return found == kept_.end() ? nullptr : found->get();
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lockstep: all cadences on one thread, on the run's own clock. Nothing measured enters what is written to haptics.csv.
+// Lockstep: all cadences on one thread, on the run's own clock. Nothing measured enters what is written to
+// haptics.csv.
 #pragma once
 
 #include "apps/replay/replay_recorder.h"
@@ -14,13 +15,14 @@
 
 namespace fathom {
 
-// Tick i is at i / rate_hz, frame j at j / 30 s whatever its stamp, in force from the first tick at or after that. One contact query
-// before every turn at the pose the turn starts from, in force contact.delay ticks later. Ends when the frames (plus 1/30 s) and the
-// hand path both have.
+// Tick i is at i / rate_hz, frame j at j / 30 s whatever its stamp, in force from the first tick at or after
+// that. One contact query before every turn at the pose the turn starts from, in force contact.delay ticks
+// later. Ends when the frames (plus 1/30 s) and the hand path both have.
 class LockstepReplay {
 public:
     // trace: null = none.
-    LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder, CadenceTrace* trace = nullptr);
+    LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+                   CadenceTrace* trace = nullptr);
 
     // Runs to the end and hands over what only the loop knows.
     ReplayRecorder::Ending run();
@@ -34,8 +36,8 @@ private:
         RegionGrid grid;
     };
 
-    void fetch();               // the next usable frame from the camera, stamped with its lockstep time
-    void processNext();         // through the frame cycle
+    void fetch();       // the next usable frame from the camera, stamped with its lockstep time
+    void processNext(); // through the frame cycle
     void takeDueFrames(double t);
     bool ended(double t) const;
     void query(double t);
@@ -55,12 +57,12 @@ private:
     std::optional<HapticCycle> cycle_;
     PenetrationAudit audit_;
 
-    std::optional<Frame> next_;      // fetched, not yet due
+    std::optional<Frame> next_;        // fetched, not yet due
     std::optional<FrameReport> ready_; // processed, not yet due
-    double nextTime_ = 0.0;          // [s] of next_ or ready_
-    double lastFrameTime_ = 0.0;     // [s] of the newest frame in force
-    double pathStart_ = 0.0;         // [s]
-    bool published_ = false;         // some set is in force
+    double nextTime_ = 0.0;            // [s] of next_ or ready_
+    double lastFrameTime_ = 0.0;       // [s] of the newest frame in force
+    double pathStart_ = 0.0;           // [s]
+    bool published_ = false;           // some set is in force
     bool sourceEnded_ = false;
     std::vector<uint32_t> lastColour_;
 

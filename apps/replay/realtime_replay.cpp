@@ -104,15 +104,19 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     o.framePeriod = LockstepReplay::kFramePeriod;
     o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
-    o.progress = [this](double t, uint64_t frames, uint64_t turns) { progress_.update({frames, 0, turns, t}); };
+    o.progress = [this](double t, uint64_t frames, uint64_t turns) {
+        progress_.update({frames, 0, turns, t});
+    };
     return o;
 }
 
 // On all CPUs: nothing else runs yet.
 void RealtimeReplay::spool() {
     const CpuConfinement everywhere(placement_.all);
-    session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(), signals_.asked(),
-                                                      [&](uint64_t frames) { progress_.update({frames, 0, 0, 0.0}); });
+    session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(),
+                                                      signals_.asked(), [&](uint64_t frames) {
+                                                          progress_.update({frames, 0, 0, 0.0});
+                                                      });
 }
 
 ReplayRecorder::Ending RealtimeReplay::run() {

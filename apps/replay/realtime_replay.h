@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `replay --realtime`: the session's cycles on threads, by the wall clock; the caller's thread writes and audits.
+// `replay --realtime`: the session's cycles on threads, by the wall clock; the caller's thread writes and
+// audits.
 #pragma once
 
 #include "apps/binding/realtime_run.h"
@@ -29,13 +30,14 @@ struct RealtimeFigures {
 // Where the haptic thread goes and where everything else does, in one line.
 std::string describe(const ThreadPlacement& placement);
 
-// Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is captured at
-// (index j - index 0) / 30 s by the clock. Ends when frames (plus 1/30 s) and hand path both have, or on SIGINT or SIGTERM: then too
-// every file is whole.
+// Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is
+// captured at (index j - index 0) / 30 s by the clock. Ends when frames (plus 1/30 s) and hand path both
+// have, or on SIGINT or SIGTERM: then too every file is whole.
 class RealtimeReplay final : private RunSink {
 public:
-    // The session must have been built on a thread confined to placement.rest: a software device's workers stay where it is.
-    // Takes the pictures of a simulated camera beforehand (SpooledCamera): rendering is not what a run measures. trace may be null.
+    // The session must have been built on a thread confined to placement.rest: a software device's workers
+    // stay where it is. Takes the pictures of a simulated camera beforehand (SpooledCamera): rendering is not
+    // what a run measures. trace may be null.
     RealtimeReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    const ThreadPlacement& placement, CadenceTrace* trace);
     ~RealtimeReplay() override;
@@ -53,8 +55,10 @@ private:
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote& note) override;
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown, std::span<const uint32_t> behind) override;
-    void audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown, std::span<const uint32_t> behind);
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+              std::span<const uint32_t> behind) override;
+    void audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+               std::span<const uint32_t> behind);
     RealtimeOptions runOptions(CadenceTrace* trace);
     void spool();
     ReplayRecorder::Ending ending(const HapticCycle& cycle);

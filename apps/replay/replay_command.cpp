@@ -16,21 +16,23 @@ constexpr double kPenetrationLimit = 1e-5; // [m] the stated limit of all runs
 
 void printPart(const char* name, const Percentiles& p, const char* unit) {
     if (p.p50) {
-        std::cout << name << " p50 " << *p.p50 << " p99 " << *p.p99 << " max " << *p.max << " " << unit << "\n";
+        std::cout << name << " p50 " << *p.p50 << " p99 " << *p.p99 << " max " << *p.max << " " << unit
+                  << "\n";
     }
 }
 
 void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << std::setprecision(4);
-    std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on " << s.device << "\n";
+    std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on "
+              << s.device << "\n";
     printPart("  passes    ", s.frames.gpuMs, "ms");
     printPart("  latency   ", s.frames.latencyMs, "ms");
-    std::cout << "haptic       " << s.haptic.ticks << " ticks, " << s.haptic.stalledTicks << " stalled, " << s.haptic.trappedTicks
-              << " trapped, " << s.haptic.escapeTicks << " escaping\n";
+    std::cout << "haptic       " << s.haptic.ticks << " ticks, " << s.haptic.stalledTicks << " stalled, "
+              << s.haptic.trappedTicks << " trapped, " << s.haptic.escapeTicks << " escaping\n";
     printPart("  turn      ", s.haptic.turnMicros, "us");
     printPart("  query     ", s.contact.queryMicros, "us");
-    std::cout << "  force      up to " << s.haptic.maxForce << " N, torque up to " << s.haptic.maxTorque << " N m, stiffness "
-              << s.haptic.stiffness.value_or(0.0) << " N/m\n"
+    std::cout << "  force      up to " << s.haptic.maxForce << " N, torque up to " << s.haptic.maxTorque
+              << " N m, stiffness " << s.haptic.stiffness.value_or(0.0) << " N/m\n"
               << "  penetration ";
     if (s.haptic.maxPenetration) {
         std::cout << *s.haptic.maxPenetration * 1e6 << " um beyond the allowance\n";
@@ -38,8 +40,8 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
         std::cout << "not audited\n";
     }
     for (const auto& f : s.fixtures) {
-        std::cout << "fixture      " << f.name << " (" << f.role << "): " << f.pointsMean.value_or(0.0) << " points, "
-                  << f.spheresMean.value_or(0.0) << " spheres a frame\n";
+        std::cout << "fixture      " << f.name << " (" << f.role << "): " << f.pointsMean.value_or(0.0)
+                  << " points, " << f.spheresMean.value_or(0.0) << " spheres a frame\n";
     }
     std::cout << "digest       " << s.digest << "\nwritten to   " << out.string() << "\n";
 }
@@ -47,15 +49,18 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
 void print(const RealtimeFigures& f, const ThreadPlacement& placement, const ReplaySummary& s) {
     std::cout << "realtime     " << describe(placement) << (f.stopped ? "; stopped by a signal" : "") << "\n";
     printPart("  woken late", f.wokenLateMicros, "us");
-    std::cout << "  turns     " << s.haptic.late << " of " << s.haptic.ticks << " ended over one period late, " << f.periodsMissed
-              << " periods without one\n  frames    " << f.framesLost << " that a live camera would have lost; scene too old in " << f.staleTurns << " turns\n";
+    std::cout << "  turns     " << s.haptic.late << " of " << s.haptic.ticks
+              << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
+              << f.framesLost << " that a live camera would have lost; scene too old in " << f.staleTurns
+              << " turns\n";
     if (f.recordsLost > 0) {
         std::cout << "  records   " << f.recordsLost << " lost: the writer could not keep up\n";
     }
 }
 
 std::unique_ptr<CadenceTrace> openTrace(const ReplaySession& session, const GlobalOptions& global) {
-    return global.trace.empty() ? nullptr : std::make_unique<CadenceTrace>(global.trace, session.frames.passNames());
+    return global.trace.empty() ? nullptr
+                                : std::make_unique<CadenceTrace>(global.trace, session.frames.passNames());
 }
 
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
@@ -73,7 +78,8 @@ ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& glo
 
 ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& global) {
     const ThreadPlacement placement = ThreadPlacement::ofThisProcess();
-    const CpuConfinement confined(placement.rest); // before the device: a software device's workers inherit it
+    const CpuConfinement confined(
+        placement.rest); // before the device: a software device's workers inherit it
     ReplaySession session(options, global, 2);
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures);
@@ -89,9 +95,11 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
 }
 
 int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
-    const ReplaySummary summary = options.realtime ? runRealtime(options, global) : runLockstep(options, global);
+    const ReplaySummary summary =
+        options.realtime ? runRealtime(options, global) : runLockstep(options, global);
     if (summary.haptic.maxPenetration.value_or(0.0) > kPenetrationLimit) {
-        std::cerr << "fathom: max_penetration_m " << *summary.haptic.maxPenetration << " exceeds " << kPenetrationLimit << "\n";
+        std::cerr << "fathom: max_penetration_m " << *summary.haptic.maxPenetration << " exceeds "
+                  << kPenetrationLimit << "\n";
         return 1;
     }
     return 0;
@@ -106,7 +114,8 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--source", options->source, "recording folder in place of the scene's camera");
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
     command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
-    command->add_option("--query", options->query, "where contacts are found")->check(CLI::IsMember({"cpu", "gpu"}));
+    command->add_option("--query", options->query, "where contacts are found")
+        ->check(CLI::IsMember({"cpu", "gpu"}));
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();

@@ -12,10 +12,10 @@ namespace fathom {
 
 struct ReplayOptions {
     std::filesystem::path scene;
-    std::string source;    // recording folder; empty = the scene's camera
+    std::string source;      // recording folder; empty = the scene's camera
     std::string operatorCsv; // hand path; empty = the scene's
-    std::string query;     // cpu, gpu; empty = the scene's
-    bool hand = false;     // close the loop with the simulated hand
+    std::string query;       // cpu, gpu; empty = the scene's
+    bool hand = false;       // close the loop with the simulated hand
     bool realtime = false;
     bool saveFixtures = false;
     std::filesystem::path out;

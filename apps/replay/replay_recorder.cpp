@@ -12,7 +12,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMomentMargin = 1.05; // a picture is copied for this much more force, not for every tick of a rising one
+constexpr double kMomentMargin =
+    1.05; // a picture is copied for this much more force, not for every tick of a rising one
 
 std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
     prepareOutputFolder(out, withFixtures);
@@ -39,7 +40,8 @@ FrameRecord recordOf(const FrameReport& report, double t, const std::vector<std:
 
 } // namespace
 
-ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes, bool saveFixtures)
+ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
+                               bool saveFixtures)
     : out_(prepared(std::move(out), saveFixtures))
     , scene_(scene)
     , saveFixtures_(saveFixtures)
@@ -96,7 +98,8 @@ void ReplayRecorder::tick(const TickRecord& tick) {
 
 bool ReplayRecorder::wantsMoment() const {
     const double force = glm::length(lastTick_.wrench.force);
-    return force > kMomentMargin * moment_.force || (force > moment_.force && lastTick_.frame != moment_.tick.frame);
+    return force > kMomentMargin * moment_.force ||
+           (force > moment_.force && lastTick_.frame != moment_.tick.frame);
 }
 
 void ReplayRecorder::moment(const Fixtures& set, std::span<const uint32_t> colour) {
@@ -157,8 +160,8 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     haptics_.commit();
     frames_.commit();
     writePictures(ending);
-    summary.frames = {frameCount_, ending.skipped, percentilesOf(std::move(gpuMs_)), percentilesOf(std::move(uploadMs_)),
-                      percentilesOf(std::move(latencyMs_))};
+    summary.frames = {frameCount_, ending.skipped, percentilesOf(std::move(gpuMs_)),
+                      percentilesOf(std::move(uploadMs_)), percentilesOf(std::move(latencyMs_))};
     summary.haptic.take(std::move(totals_));
     summary.haptic.maxPenetration = ending.maxPenetration;
     summary.haptic.maxEscapeDepth = ending.maxEscapeDepth;

@@ -19,14 +19,16 @@ namespace fathom {
 // One thread. Files appear at finish(); an exception before it leaves those of an earlier run untouched.
 class ReplayRecorder {
 public:
-    // fixture sets are saved as fixtures/NNNNNN.ply when saveFixtures. Throws Error that names what cannot be written.
-    ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes, bool saveFixtures);
+    // fixture sets are saved as fixtures/NNNNNN.ply when saveFixtures. Throws Error that names what cannot be
+    // written.
+    ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
+                   bool saveFixtures);
 
     // A used frame, at t [s] of the run, with the set it made; unchanged frames too.
     void frame(const FrameReport& report, double t, const Fixtures& set);
     void tick(const TickRecord& tick);
-    // overlay.png shows the strongest moment of the run: true when the last tick was it so far, by a clear margin or on a new frame;
-    // then moment() wants what the hand felt (copied) and saw.
+    // overlay.png shows the strongest moment of the run: true when the last tick was it so far, by a clear
+    // margin or on a new frame; then moment() wants what the hand felt (copied) and saw.
     bool wantsMoment() const;
     void moment(const Fixtures& set, std::span<const uint32_t> colour);
     void query(double micros) { queryMicros_.push_back(static_cast<float>(micros)); }
@@ -35,15 +37,15 @@ public:
     struct Ending {
         uint64_t skipped = 0;
         QueryStatistics contact;
-        std::string where = "none"; // cpu, gpu, none
+        std::string where = "none";                           // cpu, gpu, none
         std::optional<double> maxPenetration, maxEscapeDepth; // [m]
         double stiffness = 0.0, rotationalStiffness = 0.0;    // [N/m], [N m/rad]
         std::string device;
         bool lockstep = true;
-        std::string title;                           // scene and source
-        double forceLimit = 0.0, torqueLimit = 0.0;  // [N], [N m]
+        std::string title;                          // scene and source
+        double forceLimit = 0.0, torqueLimit = 0.0; // [N], [N m]
         CameraInfo camera;
-        std::span<const uint32_t> colour;            // of the last frame, for runs without any force; may be empty
+        std::span<const uint32_t> colour; // of the last frame, for runs without any force; may be empty
         const Fixtures* lastSet = nullptr;
         std::span<const Sphere> leaves;
     };

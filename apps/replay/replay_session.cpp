@@ -34,7 +34,8 @@ std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scen
 
 ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers)
     : scene(sceneOf(options))
-    , camera(openCamera(scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source)))
+    , camera(openCamera(scene, options.source.empty() ? std::nullopt
+                                                      : std::optional<std::filesystem::path>(options.source)))
     , tool(openTool(scene))
     , device(instance, global.device)
     , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))
@@ -49,17 +50,20 @@ std::string ReplaySession::where() const {
     return plan.query == Plan::Query::None ? "none" : (plan.query == Plan::Query::Cpu ? "cpu" : "gpu");
 }
 
-HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options, const cloud::FixtureSet& firstSet) {
+HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options,
+                      const cloud::FixtureSet& firstSet) {
     if (!options.operatorCsv.empty()) {
         return HandPath(readHandCsv(options.operatorCsv));
     }
     if (!session.scene.hand.builtIn) {
         return HandPath(readHandCsv(session.scene.hand.path));
     }
-    return HandPath(toHand(approachPath(session.scene, session.tool, firstSet.host, firstSet.grid), session.scene.hand));
+    return HandPath(
+        toHand(approachPath(session.scene, session.tool, firstSet.host, firstSet.grid), session.scene.hand));
 }
 
-std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session, const ReplayOptions& options) {
+std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session,
+                                       const ReplayOptions& options) {
     if (!options.hand) {
         return std::make_unique<ScriptedHand>(path);
     }

@@ -31,10 +31,13 @@ struct ReplaySession {
     std::string where() const; // of the contact query
 };
 
-// The hand of a replay: the CSV that the options or the scene name, or the built-in path over the first fixture set.
-HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options, const cloud::FixtureSet& firstSet);
+// The hand of a replay: the CSV that the options or the scene name, or the built-in path over the first
+// fixture set.
+HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options,
+                      const cloud::FixtureSet& firstSet);
 
 // A device that follows the path; with --hand one that also feels the wrench.
-std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session, const ReplayOptions& options);
+std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session,
+                                       const ReplayOptions& options);
 
 } // namespace fathom

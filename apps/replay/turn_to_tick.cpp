@@ -7,12 +7,18 @@ namespace {
 
 TickState stateOf(TurnState state) {
     switch (state) {
-    case TurnState::Off: return TickState::Off;
-    case TurnState::Free: return TickState::Free;
-    case TurnState::Contact: return TickState::Contact;
-    case TurnState::Escape: return TickState::Escape;
-    case TurnState::Trapped: return TickState::Trapped;
-    case TurnState::Fading: return TickState::Fading;
+    case TurnState::Off:
+        return TickState::Off;
+    case TurnState::Free:
+        return TickState::Free;
+    case TurnState::Contact:
+        return TickState::Contact;
+    case TurnState::Escape:
+        return TickState::Escape;
+    case TurnState::Trapped:
+        return TickState::Trapped;
+    case TurnState::Fading:
+        return TickState::Fading;
     }
     return TickState::Off;
 }

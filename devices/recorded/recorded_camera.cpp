@@ -101,8 +101,8 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
     return Frame(content, slot.giveBack());
 }
 
-// Named at once in a recording that has shown a good frame; before that when one comes. Should none come, the one
-// refusal says it all.
+// Named at once in a recording that has shown a good frame; before that when one comes. Should none come, the
+// one refusal says it all.
 void RecordedCamera::skip(uint32_t index, const std::string& fault) {
     ++skipped_;
     unnamed_.push_back("frame " + std::to_string(index) + " skipped: " + fault);

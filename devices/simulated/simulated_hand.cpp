@@ -74,9 +74,10 @@ void SimulatedHand::write(const Wrench& deviceWrench, double dt) noexcept {
     now_ += dt;
 }
 
-// Half a drift, a kick, half a drift: exact under a constant force, so that the hand sees the wrench as late as a sampled
-// one is (half a period) and not earlier, and neither feeds nor brakes its own swing. The damper acts by its exact decay
-// about the kick: no damping, however large, can make the step unstable. t: the middle of the step.
+// Half a drift, a kick, half a drift: exact under a constant force, so that the hand sees the wrench as late
+// as a sampled one is (half a period) and not earlier, and neither feeds nor brakes its own swing. The damper
+// acts by its exact decay about the kick: no damping, however large, can make the step unstable. t: the
+// middle of the step.
 void SimulatedHand::substep(const Wrench& wrench, double t, double h) noexcept {
     const HandLoop& loop = options_.loop;
     const Pose intended = path_.at(t).deviceThandle;

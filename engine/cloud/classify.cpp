@@ -15,17 +15,19 @@ uint32_t colourMode(const Plan& plan) {
 } // namespace
 
 ClassifyPass::ClassifyPass(const CloudContext& c)
-    : pipeline_(c.device, {"classify", classify_spv, 10, true, 0,
-                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
-                                      c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box}}})
+    : pipeline_(c.device,
+                {"classify", classify_spv, 10, true, 0,
+                 std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, colourMode(c.plan),
+                            uint32_t{c.plan.hold}, c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box}}})
     , work_(c.work)
     , groups_{c.layout.across, c.layout.down, 256 / c.plan.pixelGroup} {
     for (uint32_t u = 0; u < kUploads; ++u) {
         const UploadBuffers& up = c.uploads[u];
-        bindings_[u] = gpu::Bindings(c.device, pipeline_,
-                                     {&up.params, &up.depth, &c.work.rays, &up.colour, &c.work.nearest, &c.work.masks,
-                                      &c.work.listed, &c.work.list, &c.work.counters, &c.work.live},
-                                     c.work.unused);
+        bindings_[u] =
+            gpu::Bindings(c.device, pipeline_,
+                          {&up.params, &up.depth, &c.work.rays, &up.colour, &c.work.nearest, &c.work.masks,
+                           &c.work.listed, &c.work.list, &c.work.counters, &c.work.live},
+                          c.work.unused);
     }
 }
 

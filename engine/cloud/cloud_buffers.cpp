@@ -24,7 +24,8 @@ void fillRays(const Buffer& rays, const Intrinsics& lens) {
 
 } // namespace
 
-WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout, const CameraInfo& camera) {
+WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout,
+                         const CameraInfo& camera) {
     const uint64_t slots = layout.slots(), patches = layout.patches(), subs = patches * 16;
     unused = Buffer(device, 16, MemoryKind::Device, "unused");
     if (!plan.cloud) {
@@ -45,8 +46,9 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         live = Buffer(device, patches * 4, MemoryKind::Device, "live");
     }
     if (plan.occlusion) {
-        // A cell half as wide again as the distance between neighbouring depth pixels in the colour picture: a surface that turns
-        // its face to the colour camera is stretched there, and a gap would let what it hides show through.
+        // A cell half as wide again as the distance between neighbouring depth pixels in the colour picture:
+        // a surface that turns its face to the colour camera is stretched there, and a gap would let what it
+        // hides show through.
         const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
         cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(1.5 * ratio)));
         cellsAcross = (camera.colour.width + cellEdge - 1) / cellEdge;
@@ -92,7 +94,8 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
         }
     }
     if (plan.moments) {
-        moments = Buffer(device, patches * shared::kMaxClasses * sizeof(shared::PatchMoments), MemoryKind::Readback, "moments");
+        moments = Buffer(device, patches * shared::kMaxClasses * sizeof(shared::PatchMoments),
+                         MemoryKind::Readback, "moments");
     }
     if (plan.guidancePoints) {
         points = Buffer(device, slots * 16, MemoryKind::Readback, "set points");

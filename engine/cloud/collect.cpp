@@ -11,7 +11,8 @@ namespace fathom::cloud {
 
 namespace {
 
-// Slot within a patch of the pixel at (x, y) of the patch; the order in which spheres are collected is by pixel.
+// Slot within a patch of the pixel at (x, y) of the patch; the order in which spheres are collected is by
+// pixel.
 uint32_t pixelInPatch(uint32_t slot) {
     const uint32_t sub = slot >> 4 & 15, p = slot & 15;
     return ((sub >> 2) * 4 + (p >> 2)) * 16 + (sub & 3) * 4 + (p & 3);
@@ -47,7 +48,8 @@ public:
 private:
     uint32_t sourceOf(uint32_t patch, uint32_t slot) const {
         const uint32_t inside = pixelInPatch(slot);
-        return ((patch / layout_.across) * 16 + inside / 16) * width_ + (patch % layout_.across) * 16 + inside % 16;
+        return ((patch / layout_.across) * 16 + inside / 16) * width_ + (patch % layout_.across) * 16 +
+               inside % 16;
     }
 
     void add(const glm::vec4& s, uint32_t source, uint32_t row) {
@@ -64,8 +66,8 @@ private:
     uint32_t width_, pixels_;
 };
 
-void takeSpheres(FixtureSet& set, const std::vector<uint32_t>& rows, const Plan& plan, const PatchLayout& layout,
-                 FrameCounts& counts) {
+void takeSpheres(FixtureSet& set, const std::vector<uint32_t>& rows, const Plan& plan,
+                 const PatchLayout& layout, FrameCounts& counts) {
     const auto listed = set.device.listed.as<uint32_t>();
     SphereCollector collector(set, rows, layout);
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
@@ -110,13 +112,16 @@ Moments classMoments(const FixtureSet& set, uint32_t k, const PatchLayout& layou
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
         const shared::PatchMoments& m = all[patch * shared::kMaxClasses + k];
         if (listed[patch] != 0 && m.anchor.w > 0.0f) {
-            parts.push_back({m.anchor.w, dvec3(m.anchor) + dvec3(m.offset), {m.first.x, m.first.y, m.first.z, m.first.w, m.second.x, m.second.y}});
+            parts.push_back({m.anchor.w,
+                             dvec3(m.anchor) + dvec3(m.offset),
+                             {m.first.x, m.first.y, m.first.z, m.first.w, m.second.x, m.second.y}});
         }
     }
     return mergeAll(std::move(parts));
 }
 
-void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_t>& rows, const PatchLayout& layout) {
+void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_t>& rows,
+                  const PatchLayout& layout) {
     uint32_t k = 0;
     for (uint32_t c = 0; c < rows.size(); ++c) {
         const FixtureClass& fixture = scene.fixtures[rows[c]];
@@ -124,14 +129,16 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
             continue;
         }
         const bool chosen = fixture.largestPart || fixture.trim > 0.0;
-        Moments m = chosen ? chosenMoments(set, c, fixture, scene.filter.edge, layout) : classMoments(set, k, layout);
+        Moments m =
+            chosen ? chosenMoments(set, c, fixture, scene.filter.edge, layout) : classMoments(set, k, layout);
         m.mean += set.host.origin;
         set.host.guidance.push_back(guidancePose(m, fixture, rows[c], set.host.baseTcamera.position));
         ++k;
     }
 }
 
-// Depth readings in near..far. Counted here: a counter that 300 000 invocations share costs the device milliseconds.
+// Depth readings in near..far. Counted here: a counter that 300 000 invocations share costs the device
+// milliseconds.
 uint32_t validPixels(const Fixtures& host, const Scene& scene) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
     uint32_t count = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brings a finished set from the device's readback memory into plain host memory, in an order that is the same for equal frames.
+// Brings a finished set from the device's readback memory into plain host memory, in an order that is the
+// same for equal frames.
 #pragma once
 
 #include "engine/cloud/fixture_set.h"
@@ -10,15 +11,15 @@ namespace fathom::cloud {
 
 // What a frame counted.
 struct FrameCounts {
-    uint32_t valid = 0, forbidden = 0;                  // pixels, as classify marks them
-    std::vector<uint32_t> classPixels;                  // a class of points (bit of the mask)
-    std::vector<uint32_t> classSpheres, classPatches;   // a class: kept spheres, patches with at least one
+    uint32_t valid = 0, forbidden = 0;                // pixels, as classify marks them
+    std::vector<uint32_t> classPixels;                // a class of points (bit of the mask)
+    std::vector<uint32_t> classSpheres, classPatches; // a class: kept spheres, patches with at least one
     uint32_t spheres = 0, patches = 0, nodes = 0;
-    std::vector<float> leakSpacing, leakRange;          // a class [m]; 0 = none
+    std::vector<float> leakSpacing, leakRange; // a class [m]; 0 = none
 };
 
-// Fills set.host.spheres, forbiddenBits and guidance from the device side; the caller has set camera, pose, origin and frame.
-// Allocates only when a frame is larger than any before.
+// Fills set.host.spheres, forbiddenBits and guidance from the device side; the caller has set camera, pose,
+// origin and frame. Allocates only when a frame is larger than any before.
 FrameCounts collect(FixtureSet& set, const Scene& scene, const Plan& plan, const PatchLayout& layout);
 
 } // namespace fathom::cloud

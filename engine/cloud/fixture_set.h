@@ -12,11 +12,12 @@ namespace fathom::cloud {
 // Written by the frame cadence, then read-only until no reader leases it. The host part outlives the device.
 struct FixtureSet {
     Fixtures host;
-    RegionGrid grid; // over host.spheres
+    RegionGrid grid;            // over host.spheres
     std::vector<uint32_t> keys; // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending
     SetBuffers device;
 
-    FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout) : device(gpu, plan, layout) {}
+    FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)
+        : device(gpu, plan, layout) {}
 };
 
 using FixturePool = LeasePool<FixtureSet>;

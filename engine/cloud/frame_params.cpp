@@ -12,7 +12,8 @@ namespace {
 
 using glm::vec4;
 
-// Isolated points: fewer than 2 neighbours this near; wide-angle and far pictures are coarser than 20 mm by nature.
+// Isolated points: fewer than 2 neighbours this near; wide-angle and far pictures are coarser than 20 mm by
+// nature.
 constexpr double kIsolation = 0.020; // [m]
 constexpr double kIsolationPixels = 3.0;
 
@@ -31,7 +32,8 @@ void setRows(vec4 (&rows)[3], const Pose& pose) {
     }
 }
 
-shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene& scene, const dvec3& origin) {
+shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene& scene,
+                                const dvec3& origin) {
     shared::ClassParams c{};
     c.hue = f.hue ? vec4(f.hue->lo, f.hue->hi, 1.0, f.hue->lo > f.hue->hi ? 1.0 : 0.0) : vec4(0.0f);
     const Band s = f.saturation.value_or(Band{0.0, 1.0}), l = f.lightness.value_or(Band{0.0, 1.0});
@@ -52,8 +54,9 @@ uint32_t forbiddenOrder(const shared::FrameParams& params) {
     std::vector<uint32_t> order(params.depthBand.z);
     std::iota(order.begin(), order.end(), 0u);
     std::erase_if(order, [&](uint32_t c) { return params.classes[c].role.y == 0.0f; });
-    std::stable_sort(order.begin(), order.end(),
-                     [&](uint32_t a, uint32_t b) { return params.classes[a].role.x > params.classes[b].role.x; });
+    std::stable_sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) {
+        return params.classes[a].role.x > params.classes[b].role.x;
+    });
     uint32_t packed = 0xffffffffu;
     for (size_t i = 0; i < order.size(); ++i) {
         packed = (packed & ~(15u << (4 * i))) | (order[i] << (4 * i));
@@ -64,8 +67,10 @@ uint32_t forbiddenOrder(const shared::FrameParams& params) {
 } // namespace
 
 std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit) {
-    const double lo = std::ceil(scene.nearZ / metresPerUnit - 1e-9), hi = std::floor(scene.farZ / metresPerUnit + 1e-9);
-    return {static_cast<uint32_t>(std::clamp(lo, 1.0, 65536.0)), static_cast<uint32_t>(std::clamp(hi, 0.0, 65535.0))};
+    const double lo = std::ceil(scene.nearZ / metresPerUnit - 1e-9),
+                 hi = std::floor(scene.farZ / metresPerUnit + 1e-9);
+    return {static_cast<uint32_t>(std::clamp(lo, 1.0, 65536.0)),
+            static_cast<uint32_t>(std::clamp(hi, 0.0, 65535.0))};
 }
 
 std::vector<uint32_t> classRows(const Scene& scene) {
@@ -78,8 +83,8 @@ std::vector<uint32_t> classRows(const Scene& scene) {
     return rows;
 }
 
-shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout, const dvec3& origin,
-                                uint32_t cellEdge, uint32_t cellsAcross) {
+shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout,
+                                const dvec3& origin, uint32_t cellEdge, uint32_t cellsAcross) {
     shared::FrameParams p{};
     const std::vector<uint32_t> rows = classRows(scene);
     p.size = {camera.depth.width, camera.depth.height, layout.across, layout.down};
@@ -95,7 +100,8 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     p.distortion = distortionOf(camera.depth);
     p.colourLens = lensOf(camera.colour);
     p.colourDistortion = distortionOf(camera.colour);
-    p.more = {camera.depth.distortion[4], camera.colour.distortion[4], camera.metresPerUnit, scene.filter.edge};
+    p.more = {camera.depth.distortion[4], camera.colour.distortion[4], camera.metresPerUnit,
+              scene.filter.edge};
     p.filterParams = {1.0 / (2.0 * scene.filter.sigma * scene.filter.sigma), scene.errorBudget, kIsolation,
                       kIsolationPixels / std::min(camera.depth.fx, camera.depth.fy)};
     const double constant = depthSigma(0.0);
@@ -109,7 +115,9 @@ void setFrame(shared::FrameParams& params, const Pose& baseTcamera, const dvec3&
     const Pose local{baseTcamera.position - origin, baseTcamera.rotation};
     setRows(params.baseTcamera, local);
     setRows(params.cameraTbase, inverse(local));
-    const auto wrapped = [](double seconds) { return static_cast<uint32_t>(static_cast<int64_t>(std::llround(seconds * 1e6))); };
+    const auto wrapped = [](double seconds) {
+        return static_cast<uint32_t>(static_cast<int64_t>(std::llround(seconds * 1e6)));
+    };
     params.time.x = wrapped(captureTime);
     params.time.z = wrapped(previousTime);
 }

@@ -12,8 +12,8 @@ namespace {
 template <class T>
 void copyInto(const gpu::Buffer& buffer, std::span<const T> from, uint64_t bytes, const char* what) {
     if (from.size_bytes() < bytes) {
-        throw Error(std::string("frame: ") + what + " image of " + std::to_string(from.size_bytes()) + " bytes, needs " +
-                    std::to_string(bytes));
+        throw Error(std::string("frame: ") + what + " image of " + std::to_string(from.size_bytes()) +
+                    " bytes, needs " + std::to_string(bytes));
     }
     std::memcpy(buffer.as<std::byte>().data(), from.data(), bytes);
 }

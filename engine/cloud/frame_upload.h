@@ -8,8 +8,8 @@
 
 namespace fathom::cloud {
 
-// Copies depth, colour when the plan has it, and the parameters. The slot's last submission must have completed. Throws Error when
-// the frame's images are smaller than the camera said.
+// Copies depth, colour when the plan has it, and the parameters. The slot's last submission must have
+// completed. Throws Error when the frame's images are smaller than the camera said.
 void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::FrameParams& params);
 
 } // namespace fathom::cloud

@@ -16,14 +16,19 @@ struct Pixel {
 class ClassPicture {
 public:
     ClassPicture(const FixtureSet& set, uint32_t c, const PatchLayout& layout)
-        : set_(set), bit_(1u << c), across_(layout.across), width_(set.host.camera.depth.width), height_(set.host.camera.depth.height) {}
+        : set_(set)
+        , bit_(1u << c)
+        , across_(layout.across)
+        , width_(set.host.camera.depth.width)
+        , height_(set.host.camera.depth.height) {}
 
     uint32_t width() const { return width_; }
     uint32_t height() const { return height_; }
 
     glm::vec4 at(uint32_t u, uint32_t v) const {
         const uint32_t slot = slotOfPixel(u, v, across_);
-        const bool in = set_.device.listed.as<uint32_t>()[slot / 256] != 0 && (set_.device.masks.as<uint32_t>()[slot] & bit_) != 0;
+        const bool in = set_.device.listed.as<uint32_t>()[slot / 256] != 0 &&
+                        (set_.device.masks.as<uint32_t>()[slot] & bit_) != 0;
         return in ? set_.device.points.as<glm::vec4>()[slot] : glm::vec4(0.0f);
     }
 
@@ -77,12 +82,14 @@ void trimFarthest(std::vector<dvec3>& points, double share) {
     std::stable_sort(points.begin(), points.end(), [&](const dvec3& a, const dvec3& b) {
         return glm::dot(a - mean, a - mean) < glm::dot(b - mean, b - mean);
     });
-    points.resize(points.size() - static_cast<size_t>(std::floor(share * static_cast<double>(points.size()))));
+    points.resize(points.size() -
+                  static_cast<size_t>(std::floor(share * static_cast<double>(points.size()))));
 }
 
 } // namespace
 
-Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge, const PatchLayout& layout) {
+Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
+                      const PatchLayout& layout) {
     const ClassPicture picture(set, c, layout);
     std::vector<Pixel> pixels;
     for (uint32_t v = 0; v < picture.height(); ++v) {

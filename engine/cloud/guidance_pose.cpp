@@ -37,7 +37,8 @@ void jacobiRotate(double (&a)[3][3], double (&v)[3][3], int p, int q) noexcept {
     }
 }
 
-// Tool axes: +z along -normal; +x along the long axis of the points or, without one, as near the scene's x as the normal lets it.
+// Tool axes: +z along -normal; +x along the long axis of the points or, without one, as near the scene's x as
+// the normal lets it.
 dquat targetRotation(const dvec3& normal, const dvec3& longAxis, bool rollFree, const dquat& scene) {
     const dvec3 z = -normal;
     const dvec3 sceneX = scene * dvec3(1, 0, 0);
@@ -108,7 +109,8 @@ Eigen3 symmetricEigen(const std::array<double, 6>& m) noexcept {
     return result;
 }
 
-GuidancePose guidancePose(const Moments& moments, const FixtureClass& fixture, uint32_t row, const dvec3& camera) {
+GuidancePose guidancePose(const Moments& moments, const FixtureClass& fixture, uint32_t row,
+                          const dvec3& camera) {
     GuidancePose pose;
     pose.fixture = row;
     pose.count = static_cast<uint32_t>(moments.count);
@@ -124,12 +126,15 @@ GuidancePose guidancePose(const Moments& moments, const FixtureClass& fixture, u
             c /= moments.count;
         }
         const Eigen3 e = symmetricEigen(covariance);
-        const double l1 = std::max(e.values.x, 0.0), l2 = std::max(e.values.y, 0.0), l3 = std::max(e.values.z, 0.0);
-        pose.planar = std::sqrt(l3) <= std::max(kPlaneThickness, kPlaneRatio * std::sqrt(l2)) && std::sqrt(l2) >= kPlaneWidth;
+        const double l1 = std::max(e.values.x, 0.0), l2 = std::max(e.values.y, 0.0),
+                     l3 = std::max(e.values.z, 0.0);
+        pose.planar = std::sqrt(l3) <= std::max(kPlaneThickness, kPlaneRatio * std::sqrt(l2)) &&
+                      std::sqrt(l2) >= kPlaneWidth;
         if (pose.planar) {
             pose.normal = glm::dot(e.vectors[2], toCamera) < 0.0 ? -e.vectors[2] : e.vectors[2];
             pose.rollFree = !(l1 > kLongAxis * l2);
-            pose.target.rotation = targetRotation(pose.normal, e.vectors[0], pose.rollFree, fixture.orientation);
+            pose.target.rotation =
+                targetRotation(pose.normal, e.vectors[0], pose.rollFree, fixture.orientation);
             standoffAxis = pose.normal;
         }
     }

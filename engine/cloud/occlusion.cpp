@@ -6,12 +6,14 @@
 namespace fathom::cloud {
 
 OcclusionPass::OcclusionPass(const CloudContext& c)
-    : pipeline_(c.device, {"occlusion", occlusion_spv, 4, true, 0, std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}}})
+    : pipeline_(c.device, {"occlusion", occlusion_spv, 4, true, 0,
+                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}}})
     , nearest_(c.work.nearest)
     , groups_((c.camera.depth.pixels() + c.plan.pixelGroup - 1) / c.plan.pixelGroup) {
     for (uint32_t u = 0; u < kUploads; ++u) {
-        bindings_[u] = gpu::Bindings(c.device, pipeline_,
-                                     {&c.uploads[u].params, &c.uploads[u].depth, &c.work.rays, &c.work.nearest}, c.work.unused);
+        bindings_[u] = gpu::Bindings(
+            c.device, pipeline_, {&c.uploads[u].params, &c.uploads[u].depth, &c.work.rays, &c.work.nearest},
+            c.work.unused);
     }
 }
 

@@ -19,9 +19,26 @@ SpheresPass::SpheresPass(const CloudContext& c)
         auto& perUpload = bindings_.emplace_back();
         for (uint32_t u = 0; u < kUploads; ++u) {
             perUpload[u] = gpu::Bindings(c.device, pipeline_,
-                                         {&c.uploads[u].params, &c.uploads[u].depth, &w.masks, &w.points, &w.listed, &w.list,
-                                          &w.growth, &w.counters, &w.seen, &w.kept, &w.keptTime, &w.live, &s->spheres, &s->held,
-                                          &s->classes, &s->bits, &s->nodes, &s->nodeCounts, &s->deviceSpheres, &s->deviceHeld},
+                                         {&c.uploads[u].params,
+                                          &c.uploads[u].depth,
+                                          &w.masks,
+                                          &w.points,
+                                          &w.listed,
+                                          &w.list,
+                                          &w.growth,
+                                          &w.counters,
+                                          &w.seen,
+                                          &w.kept,
+                                          &w.keptTime,
+                                          &w.live,
+                                          &s->spheres,
+                                          &s->held,
+                                          &s->classes,
+                                          &s->bits,
+                                          &s->nodes,
+                                          &s->nodeCounts,
+                                          &s->deviceSpheres,
+                                          &s->deviceHeld},
                                          w.unused);
         }
     }
@@ -32,7 +49,8 @@ void SpheresPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set)
         commands.fill(work_.live, 0); // classify has read it; counted anew below
         commands.barrier();
     }
-    commands.dispatchIndirect(pipeline_, bindings_[set][upload], work_.counters, offsetof(shared::FrameCounters, subGroups));
+    commands.dispatchIndirect(pipeline_, bindings_[set][upload], work_.counters,
+                              offsetof(shared::FrameCounters, subGroups));
 }
 
 } // namespace fathom::cloud

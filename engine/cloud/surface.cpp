@@ -10,19 +10,20 @@ namespace fathom::cloud {
 
 SurfacePass::SurfacePass(const CloudContext& c)
     : pipeline_(c.device, {"surface", surface_spv, 6, true, 0,
-                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, c.plan.filterRadius, uint32_t{c.plan.edge},
-                                      uint32_t{c.plan.tiled}}})
+                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, c.plan.filterRadius,
+                                      uint32_t{c.plan.edge}, uint32_t{c.plan.tiled}}})
     , counters_(c.work.counters) {
     for (uint32_t u = 0; u < kUploads; ++u) {
-        bindings_[u] = gpu::Bindings(
-            c.device, pipeline_,
-            {&c.uploads[u].params, &c.uploads[u].depth, &c.work.rays, &c.work.masks, &c.work.list, &c.work.points},
-            c.work.unused);
+        bindings_[u] = gpu::Bindings(c.device, pipeline_,
+                                     {&c.uploads[u].params, &c.uploads[u].depth, &c.work.rays, &c.work.masks,
+                                      &c.work.list, &c.work.points},
+                                     c.work.unused);
     }
 }
 
 void SurfacePass::record(gpu::Commands& commands, uint32_t upload) const {
-    commands.dispatchIndirect(pipeline_, bindings_[upload], counters_, offsetof(shared::FrameCounters, patchGroups));
+    commands.dispatchIndirect(pipeline_, bindings_[upload], counters_,
+                              offsetof(shared::FrameCounters, patchGroups));
 }
 
 } // namespace fathom::cloud

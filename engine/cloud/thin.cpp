@@ -9,17 +9,19 @@
 namespace fathom::cloud {
 
 ThinPass::ThinPass(const CloudContext& c)
-    : pipeline_(c.device, {"thin", thin_spv, 7, true, 0, std::array{c.plan.subGroup}}), counters_(c.work.counters) {
+    : pipeline_(c.device, {"thin", thin_spv, 7, true, 0, std::array{c.plan.subGroup}})
+    , counters_(c.work.counters) {
     for (uint32_t u = 0; u < kUploads; ++u) {
         bindings_[u] = gpu::Bindings(c.device, pipeline_,
-                                     {&c.uploads[u].params, &c.work.masks, &c.work.points, &c.work.listed, &c.work.list,
-                                      &c.work.counters, &c.work.growth},
+                                     {&c.uploads[u].params, &c.work.masks, &c.work.points, &c.work.listed,
+                                      &c.work.list, &c.work.counters, &c.work.growth},
                                      c.work.unused);
     }
 }
 
 void ThinPass::record(gpu::Commands& commands, uint32_t upload) const {
-    commands.dispatchIndirect(pipeline_, bindings_[upload], counters_, offsetof(shared::FrameCounters, subGroups));
+    commands.dispatchIndirect(pipeline_, bindings_[upload], counters_,
+                              offsetof(shared::FrameCounters, subGroups));
 }
 
 } // namespace fathom::cloud

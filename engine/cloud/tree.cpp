@@ -7,10 +7,13 @@
 namespace fathom::cloud {
 
 TreePass::TreePass(const CloudContext& c)
-    : pipeline_(c.device, {"tree", tree_spv, 4, false, sizeof(shared::TreeParams), std::array{c.plan.subGroup}}), layout_(c.layout) {
+    : pipeline_(c.device,
+                {"tree", tree_spv, 4, false, sizeof(shared::TreeParams), std::array{c.plan.subGroup}})
+    , layout_(c.layout) {
     for (const SetBuffers* s : c.sets) {
         bindings_.emplace_back(c.device, pipeline_,
-                               std::initializer_list<const gpu::Buffer*>{&c.work.listed, &s->nodes, &s->nodeCounts, &c.work.counters},
+                               std::initializer_list<const gpu::Buffer*>{&c.work.listed, &s->nodes,
+                                                                         &s->nodeCounts, &c.work.counters},
                                c.work.unused);
     }
 }

@@ -15,8 +15,8 @@ constexpr float kOutward = 1.00001f; // inner nodes: float32 rounding of pose an
 
 } // namespace
 
-TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool, const Tool& tool,
-                     uint32_t capacity)
+TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
+                     const Tool& tool, uint32_t capacity)
     : device_(device)
     , layout_(layout)
     , pool_(pool)
@@ -39,8 +39,9 @@ void TreeQuery::makeAnswer() {
     for (size_t i = 0; i < pool_.size(); ++i) {
         const SetBuffers& s = pool_.at(i).device;
         bindings_.emplace_back(device_, pipeline_,
-                               std::initializer_list<const gpu::Buffer*>{&params_, &toolTree_, &s.nodes, &s.deviceSpheres,
-                                                                         &s.deviceHeld, &count_, &found_},
+                               std::initializer_list<const gpu::Buffer*>{&params_, &toolTree_, &s.nodes,
+                                                                         &s.deviceSpheres, &s.deviceHeld,
+                                                                         &count_, &found_},
                                unused_);
     }
 }
@@ -58,7 +59,8 @@ void TreeQuery::poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const
     for (uint32_t n = 0; n < firstLeaf; ++n) {
         const Sphere& s = tree.nodes[n];
         out[n] = s.radius < 0.0 ? glm::vec4(0, 0, 0, -1)
-                                : glm::vec4(glm::vec3(baseTtool.apply(s.centre) - origin), static_cast<float>(s.radius) * kOutward + 1e-6f);
+                                : glm::vec4(glm::vec3(baseTtool.apply(s.centre) - origin),
+                                            static_cast<float>(s.radius) * kOutward + 1e-6f);
     }
     for (uint32_t n = firstLeaf, leaf = 0; n < tree.nodes.size(); ++n) {
         if (tree.nodes[n].radius < 0.0) {
@@ -106,7 +108,8 @@ bool TreeQuery::cull(const FixtureSet& set, const PosedLeaves& leaves, const Pos
     for (uint32_t answer : slots) {
         const uint32_t slot = answer / 2, layer = answer % 2;
         const uint32_t key = (slot / 256) * 512 + layer * 256 + slot % 256;
-        found.push_back(static_cast<uint32_t>(std::lower_bound(set.keys.begin(), set.keys.end(), key) - set.keys.begin()));
+        found.push_back(static_cast<uint32_t>(std::lower_bound(set.keys.begin(), set.keys.end(), key) -
+                                              set.keys.begin()));
     }
     return true;
 }

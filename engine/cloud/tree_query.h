@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact query on the GPU (shaders/tree_query.comp): tool tree against region tree, in parallel (paper V.A).
+// The contact query on the GPU (shaders/tree_query.comp): tool tree against region tree, in parallel (paper
+// V.A).
 #pragma once
 
 #include "engine/cloud/fixture_set.h"
@@ -10,16 +11,19 @@
 
 namespace fathom::cloud {
 
-// One thread, the contact cadence. Has a timeline and a command buffer of its own; shares the queue with the frame path.
+// One thread, the contact cadence. Has a timeline and a command buffer of its own; shares the queue with the
+// frame path.
 class TreeQuery {
 public:
-    // sets: every set of the pool, so that descriptors are made once. capacity: spheres that an answer may hold.
-    TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool, const Tool& tool,
-              uint32_t capacity = 65536);
+    // sets: every set of the pool, so that descriptors are made once. capacity: spheres that an answer may
+    // hold.
+    TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
+              const Tool& tool, uint32_t capacity = 65536);
 
-    // Writes into `found` the index (into set.host.spheres) of every sphere with d^2 <= (reach + r_t + R)^2 for some leaf, in any
-    // order. leaves: poseLeaves() at that pose about the set's origin. False, with `found` unusable, when there are more than the
-    // capacity; grow() doubles it. Waits for the device: submit to result.
+    // Writes into `found` the index (into set.host.spheres) of every sphere with d^2 <= (reach + r_t + R)^2
+    // for some leaf, in any order. leaves: poseLeaves() at that pose about the set's origin. False, with
+    // `found` unusable, when there are more than the capacity; grow() doubles it. Waits for the device:
+    // submit to result.
     bool cull(const FixtureSet& set, const PosedLeaves& leaves, const Pose& baseTtool, float reach,
               std::vector<uint32_t>& found);
     void grow();

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/behind.h"
 
+#include "engine/contact/pair_gaps.h"
+
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
@@ -8,7 +11,21 @@ namespace fathom {
 namespace {
 
 constexpr double kSigmas = 3.0;
+constexpr double kDeep = 0.25; // of R + r: nearer to the surface than that only new data brings a leaf
 constexpr double kNearest = 1e-6; // [m] before the camera; nearer points have no pixel
+
+// Deepest of the leaf in any listed sphere [m]; 0 when it is clear of all.
+double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
+    double deepest = 0.0;
+    if (set.pairBegin.size() <= leaf + 1 || set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
+        return deepest;
+    }
+    const PairArrays run = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, 0.0));
+    for (size_t k = 0; k < run.count; ++k) {
+        deepest = std::max(deepest, -gapOf(run, k, set.leafAtQuery[leaf], radius));
+    }
+    return deepest;
+}
 
 } // namespace
 
@@ -41,12 +58,11 @@ BehindTracker::Sight BehindTracker::look(const Fixtures& fixtures, const Pose& c
 
 bool BehindTracker::becameBehind(const Sight& sight, double resting) {
     const double margin = kSigmas * sight.sigma;
-    return sight.known && sight.forbidden &&
-           (resting > 2.0 * margin ? sight.before < margin : sight.before < -margin);
+    const double inFront = resting > 2.0 * margin ? std::max(margin, kDeep * resting) : -margin;
+    return sight.known && sight.forbidden && sight.before < inFront;
 }
 
-// resting: R + r [m]; ownRange: from the camera to the leaf's centre [m].
-void BehindTracker::follow(Leaf& leaf, const Sight& sight, double resting, double ownRange, bool newSet) {
+void BehindTracker::follow(Leaf& leaf, const Sight& sight, const Place& place, bool newSet) {
     if (newSet) {
         leaf.inFrontBefore = leaf.inFront;
     }
@@ -57,10 +73,10 @@ void BehindTracker::follow(Leaf& leaf, const Sight& sight, double resting, doubl
         } else if (sight.known && sight.before > margin) {
             leaf.behind = false; // seen in the open
         }
-        if (ownRange <= leaf.range - resting) {
+        if (place.range <= leaf.range - place.resting && place.overlap <= 0.0) {
             leaf.behind = false;
         }
-    } else if (newSet && leaf.inFrontBefore && becameBehind(sight, resting)) {
+    } else if (newSet && leaf.inFrontBefore && becameBehind(sight, place.resting)) {
         leaf.behind = true;
         leaf.range = sight.range;
     }
@@ -78,10 +94,12 @@ void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double re
         const dvec3 centre = set.origin + set.leafAtQuery[i];
         const dvec3 toCamera = fixtures.baseTcamera.position - centre;
         const double ownRange = glm::length(toCamera);
-        const double resting = regionRadius + tool.leaves()[i].radius;
-        follow(leaves_[i], look(fixtures, cameraTbase, centre), resting, ownRange, newSet);
+        Place place{regionRadius + tool.leaves()[i].radius, ownRange, 0.0};
+        place.overlap = leaves_[i].behind ? overlapOf(set, i, tool.leaves()[i].radius) : 0.0;
+        follow(leaves_[i], look(fixtures, cameraTbase, centre), place, newSet);
         if (leaves_[i].behind && ownRange > kNearest) {
-            set.behind.push_back({i, toCamera / ownRange, ownRange - leaves_[i].range + resting});
+            const double left = ownRange - leaves_[i].range + place.resting;
+            set.behind.push_back({i, toCamera / ownRange, std::max(left, place.overlap)});
         }
     }
 }

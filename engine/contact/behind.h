@@ -15,13 +15,14 @@ namespace fathom {
 // depth, and at the last query on the previous set the centre was in front of a forbidden surface there.
 // Whoever gets behind a surface while the set stays the same, or was not seen in front of one before, came
 // through free space or is hidden: occluded, not behind. The flag stays until the leaf is clear in front (R +
-// r before the surface), or the view to it is free. One step beyond design 5: where R + r is more than 6
-// sigma, a centre within 3 sigma BEFORE the surface counts as behind too. It can be there only because new
-// data came over it, and left to the normals, which point anywhere so close to the sphere centres, it would
-// be squeezed or come out behind.
+// r before the surface, and no sphere overlaps it: noise puts some before its own pixel's depth), or the view
+// to it is free. One step beyond design 5: where R + r is more than 6 sigma, a centre within 3 sigma BEFORE
+// the surface counts as behind too. It can be there only because new data came over it, and left to the
+// normals, which point anywhere so close to the sphere centres, it would be squeezed or come out behind.
 class BehindTracker {
 public:
-    // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). Fills set.behind.
+    // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). The set's pairs are
+    // listed, or there are none. Fills set.behind.
     void update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set);
 
 private:
@@ -42,8 +43,14 @@ private:
         bool behind = false;
         double range = 0.0; // [m] of the surface that it is behind
     };
+    // Where a leaf is at the query.
+    struct Place {
+        double resting = 0.0; // [m] before the surface where it may rest: R + r
+        double range = 0.0;   // [m] from the camera to its centre
+        double overlap = 0.0; // [m] deepest in any listed sphere; 0 = clear
+    };
     static bool becameBehind(const Sight& sight, double resting);
-    static void follow(Leaf& leaf, const Sight& sight, double resting, double ownRange, bool newSet);
+    static void follow(Leaf& leaf, const Sight& sight, const Place& place, bool newSet);
 
     std::vector<Leaf> leaves_;
     uint64_t generation_ = 0;

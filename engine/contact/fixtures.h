@@ -10,14 +10,14 @@
 
 namespace fathom {
 
-// Region spheres in order of patch (16x16 pixels), then of layer (seen, then held), then of 4x4 sub-patch, then of pixel: the same
-// for equal frames. Positions are float32 about Fixtures::origin; these very floats define the region for the GPU, the CPU and
-// every check.
+// Region spheres in order of patch (16x16 pixels), then of layer (seen, then held), then of 4x4 sub-patch,
+// then of pixel: the same for equal frames. Positions are float32 about Fixtures::origin; these very floats
+// define the region for the GPU, the CPU and every check.
 struct RegionSpheres {
-    std::vector<float> x, y, z;     // [m] base axes, about the origin
-    std::vector<float> radius;      // [m]
-    std::vector<uint32_t> source;   // slot: pixel index v * width + u; held points: pixels + that index
-    std::vector<uint8_t> fixture;   // row of Scene::fixtures
+    std::vector<float> x, y, z;   // [m] base axes, about the origin
+    std::vector<float> radius;    // [m]
+    std::vector<uint32_t> source; // slot: pixel index v * width + u; held points: pixels + that index
+    std::vector<uint8_t> fixture; // row of Scene::fixtures
 
     size_t size() const { return x.size(); }
     void resize(size_t n) {
@@ -27,21 +27,21 @@ struct RegionSpheres {
 
 // What one guidance class came to in one frame. Statistics are plain (before hysteresis, slew and standoff).
 struct GuidancePose {
-    uint32_t fixture = 0;   // row of Scene::fixtures
-    uint32_t count = 0;     // points in the mean
-    bool present = false;   // count >= min_count
-    dvec3 position{0.0};    // [m] base frame: mean of the points
-    dvec3 normal{0.0};      // unit, base frame, towards the camera; zero when not planar
+    uint32_t fixture = 0; // row of Scene::fixtures
+    uint32_t count = 0;   // points in the mean
+    bool present = false; // count >= min_count
+    dvec3 position{0.0};  // [m] base frame: mean of the points
+    dvec3 normal{0.0};    // unit, base frame, towards the camera; zero when not planar
     bool planar = false;
-    bool rollFree = true;   // no long axis: the roll about the normal is not commanded
-    Pose target;            // base_T_tool: position + standoff, +z along -normal or the scene's orientation
+    bool rollFree = true; // no long axis: the roll about the normal is not commanded
+    Pose target;          // base_T_tool: position + standoff, +z along -normal or the scene's orientation
 };
 
 struct Fixtures {
-    int64_t frame = -1;        // Frame index; -1 = none
-    double captureTime = 0.0;  // [s]
-    uint64_t generation = 0;   // counts published sets; a reader that sees it change holds a torn copy
-    dvec3 origin{0.0};         // [m] base frame: what positions are relative to
+    int64_t frame = -1;       // Frame index; -1 = none
+    double captureTime = 0.0; // [s]
+    uint64_t generation = 0;  // counts published sets; a reader that sees it change holds a torn copy
+    dvec3 origin{0.0};        // [m] base frame: what positions are relative to
 
     RegionSpheres spheres;
     std::vector<GuidancePose> guidance; // one a guidance class, in order of the scene

@@ -16,8 +16,8 @@ constexpr size_t kMostListed = 65536;            // pairs of a list
 constexpr size_t kLanes = 8;                     // runs of a list are multiples of this
 constexpr float kNowhere = 1e18f;                // [m] where padding lies; its square is far from overflow
 constexpr double kCosCone = 0.86602540378443865; // 30 degrees
-// Nearer than this there is no direction [m]. Above it the difference of two centres is exact, however small, and only a
-// step along it makes no pair deeper on the way.
+// Nearer than this there is no direction [m]. Above it the difference of two centres is exact, however small,
+// and only a step along it makes no pair deeper on the way.
 constexpr double kCoincident = 1e-150;
 
 } // namespace
@@ -169,8 +169,8 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLim
     smallestGap_ = std::min(smallestGap_, deepest.gap);
 }
 
-// Where a sphere's centre lies on the leaf's every way leads out, and rowOf() had to pick one: the way of the leaf's deepest
-// other row, so that the two do not contradict each other.
+// Where a sphere's centre lies on the leaf's every way leads out, and rowOf() had to pick one: the way of the
+// leaf's deepest other row, so that the two do not contradict each other.
 void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept {
     const auto anyWay = [&](const ContactRow& row) {
         return row.gap <= -(radius_[leaf] + static_cast<double>(set.pairRadius[row.pair]));

@@ -17,6 +17,10 @@ namespace fathom {
 // One thread; allocates in the constructor only, everything else is noexcept and wait-free.
 class NarrowPhase {
 public:
+    // A pair holds a leaf behind its surface when its normal makes more than about 75 degrees with the way to the
+    // camera: so much do the ways of a tool's leaves differ, and a common motion must not deepen what is left.
+    static constexpr double kCosHolds = 0.25;
+
     // Rows are kept to the `maxRows` deepest.
     NarrowPhase(const Tool& tool, size_t maxRows);
 
@@ -45,7 +49,7 @@ public:
 
     // Exact test of every listed pair for leaves that go from where gather() saw them to `next`, none farther
     // than its checkLimit. `exempt[leaf]`, when not zero, is the way to the camera of a leaf behind a
-    // surface: its pairs whose normal points away from it do not count. Writes the worst of each leaf, at
+    // surface: its pairs that hold it there do not count. Writes the worst of each leaf, at
     // most out.size(); returns how many leaves violate (more than out.size() is possible).
     size_t check(const ContactSet& set, const LeafCentres& next, std::span<const dvec3> exempt,
                  std::span<Violation> out) noexcept;

@@ -21,6 +21,7 @@ bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& n
                             Violation* worst) noexcept {
     const dvec3 from = leaves_[leaf];
     const double r = radius_[leaf];
+    const bool exempts = exempt != dvec3(0.0);
     PairArrays all = close_.of(leaf);
     if (!close_.complete) {
         all = pairsOf(set, set.pairBegin[leaf],
@@ -38,7 +39,7 @@ bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& n
             --left;
             const double depth = std::min(0.0, gapOf(run, k, from, r)) - gaps_[k];
             const dvec3 delta = from - dvec3(run.x[k], run.y[k], run.z[k]);
-            if (depth > deepest && !(glm::dot(delta, exempt) < 0.0)) {
+            if (depth > deepest && !(exempts && glm::dot(delta, exempt) < kCosHolds * glm::length(delta))) {
                 deepest = depth;
                 deepestAt = begin + k;
             }

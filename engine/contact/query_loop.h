@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a cull, on the CPU or on the GPU, to a contact set that is certified whole: what happens when an answer overflows.
+// From a cull, on the CPU or on the GPU, to a contact set that is certified whole: what happens when an
+// answer overflows.
 #pragma once
 
 #include "engine/contact/contact_fill.h"
@@ -13,8 +14,8 @@ namespace fathom {
 
 struct QueryStatistics {
     uint64_t queries = 0;
-    uint64_t overflows = 0;   // queries that had to shrink their reach
-    uint64_t spheresMax = 0;  // most spheres of an answer
+    uint64_t overflows = 0;  // queries that had to shrink their reach
+    uint64_t spheresMax = 0; // most spheres of an answer
     uint64_t pairsMax = 0;
 };
 
@@ -27,23 +28,27 @@ struct QueryCapacity {
 // Runs culls until one fits. One thread, contact cadence: allocates.
 class QueryLoop {
 public:
-    explicit QueryLoop(const QueryCapacity& capacity = {}) : capacity_(capacity) {}
+    explicit QueryLoop(const QueryCapacity& capacity = {})
+        : capacity_(capacity) {}
 
-    // cull(leaves, reach, found) writes into `found` the indices of all spheres that obey d^2 <= (reach + r_t + R)^2 for some leaf,
-    // in any order, and returns false when they were too many for it. When the answer does not fit, the reach is halved until
-    // it does and that reach is certified (out.reach); touching spheres alone that do not fit raise the capacity at once: none
-    // is ever dropped. ContactSet::behind is left empty.
+    // cull(leaves, reach, found) writes into `found` the indices of all spheres that obey d^2 <= (reach + r_t
+    // + R)^2 for some leaf, in any order, and returns false when they were too many for it. When the answer
+    // does not fit, the reach is halved until it does and that reach is certified (out.reach); touching
+    // spheres alone that do not fit raise the capacity at once: none is ever dropped. ContactSet::behind is
+    // left empty.
     template <class Cull>
-    void run(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures, double maxRegionRadius,
-             Cull&& cull, ContactSet& out) {
+    void run(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
+             double maxRegionRadius, Cull&& cull, ContactSet& out) {
         poseLeaves(tool, baseTtool, fixtures.origin, leaves_);
         bool overflowed = false;
         QueryCapacity next = capacity_;
         for (double tried = reach;;) {
-            bool fits = cull(leaves_, static_cast<float>(tried), found_) && found_.size() <= capacity_.spheres;
+            bool fits =
+                cull(leaves_, static_cast<float>(tried), found_) && found_.size() <= capacity_.spheres;
             if (fits) {
                 sortBySource(fixtures.spheres, found_, scratch_);
-                fillContactSet(tool, baseTtool, certifiedReach(leaves_, tried, maxRegionRadius), fixtures, found_, out);
+                fillContactSet(tool, baseTtool, certifiedReach(leaves_, tried, maxRegionRadius), fixtures,
+                               found_, out);
                 fits = listPairs(tool, capacity_.pairs, scratch_, out);
             }
             if (fits) {
@@ -66,7 +71,8 @@ public:
     const QueryCapacity& capacity() const { return capacity_; }
 
 private:
-    static constexpr double kSmallestReach = 2e-5; // [m] below this halving frees nothing: the trust region is all margin
+    static constexpr double kSmallestReach =
+        2e-5; // [m] below this halving frees nothing: the trust region is all margin
 
     void finish(bool overflowed, ContactSet& out) {
         statistics_.overflows += overflowed ? 1 : 0;

@@ -10,7 +10,8 @@ namespace fathom {
 
 class Tool {
 public:
-    // Throws Error when the tree is unsound. Leaves are the used slots of the last level, in that order; 1..4096.
+    // Throws Error when the tree is unsound. Leaves are the used slots of the last level, in that
+    // order; 1..4096.
     explicit Tool(SphereTree tree);
 
     const SphereTree& tree() const { return tree_; }
@@ -27,7 +28,8 @@ private:
     double gyrationRadius_ = 0.0;
 };
 
-// Leaf centres at a pose, about an origin, rounded to float32 once: the values that the CPU and the GPU cull both use.
+// Leaf centres at a pose, about an origin, rounded to float32 once: the values that the CPU and the GPU cull
+// both use.
 struct PosedLeaves {
     std::vector<float> x, y, z, radius; // [m]
 };

@@ -11,9 +11,11 @@ constexpr double kNothingToTouch = 1000.0; // [m] certified where no region exis
 
 } // namespace
 
-ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
-                           const Tool& tool, double reach)
-    : tool_(tool), reach_(reach), where_(plan.query) {
+ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
+                           cloud::FixturePool& pool, const Tool& tool, double reach)
+    : tool_(tool)
+    , reach_(reach)
+    , where_(plan.query) {
     if (where_ == Plan::Query::Gpu) {
         gpu_.emplace(device, plan, layout, pool, tool);
     }
@@ -26,7 +28,9 @@ void ContactCycle::query(const cloud::FixtureSet& set, const Pose& baseTtool, Co
         out.pairBegin.assign(tool_.leafCount() + 1, 0);
         out.pairBandEnd.assign(tool_.leafCount() * ContactSet::kGapBands, 0);
         return;
-    case Plan::Query::Cpu: cpu_.query(tool_, baseTtool, reach_, set.host, set.grid, out); break;
+    case Plan::Query::Cpu:
+        cpu_.query(tool_, baseTtool, reach_, set.host, set.grid, out);
+        break;
     case Plan::Query::Gpu: {
         const auto onDevice = [&](const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) {
             const bool fits = gpu_->cull(set, leaves, baseTtool, reach, found);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact cadence: a fixture set and a tool pose in, a certified contact set out, by the CPU or the GPU as the plan says.
+// The contact cadence: a fixture set and a tool pose in, a certified contact set out, by the CPU or the GPU
+// as the plan says.
 #pragma once
 
 #include "engine/cloud/tree_query.h"
@@ -13,8 +14,8 @@ namespace fathom {
 // One thread. Both ways give equal sets.
 class ContactCycle {
 public:
-    ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool, const Tool& tool,
-                 double reach);
+    ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
+                 const Tool& tool, double reach);
 
     // Without forbidden points the set is empty and its reach unlimited.
     void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out);

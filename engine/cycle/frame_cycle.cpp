@@ -27,7 +27,8 @@ std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
 
 } // namespace
 
-FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan, uint32_t readers)
+FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
+                       uint32_t readers)
     : device_(device)
     , scene_(scene)
     , camera_(camera)
@@ -170,7 +171,8 @@ FrameReport FrameCycle::finish() {
     report.counts = lastCounts_;
     const std::vector<uint32_t> rows = cloud::classRows(scene_);
     for (size_t c = 0; c < report.counts.classPixels.size(); ++c) {
-        report.guidanceCount += scene_.fixtures[rows[c]].role == Role::Guidance ? report.counts.classPixels[c] : 0;
+        report.guidanceCount +=
+            scene_.fixtures[rows[c]].role == Role::Guidance ? report.counts.classPixels[c] : 0;
     }
     captureTime_.store(f.frame->captureTime, std::memory_order_release);
     report.latencyMs = millis(f.times.started, Clock::now());
@@ -183,7 +185,8 @@ void FrameCycle::warnLeaks(const cloud::FrameCounts& counts) {
         if (counts.leakSpacing[c] > 0.0f && leakWarned_[c] == 0) {
             leakWarned_[c] = 1;
             const FixtureClass& f = scene_.fixtures[cloud::classRows(scene_)[c]];
-            spdlog::warn("fixture '{}' leaks: at {:.2f} m its points are {:.1f} mm apart and its spheres have a radius of {:.1f} mm",
+            spdlog::warn("fixture '{}' leaks: at {:.2f} m its points are {:.1f} mm apart and its spheres "
+                         "have a radius of {:.1f} mm",
                          f.name, counts.leakRange[c], counts.leakSpacing[c] * 1e3, f.radius * 1e3);
         }
     }

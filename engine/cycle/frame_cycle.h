@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame cadence: a frame in, a published fixture set out. Owns the passes and the pool of sets; knows no camera and no thread.
+// The frame cadence: a frame in, a published fixture set out. Owns the passes and the pool of sets; knows no
+// camera and no thread.
 #pragma once
 
 #include "engine/cloud/collect.h"
@@ -21,10 +22,10 @@ struct FrameReport {
     uint32_t index = 0;
     bool unchanged = false; // the same picture again (source number): no work, only a new capture time
     cloud::FrameCounts counts;
-    uint32_t guidanceCount = 0;       // pixels in guidance classes, as classify marks them
+    uint32_t guidanceCount = 0; // pixels in guidance classes, as classify marks them
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;
-    std::vector<double> passMs;       // in the order of FrameCycle::passNames(); device time
-    struct Times { // on the host's monotonic clock
+    std::vector<double> passMs; // in the order of FrameCycle::passNames(); device time
+    struct Times {              // on the host's monotonic clock
         std::chrono::steady_clock::time_point started, uploaded, submitted, landed, published;
     } times;
 };
@@ -33,7 +34,8 @@ struct FrameReport {
 class FrameCycle {
 public:
     // readers: how many leases may be held at once. Compiles every pipeline and runs an empty frame.
-    FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan, uint32_t readers);
+    FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
+               uint32_t readers);
     ~FrameCycle();
 
     // One frame through, start to end.
@@ -50,7 +52,7 @@ public:
     const std::vector<std::string>& passNames() const { return passes_.names(); }
     const PatchLayout& layout() const { return layout_; }
     const CameraInfo& camera() const { return camera_; }
-    uint32_t dispatches() const { return dispatches_; } // of the last frame
+    uint32_t dispatches() const { return dispatches_; }      // of the last frame
     const cloud::WorkBuffers& work() const { return work_; } // for tests that compare passes with their twins
 
 private:

@@ -5,7 +5,9 @@
 
 namespace fathom {
 
-FramePasses::FramePasses(const cloud::CloudContext& c) : work_(c.work), sets_(c.sets) {
+FramePasses::FramePasses(const cloud::CloudContext& c)
+    : work_(c.work)
+    , sets_(c.sets) {
     const auto add = [&](bool in, auto& pass, const char* name) {
         if (in) {
             pass.emplace(c);
@@ -25,7 +27,8 @@ FramePasses::FramePasses(const cloud::CloudContext& c) : work_(c.work), sets_(c.
     }
 }
 
-void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload, uint32_t set) const {
+void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload,
+                         uint32_t set) const {
     commands.begin();
     watch.resetIn(commands.handle());
     watch.mark(commands.handle());

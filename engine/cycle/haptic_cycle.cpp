@@ -160,8 +160,8 @@ Wrench HapticCycle::springWrench() noexcept {
     return wrench;
 }
 
-// The part of the spring wrench that guidance asked for: meant to move the hand, and no business of the passivity
-// controller.
+// The part of the spring wrench that guidance asked for: meant to move the hand, and no business of the
+// passivity controller.
 Wrench HapticCycle::guidancePull() const noexcept {
     return options_.paperGuidance ? guidance_.pull(device_, watch_.springs())
                                   : couple(watch_.springs(), springEnd_, device_, dvec3(0.0), dvec3(0.0));
@@ -192,9 +192,9 @@ void HapticCycle::tellPassivity(const Wrench& pull, const Wrench& damper, const 
     const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
     const Wrench guided = onActuatedAxes({ramp * force * pull.force, ramp * torque * pull.torque});
     const Wrench damped = onActuatedAxes({force * damper.force, torque * damper.torque});
-    passivity_.delivered({delivered.force - guided.force - damped.force,
-                          delivered.torque - guided.torque - damped.torque},
-                         damped);
+    passivity_.delivered(
+        {delivered.force - guided.force - damped.force, delivered.torque - guided.torque - damped.torque},
+        damped);
 }
 
 void HapticCycle::finishWrench(const Wrench& spring, double period, const Situation& now,

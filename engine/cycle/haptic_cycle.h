@@ -33,7 +33,9 @@ public:
     TurnRecord turn(const TurnInput& input) noexcept;
 
     const Pose& pose() const { return proxy_.pose(); } // base_T_tool: what the next contact query asks about
-    const Springs& springs() const { return watch_.springs(); } // in force: those of the options, or less while turns are slow
+    const Springs& springs() const {
+        return watch_.springs();
+    } // in force: those of the options, or less while turns are slow
     const PassivityController& passivity() const { return passivity_; }
     const HapticOptions& options() const { return options_; }
     uint64_t notFinite() const { return notFinite_; } // turns with a number that was not

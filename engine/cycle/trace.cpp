@@ -92,9 +92,12 @@ void Trace::write(const TraceEvent& event, size_t track) {
         ++shortLeftOut_;
         return;
     }
-    const std::string place = ",\"pid\":1,\"tid\":" + std::to_string(track + 1) + ",\"ts\":" + micros(event.begin - start_);
-    const std::string kind = event.instant ? ",\"ph\":\"i\",\"s\":\"t\"" : ",\"ph\":\"X\",\"dur\":" + micros(event.length);
-    const std::string text = ",\n{\"name\":" + quoted(event.name) + kind + place + arguments(event.detail) + "}";
+    const std::string place =
+        ",\"pid\":1,\"tid\":" + std::to_string(track + 1) + ",\"ts\":" + micros(event.begin - start_);
+    const std::string kind =
+        event.instant ? ",\"ph\":\"i\",\"s\":\"t\"" : ",\"ph\":\"X\",\"dur\":" + micros(event.length);
+    const std::string text =
+        ",\n{\"name\":" + quoted(event.name) + kind + place + arguments(event.detail) + "}";
     if (bytes_ + text.size() + kRoomForTheEnd > maxBytes_) {
         ++leftOut_;
         return;
@@ -116,8 +119,10 @@ void Trace::drain() {
 void Trace::writeNames() {
     for (size_t i = 0; i < tracks_.size(); ++i) {
         const std::string where = ",\"pid\":1,\"tid\":" + std::to_string(i + 1) + ",\"args\":{";
-        put(",\n{\"ph\":\"M\",\"name\":\"thread_name\"" + where + "\"name\":" + quoted(tracks_[i]->name_.c_str()) + "}}");
-        put(",\n{\"ph\":\"M\",\"name\":\"thread_sort_index\"" + where + "\"sort_index\":" + std::to_string(i) + "}}");
+        put(",\n{\"ph\":\"M\",\"name\":\"thread_name\"" + where +
+            "\"name\":" + quoted(tracks_[i]->name_.c_str()) + "}}");
+        put(",\n{\"ph\":\"M\",\"name\":\"thread_sort_index\"" + where +
+            "\"sort_index\":" + std::to_string(i) + "}}");
     }
 }
 

@@ -9,14 +9,17 @@
 namespace fathom::gpu {
 
 Buffer::Buffer(const Device& device, uint64_t bytes, MemoryKind kind, const char* name)
-    : device_(&device), bytes_((bytes + 15) / 16 * 16) {
+    : device_(&device)
+    , bytes_((bytes + 15) / 16 * 16) {
     if (bytes_ > device.facts().maxStorageBufferBytes) {
-        throw Error(std::string("buffer ") + name + " of " + std::to_string(bytes_) + " bytes exceeds the device's limit of " +
+        throw Error(std::string("buffer ") + name + " of " + std::to_string(bytes_) +
+                    " bytes exceeds the device's limit of " +
                     std::to_string(device.facts().maxStorageBufferBytes));
     }
     VkBufferCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO};
     info.size = bytes_;
-    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT |
+                 VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT |
                  VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT;
     check(vkCreateBuffer(device.handle(), &info, nullptr, &handle_), "vkCreateBuffer");
     VkMemoryRequirements needs;

@@ -8,11 +8,13 @@
 
 namespace fathom::gpu {
 
-// Move-only. Buffers are made at start, never on the frame path. A default-constructed buffer is empty: handle null.
+// Move-only. Buffers are made at start, never on the frame path. A default-constructed buffer is empty:
+// handle null.
 class Buffer {
 public:
     Buffer() = default;
-    // Throws Error when bytes exceed the device's largest storage buffer (a uniform buffer holds parameters only) or memory runs out.
+    // Throws Error when bytes exceed the device's largest storage buffer (a uniform buffer holds parameters
+    // only) or memory runs out.
     Buffer(const Device& device, uint64_t bytes, MemoryKind kind, const char* name);
     ~Buffer();
     Buffer(Buffer&& other) noexcept { swap(other); }

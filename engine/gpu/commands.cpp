@@ -5,7 +5,8 @@
 
 namespace fathom::gpu {
 
-Commands::Commands(const Device& device) : device_(device) {
+Commands::Commands(const Device& device)
+    : device_(device) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.queueFamilyIndex = device.queueFamily();
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
@@ -37,15 +38,17 @@ void Commands::end() {
 void Commands::bind(const Pipeline& pipeline, const Bindings& bindings, const void* push) {
     const VkDescriptorSet set = bindings.handle();
     vkCmdBindPipeline(handle_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
-    vkCmdBindDescriptorSets(handle_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
+    vkCmdBindDescriptorSets(handle_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0,
+                            nullptr);
     if (push != nullptr) {
-        vkCmdPushConstants(handle_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline.pushBytes(), push);
+        vkCmdPushConstants(handle_, pipeline.layout(), VK_SHADER_STAGE_COMPUTE_BIT, 0, pipeline.pushBytes(),
+                           push);
     }
     ++dispatches_;
 }
 
-void Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings, const std::array<uint32_t, 3>& groups,
-                        const void* push) {
+void Commands::dispatch(const Pipeline& pipeline, const Bindings& bindings,
+                        const std::array<uint32_t, 3>& groups, const void* push) {
     bind(pipeline, bindings, push);
     vkCmdDispatch(handle_, groups[0], groups[1], groups[2]);
 }
@@ -74,8 +77,8 @@ void Commands::barrier() {
     all.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
     all.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
     vkCmdPipelineBarrier(handle_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
-                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &all, 0, nullptr, 0,
-                         nullptr);
+                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &all, 0,
+                         nullptr, 0, nullptr);
 }
 
 } // namespace fathom::gpu

@@ -24,13 +24,14 @@ public:
     void begin();
     void end();
 
-    void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups, const void* push = nullptr) {
+    void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups,
+                  const void* push = nullptr) {
         dispatch(pipeline, bindings, {groups, 1, 1}, push);
     }
     void dispatch(const Pipeline& pipeline, const Bindings& bindings, const std::array<uint32_t, 3>& groups,
                   const void* push = nullptr);
-    void dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments, uint64_t offset,
-                          const void* push = nullptr);
+    void dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments,
+                          uint64_t offset, const void* push = nullptr);
     void fill(const Buffer& buffer, uint32_t value);
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);

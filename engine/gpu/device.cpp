@@ -74,13 +74,20 @@ Device::~Device() {
 
 uint32_t Device::memoryType(MemoryKind kind, uint32_t typeBits) const {
     constexpr VkMemoryPropertyFlags kLocal = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
-    constexpr VkMemoryPropertyFlags kShared = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kShared =
+        VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
     std::vector<VkMemoryPropertyFlags> wishes; // best first
     switch (kind) {
-    case MemoryKind::Device: wishes = {kLocal, 0}; break;
-    case MemoryKind::Upload: wishes = {kLocal | kShared, kShared}; break;
-    case MemoryKind::Readback: wishes = {kShared | kCached, kShared}; break;
+    case MemoryKind::Device:
+        wishes = {kLocal, 0};
+        break;
+    case MemoryKind::Upload:
+        wishes = {kLocal | kShared, kShared};
+        break;
+    case MemoryKind::Readback:
+        wishes = {kShared | kCached, kShared};
+        break;
     }
     for (VkMemoryPropertyFlags wish : wishes) {
         for (uint32_t t = 0; t < memory_.memoryTypeCount; ++t) {
@@ -92,7 +99,8 @@ uint32_t Device::memoryType(MemoryKind kind, uint32_t typeBits) const {
     throw Error("device " + facts_.name + " offers no memory of the kind needed");
 }
 
-void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue) {
+void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue,
+                    uint64_t signalValue) {
     VkTimelineSemaphoreSubmitInfo values{VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO};
     values.waitSemaphoreValueCount = waitValue != 0 ? 1 : 0;
     values.pWaitSemaphoreValues = &waitValue;
@@ -125,7 +133,8 @@ void Device::loadPipelineCache() {
 
 void Device::savePipelineCache() const noexcept {
     size_t size = 0;
-    if (cacheFile_.empty() || vkGetPipelineCacheData(handle_, cache_, &size, nullptr) != VK_SUCCESS || size == 0) {
+    if (cacheFile_.empty() || vkGetPipelineCacheData(handle_, cache_, &size, nullptr) != VK_SUCCESS ||
+        size == 0) {
         return;
     }
     try { // a cache that cannot be written costs time at the next start and nothing else
@@ -135,7 +144,8 @@ void Device::savePipelineCache() const noexcept {
         }
         const std::filesystem::path target(cacheFile_);
         std::filesystem::create_directories(target.parent_path());
-        const std::filesystem::path fresh = target.string() + "." + std::to_string(reinterpret_cast<uintptr_t>(this));
+        const std::filesystem::path fresh =
+            target.string() + "." + std::to_string(reinterpret_cast<uintptr_t>(this));
         std::ofstream(fresh, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
         std::filesystem::rename(fresh, target);
     } catch (const std::exception& e) {

@@ -13,15 +13,15 @@ namespace fathom::gpu {
 
 // Where a buffer lives, by what the CPU does with it.
 enum class MemoryKind {
-    Device, // the CPU never touches it
-    Upload, // the CPU writes it in order, the GPU reads it; device-local when the host can see that
+    Device,   // the CPU never touches it
+    Upload,   // the CPU writes it in order, the GPU reads it; device-local when the host can see that
     Readback, // host-cached: the CPU reads it; the GPU may write it straight
 };
 
 class Device {
 public:
-    // selector: empty = discrete, else integrated, else CPU; a number = index; otherwise part of the name. Throws
-    // BadInput listing what there is, each with the reason when refused.
+    // selector: empty = discrete, else integrated, else CPU; a number = index; otherwise part of the name.
+    // Throws BadInput listing what there is, each with the reason when refused.
     Device(const Instance& instance, const std::string& selector = {});
     ~Device();
     Device(const Device&) = delete;
@@ -36,8 +36,8 @@ public:
     // Memory type of a kind among those allowed by typeBits; throws Error when there is none.
     uint32_t memoryType(MemoryKind kind, uint32_t typeBits) const;
 
-    // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue. The mutex of
-    // the queue is held for the call only. Never called by the haptic thread.
+    // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue. The
+    // mutex of the queue is held for the call only. Never called by the haptic thread.
     void submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue);
 
     // One line for each physical device: name, kind, or the reason for refusing it.

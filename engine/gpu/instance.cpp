@@ -15,10 +15,13 @@ namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
 
-VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
+                                         VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
-    // The GPU-assisted checks announce their own settings as warnings; those say nothing about our use of Vulkan.
-    if (data->pMessageIdName != nullptr && std::strstr(data->pMessageIdName, "UNASSIGNED-GPU-Assisted Validation") &&
+    // The GPU-assisted checks announce their own settings as warnings; those say nothing about our use of
+    // Vulkan.
+    if (data->pMessageIdName != nullptr &&
+        std::strstr(data->pMessageIdName, "UNASSIGNED-GPU-Assisted Validation") &&
         std::strstr(data->pMessage, "Internal Warning") != nullptr) {
         return VK_FALSE;
     }
@@ -40,7 +43,8 @@ bool layerPresent() {
     return false;
 }
 
-// A driver that is unloaded before the program ends takes its symbols from leak reports with it: sanitized builds keep it.
+// A driver that is unloaded before the program ends takes its symbols from leak reports with it: sanitized
+// builds keep it.
 void keepDriversLoaded() {
 #ifdef FATHOM_SANITIZED
     dl_iterate_phdr(
@@ -68,7 +72,8 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<uint32_t>* counter)
 
 } // namespace
 
-Instance::Instance(Validation validation) : validation_(validation) {
+Instance::Instance(Validation validation)
+    : validation_(validation) {
     if (validation.enabled && !layerPresent()) {
         throw Error("the validation layer was asked for and is not installed (vulkan-validationlayers)");
     }
@@ -76,7 +81,8 @@ Instance::Instance(Validation validation) : validation_(validation) {
     app.pApplicationName = "fathom";
     app.apiVersion = VK_API_VERSION_1_2;
 
-    std::vector<VkValidationFeatureEnableEXT> enables{VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
+    std::vector<VkValidationFeatureEnableEXT> enables{
+        VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     if (validation.gpuAssisted) {
         enables.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_EXT);
         enables.push_back(VK_VALIDATION_FEATURE_ENABLE_GPU_ASSISTED_RESERVE_BINDING_SLOT_EXT);

@@ -15,19 +15,27 @@ constexpr uint32_t kMostBindings = 20; // of our largest pass
 
 DeviceKind kindOf(VkPhysicalDeviceType type) {
     switch (type) {
-    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return DeviceKind::Discrete;
-    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return DeviceKind::Integrated;
-    case VK_PHYSICAL_DEVICE_TYPE_CPU: return DeviceKind::Cpu;
-    default: return DeviceKind::Other;
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+        return DeviceKind::Discrete;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+        return DeviceKind::Integrated;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+        return DeviceKind::Cpu;
+    default:
+        return DeviceKind::Other;
     }
 }
 
 int rank(DeviceKind kind) {
     switch (kind) {
-    case DeviceKind::Discrete: return 0;
-    case DeviceKind::Integrated: return 1;
-    case DeviceKind::Other: return 2;
-    case DeviceKind::Cpu: return 3;
+    case DeviceKind::Discrete:
+        return 0;
+    case DeviceKind::Integrated:
+        return 1;
+    case DeviceKind::Other:
+        return 2;
+    case DeviceKind::Cpu:
+        return 3;
     }
     return 4;
 }
@@ -46,9 +54,11 @@ std::string describeAll(const std::vector<VkPhysicalDevice>& devices) {
 
 bool hasExtension(VkPhysicalDevice device, const char* name) {
     uint32_t count = 0;
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr), "vkEnumerateDeviceExtensionProperties");
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr),
+          "vkEnumerateDeviceExtensionProperties");
     std::vector<VkExtensionProperties> list(count);
-    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, list.data()), "vkEnumerateDeviceExtensionProperties");
+    check(vkEnumerateDeviceExtensionProperties(device, nullptr, &count, list.data()),
+          "vkEnumerateDeviceExtensionProperties");
     for (const VkExtensionProperties& e : list) {
         if (std::strcmp(e.extensionName, name) == 0) {
             return true;
@@ -79,7 +89,8 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     facts.maxSharedBytes = limits.maxComputeSharedMemorySize;
     facts.maxStorageBufferBytes = limits.maxStorageBufferRange;
     facts.hostPointerAlignment = canImport ? host.minImportedHostPointerAlignment : 0;
-    facts.timestampPeriodNs = limits.timestampComputeAndGraphics ? static_cast<double>(limits.timestampPeriod) : 0.0;
+    facts.timestampPeriodNs =
+        limits.timestampComputeAndGraphics ? static_cast<double>(limits.timestampPeriod) : 0.0;
     return facts;
 }
 

@@ -58,8 +58,8 @@ Pipeline::Pipeline(const Device& device, const PipelineInfo& info)
     for (uint32_t i = 0; i < info.constants.size(); ++i) {
         entries.push_back({i, i * 4, 4});
     }
-    const VkSpecializationInfo special{static_cast<uint32_t>(entries.size()), entries.data(), info.constants.size_bytes(),
-                                       info.constants.data()};
+    const VkSpecializationInfo special{static_cast<uint32_t>(entries.size()), entries.data(),
+                                       info.constants.size_bytes(), info.constants.data()};
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.layout = layout_;
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -79,8 +79,8 @@ Pipeline::~Pipeline() {
     vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
 }
 
-Bindings::Bindings(const Device& device, const Pipeline& pipeline, std::initializer_list<const Buffer*> buffers,
-                   const Buffer& unused)
+Bindings::Bindings(const Device& device, const Pipeline& pipeline,
+                   std::initializer_list<const Buffer*> buffers, const Buffer& unused)
     : device_(&device) {
     if (buffers.size() != pipeline.bindings()) {
         throw Error(pipeline.name() + " has " + std::to_string(pipeline.bindings()) + " bindings, not " +
@@ -102,7 +102,8 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline, std::initiali
 
     std::vector<VkDescriptorBufferInfo> infos;
     for (const Buffer* buffer : buffers) {
-        infos.push_back({buffer != nullptr && *buffer ? buffer->handle() : unused.handle(), 0, VK_WHOLE_SIZE});
+        infos.push_back(
+            {buffer != nullptr && *buffer ? buffer->handle() : unused.handle(), 0, VK_WHOLE_SIZE});
     }
     std::vector<VkWriteDescriptorSet> writes;
     for (uint32_t b = 0; b < infos.size(); ++b) {

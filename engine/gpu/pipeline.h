@@ -11,12 +11,12 @@
 namespace fathom::gpu {
 
 struct PipelineInfo {
-    const char* name;                       // shows in messages and traces
+    const char* name; // shows in messages and traces
     std::span<const uint32_t> spirv;
-    uint32_t bindings = 0;                  // buffers 0..n-1
-    bool uniform = true;                    // buffer 0 is a uniform buffer (parameters), the others are storage buffers
-    uint32_t pushBytes = 0;                 // <= 128
-    std::span<const uint32_t> constants;    // specialisation constants 0..n-1; 0 = local_size_x
+    uint32_t bindings = 0;  // buffers 0..n-1
+    bool uniform = true;    // buffer 0 is a uniform buffer (parameters), the others are storage buffers
+    uint32_t pushBytes = 0; // <= 128
+    std::span<const uint32_t> constants; // specialisation constants 0..n-1; 0 = local_size_x
 };
 
 class Pipeline {
@@ -45,8 +45,8 @@ private:
     std::string name_;
 };
 
-// One descriptor set of a pipeline, filled once. Null entries are taken by `unused`, a buffer that no shader variant
-// in force reads. Move-only.
+// One descriptor set of a pipeline, filled once. Null entries are taken by `unused`, a buffer that no shader
+// variant in force reads. Move-only.
 class Bindings {
 public:
     Bindings() = default;

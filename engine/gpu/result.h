@@ -6,7 +6,8 @@
 
 namespace fathom::gpu {
 
-// Throws DeviceLost for a lost device and Error, naming the call and the code, for everything below VK_SUCCESS.
+// Throws DeviceLost for a lost device and Error, naming the call and the code, for everything below
+// VK_SUCCESS.
 void check(VkResult result, const char* call);
 
 } // namespace fathom::gpu

@@ -5,7 +5,9 @@
 
 namespace fathom::gpu {
 
-Stopwatch::Stopwatch(const Device& device, uint32_t marks) : device_(device), capacity_(marks) {
+Stopwatch::Stopwatch(const Device& device, uint32_t marks)
+    : device_(device)
+    , capacity_(marks) {
     if (device.facts().timestampPeriodNs <= 0.0) {
         return;
     }
@@ -45,7 +47,8 @@ std::vector<double> Stopwatch::intervalsMs() const {
                                 VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
           "vkGetQueryPoolResults");
     for (size_t i = 0; i < intervals.size(); ++i) {
-        intervals[i] = static_cast<double>(stamps[i + 1] - stamps[i]) * device_.facts().timestampPeriodNs * 1e-6;
+        intervals[i] =
+            static_cast<double>(stamps[i + 1] - stamps[i]) * device_.facts().timestampPeriodNs * 1e-6;
     }
     return intervals;
 }

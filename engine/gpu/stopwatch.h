@@ -19,7 +19,8 @@ public:
     void mark(VkCommandBuffer commands); // after all work recorded so far
     uint32_t marks() const { return used_; }
 
-    // Milliseconds between mark i and mark i + 1; zeros when the device has no timestamps. Call after completion.
+    // Milliseconds between mark i and mark i + 1; zeros when the device has no timestamps. Call after
+    // completion.
     std::vector<double> intervalsMs() const;
 
 private:

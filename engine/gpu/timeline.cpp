@@ -5,7 +5,8 @@
 
 namespace fathom::gpu {
 
-Timeline::Timeline(const Device& device) : device_(device) {
+Timeline::Timeline(const Device& device)
+    : device_(device) {
     VkSemaphoreTypeCreateInfo type{VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
     type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
     VkSemaphoreCreateInfo info{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};

@@ -14,7 +14,7 @@ public:
     Timeline& operator=(const Timeline&) = delete;
 
     VkSemaphore handle() const { return handle_; }
-    uint64_t value() const; // reached so far
+    uint64_t value() const;          // reached so far
     void wait(uint64_t value) const; // throws DeviceLost
 
 private:

@@ -49,8 +49,9 @@ Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options) 
     const double share = options.paperGuidance ? kGuidanceShare : 0.0;
     const double handDamping = options.damping * options.handScale;
     const double followed = options.slewForce / kContactSpeed;
-    const double whole = std::min(*handLimit(preset.stiffness, preset.damping, handDamping, options), followed) /
-                         options.handScale;
+    const double whole =
+        std::min(*handLimit(preset.stiffness, preset.damping, handDamping, options), followed) /
+        options.handScale;
     springs.stiffness = options.stiffness.value_or(whole / (1.0 + share));
     demandPositive(springs.stiffness, "stiffness (damping B takes all of the device's?)");
     springs.guidanceStiffness = std::max(0.0, std::min(share * springs.stiffness, whole - springs.stiffness));

@@ -35,10 +35,9 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
     const double scale = coupling.handScale;
     // The hand moves 1/s of what the tool does, and its energies count s times at the tool (hand_map.h).
     options.damping = preset.damping.value_or(preset.stiffness * kPresetPeriod / 2.0) / scale;
-    options.rotationalDamping =
-        preset.rotationalDamping
-            ? *preset.rotationalDamping * scale
-            : springs.rotationalStiffness * coupling.period * (1.0 + 2.0 * coupling.delayTicks) / 2.0;
+    options.rotationalDamping = preset.rotationalDamping ? *preset.rotationalDamping * scale
+                                                         : springs.rotationalStiffness * coupling.period *
+                                                               (1.0 + 2.0 * coupling.delayTicks) / 2.0;
     options.metricRadius = springs.metricRadius;
     options.forceLimit = forceLimit;
     options.torqueLimit = torqueLimit;
@@ -58,7 +57,8 @@ void PassivityController::reset() noexcept {
 }
 
 double PassivityController::storedIn(const PassivityTurn& turn) const noexcept {
-    return energyOf(glm::length(turn.contact.force), turn.springs.stiffness, turn.share, options_.forceLimit) +
+    return energyOf(glm::length(turn.contact.force), turn.springs.stiffness, turn.share,
+                    options_.forceLimit) +
            energyOf(glm::length(turn.contact.torque), turn.springs.rotationalStiffness, turn.share,
                     options_.torqueLimit);
 }
@@ -82,7 +82,8 @@ void PassivityController::observe(const PassivityTurn& turn) noexcept {
     double& slot = credit_[turns_++ % kWindow];
     slot = credit;
     recent_ = 0.0;
-    for (const double c : credit_) { // summed anew: a running sum would keep the rounding of fast turns for ever
+    for (const double c :
+         credit_) { // summed anew: a running sum would keep the rounding of fast turns for ever
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);

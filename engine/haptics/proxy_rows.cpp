@@ -74,11 +74,14 @@ void Proxy::flagBehind(const ContactSet& contacts) noexcept {
 
 void Proxy::addPairRows(const ContactSet& contacts, const Budget& budget) noexcept {
     constexpr uint32_t kNone = UINT32_MAX;
+    const bool anyBehind = std::any_of(exempt_.begin(), exempt_.end(), [](const dvec3& e) { return e != dvec3(0.0); });
     for (ContactRow row : narrow_.rows()) {
-        if (glm::dot(row.normal, exempt_[row.leaf]) < 0.0) {
+        if (exempt_[row.leaf] != dvec3(0.0) && glm::dot(row.normal, exempt_[row.leaf]) < NarrowPhase::kCosHolds) {
             continue; // would hold the leaf behind; its way out is added below
         }
-        row.offset = offsetFor(row.gap, budget);
+        // A tool with a leaf behind has one way out. All else need only not get deeper on it: so close to the sphere
+        // centres rows that ask for a way of their own ask for it to all sides, and would squeeze the tool.
+        row.offset = anyBehind && row.gap < 0.0 ? kSkin : offsetFor(row.gap, budget);
         addRow(row);
     }
     uint32_t last = kNone;
@@ -87,14 +90,7 @@ void Proxy::addPairRows(const ContactSet& contacts, const Budget& budget) noexce
             continue;
         }
         last = flag.leaf;
-        bool replaced = false, any = false;
-        for (const ContactRow& row : narrow_.rows()) {
-            any = any || row.leaf == flag.leaf;
-            replaced = replaced || (row.leaf == flag.leaf && glm::dot(row.normal, exempt_[row.leaf]) < 0.0);
-        }
-        if (replaced || !any) {
-            addBehindRow(contacts, flag.leaf, budget);
-        }
+        addBehindRow(contacts, flag.leaf, budget);
     }
 }
 
@@ -105,7 +101,7 @@ void Proxy::addBehindRow(const ContactSet& contacts, uint32_t leaf, const Budget
     row.arm = leaves_[leaf] - (pose_.position - contacts.origin);
     row.leaf = leaf;
     row.gap = -clearance_[leaf];
-    row.offset = std::min(clearance_[leaf], budget.travel > kSkin ? budget.depth : 0.0);
+    row.offset = std::max(kSkin, std::min(clearance_[leaf] + kSkin, budget.travel > kSkin ? budget.depth : 0.0));
     row.key = shapeKey(row.kind, 0, leaf, 0);
     addRow(row);
 }

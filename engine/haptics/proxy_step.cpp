@@ -231,9 +231,10 @@ bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Bud
     return false;
 }
 
-// True when the next pose lies nearer to the target by the metric: when the springs' energy falls. The solver's answer does
-// so by its linearisation; what arcs and raised offsets add can undo it where the rows of several leaves meet, and then
-// the tool would dance about the place although the hand is still. Written so that a target far away costs no digits.
+// True when the next pose lies nearer to the target by the metric: when the springs' energy falls. The
+// solver's answer does so by its linearisation; what arcs and raised offsets add can undo it where the rows
+// of several leaves meet, and then the tool would dance about the place although the hand is still. Written
+// so that a target far away costs no digits.
 bool Proxy::comesNearer(const Pose& target) const noexcept {
     const Motion now = remaining(pose_, target), next = remaining(nextPose_, target);
     const double turning = glm::dot(next.alpha - now.alpha, next.alpha + now.alpha);

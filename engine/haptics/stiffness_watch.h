@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The automatic stiffness re-checked while running: turns that come slower than planned lower the passive bound,
-// and the springs follow it.
+// The automatic stiffness re-checked while running: turns that come slower than planned lower the passive
+// bound, and the springs follow it.
 #pragma once
 
 #include "engine/haptics/coupling.h"
@@ -14,8 +14,9 @@ public:
     // planned: what makeSprings() gave for these options, the most that is ever returned.
     StiffnessWatch(const DevicePreset& preset, const CouplingOptions& options, const Springs& planned);
 
-    // One turn: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over kAverage;
-    // K_t and K_r go down to their bounds within kDown (all of K_t), back up within kUp, never in a step.
+    // One turn: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
+    // kAverage; K_t and K_r go down to their bounds within kDown (all of K_t), back up within kUp, never in a
+    // step.
     void step(double measuredPeriod) noexcept;
 
     const Springs& springs() const noexcept { return springs_; } // in force; k = sqrt(K_r / K_t) follows

@@ -66,7 +66,7 @@ void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const P
     }
     Worst promised, exempt;
     for (size_t i = 0; i < leaves_.size(); ++i) {
-        const Worst worst = judge(leaves_[i], centreOf(leaves_[i], end), behind_[i] != 0);
+        const Worst worst = judge(leaves_[i], centreOf(leaves_[i], end));
         Worst& sum = behind_[i] != 0 ? exempt : promised;
         sum.beyond = std::max(sum.beyond, worst.beyond);
         sum.inside = std::max(sum.inside, worst.inside);
@@ -136,9 +136,8 @@ void PenetrationAudit::takeAllowances(const Pose& start) {
     }
 }
 
-// Depths of one leaf after the turn, against its allowances, which shrink to them. While a leaf is exempt they follow its
-// depths up too: what is left when the flag goes may only shrink from there.
-PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre, bool exempt) {
+// Depths of one leaf after the turn, against its allowances, which shrink to them.
+PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre) {
     if (glm::length(centre - leaf.searchedAt) + kRounding >= leaf.mayMove) {
         search(leaf, centre);
     }
@@ -149,7 +148,7 @@ PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre,
         worst.any = std::max(worst.any, depth);
         worst.beyond = std::max(worst.beyond, depth - candidate.allowance);
         worst.inside = std::max(worst.inside, inside);
-        candidate.allowance = exempt ? depth : inside;
+        candidate.allowance = inside;
     }
     return worst;
 }

@@ -24,8 +24,7 @@ public:
 
     // One turn: the set it obeyed, the grid built from that very set, base_T_tool it started from and ended
     // at. A new Fixtures::generation is a new set, and its allowances are the depths at `start`. Leaves in
-    // `behind` (indices) are exempt from the promise: their depth is counted apart,
-    // and what they still touch when the flag goes is allowed from then on, shrinking. A set without frame (-1)
+    // `behind` (indices) are exempt from the promise: their depth is counted apart. A set without frame (-1)
     // is no set. Throws Error when the grid is not of the set's size or a pose is not finite.
     void tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
               std::span<const uint32_t> behind = {});
@@ -63,7 +62,7 @@ private:
     dvec3 centreOf(const Leaf& leaf, const Pose& pose) const;
     void checkGrid() const;
     void takeAllowances(const Pose& start);
-    Worst judge(Leaf& leaf, const dvec3& centre, bool exempt);
+    Worst judge(Leaf& leaf, const dvec3& centre);
 
     std::vector<Leaf> leaves_;
     std::vector<double> allowed_;   // scratch, a sphere each: allowance for the leaf at hand [m], else 0

@@ -24,7 +24,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     for (const FixtureClass& f : scene.fixtures) {
         plan.classes += f.isPoints() ? 1 : 0;
         plan.box = plan.box || (f.isPoints() && f.box);
-        plan.guidancePoints = plan.guidancePoints || (f.isPoints() && f.role == Role::Guidance && (f.largestPart || f.trim > 0.0));
+        plan.guidancePoints = plan.guidancePoints ||
+                              (f.isPoints() && f.role == Role::Guidance && (f.largestPart || f.trim > 0.0));
     }
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
@@ -36,8 +37,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2;
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
-                         (scene.contact.where == Scene::Contact::Where::Auto && device.kind != DeviceKind::Cpu &&
-                          toolLeaves >= kGpuQueryLeaves);
+                         (scene.contact.where == Scene::Contact::Where::Auto &&
+                          device.kind != DeviceKind::Cpu && toolLeaves >= kGpuQueryLeaves);
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
     return plan;
@@ -47,12 +48,14 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     const auto pass = [&](const char* name, bool in, std::string yes, std::string no) {
         plan.items.push_back({"pass", name, in, in ? std::move(yes) : std::move(no), 0});
     };
-    pass("occlusion", plan.occlusion, "colour is not registered to depth: parallax hides points from the colour camera",
+    pass("occlusion", plan.occlusion,
+         "colour is not registered to depth: parallax hides points from the colour camera",
          !scene.usesColour() ? "no class asks for colour" : "colour is registered to depth");
     pass("classify", plan.cloud, "there are classes of points", "the scene has no class of points");
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
-                                      std::to_string(2 * plan.filterRadius + 1) + (plan.tiled ? ", shared-memory tiles" : ", direct reads")
+                                      std::to_string(2 * plan.filterRadius + 1) +
+                                      (plan.tiled ? ", shared-memory tiles" : ", direct reads")
                                 : "no filter: points as measured",
          "the scene has no class of points");
     pass("thin", plan.thin, "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm",
@@ -73,22 +76,26 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
         plan.items.push_back({"buffer", name, in, std::move(why), in ? bytes : 0});
     };
     buffer("depth upload", plan.cloud, 2 * 2 * pixels, "double-buffered");
-    buffer("colour upload", plan.colour, 2 * 4ull * camera.colour.pixels(), plan.colour ? "double-buffered" : "no class asks for colour");
-    buffer("rays", plan.rays, 8 * pixels, plan.rays ? "distorted lens" : "no lens distortion: computed from the pixel");
+    buffer("colour upload", plan.colour, 2 * 4ull * camera.colour.pixels(),
+           plan.colour ? "double-buffered" : "no class asks for colour");
+    buffer("rays", plan.rays, 8 * pixels,
+           plan.rays ? "distorted lens" : "no lens distortion: computed from the pixel");
     buffer("masks and points", plan.cloud, 20 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
     buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u), "of one fixture set");
     buffer("tree nodes", plan.spheres, 20ull * layout.nodes(), "of one fixture set");
     buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
-    buffer("query copy", plan.query == Plan::Query::Gpu, slots * (plan.hold ? 32u : 16u), "spheres where the GPU query reads them");
+    buffer("query copy", plan.query == Plan::Query::Gpu, slots * (plan.hold ? 32u : 16u),
+           "spheres where the GPU query reads them");
 }
 
 } // namespace
 
 PatchLayout patchLayout(uint32_t width, uint32_t height) {
     if (width == 0 || height == 0 || width > kMaxWidth || height > kMaxHeight) {
-        throw BadInput("camera", "image size", std::to_string(width) + "x" + std::to_string(height), "1x1 to 3840x2160");
+        throw BadInput("camera", "image size", std::to_string(width) + "x" + std::to_string(height),
+                       "1x1 to 3840x2160");
     }
     PatchLayout layout;
     layout.across = (width + 15) / 16;
@@ -97,7 +104,8 @@ PatchLayout patchLayout(uint32_t width, uint32_t height) {
     layout.levels.push_back({layout.across, layout.down, layout.patches() * 16});
     while (layout.levels.back().across * layout.levels.back().down > 1) {
         const PatchLayout::Level below = layout.levels.back();
-        layout.levels.push_back({(below.across + 3) / 4, (below.down + 3) / 4, below.first + below.across * below.down});
+        layout.levels.push_back(
+            {(below.across + 3) / 4, (below.down + 3) / 4, below.first + below.across * below.down});
     }
     return layout;
 }
@@ -108,16 +116,20 @@ bool Plan::has(const std::string& name) const {
 
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; spheres and the tree's two (patches, then all above in one group)
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 3u : 0u) + (moments ? 1u : 0u);
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 3u : 0u) +
+           (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
     explainBuffers(plan, camera);
-    const auto thread = [&](const char* name, bool in, const char* why) { plan.items.push_back({"thread", name, in, why, 0}); };
+    const auto thread = [&](const char* name, bool in, const char* why) {
+        plan.items.push_back({"thread", name, in, why, 0});
+    };
     thread("camera", true, "frames, uploads, passes (realtime)");
-    thread("contact", plan.query != Plan::Query::None, plan.query != Plan::Query::None ? "contact sets (realtime)" : "nothing to collide with");
+    thread("contact", plan.query != Plan::Query::None,
+           plan.query != Plan::Query::None ? "contact sets (realtime)" : "nothing to collide with");
     thread("haptic", true, "turns (realtime)");
     return plan;
 }

@@ -29,14 +29,14 @@ struct Plan {
     bool spheres = false;   // any forbidden class of points: spheres and tree
     bool thin = false;      // error budget
     bool hold = false;
-    bool moments = false;   // any guidance class
+    bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
     // Variants.
-    bool rays = false;      // distorted lens
-    bool colour = false;    // some class asks for colour: it is uploaded
-    bool tiled = false;     // the filter's window from shared memory
-    uint32_t classes = 0;   // classes of points
-    bool box = false;       // some class has a box
+    bool rays = false;    // distorted lens
+    bool colour = false;  // some class asks for colour: it is uploaded
+    bool tiled = false;   // the filter's window from shared memory
+    uint32_t classes = 0; // classes of points
+    bool box = false;     // some class has a box
     uint32_t filterRadius = 0;
     bool edge = false;
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
@@ -63,11 +63,12 @@ PatchLayout patchLayout(uint32_t width, uint32_t height);
 
 // Slot of a pixel in patch-major order: the same arithmetic as shaders/lib/slots.glsl.
 inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
-    return ((v / 16) * patchesAcross + u / 16) * 256 + ((v % 16 / 4) * 4 + u % 16 / 4) * 16 + (v % 4) * 4 + u % 4;
+    return ((v / 16) * patchesAcross + u / 16) * 256 + ((v % 16 / 4) * 4 + u % 16 / 4) * 16 + (v % 4) * 4 +
+           u % 4;
 }
 
-// toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from `kGpuQueryLeaves` leaves on, and only
-// on a device that is not a CPU (`fathom profile` measures the crossover).
+// toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from `kGpuQueryLeaves`
+// leaves on, and only on a device that is not a CPU (`fathom profile` measures the crossover).
 inline constexpr uint32_t kGpuQueryLeaves = 1024;
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 

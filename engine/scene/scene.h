@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the user asked for: the scene file as plain values, checked. loadScene() fills it; nothing changes it after.
+// What the user asked for: the scene file as plain values, checked. loadScene() fills it; nothing changes it
+// after.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -37,16 +38,16 @@ struct FixtureClass {
     std::optional<Box> box;
     double radius = 0.04; // [m] of the sphere round each forbidden point, before 3 registration sigma
     // Guidance.
-    double standoff = 0.0;                     // [m] target = position + standoff x normal
-    dquat orientation{1.0, 0.0, 0.0, 0.0};     // base_q_tool when the points are no plane
-    uint32_t minCount = 50;                    // fewer points: no target
-    bool largestPart = false;                  // only the largest connected part of the class
-    double trim = 0.0;                         // share of the farthest points left out of the mean, 0..0.5
+    double standoff = 0.0;                 // [m] target = position + standoff x normal
+    dquat orientation{1.0, 0.0, 0.0, 0.0}; // base_q_tool when the points are no plane
+    uint32_t minCount = 50;                // fewer points: no target
+    bool largestPart = false;              // only the largest connected part of the class
+    double trim = 0.0;                     // share of the farthest points left out of the mean, 0..0.5
     // Shapes.
     ShapeKind shape = ShapeKind::None;
-    bool keepIn = false;                       // role keep_in: stay inside the shape
+    bool keepIn = false; // role keep_in: stay inside the shape
     Pose baseTshape;
-    dvec3 size{0.0};                           // [m] box: edge lengths; sphere: x = radius; cylinder: x = radius, y = length
+    dvec3 size{0.0}; // [m] box: edge lengths; sphere: x = radius; cylinder: x = radius, y = length
 
     bool usesColour() const { return hue || saturation || lightness; }
     bool isPoints() const { return shape == ShapeKind::None; }
@@ -57,7 +58,7 @@ struct CameraSource {
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
 };
 
-struct HandLoop { // the simulated hand that closes the loop (--hand)
+struct HandLoop {             // the simulated hand that closes the loop (--hand)
     double mass = 0.2;        // [kg]
     double damping = 1.0;     // [N s/m]
     double stiffness = 300.0; // [N/m] of the spring to the intended path
@@ -72,9 +73,9 @@ struct Scene {
     double registrationSigma = 0.0; // [m]; regions grow by 3 of them
 
     struct Filter {
-        uint32_t radius = 2;  // [pixels] 0..16; 0 = none
-        double sigma = 0.01;  // [m] paper eq. 2
-        double edge = 0.03;   // relative depth jump of a flying pixel; 0 = off
+        uint32_t radius = 2; // [pixels] 0..16; 0 = none
+        double sigma = 0.01; // [m] paper eq. 2
+        double edge = 0.03;  // relative depth jump of a flying pixel; 0 = off
     } filter;
     double errorBudget = 0.0001; // [m]; 0 keeps every point
     double holdSeconds = 0.5;    // [s]; 0 = paper
@@ -97,9 +98,9 @@ struct Scene {
 
     struct Haptics {
         double rateHz = 1000.0;
-        std::string device = "ideal";                  // preset name
-        std::optional<double> stiffness;               // [N/m]; empty = auto
-        std::optional<double> rotationalStiffness;     // [N m/rad]; empty = auto
+        std::string device = "ideal";              // preset name
+        std::optional<double> stiffness;           // [N/m]; empty = auto
+        std::optional<double> rotationalStiffness; // [N m/rad]; empty = auto
         enum class GuidanceMode { Target, Paper } guidance = GuidanceMode::Target;
         double stepCap = 0.002;                        // [m] of leaf travel a solve
         uint32_t solves = 4;                           // most solves a turn
@@ -120,8 +121,9 @@ struct Scene {
     bool usesColour() const;  // any class that tests colour
 };
 
-// Reads and checks a scene file. Throws BadInput naming file, field, value and what is allowed; unknown keys are
-// refused with the nearest known key as a suggestion. Relative paths are taken from the scene file's folder.
+// Reads and checks a scene file. Throws BadInput naming file, field, value and what is allowed; unknown keys
+// are refused with the nearest known key as a suggestion. Relative paths are taken from the scene file's
+// folder.
 Scene loadScene(const std::filesystem::path& file);
 
 } // namespace fathom

@@ -12,13 +12,11 @@ namespace fathom {
 // Pinhole lens with Brown-Conrady distortion (k1 k2 p1 p2 k3, plumb_bob order). Pixel (0, 0) is the centre of
 // the first pixel; z forward, x right, y down.
 struct Intrinsics {
-    uint32_t width = 0, height = 0;               // [pixels]
+    uint32_t width = 0, height = 0;                // [pixels]
     double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; // [pixels]
-    std::array<double, 5> distortion{};           // k1 k2 p1 p2 k3; all zero = none
+    std::array<double, 5> distortion{};            // k1 k2 p1 p2 k3; all zero = none
 
-    bool distorted() const {
-        return distortion != std::array<double, 5>{};
-    }
+    bool distorted() const { return distortion != std::array<double, 5>{}; }
     uint32_t pixels() const { return width * height; }
 
     // Ray (x/z, y/z) through pixel (u, v): inverts the distortion by fixed-point iteration, float64.
@@ -29,15 +27,16 @@ struct Intrinsics {
 
 struct CameraInfo {
     Intrinsics depth;
-    Intrinsics colour;        // equal to depth when registered
-    bool registered = true;   // colour pixel (u, v) shows the same ray as depth pixel (u, v)
-    Pose colourTdepth;        // maps depth-camera points to the colour camera; identity when registered
+    Intrinsics colour;            // equal to depth when registered
+    bool registered = true;       // colour pixel (u, v) shows the same ray as depth pixel (u, v)
+    Pose colourTdepth;            // maps depth-camera points to the colour camera; identity when registered
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
 };
 
 // Standard deviation of a depth reading at range z [m], [m]: the model of structured-light and stereo cameras
-// (constant + quadratic). Measured on the D435 recordings: 0.48 mm at 0.38 m on a wheel, 3.75 mm median of the picture.
+// (constant + quadratic). Measured on the D435 recordings: 0.48 mm at 0.38 m on a wheel, 3.75 mm median of
+// the picture.
 inline double depthSigma(double z) noexcept {
     return 0.0005 + 0.0025 * z * z;
 }

@@ -14,11 +14,11 @@ struct DeviceFacts {
     std::string driver;
     DeviceKind kind = DeviceKind::Cpu;
     uint32_t subgroupSize = 1;
-    uint32_t maxInvocations = 128;         // of one work group
-    uint32_t maxSharedBytes = 16384;       // of one work group
+    uint32_t maxInvocations = 128;   // of one work group
+    uint32_t maxSharedBytes = 16384; // of one work group
     uint64_t maxStorageBufferBytes = 1u << 27;
-    uint64_t hostPointerAlignment = 0;     // of imported host memory; 0 = cannot import
-    double timestampPeriodNs = 1.0;        // 0 = no timestamps
+    uint64_t hostPointerAlignment = 0; // of imported host memory; 0 = cannot import
+    double timestampPeriodNs = 1.0;    // 0 = no timestamps
 };
 
 } // namespace fathom

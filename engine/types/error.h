@@ -14,7 +14,8 @@ public:
     virtual int exitCode() const noexcept { return 1; }
 };
 
-// Something the user gave is unusable: one line with the file (or option), the field, the value, what is allowed.
+// Something the user gave is unusable: one line with the file (or option), the field, the value, what is
+// allowed.
 class BadInput : public Error {
 public:
     BadInput(const std::string& file, const std::string& field, const std::string& value,

@@ -12,15 +12,15 @@
 
 namespace fathom {
 
-// The memory belongs to the camera, is page-aligned and padded to whole pages, and returns to it when the lease is
-// destroyed. Depth: width x height uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, empty when the
-// camera has none.
+// The memory belongs to the camera, is page-aligned and padded to whole pages, and returns to it when the
+// lease is destroyed. Depth: width x height uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8
+// A8, empty when the camera has none.
 class Frame {
 public:
     struct Content {
-        uint32_t index = 0;          // line of associations.txt from 0, or a live counter
-        uint64_t sourceNumber = 0;   // the source's own frame number; unchanged = the same picture again
-        double captureTime = 0.0;    // [s] on the source's clock
+        uint32_t index = 0;        // line of associations.txt from 0, or a live counter
+        uint64_t sourceNumber = 0; // the source's own frame number; unchanged = the same picture again
+        double captureTime = 0.0;  // [s] on the source's clock
         std::span<const uint16_t> depth;
         std::span<const uint32_t> colour; // 0xAABBGGRR
         std::optional<Pose> baseTcamera;  // when the source knows it (poses.txt, simulated); else the scene's
@@ -28,8 +28,11 @@ public:
 
     Frame() = default;
     Frame(const Content& content, std::function<void()> giveBack)
-        : content_(content), giveBack_(std::move(giveBack)) {}
-    Frame(Frame&& other) noexcept : content_(other.content_), giveBack_(std::exchange(other.giveBack_, nullptr)) {}
+        : content_(content)
+        , giveBack_(std::move(giveBack)) {}
+    Frame(Frame&& other) noexcept
+        : content_(other.content_)
+        , giveBack_(std::exchange(other.giveBack_, nullptr)) {}
     Frame& operator=(Frame&& other) noexcept {
         std::swap(content_, other.content_);
         std::swap(giveBack_, other.giveBack_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Newest-value mailbox: one writer, one reader, three slots, no locks. Values that nobody read are overwritten.
+// Newest-value mailbox: one writer, one reader, three slots, no locks. Values that nobody read are
+// overwritten.
 #pragma once
 
 #include <array>
@@ -8,8 +9,8 @@
 
 namespace fathom {
 
-// The writer fills back() and calls publish(); the reader calls refresh() and reads front(). Each side owns its
-// slot outright, so T may be large and is never copied. Wait-free on both sides; any two threads.
+// The writer fills back() and calls publish(); the reader calls refresh() and reads front(). Each side owns
+// its slot outright, so T may be large and is never copied. Wait-free on both sides; any two threads.
 template <class T>
 class Latest {
 public:
@@ -18,9 +19,7 @@ public:
 
     T& back() noexcept { return slots_[back_]; }
 
-    void publish() noexcept {
-        back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & kIndex;
-    }
+    void publish() noexcept { back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & kIndex; }
 
     // True when front() changed.
     bool refresh() noexcept {

@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-// Holds readers + 2 values: one newest, one a reader, one to write. Each reader holds at most one lease at a time (drop the
-// old one before taking the next). One writer. Lock-free; the writer is wait-free.
+// Holds readers + 2 values: one newest, one a reader, one to write. Each reader holds at most one lease at a
+// time (drop the old one before taking the next). One writer. Lock-free; the writer is wait-free.
 template <class T>
 class LeasePool {
     struct Entry {
@@ -24,7 +24,8 @@ public:
     class Lease {
     public:
         Lease() = default;
-        Lease(Lease&& other) noexcept : entry_(std::exchange(other.entry_, nullptr)) {}
+        Lease(Lease&& other) noexcept
+            : entry_(std::exchange(other.entry_, nullptr)) {}
         Lease& operator=(Lease&& other) noexcept {
             std::swap(entry_, other.entry_);
             return *this;
@@ -40,13 +41,15 @@ public:
 
     private:
         friend class LeasePool;
-        explicit Lease(Entry* entry) : entry_(entry) {}
+        explicit Lease(Entry* entry)
+            : entry_(entry) {}
         Entry* entry_ = nullptr;
     };
 
     // make() builds one value; called readers + 2 times.
     template <class Make>
-    LeasePool(uint32_t readers, Make&& make) : entries_(readers + 2) {
+    LeasePool(uint32_t readers, Make&& make)
+        : entries_(readers + 2) {
         for (Entry& entry : entries_) {
             entry.value = make();
         }

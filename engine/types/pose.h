@@ -11,7 +11,7 @@ using glm::dquat; // constructor order w, x, y, z
 using glm::dvec3;
 
 struct Pose {
-    dvec3 position{0.0};               // [m]
+    dvec3 position{0.0};                // [m]
     dquat rotation{1.0, 0.0, 0.0, 0.0}; // unit, w x y z
 
     dvec3 apply(const dvec3& point) const { return position + rotation * point; }

@@ -66,7 +66,8 @@ void encloseChildren(SphereTree& tree, uint64_t node) {
     for (uint32_t k = 0; k < tree.degree; ++k) {
         const Sphere& child = tree.nodes[node * tree.degree + 1 + k];
         if (child.radius >= 0.0) {
-            parent.radius = std::max(parent.radius, glm::distance(parent.centre, child.centre) + child.radius);
+            parent.radius =
+                std::max(parent.radius, glm::distance(parent.centre, child.centre) + child.radius);
         }
     }
     parent.radius *= 1.0 + 1e-12; // rounded outward

@@ -9,26 +9,30 @@ FATHOM_CONST kMaxClasses = 8; // classes of points in a scene: bits of a pixel's
 
 // One class of points. Gates are inclusive.
 struct ClassParams {
-    vec4 hue;     // lo, hi [degree], 1 = has the gate, 1 = wraps through 0
+    vec4 hue;      // lo, hi [degree], 1 = has the gate, 1 = wraps through 0
     vec4 satLight; // saturation lo, hi; lightness lo, hi
-    vec4 boxMin;  // base axes about the origin [m]; w = 1: has a box
+    vec4 boxMin;   // base axes about the origin [m]; w = 1: has a box
     vec4 boxMax;
-    vec4 role;    // region radius with 3 registration sigma [m]; 1 = forbidden; 1 = guidance; row of Scene::fixtures
+    vec4 role; // region radius with 3 registration sigma [m]; 1 = forbidden; 1 = guidance; row of
+               // Scene::fixtures
 };
 FATHOM_SIZE(ClassParams, 80);
 
 struct FrameParams {
-    uvec4 size;         // depth width, height; patches across, down
-    uvec4 colourSize;   // colour width, height; occlusion cells across, edge of a cell [pixels]
-    uvec4 depthBand;    // smallest and largest valid raw depth (near, far); classes; classes that are forbidden (bits)
-    uvec4 time;         // capture time now [us, wraps]; hold [us]; capture time of the last frame [us]; order of forbidden classes (4 bits each)
-    vec4 lens;          // depth fx, fy, cx, cy [pixels]
-    vec4 distortion;    // depth k1, k2, p1, p2
-    vec4 colourLens;    // fx, fy, cx, cy
+    uvec4 size;       // depth width, height; patches across, down
+    uvec4 colourSize; // colour width, height; occlusion cells across, edge of a cell [pixels]
+    uvec4 depthBand;  // smallest and largest valid raw depth (near, far); classes; classes that are forbidden
+                      // (bits)
+    uvec4 time;      // capture time now [us, wraps]; hold [us]; capture time of the last frame [us]; order of
+                     // forbidden classes (4 bits each)
+    vec4 lens;       // depth fx, fy, cx, cy [pixels]
+    vec4 distortion; // depth k1, k2, p1, p2
+    vec4 colourLens; // fx, fy, cx, cy
     vec4 colourDistortion; // k1, k2, p1, p2
-    vec4 more;          // depth k3, colour k3, metres per raw unit, depth jump that is an edge (relative)
-    vec4 filterParams;  // 1 / (2 sigma^2) [1/m^2], error budget [m], isolation distance [m], 3 x isolation pixels / focal
-    vec4 noise;         // depth sigma = x + y z^2 [m]; 3 = how many sigma count as different; -
+    vec4 more;             // depth k3, colour k3, metres per raw unit, depth jump that is an edge (relative)
+    vec4 filterParams;     // 1 / (2 sigma^2) [1/m^2], error budget [m], isolation distance [m], 3 x isolation
+                           // pixels / focal
+    vec4 noise;            // depth sigma = x + y z^2 [m]; 3 = how many sigma count as different; -
     vec4 baseTcamera[3];   // rows of [R | t], t about the origin [m]
     vec4 cameraTbase[3];
     vec4 colourTdepth[3];
@@ -48,8 +52,8 @@ struct FrameCounters {
 };
 FATHOM_SIZE(FrameCounters, 144);
 
-// Moments of one guidance class in one patch, about the patch mean. The mean is anchor + offset: as one float32 it would lose
-// digits that the covariance of a small class needs.
+// Moments of one guidance class in one patch, about the patch mean. The mean is anchor + offset: as one
+// float32 it would lose digits that the covariance of a small class needs.
 struct PatchMoments {
     vec4 anchor; // a point of the class, base axes about the origin [m]; w = count
     vec4 offset; // mean - anchor [m]
@@ -58,7 +62,8 @@ struct PatchMoments {
 };
 FATHOM_SIZE(PatchMoments, 64);
 
-// Levels of the region tree: 0 = 4x4 pixels (patch-major), 1 = patches, then 4x4 of the level below up to one root.
+// Levels of the region tree: 0 = 4x4 pixels (patch-major), 1 = patches, then 4x4 of the level below up to one
+// root.
 FATHOM_CONST kMaxLevels = 6;
 struct TreeParams {
     uvec4 levels[6]; // nodes across, down; index of the first node; -

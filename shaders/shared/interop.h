@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets one text declare a struct for GLSL and for C++. Only vec4, uvec4, float, uint: their layouts agree by nature.
+// Lets one text declare a struct for GLSL and for C++. Only vec4, uvec4, float, uint: their layouts agree by
+// nature.
 #ifndef FATHOM_SHARED_INTEROP_H
 #define FATHOM_SHARED_INTEROP_H
 
@@ -10,11 +11,12 @@ namespace fathom::shared {
 using glm::uvec4;
 using glm::vec4;
 using uint = uint32_t;
-}
+} // namespace fathom::shared
 #define FATHOM_SHARED_BEGIN namespace fathom::shared {
 #define FATHOM_SHARED_END }
 #define FATHOM_CONST constexpr uint
-#define FATHOM_SIZE(type, bytes) static_assert(sizeof(type) == bytes, #type " must have the size that GLSL gives it")
+#define FATHOM_SIZE(type, bytes)                                                                             \
+    static_assert(sizeof(type) == bytes, #type " must have the size that GLSL gives it")
 #else
 #define FATHOM_SHARED_BEGIN
 #define FATHOM_SHARED_END

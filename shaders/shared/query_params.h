@@ -6,10 +6,11 @@
 FATHOM_SHARED_BEGIN
 
 struct QueryParams {
-    uvec4 size;     // patches across, down; -; capacity of the answer
+    uvec4 size;      // patches across, down; -; capacity of the answer
     uvec4 levels[6]; // region tree: nodes across, down; index of the first; -
-    uvec4 region;   // number of region levels; 1 = a layer of held points; degree and first leaf of the tool tree
-    vec4 reach;     // reach [m]; -; -; -
+    uvec4
+        region; // number of region levels; 1 = a layer of held points; degree and first leaf of the tool tree
+    vec4 reach; // reach [m]; -; -; -
 };
 FATHOM_SIZE(QueryParams, 144);
 

@@ -77,7 +77,8 @@ constexpr size_t kTime = 0, kFrame = 25, kAge = 26;
 
 } // namespace
 
-TEST_CASE("A realtime replay uses every frame of the recording, ages the scene by the clock and audits every turn") {
+TEST_CASE("A realtime replay uses every frame of the recording, ages the scene by the clock and audits every "
+          "turn") {
     if (!recordingIsThere()) {
         return;
     }
@@ -105,7 +106,9 @@ TEST_CASE("A realtime replay uses every frame of the recording, ages the scene b
     }
     CHECK(oldest > 0.01); // of a frame that has just gone through the passes
     CHECK(newest == 26);
-    CHECK(rowsOf(out.path() / "frames.csv", 9 + static_cast<ptrdiff_t>(run.session->frames.passNames().size()) + 1).size() == 27);
+    CHECK(rowsOf(out.path() / "frames.csv",
+                 9 + static_cast<ptrdiff_t>(run.session->frames.passNames().size()) + 1)
+              .size() == 27);
 }
 
 TEST_CASE("SIGINT ends a realtime replay early and leaves every file whole") {

@@ -102,11 +102,11 @@ TEST_CASE(
         f.box = Box{{x0, -9, 0}, {x1, 9, 9}};
         return f;
     };
-    scene.fixtures = {boxed(forbiddenClass("small", 0.01), -9, 9), boxed(guidanceClass("goal"), -9, 9),
-                      boxed(forbiddenClass("first", 0.03), -9, 0),
-                      boxed(forbiddenClass("second", 0.03), -0.1, 9),
-                      boxed(forbiddenClass("shape", 0.5), 5, 6)};
-    scene.fixtures[4].shape = ShapeKind::Sphere; // an authored shape is no class of points
+    // An authored shape is no class of points: bits of the mask and rows of the file part.
+    scene.fixtures = {forbiddenClass("shape", 0.5), boxed(forbiddenClass("small", 0.01), -9, 9),
+                      boxed(guidanceClass("goal"), -9, 9), boxed(forbiddenClass("first", 0.03), -9, 0),
+                      boxed(forbiddenClass("second", 0.03), -0.1, 9)};
+    scene.fixtures[0].shape = ShapeKind::Sphere;
     CloudRig rig(scene, camera);
     const FrameReport report = rig.run(drawnPicture(camera, [](int, int) { return 0.7; }));
     CHECK(report.counts.classPixels ==
@@ -115,8 +115,10 @@ TEST_CASE(
     CHECK(report.counts.spheres == 3072);
     CHECK(report.guidanceCount == 3072);
     CHECK(rig.host().guidance[0].count == 3072);
+    CHECK(rig.host().guidance[0].fixture == 2);
+    checkHost(rig, report);
     for (const reference::RegionSphere& s : rig.spheres()) {
-        CHECK(s.cls == (s.centre.x <= 0.0 ? 2 : 3)); // "first" where both are; row 2 and 3
+        CHECK(s.cls == (s.centre.x <= 0.0 ? 2 : 3)); // "first" where both are
         CHECK(s.radius == doctest::Approx(0.036).epsilon(1e-6));
     }
     CHECK(compareSpheres(rig).wrong == 0);

@@ -91,7 +91,8 @@ size_t compareQueries(Rig& rig, const Tool& tool, double reach, uint32_t seed) {
     std::uniform_real_distribution<double> x(-0.25, 0.25), z(0.6, 1.0), turn(-3.0, 3.0);
     size_t found = 0;
     for (int i = 0; i < 20; ++i) {
-        const Pose pose{{x(random), 0.3 * x(random), z(random)}, rotationExp({turn(random), turn(random), turn(random)})};
+        const Pose pose{{x(random), 0.3 * x(random), z(random)},
+                        rotationExp({turn(random), turn(random), turn(random)})};
         ContactSet a, b;
         cpu.query(*set, pose, a);
         gpu.query(*set, pose, b);

@@ -75,7 +75,8 @@ TEST_CASE("Spans and instants come with their times in microseconds, their track
     CHECK(spans[0]["args"]["count"] == 42.5);
     CHECK(spans[0]["pid"] == 1);
     CHECK(spans[1]["tid"] != spans[0]["tid"]);
-    CHECK(spans[1]["ts"].get<double>() - spans[0]["ts"].get<double>() == doctest::Approx(250.0).epsilon(1e-6));
+    CHECK(spans[1]["ts"].get<double>() - spans[0]["ts"].get<double>() ==
+          doctest::Approx(250.0).epsilon(1e-6));
     const auto instant = eventsNamed(json, "instant").at(0);
     CHECK(instant["ph"] == "i");
     CHECK(instant["args"]["why"] == "a\\b");
@@ -89,7 +90,8 @@ TEST_CASE("Spans and instants come with their times in microseconds, their track
     CHECK(names[spans[1]["tid"]] == "second");
 }
 
-TEST_CASE("The file stays within its bound: short frequent spans go first, long ones are kept, all are counted") {
+TEST_CASE(
+    "The file stays within its bound: short frequent spans go first, long ones are kept, all are counted") {
     TraceFile file;
     constexpr uint64_t kBound = 60'000;
     constexpr int kTurns = 3000;
@@ -98,7 +100,8 @@ TEST_CASE("The file stays within its bound: short frequent spans go first, long 
     const auto t = std::chrono::steady_clock::now();
     for (int i = 0; i < kTurns; ++i) {
         const bool isLong = i % 100 == 99;
-        track.frequentSpan(isLong ? "long" : "short", t + us(1000 * i), t + us(1000 * i + (isLong ? 100 : 99)));
+        track.frequentSpan(isLong ? "long" : "short", t + us(1000 * i),
+                           t + us(1000 * i + (isLong ? 100 : 99)));
         trace.drain();
     }
     trace.finish();
@@ -217,8 +220,10 @@ TEST_CASE("A frame's passes lie one after the other from its submission on, on t
     CHECK(eventsNamed(json, "turn")[0]["args"]["woken_late_us"] == doctest::Approx(5.0));
 }
 
-TEST_CASE("A trace that cannot be written says so with its name, and an earlier one stands until the new one is whole") {
-    CHECK_THROWS_WITH_AS(Trace("/no/such/folder/run.json"), "trace /no/such/folder/run.json: cannot be written", Error);
+TEST_CASE("A trace that cannot be written says so with its name, and an earlier one stands until the new one "
+          "is whole") {
+    CHECK_THROWS_WITH_AS(Trace("/no/such/folder/run.json"),
+                         "trace /no/such/folder/run.json: cannot be written", Error);
     TraceFile file;
     std::ofstream(file.path) << "{\"traceEvents\":[]}";
     Trace trace(file.path);

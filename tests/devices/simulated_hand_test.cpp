@@ -117,6 +117,19 @@ TEST_CASE(
           doctest::Approx(start).epsilon(0.05)); // the integrator neither feeds nor brakes it
 }
 
+TEST_CASE("Under a constant force a free hand has moved by exactly F t^2 / (2 m) after any number of turns") {
+    SimulatedHandOptions options;
+    options.loop = {0.1, 0.0, 0.0};
+    SimulatedHand hand(still(), options);
+    for (int i = 1; i <= 100; ++i) {
+        run(hand, {{2.0, 0.0, 0.0}, {0.0, 0.0, 1e-4}}, 0.001);
+        const double t = i * 0.001;
+        CHECK(hand.handle().position.x == doctest::Approx(2.0 * t * t / 0.2).epsilon(1e-9));
+        CHECK(hand.velocity().x == doctest::Approx(2.0 * t / 0.1).epsilon(1e-9));
+        CHECK(rotationLog(hand.handle().rotation).z == doctest::Approx(1e-4 * t * t / (2.0 * 0.1 * 0.0025)).epsilon(1e-9));
+    }
+}
+
 TEST_CASE("The simulated hand follows a slow path closely and its buttons exactly") {
     const HandPath path({{0.0, {}, 0}, {2.0, {{0.2, 0.0, 0.0}, rotationExp({0.0, 0.0, 0.4})}, 1}});
     SimulatedHand hand(path, strong());

@@ -34,7 +34,8 @@ TEST_CASE("a device that does not exist is refused with the list of those that d
 TEST_CASE("fill, update and copy land in the order they were recorded") {
     gpu::Device& device = vulkan().device;
     for (uint64_t words : {1u, 5u, 1000u}) { // not multiples of anything
-        const gpu::Buffer a(device, words * 4, gpu::MemoryKind::Device, "a"), b(device, words * 4, gpu::MemoryKind::Readback, "b");
+        const gpu::Buffer a(device, words * 4, gpu::MemoryKind::Device, "a"),
+            b(device, words * 4, gpu::MemoryKind::Readback, "b");
         gpu::Commands commands(device);
         const gpu::Timeline timeline(device);
         const uint32_t value = 42;
@@ -60,7 +61,8 @@ TEST_CASE("a buffer beyond the device's limit is refused by name") {
         MESSAGE("the device has no limit worth testing");
         return;
     }
-    CHECK_THROWS_WITH_AS(gpu::Buffer(vulkan().device, limit + 16, gpu::MemoryKind::Device, "huge"), doctest::Contains("huge"), Error);
+    CHECK_THROWS_WITH_AS(gpu::Buffer(vulkan().device, limit + 16, gpu::MemoryKind::Device, "huge"),
+                         doctest::Contains("huge"), Error);
 }
 
 TEST_CASE("the stopwatch gives one interval less than it has marks and none is negative") {

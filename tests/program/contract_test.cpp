@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `replay --out` leaves: files, keys, columns, counts (design 8), and that equal runs are equal to the bit.
+// What `replay --out` leaves: files, keys, columns, counts (design 8), and that equal runs are equal to the
+// bit.
 #include "tests/program/stage.h"
 
 #include <doctest/doctest.h>
@@ -11,14 +12,15 @@ using namespace fathom;
 namespace {
 
 // Down on the red bump, whose top is 540 mm away and whose region begins at 500, and off again.
-const std::vector<HandRow> kPush{{0.0, {0.0, 0.0, 0.45}}, {0.2, {0.0, 0.0, 0.50}}, {0.3, {0.004, 0.0, 0.50}},
-                                 {0.5, {0.0, 0.0, 0.44}}};
+const std::vector<HandRow> kPush{
+    {0.0, {0.0, 0.0, 0.45}}, {0.2, {0.0, 0.0, 0.50}}, {0.3, {0.004, 0.0, 0.50}}, {0.5, {0.0, 0.0, 0.44}}};
 
 // Bump, shape, guidance: a little of everything.
 SceneText fullScene() {
     SceneText scene;
-    scene.fixtures = {SceneText::kForbidRed, SceneText::kGuideYellow,
-                      "name: floor, role: forbidden, shape: box, base_T_shape: {xyz: [0, 0.5, 0.5]}, size: [1, 0.1, 1]"};
+    scene.fixtures = {
+        SceneText::kForbidRed, SceneText::kGuideYellow,
+        "name: floor, role: forbidden, shape: box, base_T_shape: {xyz: [0, 0.5, 0.5]}, size: [1, 0.1, 1]"};
     scene.tool = "spheres: [[0.01, 0, 0, 0.01], [0.02, 0, -0.01, 0.008], [0, 0.015, -0.03, 0.012]]";
     return scene;
 }
@@ -33,7 +35,8 @@ std::vector<Picture> pictures(size_t count) {
 
 } // namespace
 
-TEST_CASE("a replay leaves every file of the contract, and its rows, counts and means agree with one another") {
+TEST_CASE(
+    "a replay leaves every file of the contract, and its rows, counts and means agree with one another") {
     Stage stage;
     stage.recording(pictures(4));
     stage.scene(fullScene());
@@ -62,7 +65,8 @@ TEST_CASE("a replay leaves every file of the contract, and its rows, counts and 
     }
 }
 
-TEST_CASE("the guidance row of the summary is the mean of the class's points, and its target stands off along the normal") {
+TEST_CASE("the guidance row of the summary is the mean of the class's points, and its target stands off "
+          "along the normal") {
     Stage stage;
     stage.recording(pictures(2));
     SceneText scene = fullScene();
@@ -76,13 +80,15 @@ TEST_CASE("the guidance row of the summary is the mean of the class's points, an
     CHECK(row.at("count") == 140);
     // Pixels 4..13 x 16..29 of a wall 600 mm away.
     CHECK(row.at("position_m")[0].get<double>() == doctest::Approx((8.5 - kCx) / kFocal * 0.6).epsilon(1e-5));
-    CHECK(row.at("position_m")[1].get<double>() == doctest::Approx((22.5 - kCy) / kFocal * 0.6).epsilon(1e-5));
+    CHECK(row.at("position_m")[1].get<double>() ==
+          doctest::Approx((22.5 - kCy) / kFocal * 0.6).epsilon(1e-5));
     CHECK(row.at("position_m")[2].get<double>() == doctest::Approx(0.6).epsilon(1e-5));
     CHECK(row.at("normal")[2].get<double>() == doctest::Approx(-1.0).epsilon(1e-5));
     CHECK(row.at("target_m")[2].get<double>() == doctest::Approx(0.55).epsilon(1e-4));
 }
 
-TEST_CASE("a guidance class that is never seen has null for its pose, and a scene without forbidden points no query") {
+TEST_CASE("a guidance class that is never seen has null for its pose, and a scene without forbidden points "
+          "no query") {
     Stage stage;
     stage.recording(pictures(2));
     SceneText scene;
@@ -103,7 +109,8 @@ TEST_CASE("a guidance class that is never seen has null for its pose, and a scen
     }
 }
 
-TEST_CASE("equal runs give equal files and digests, with the query on either processor; another scene gives another one") {
+TEST_CASE("equal runs give equal files and digests, with the query on either processor; another scene gives "
+          "another one") {
     Stage stage;
     stage.recording(pictures(4));
     SceneText scene = fullScene();
@@ -141,7 +148,8 @@ TEST_CASE("a second run into the same folder replaces the files of the first, it
     CHECK(stage.read("out/notes.txt") == "mine"); // only its own files
 }
 
-TEST_CASE("relative paths of a scene count from the scene file, those of the command line from the working folder") {
+TEST_CASE("relative paths of a scene count from the scene file, those of the command line from the working "
+          "folder") {
     Stage stage;
     stage.recording(pictures(1));
     SceneText scene;
@@ -165,7 +173,7 @@ TEST_CASE("the built-in hand path pushes into every forbidden region and visits 
     scene.fixtures.pop_back();
     stage.scene(scene);
     const Replay replay = stage.replay();
-    CHECK(replay.ticks.size() >= 4000); // at least 2 s a fixture
+    CHECK(replay.ticks.size() >= 4000);                            // at least 2 s a fixture
     CHECK(replay.haptic().at("max_force_N").get<double>() > 10.0); // 20 mm at 1000 N/m
     double mostGuidance = 0.0;
     for (const Tick& tick : replay.ticks) {

@@ -9,7 +9,8 @@ using namespace fathom;
 
 namespace {
 
-// A recording of four frames of which frame `bad` was damaged runs, counts it as skipped and names it in one line.
+// A recording of four frames of which frame `bad` was damaged runs, counts it as skipped and names it in one
+// line.
 void checkSkips(const Stage& stage, int bad, const std::vector<std::string>& parts) {
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     const ProgramRun run = runFathom(stage.command());
@@ -38,7 +39,8 @@ void checkSkips(const Stage& stage, int bad, const std::vector<std::string>& par
     }
 }
 
-void withFour(const std::function<void(const Stage&)>& damage, int bad, const std::vector<std::string>& parts) {
+void withFour(const std::function<void(const Stage&)>& damage, int bad,
+              const std::vector<std::string>& parts) {
     Stage stage;
     stage.recording(std::vector<Picture>(4, bumpPicture()));
     damage(stage);
@@ -55,31 +57,43 @@ void replaceText(const Stage& stage, const std::string& from, const std::string&
 } // namespace
 
 TEST_CASE("a truncated, missing or wrong picture in a good recording skips its frame alone and is named") {
-    withFour([](const Stage& s) {
-        const std::string whole = s.read("rec/depth/000001.png");
-        s.write("rec/depth/000001.png", whole.substr(0, whole.size() / 2));
-    }, 1, {"depth/000001.png"});
+    withFour(
+        [](const Stage& s) {
+            const std::string whole = s.read("rec/depth/000001.png");
+            s.write("rec/depth/000001.png", whole.substr(0, whole.size() / 2));
+        },
+        1, {"depth/000001.png"});
     withFour([](const Stage& s) { s.write("rec/rgb/000002.png", ""); }, 2, {"rgb/000002.png"});
-    withFour([](const Stage& s) { std::filesystem::remove(s / "rec/depth/000003.png"); }, 3, {"depth/000003.png"});
-    withFour([](const Stage& s) { std::filesystem::remove(s / "rec/depth/000000.png"); }, 0, {"depth/000000.png"});
-    withFour([](const Stage& s) { writeDepth(s / "rec/depth/000001.png", 32, 24, 600); }, 1, {"32x24", "64x48"});
-    withFour([](const Stage& s) { writeColour(s / "rec/depth/000001.png", kWidth, kHeight, 1, 2, 3); }, 1, {"16-bit grey"});
-    withFour([](const Stage& s) {
-        writePng(s / "rec/depth/000002.png", kWidth, kHeight, 8, 0, std::vector<uint8_t>(kWidth * kHeight, 60));
-    }, 2, {"8-bit", "16-bit grey"});
+    withFour([](const Stage& s) { std::filesystem::remove(s / "rec/depth/000003.png"); }, 3,
+             {"depth/000003.png"});
+    withFour([](const Stage& s) { std::filesystem::remove(s / "rec/depth/000000.png"); }, 0,
+             {"depth/000000.png"});
+    withFour([](const Stage& s) { writeDepth(s / "rec/depth/000001.png", 32, 24, 600); }, 1,
+             {"32x24", "64x48"});
+    withFour([](const Stage& s) { writeColour(s / "rec/depth/000001.png", kWidth, kHeight, 1, 2, 3); }, 1,
+             {"16-bit grey"});
+    withFour(
+        [](const Stage& s) {
+            writePng(s / "rec/depth/000002.png", kWidth, kHeight, 8, 0,
+                     std::vector<uint8_t>(kWidth * kHeight, 60));
+        },
+        2, {"8-bit", "16-bit grey"});
 }
 
 TEST_CASE("a stamp that goes back or a line that is none skips its frame alone and is named") {
-    withFour([](const Stage& s) { replaceText(s, "0.066667 depth/000002", "0.010000 depth/000002"); }, 2, {"0.01", "goes back"});
-    withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png", "noise rgb/000001.png"); }, 1, {"line 3"});
+    withFour([](const Stage& s) { replaceText(s, "0.066667 depth/000002", "0.010000 depth/000002"); }, 2,
+             {"0.01", "goes back"});
+    withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png", "noise rgb/000001.png"); }, 1,
+             {"line 3"});
     withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png ", ""); }, 1, {"line 3"});
 }
 
 TEST_CASE("frames with no valid depth, with every pixel selected and with none selected run through") {
     Stage stage;
     const PixelBox all{0, 0, kWidth, kHeight};
-    stage.recording({Picture(kWidth, kHeight, 600).paint(all, kRed), Picture(kWidth, kHeight, 0).paint(all, kRed),
-                     Picture(kWidth, kHeight, 600), Picture(kWidth, kHeight, 65535).paint(all, kRed),
+    stage.recording({Picture(kWidth, kHeight, 600).paint(all, kRed),
+                     Picture(kWidth, kHeight, 0).paint(all, kRed), Picture(kWidth, kHeight, 600),
+                     Picture(kWidth, kHeight, 65535).paint(all, kRed),
                      Picture(kWidth, kHeight, 600).paint(all, kRed)});
     SceneText scene;
     scene.fixtures.push_back(SceneText::kGuideYellow);
@@ -98,7 +112,8 @@ TEST_CASE("frames with no valid depth, with every pixel selected and with none s
     CHECK(replay.frames.at(0).patches == 12);
 }
 
-TEST_CASE("a forbidden point whose pixel drops out is held for hold_s and one whose pixel is deeper goes at once") {
+TEST_CASE(
+    "a forbidden point whose pixel drops out is held for hold_s and one whose pixel is deeper goes at once") {
     Stage stage;
     const PixelBox box{24, 14, 44, 34};
     const auto seen = [&] { return Picture(kWidth, kHeight, 800).set(box, 600).paint(box, kRed); };
@@ -106,8 +121,8 @@ TEST_CASE("a forbidden point whose pixel drops out is held for hold_s and one wh
     for (int i = 0; i < 4; ++i) {
         pictures.push_back(seen().set(box, 0)); // 1..4: no depth there
     }
-    pictures.push_back(seen());                        // 5
-    pictures.push_back(seen().set(box, 300));          // 6: something nearer, and red too: it is forbidden itself
+    pictures.push_back(seen());               // 5
+    pictures.push_back(seen().set(box, 300)); // 6: something nearer, and red too: it is forbidden itself
     pictures.push_back(Picture(kWidth, kHeight, 800)); // 7: gone, the wall behind is seen
     stage.recording(pictures);
     SceneText scene;
@@ -139,10 +154,12 @@ TEST_CASE("a forbidden point whose pixel drops out is held for hold_s and one wh
 }
 
 TEST_CASE("pictures of odd sizes run, from one pixel on") {
-    for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{17u, 1u}, std::pair{7u, 5u}, std::pair{33u, 17u}, std::pair{257u, 3u}}) {
+    for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{17u, 1u}, std::pair{7u, 5u},
+                                        std::pair{33u, 17u}, std::pair{257u, 3u}}) {
         CAPTURE(width);
         Stage stage;
-        stage.recording({Picture(width, height, 500).paint({0, 0, width, height}, kRed), Picture(width, height, 500)});
+        stage.recording(
+            {Picture(width, height, 500).paint({0, 0, width, height}, kRed), Picture(width, height, 500)});
         stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.05, {0.0, 0.0, 0.47}}});
         const Replay replay = stage.replay({"--save-fixtures"});
         CHECK(replay.frames.at(0).forbidden == width * height);

@@ -28,7 +28,10 @@ Replay guided(Stage& stage, const std::string& mode) {
     scene.fixtures = {SceneText::kGuideYellow};
     scene.haptics = "guidance: " + mode;
     stage.scene(scene);
-    stage.hand({{0.0, {0.02, 0.0, 0.3}}, {0.1, {0.02, 0.0, 0.3}, {1, 0, 0, 0}, 1}, {1.0, {0.02, 0.0, 0.3}}, {1.8, {0.02, 0.0, 0.3}}});
+    stage.hand({{0.0, {0.02, 0.0, 0.3}},
+                {0.1, {0.02, 0.0, 0.3}, {1, 0, 0, 0}, 1},
+                {1.0, {0.02, 0.0, 0.3}},
+                {1.8, {0.02, 0.0, 0.3}}});
     const Replay replay = stage.replay();
     CHECK(replay.at(0.099).guidance == 0.0);
     for (const Tick& tick : replay.ticks) {
@@ -44,18 +47,21 @@ Replay guided(Stage& stage, const std::string& mode) {
     }
     const Tick& full = replay.at(0.9);
     const dvec3 target = vectorOf(replay.summary.at("guidance").at(0).at("target_m"));
-    CHECK(glm::length(full.force) == doctest::Approx(2.0).epsilon(1e-3)); // far from the target: all that is allowed
+    CHECK(glm::length(full.force) ==
+          doctest::Approx(2.0).epsilon(1e-3)); // far from the target: all that is allowed
     CHECK(glm::dot(glm::normalize(full.force), glm::normalize(target - full.device.position)) > 0.9999);
     return replay;
 }
 
 } // namespace
 
-TEST_CASE("the hand map turns and scales the hand's path, and stiffens the spring by as much as it slows the hand") {
+TEST_CASE("the hand map turns and scales the hand's path, and stiffens the spring by as much as it slows the "
+          "hand") {
     Stage stage;
     redWall(stage);
     SceneText scene;
-    scene.hand = "map: {base_R_device: [0, 0, 0.7071067811865476, 0.7071067811865476], scale: 0.5}"; // x goes to y
+    scene.hand =
+        "map: {base_R_device: [0, 0, 0.7071067811865476, 0.7071067811865476], scale: 0.5}"; // x goes to y
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, 0.8}}, {0.2, {0.06, 0.02, 0.9}}});
     const Replay replay = stage.replay();
@@ -78,7 +84,8 @@ TEST_CASE("the clutch re-indexes the hand without moving the tool, and ramps the
                 {1.0, {0.3, -0.2, 0.9}},
                 {1.2, {0.34, -0.2, 0.9}}});
     const Replay replay = stage.replay();
-    const Tick &before = replay.at(0.299), &down = replay.at(0.6), &after = replay.at(0.99), &moved = replay.ticks.back();
+    const Tick &before = replay.at(0.299), &down = replay.at(0.6), &after = replay.at(0.99),
+               &moved = replay.ticks.back();
     CHECK(before.force.z < -5.0);
     CHECK(glm::length(down.force) == 0.0);
     CHECK(glm::length(down.device.position - before.device.position) < 1e-12);
@@ -87,7 +94,8 @@ TEST_CASE("the clutch re-indexes the hand without moving the tool, and ramps the
     CHECK(glm::length(after.force - before.force) < 1e-3);
     CHECK(moved.device.position.x == doctest::Approx(before.device.position.x + 0.02).epsilon(0.01));
     for (size_t i = 1; i < replay.ticks.size(); ++i) {
-        CHECK(glm::length(replay.ticks[i].force - replay.ticks[i - 1].force) <= 2000.0 / 1000.0 + 1e-9); // slew limit
+        CHECK(glm::length(replay.ticks[i].force - replay.ticks[i - 1].force) <=
+              2000.0 / 1000.0 + 1e-9); // slew limit
     }
 }
 
@@ -107,7 +115,8 @@ TEST_CASE("with --hand the force pushes the hand back: at rest its spring and th
     CHECK(300.0 * (0.57 - last.device.position.z) + last.force.z == doctest::Approx(0.0).epsilon(0.02));
     // Two springs in a row share what the wall takes from the path.
     const double squeezed = 0.57 - last.tool.position.z;
-    CHECK(last.device.position.z - last.tool.position.z == doctest::Approx(squeezed * 300.0 / 1300.0).epsilon(0.02));
+    CHECK(last.device.position.z - last.tool.position.z ==
+          doctest::Approx(squeezed * 300.0 / 1300.0).epsilon(0.02));
     CHECK(open.summary.at("digest") != closed.summary.at("digest"));
     const Replay again = stage.replay({"--hand", "--query", "gpu"}, {1000.0, 20.0, 2.0, false}, "again");
     CHECK(again.summary.at("digest") == closed.summary.at("digest"));
@@ -116,7 +125,10 @@ TEST_CASE("with --hand the force pushes the hand back: at rest its spring and th
 TEST_CASE("an open dead-man takes the force away within 0.2 s while the tool still obeys the region") {
     Stage stage;
     redWall(stage);
-    stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.2, {0.0, 0.0, 0.56}}, {0.3, {0.0, 0.0, 0.56}, {1, 0, 0, 0}, 2}, {0.6, {0.0, 0.0, 0.57}},
+    stage.hand({{0.0, {0.0, 0.0, 0.5}},
+                {0.2, {0.0, 0.0, 0.56}},
+                {0.3, {0.0, 0.0, 0.56}, {1, 0, 0, 0}, 2},
+                {0.6, {0.0, 0.0, 0.57}},
                 {0.9, {0.0, 0.0, 0.57}}});
     const Replay replay = stage.replay();
     CHECK(replay.at(0.299).force.z < -5.0);
@@ -154,14 +166,17 @@ TEST_CASE("guidance to a target inside a forbidden region leads to its border an
     SceneText scene;
     scene.fixtures = {SceneText::kForbidRed, SceneText::kGuideYellow};
     stage.scene(scene);
-    stage.hand({{0.0, {0.0, 0.0, 0.50}}, {0.3, {0.0, 0.0, 0.549}, {1, 0, 0, 0}, 1}, {1.2, {0.0, 0.0, 0.56}, {1, 0, 0, 0}, 1}});
+    stage.hand({{0.0, {0.0, 0.0, 0.50}},
+                {0.3, {0.0, 0.0, 0.549}, {1, 0, 0, 0}, 1},
+                {1.2, {0.0, 0.0, 0.56}, {1, 0, 0, 0}, 1}});
     const Replay replay = stage.replay();
     CHECK(replay.ticks.back().guidance == doctest::Approx(1.0));
     CHECK(replay.ticks.back().contacts > 0);
     CHECK(replay.ticks.back().tool.position.z < 0.56);
 }
 
-TEST_CASE("a device that limits force and torque limits them, and what the preset says is what the summary obeys") {
+TEST_CASE(
+    "a device that limits force and torque limits them, and what the preset says is what the summary obeys") {
     Stage stage;
     redWall(stage);
     SceneText scene;

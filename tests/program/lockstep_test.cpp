@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of lockstep (design 2): when frames and answers come into force, who waits for whom, when a run ends.
+// The rules of lockstep (design 2): when frames and answers come into force, who waits for whom, when a run
+// ends.
 #include "tests/program/stage.h"
 
 #include <cmath>
@@ -59,14 +60,16 @@ TEST_CASE("stamps do not matter in lockstep: a recording an hour apart runs like
     stage.recording(pictures(3));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     const Replay plain = stage.replay({}, {}, "a");
-    stage.write("rec/associations.txt", "0 rgb/000000.png 5 depth/000000.png\n3600 rgb/000001.png 3600 depth/000001.png\n"
-                                        "9000 rgb/000002.png 9000.5 depth/000002.png\n");
+    stage.write("rec/associations.txt",
+                "0 rgb/000000.png 5 depth/000000.png\n3600 rgb/000001.png 3600 depth/000001.png\n"
+                "9000 rgb/000002.png 9000.5 depth/000002.png\n");
     const Replay slow = stage.replay({}, {}, "b");
     CHECK(plain.summary.at("digest") == slow.summary.at("digest"));
     CHECK(slow.ticks.size() == 100);
 }
 
-TEST_CASE("contact.delay puts off an answer by as many ticks, so the set that is obeyed and its age lag by them") {
+TEST_CASE(
+    "contact.delay puts off an answer by as many ticks, so the set that is obeyed and its age lag by them") {
     Stage stage;
     stage.recording(pictures(4));
     SceneText scene;
@@ -123,7 +126,8 @@ TEST_CASE("the shorter hand path holds its last pose until the frames have ended
     }
 }
 
-TEST_CASE("a hand path of a file counts from the run's start, also when the first frames are bad and nothing is seen yet") {
+TEST_CASE("a hand path of a file counts from the run's start, also when the first frames are bad and nothing "
+          "is seen yet") {
     Stage stage;
     stage.recording(pictures(4));
     stage.write("rec/depth/000000.png", "no picture");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise, recomputed from outside: from the saved sets and the tool poses of haptics.csv alone, every leaf against every
-// sphere of the set in force, with the allowance rule of design 6 and 8.
+// The promise, recomputed from outside: from the saved sets and the tool poses of haptics.csv alone, every
+// leaf against every sphere of the set in force, with the allowance rule of design 6 and 8.
 #include "tests/program/stage.h"
 
 #include <algorithm>
@@ -59,8 +59,10 @@ void checkPromise(const Replay& replay, const std::vector<Leaf>& leaves, Depths&
     CHECK(std::abs(depths.inside - replay.haptic().at("max_escape_depth_m").get<double>()) <= 1e-9);
 }
 
-const std::vector<Leaf> kGripper{{{0.0, 0.0, 0.0}, 0.010}, {{0.02, 0.0, -0.01}, 0.008}, {{0.0, 0.015, -0.03}, 0.012}};
-constexpr const char* kGripperText = "spheres: [[0, 0, 0, 0.01], [0.02, 0, -0.01, 0.008], [0, 0.015, -0.03, 0.012]]";
+const std::vector<Leaf> kGripper{
+    {{0.0, 0.0, 0.0}, 0.010}, {{0.02, 0.0, -0.01}, 0.008}, {{0.0, 0.015, -0.03}, 0.012}};
+constexpr const char* kGripperText =
+    "spheres: [[0, 0, 0, 0.01], [0.02, 0, -0.01, 0.008], [0, 0.015, -0.03, 0.012]]";
 
 } // namespace
 
@@ -88,8 +90,8 @@ TEST_CASE("a tool pushed, dragged and turned over a bump never enters a sphere o
 
 TEST_CASE("a region that appears over the tool lets it out: never deeper than it was, and slowly") {
     Stage stage;
-    // The whole wall turns red under a tool that hovers 30 mm before it: 20 mm deep in the new region. Then a step of the
-    // wall towards the tool, and back.
+    // The whole wall turns red under a tool that hovers 30 mm before it: 20 mm deep in the new region. Then a
+    // step of the wall towards the tool, and back.
     const PixelBox all{0, 0, kWidth, kHeight};
     std::vector<Picture> pictures{{kWidth, kHeight, 600}, {kWidth, kHeight, 600}};
     for (int i = 0; i < 4; ++i) {
@@ -123,12 +125,16 @@ TEST_CASE("a region that appears over the tool lets it out: never deeper than it
 
 TEST_CASE("the promise holds with answers that come late and with a reach so short that the tool stalls") {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture().dome({26, 16, 42, 32}, 12.0), bumpPicture(), bumpPicture()});
+    stage.recording(
+        {bumpPicture(), bumpPicture().dome({26, 16, 42, 32}, 12.0), bumpPicture(), bumpPicture()});
     SceneText scene;
     scene.tool = kGripperText;
     scene.contact = "reach: 0.004, delay: 20";
     stage.scene(scene);
-    stage.hand({{0.0, {0.0, 0.0, 0.44}}, {0.06, {0.01, 0.0, 0.53}}, {0.15, {-0.02, 0.01, 0.54}}, {0.2, {0.0, 0.0, 0.44}}});
+    stage.hand({{0.0, {0.0, 0.0, 0.44}},
+                {0.06, {0.01, 0.0, 0.53}},
+                {0.15, {-0.02, 0.01, 0.54}},
+                {0.2, {0.0, 0.0, 0.44}}});
     const Replay replay = stage.replay({"--save-fixtures"});
     Depths depths;
     checkPromise(replay, kGripper, depths);

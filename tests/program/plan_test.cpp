@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom plan`: what is in, what is left out, and why; and that a replay runs just that. Progress on a terminal alone.
+// `fathom plan`: what is in, what is left out, and why; and that a replay runs just that. Progress on a
+// terminal alone.
 #include "tests/program/stage.h"
 
 #include <doctest/doctest.h>
@@ -18,7 +19,8 @@ struct Item {
 
 // Items by "kind name"; every one must say in or out and why.
 std::map<std::string, Item> planOf(const Stage& stage) {
-    const ProgramRun run = runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    const ProgramRun run =
+        runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     CHECK(run.err == "");
     CHECK(run.out.find((stage / "scene.yaml").string()) != std::string::npos);
@@ -35,7 +37,8 @@ std::map<std::string, Item> planOf(const Stage& stage) {
         CAPTURE(line);
         const size_t gap = line.find("  ", 13); // the name ends at two spaces
         REQUIRE(gap != std::string::npos);
-        const size_t mib = line.find("MiB"), why = line.find_first_not_of(' ', mib == std::string::npos ? gap : mib + 3);
+        const size_t mib = line.find("MiB"),
+                     why = line.find_first_not_of(' ', mib == std::string::npos ? gap : mib + 3);
         REQUIRE(why != std::string::npos);
         CHECK((mib == std::string::npos || in == "in")); // what is left out costs no memory
         items[kind + " " + line.substr(13, gap - 13)] = {in == "in", line.substr(why)};
@@ -68,8 +71,9 @@ TEST_CASE("the plan of a scene with everything has every pass in that it needs a
     scene.fixtures.push_back(SceneText::kGuideYellow);
     stage.scene(scene);
     const auto plan = planOf(stage);
-    for (const char* name : {"pass classify", "pass surface", "pass thin", "pass spheres", "pass tree", "pass moments",
-                             "buffer colour upload", "buffer memory of points", "thread contact"}) {
+    for (const char* name :
+         {"pass classify", "pass surface", "pass thin", "pass spheres", "pass tree", "pass moments",
+          "buffer colour upload", "buffer memory of points", "thread contact"}) {
         CAPTURE(name);
         CHECK(plan.at(name).in);
     }
@@ -89,9 +93,12 @@ TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out,
     stage.scene(scene);
     const auto plan = planOf(stage);
     CHECK(plan.at("pass surface").why.find("no filter") != std::string::npos);
-    const std::map<std::string, std::string> out{{"pass thin", "error budget 0"}, {"pass moments", "no guidance"},
-                                                 {"pass occlusion", "no class asks for colour"}, {"buffer colour upload", "no class asks for colour"},
-                                                 {"buffer memory of points", "hold_s is 0"}, {"buffer rays", "no lens distortion"}};
+    const std::map<std::string, std::string> out{{"pass thin", "error budget 0"},
+                                                 {"pass moments", "no guidance"},
+                                                 {"pass occlusion", "no class asks for colour"},
+                                                 {"buffer colour upload", "no class asks for colour"},
+                                                 {"buffer memory of points", "hold_s is 0"},
+                                                 {"buffer rays", "no lens distortion"}};
     for (const auto& [name, why] : out) {
         CAPTURE(name);
         CHECK(!plan.at(name).in);

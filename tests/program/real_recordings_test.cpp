@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recordings beside the repository through the whole program: the promise holds, and classify marks exactly the pixels
-// that a plain count of the pictures finds, which are those (to 2 %) that were measured when the data was collected.
+// The recordings beside the repository through the whole program: the promise holds, and classify marks
+// exactly the pixels that a plain count of the pictures finds, which are those (to 2 %) that were measured
+// when the data was collected.
 #include "tests/program/stage.h"
 
 #include <algorithm>
@@ -20,35 +21,44 @@ struct Gates {
 
     std::string row(const std::string& name, const std::string& role) const {
         std::ostringstream text;
-        text << "name: " << name << ", role: " << role << ", hue: [" << hueFrom << ", " << hueTo << "], saturation: ["
-             << saturationFrom << ", " << saturationTo << "], lightness: [" << lightnessFrom << ", " << lightnessTo << "]";
+        text << "name: " << name << ", role: " << role << ", hue: [" << hueFrom << ", " << hueTo
+             << "], saturation: [" << saturationFrom << ", " << saturationTo << "], lightness: ["
+             << lightnessFrom << ", " << lightnessTo << "]";
         return text.str();
     }
-    // By the definition of hexagonal HSL, in float64: bytes make no number closer to a bound than 1e-9 but the bound.
+    // By the definition of hexagonal HSL, in float64: bytes make no number closer to a bound than 1e-9 but
+    // the bound.
     bool take(uint32_t rgba) const {
         const double r = rgba & 255u, g = rgba >> 8 & 255u, b = rgba >> 16 & 255u;
         const double most = std::max({r, g, b}), least = std::min({r, g, b}), chroma = most - least;
         if (chroma == 0.0) {
             return false;
         }
-        const double sixth = most == r ? std::fmod((g - b) / chroma + 6.0, 6.0) : most == g ? (b - r) / chroma + 2.0 : (r - g) / chroma + 4.0;
+        const double sixth = most == r   ? std::fmod((g - b) / chroma + 6.0, 6.0)
+                             : most == g ? (b - r) / chroma + 2.0
+                                         : (r - g) / chroma + 4.0;
         const double hue = 60.0 * sixth, lightness = (most + least) / 510.0;
         const double saturation = chroma / 255.0 / (1.0 - std::abs(2.0 * lightness - 1.0));
         const auto within = [](double x, double lo, double hi) { return x >= lo - 1e-9 && x <= hi + 1e-9; };
-        const bool hueFits = hueFrom <= hueTo ? within(hue, hueFrom, hueTo) : hue >= hueFrom - 1e-9 || hue <= hueTo + 1e-9;
-        return hueFits && within(saturation, saturationFrom, saturationTo) && within(lightness, lightnessFrom, lightnessTo);
+        const bool hueFits =
+            hueFrom <= hueTo ? within(hue, hueFrom, hueTo) : hue >= hueFrom - 1e-9 || hue <= hueTo + 1e-9;
+        return hueFits && within(saturation, saturationFrom, saturationTo) &&
+               within(lightness, lightnessFrom, lightnessTo);
     }
 };
 
-constexpr Gates kWheel{345, 20, 0.45, 1, 0.05, 0.9}, kLever{110, 165, 0.25, 1, 0.05, 0.6}, kDrill{335, 12, 0.55, 1, 0.12, 0.6},
-    kMustard{38, 60, 0.5, 1, 0.3, 0.85}, kYellowThings{44, 64, 0.5, 1, 0.2, 0.8}, kCase{345, 14, 0.6, 1, 0.1, 0.7};
+constexpr Gates kWheel{345, 20, 0.45, 1, 0.05, 0.9}, kLever{110, 165, 0.25, 1, 0.05, 0.6},
+    kDrill{335, 12, 0.55, 1, 0.12, 0.6}, kMustard{38, 60, 0.5, 1, 0.3, 0.85},
+    kYellowThings{44, 64, 0.5, 1, 0.2, 0.8}, kCase{345, 14, 0.6, 1, 0.1, 0.7};
 
 // Pixels with depth that the gates take, a frame of associations.txt each.
 std::vector<uint64_t> plainCount(const std::string& recording, const Gates& gates) {
     std::vector<uint64_t> counts;
     std::istringstream index(readWhole(kRecordings / recording / "associations.txt"));
-    for (std::string colourStamp, colour, depthStamp, depth; index >> colourStamp >> colour >> depthStamp >> depth;) {
-        const ReadImage picture = readImage(kRecordings / recording / colour), ranges = readImage(kRecordings / recording / depth);
+    for (std::string colourStamp, colour, depthStamp, depth;
+         index >> colourStamp >> colour >> depthStamp >> depth;) {
+        const ReadImage picture = readImage(kRecordings / recording / colour),
+                        ranges = readImage(kRecordings / recording / depth);
         uint64_t count = 0;
         for (size_t i = 0; i < picture.pixels.size(); ++i) {
             count += (ranges.pixels[i] & 0xffffffu) != 0 && gates.take(picture.pixels[i]);
@@ -66,8 +76,10 @@ void checkCounts(const Replay& replay, const std::vector<uint64_t>& counts, uint
     }
 }
 
-Replay run(const Stage& stage, const std::string& scene, const std::string& recording, const std::vector<std::string>& more = {}) {
-    std::vector<std::string> words{"replay", scene, "--source", (kRecordings / recording).string(), "--out", (stage / "out").string()};
+Replay run(const Stage& stage, const std::string& scene, const std::string& recording,
+           const std::vector<std::string>& more = {}) {
+    std::vector<std::string> words{
+        "replay", scene, "--source", (kRecordings / recording).string(), "--out", (stage / "out").string()};
     words.insert(words.end(), more.begin(), more.end());
     const ProgramRun child = runFathom(words);
     CAPTURE(child.err);
@@ -86,12 +98,14 @@ Replay count(const Stage& stage, const std::string& recording, const std::vector
     scene.fixtures = rows;
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, -2.0}}});
-    return run(stage, (stage / "scene.yaml").string(), recording, {"--operator", (stage / "hand.csv").string()});
+    return run(stage, (stage / "scene.yaml").string(), recording,
+               {"--operator", (stage / "hand.csv").string()});
 }
 
 } // namespace
 
-TEST_CASE("valve_globe: the red wheel of every frame has the points that were measured, and the hand feels it") {
+TEST_CASE(
+    "valve_globe: the red wheel of every frame has the points that were measured, and the hand feels it") {
     if (!haveRecording("valve_globe_d435")) {
         return;
     }
@@ -100,12 +114,14 @@ TEST_CASE("valve_globe: the red wheel of every frame has the points that were me
     CHECK(shipped.frames.size() == 60);
     CHECK(shipped.haptic().at("max_force_N").get<double>() > 5.0);
     const std::vector<uint64_t> counts = plainCount("valve_globe_d435", kWheel);
-    checkCounts(count(stage, "valve_globe_d435", {kWheel.row("wheel", "forbidden")}), counts, &FrameRow::forbidden);
+    checkCounts(count(stage, "valve_globe_d435", {kWheel.row("wheel", "forbidden")}), counts,
+                &FrameRow::forbidden);
     CHECK(double(*std::min_element(counts.begin(), counts.end())) == doctest::Approx(498).epsilon(0.02));
     CHECK(double(*std::max_element(counts.begin(), counts.end())) == doctest::Approx(1331).epsilon(0.02));
 }
 
-TEST_CASE("valve_ball: the green lever of every frame has the points that were measured, and the hand feels it") {
+TEST_CASE(
+    "valve_ball: the green lever of every frame has the points that were measured, and the hand feels it") {
     if (!haveRecording("valve_ball_d435")) {
         return;
     }
@@ -114,7 +130,8 @@ TEST_CASE("valve_ball: the green lever of every frame has the points that were m
     CHECK(shipped.frames.size() == 27);
     CHECK(shipped.haptic().at("max_force_N").get<double>() > 5.0);
     const std::vector<uint64_t> counts = plainCount("valve_ball_d435", kLever);
-    checkCounts(count(stage, "valve_ball_d435", {kLever.row("lever", "forbidden")}), counts, &FrameRow::forbidden);
+    checkCounts(count(stage, "valve_ball_d435", {kLever.row("lever", "forbidden")}), counts,
+                &FrameRow::forbidden);
     CHECK(double(*std::min_element(counts.begin(), counts.end())) == doctest::Approx(414).epsilon(0.02));
     CHECK(double(*std::max_element(counts.begin(), counts.end())) == doctest::Approx(1230).epsilon(0.02));
     CHECK(double(counts.at(12)) == doctest::Approx(1024).epsilon(0.02));
@@ -127,10 +144,13 @@ TEST_CASE("ycb: five stills with the classes that were measured on them") {
     Stage stage;
     const Replay shipped = run(stage, "apps/scenes/ycb.yaml", "ycb_posecnn_demo");
     CHECK(shipped.frames.size() == 5);
-    CHECK(shipped.haptic().at("max_force_N").get<double>() > 1.0); // guidance: the stills have nothing to do with each other
+    CHECK(shipped.haptic().at("max_force_N").get<double>() >
+          1.0); // guidance: the stills have nothing to do with each other
     CHECK(!shipped.summary.at("guidance").at(0).at("position_m").is_null());
-    const Replay counted = count(stage, "ycb_posecnn_demo", {kDrill.row("red", "forbidden"), kMustard.row("yellow", "guidance")});
-    const std::vector<uint64_t> red = plainCount("ycb_posecnn_demo", kDrill), yellow = plainCount("ycb_posecnn_demo", kMustard);
+    const Replay counted = count(stage, "ycb_posecnn_demo",
+                                 {kDrill.row("red", "forbidden"), kMustard.row("yellow", "guidance")});
+    const std::vector<uint64_t> red = plainCount("ycb_posecnn_demo", kDrill),
+                                yellow = plainCount("ycb_posecnn_demo", kMustard);
     checkCounts(counted, red, &FrameRow::forbidden);
     checkCounts(counted, yellow, &FrameRow::guidance);
     CHECK(double(red.at(0)) == doctest::Approx(24928).epsilon(0.02));
@@ -142,8 +162,9 @@ TEST_CASE("tum_fr1: a distorted lens, yellow things as they were measured") {
         return;
     }
     Stage stage;
-    const Replay counted = count(stage, "tum_fr1_single",
-                                 {kYellowThings.row("yellow", "guidance"), kYellowThings.row("things", "forbidden")});
+    const Replay counted =
+        count(stage, "tum_fr1_single",
+              {kYellowThings.row("yellow", "guidance"), kYellowThings.row("things", "forbidden")});
     const std::vector<uint64_t> counts = plainCount("tum_fr1_single", kYellowThings);
     checkCounts(counted, counts, &FrameRow::guidance);
     checkCounts(counted, counts, &FrameRow::forbidden);

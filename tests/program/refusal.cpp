@@ -5,7 +5,8 @@
 
 namespace fathom {
 
-void checkRefusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts, int exitCode) {
+void checkRefusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts,
+                  int exitCode) {
     const ProgramRun run = runFathom(arguments);
     CAPTURE(run.err);
     CHECK(run.exitCode == exitCode);
@@ -18,7 +19,8 @@ void checkRefusal(const std::vector<std::string>& arguments, const std::vector<s
     }
 }
 
-void checkRefused(const Stage& stage, const std::vector<std::string>& parts, const std::vector<std::string>& more) {
+void checkRefused(const Stage& stage, const std::vector<std::string>& parts,
+                  const std::vector<std::string>& more) {
     checkRefusal(stage.command(more), parts);
     for (const char* name : {"summary.json", "haptics.csv", "frames.csv"}) {
         CHECK(!std::filesystem::exists(stage / "out" / name));

@@ -6,11 +6,13 @@
 
 namespace fathom {
 
-// Runs the program and demands this exit code, nothing on standard output, and one line on standard error that holds every
-// part.
-void checkRefusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts, int exitCode = 2);
+// Runs the program and demands this exit code, nothing on standard output, and one line on standard error
+// that holds every part.
+void checkRefusal(const std::vector<std::string>& arguments, const std::vector<std::string>& parts,
+                  int exitCode = 2);
 
 // The usual replay of the stage is refused so, and leaves no result behind.
-void checkRefused(const Stage& stage, const std::vector<std::string>& parts, const std::vector<std::string>& more = {});
+void checkRefused(const Stage& stage, const std::vector<std::string>& parts,
+                  const std::vector<std::string>& more = {});
 
 } // namespace fathom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that are unusable as a whole, hand paths and command lines that cannot be meant, output that cannot be written.
+// Recordings that are unusable as a whole, hand paths and command lines that cannot be meant, output that
+// cannot be written.
 #include "tests/program/refusal.h"
 
 #include <doctest/doctest.h>
@@ -51,7 +52,8 @@ TEST_CASE("a recording of which no frame is usable is refused in one line that n
         const std::string whole = stage.read(name);
         stage.write(name, whole.substr(0, whole.size() / 2));
     }
-    checkRefused(stage, {(stage / "rec").string(), "frames", "none of 3", "depth/000000.png", "at least one good pair"});
+    checkRefused(stage, {(stage / "rec").string(), "frames", "none of 3", "depth/000000.png",
+                         "at least one good pair"});
     fs::remove_all(stage / "rec/depth");
     checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "cannot be opened"});
     stage.write("rec/associations.txt", "this is no index\n");
@@ -90,7 +92,8 @@ TEST_CASE("a poses.txt with a number that is none is refused with its line") {
     checkRefused(stage, {"poses.txt", "line 2", "nan", "eight finite numbers"});
 }
 
-TEST_CASE("a hand path that is missing, empty, malformed or goes back in time is refused with line and column") {
+TEST_CASE(
+    "a hand path that is missing, empty, malformed or goes back in time is refused with line and column") {
     Stage stage;
     stage.recording({bumpPicture()});
     const std::string header = "t_s,x,y,z,qw,qx,qy,qz,button\n", path = (stage / "hand.csv").string();
@@ -123,7 +126,8 @@ TEST_CASE("a command line that cannot be meant is refused with what is allowed")
     checkRefusal({"replay"}, {"replay", "SCENE"});
     checkRefusal({"replay", scene}, {"replay", "--out"});
     checkRefusal({"replay", scene, "--out"}, {"replay", "--out"});
-    checkRefusal({"replay", scene, "--out", out, "--fast"}, {"replay", "'--fast'", "--source", "--operator", "--device"});
+    checkRefusal({"replay", scene, "--out", out, "--fast"},
+                 {"replay", "'--fast'", "--source", "--operator", "--device"});
     checkRefusal({"replay", scene, "--out", out, "more"}, {"replay", "'more'"});
     checkRefused(stage, {"--query", "both", "cpu", "gpu"}, {"--query", "both"});
     checkRefused(stage, {"--device", "no such thing", "0 = "}, {"--device", "no such thing"});
@@ -144,8 +148,8 @@ TEST_CASE("an output folder that cannot be written ends with exit code 1 and one
 }
 
 TEST_CASE("help is no fault: it goes to standard output with exit code 0") {
-    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{
-             {"--help"}, {"replay", "--help"}, {"plan", "--help"}}) {
+    for (const std::vector<std::string>& words :
+         std::vector<std::vector<std::string>>{{"--help"}, {"replay", "--help"}, {"plan", "--help"}}) {
         const ProgramRun run = runFathom(words);
         CHECK(run.exitCode == 0);
         CHECK(run.err == "");

@@ -68,7 +68,8 @@ TEST_CASE("an unknown key is refused in every section, with the key that was mea
     });
 }
 
-TEST_CASE("a hue, saturation or radius out of range, negative or not a number is refused with its value and range") {
+TEST_CASE("a hue, saturation or radius out of range, negative or not a number is refused with its value and "
+          "range") {
     checkScenes({
         fixture("[345, 20]", "[345, 380]", {"fixtures[0].hue[1]", "380", "0 to 360"}),
         fixture("[345, 20]", "[-5, 20]", {"fixtures[0].hue[0]", "-5", "0 to 360"}),
@@ -81,7 +82,8 @@ TEST_CASE("a hue, saturation or radius out of range, negative or not a number is
         fixture("0.04", "nan", {"fixtures[0].radius", "nan", "above 0"}),
         fixture("0.04", ".inf", {"fixtures[0].radius", ".inf"}),
         fixture("0.04", "4 cm", {"fixtures[0].radius", "4 cm", "a number"}),
-        fixture("forbidden", "forbiden", {"fixtures[0].role", "forbiden", "did you mean 'forbidden'", "guidance"}),
+        fixture("forbidden", "forbiden",
+                {"fixtures[0].role", "forbiden", "did you mean 'forbidden'", "guidance"}),
         fixture("forbidden", "keep_in", {"fixtures[0].role", "keep_in", "needs a shape"}),
     });
 }
@@ -95,7 +97,8 @@ TEST_CASE("a depth range that is empty, an impossible filter and numbers that ar
         camera("near: .nan", {"camera.near", ".nan"}),
         camera("registration_sigma: -1", {"camera.registration_sigma", "-1", "at least 0"}),
         camera("base_T_camera: {xyz: [0, .nan, 0]}", {"camera.base_T_camera.xyz[1]", ".nan", "finite"}),
-        camera("base_T_camera: {quat_xyzw: [0, 0, 0, 0]}", {"camera.base_T_camera.quat_xyzw", "[0, 0, 0, 0]"}),
+        camera("base_T_camera: {quat_xyzw: [0, 0, 0, 0]}",
+               {"camera.base_T_camera.quat_xyzw", "[0, 0, 0, 0]"}),
         {[](SceneText& s) { s.filter = "radius: 17"; }, {"filter.radius", "17", "0 to 16"}},
         {[](SceneText& s) { s.filter = "radius: -1"; }, {"filter.radius", "-1", "0 to 16"}},
         {[](SceneText& s) { s.filter = "radius: 2.5"; }, {"filter.radius", "2.5", "whole number"}},
@@ -137,7 +140,8 @@ TEST_CASE("an unknown device preset, an impossible rate and other impossible hap
         {[](SceneText& s) { s.contact = "reach: 0"; }, {"contact.reach", "0"}},
         {[](SceneText& s) { s.contact = "delay: -1"; }, {"contact.delay", "-1", "0 to 1000"}},
         {[](SceneText& s) { s.hand = "map: {scale: 0}"; }, {"hand.map.scale", "0", "above 0"}},
-        {[](SceneText& s) { s.hand = "path: somewhere"; }, {"hand.path", "somewhere", "approach or a .csv file"}},
+        {[](SceneText& s) { s.hand = "path: somewhere"; },
+         {"hand.path", "somewhere", "approach or a .csv file"}},
     });
 }
 
@@ -148,7 +152,8 @@ TEST_CASE("plan refuses a bad scene with the same line as replay") {
     scene.haptics = "device: w5x";
     stage.scene(scene);
     const std::string file = (stage / "scene.yaml").string();
-    checkRefusal({"plan", file, "--source", (stage / "rec").string()}, {"scene.yaml", "haptics.device", "w5x", "ideal"});
+    checkRefusal({"plan", file, "--source", (stage / "rec").string()},
+                 {"scene.yaml", "haptics.device", "w5x", "ideal"});
     checkRefusal({"plan", file + "x"}, {"scene.yamlx", "file", "cannot be read"});
 }
 
@@ -165,6 +170,7 @@ TEST_CASE("a scene file that is missing, a folder, empty, no YAML or without fix
     checkRefused(stage, {"scene.yaml", "line ", "YAML"});
     stage.write("scene.yaml", "tool: {spheres: [[0, 0, 0, 0.01]]}\n");
     checkRefused(stage, {"scene.yaml", "fixtures", "missing"});
-    stage.write("scene.yaml", "tool: {spheres: [[0,0,0,0.01]]}\nfixtures: []\ncamera: {source: {simulated: tnak}}\n");
+    stage.write("scene.yaml",
+                "tool: {spheres: [[0,0,0,0.01]]}\nfixtures: []\ncamera: {source: {simulated: tnak}}\n");
     checkRefused(stage, {"camera.source.simulated", "tnak", "did you mean 'tank'"});
 }

@@ -15,7 +15,8 @@ namespace {
 
 constexpr const char* kTickHeader =
     "t_s,dev_x,dev_y,dev_z,dev_qw,dev_qx,dev_qy,dev_qz,tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz,"
-    "fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,stalled,margin_passive,margin_uncoupled";
+    "fx,fy,fz,tx,ty,tz,contacts,min_gap_m,state,guidance,frame,scene_age_s,stalled,margin_passive,margin_"
+    "uncoupled";
 constexpr const char* kFrameHeader =
     "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms";
 
@@ -190,8 +191,9 @@ std::vector<SavedSphere> readPly(const std::filesystem::path& file) {
         fail(file, 1, "no binary little-endian PLY");
     }
     const std::string head = text.substr(0, end);
-    const std::string properties = "property double x\nproperty double y\nproperty double z\nproperty double radius\n"
-                                   "property int class\nproperty int held\n";
+    const std::string properties =
+        "property double x\nproperty double y\nproperty double z\nproperty double radius\n"
+        "property int class\nproperty int held\n";
     const size_t element = head.find("element vertex ");
     if (element == std::string::npos || !head.ends_with(properties)) {
         fail(file, 1, "other properties than the contract's");

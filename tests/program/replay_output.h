@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Readers of what `replay --out` leaves, written from the contract alone: they share no code with the program.
+// Readers of what `replay --out` leaves, written from the contract alone: they share no code with the
+// program.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -47,7 +48,8 @@ struct ReadImage {
 
 // All throw std::runtime_error with file and place when the file is not as the contract says.
 std::vector<Tick> readTicks(const std::filesystem::path& file);
-std::vector<FrameRow> readFrames(const std::filesystem::path& file, std::vector<std::string>* timeColumns = nullptr);
+std::vector<FrameRow> readFrames(const std::filesystem::path& file,
+                                 std::vector<std::string>* timeColumns = nullptr);
 std::vector<SavedSphere> readPly(const std::filesystem::path& file);
 ReadImage readImage(const std::filesystem::path& file);
 std::string readWhole(const std::filesystem::path& file);

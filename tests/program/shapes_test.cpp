@@ -15,8 +15,10 @@ namespace {
 
 constexpr double kLeaf = 0.01; // [m] radius of the one leaf of these tools, at the tool's origin
 
-// A scene with this one shape, a hand that tries to go where it forbids; gap(centre) is the exact clearance of the leaf.
-Replay tryShape(const std::string& row, const std::vector<HandRow>& hand, const std::function<double(const dvec3&)>& gap) {
+// A scene with this one shape, a hand that tries to go where it forbids; gap(centre) is the exact clearance
+// of the leaf.
+Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
+                const std::function<double(const dvec3&)>& gap) {
     Stage stage;
     stage.recording({bumpPicture(), bumpPicture()});
     SceneText scene;
@@ -46,54 +48,68 @@ TEST_CASE("a forbidden box keeps the tool out on its face, round its edge and at
         const dvec3 beyond = glm::max(glm::abs(p - dvec3(0.0, 0.0, 0.6)) - dvec3(0.1), dvec3(0.0));
         return glm::length(beyond) - kLeaf;
     };
-    const Replay replay = tryShape("name: box, role: forbidden, shape: box, base_T_shape: {xyz: [0, 0, 0.6]}, size: [0.2, 0.2, 0.2]",
-                                   {{0.0, {0.0, 0.0, 0.45}}, {0.2, {0.0, 0.0, 0.51}}, {0.6, {0.105, 0.105, 0.51}}, {0.9, {0.12, 0.12, 0.6}}}, gap);
+    const Replay replay = tryShape(
+        "name: box, role: forbidden, shape: box, base_T_shape: {xyz: [0, 0, 0.6]}, size: [0.2, 0.2, 0.2]",
+        {{0.0, {0.0, 0.0, 0.45}},
+         {0.2, {0.0, 0.0, 0.51}},
+         {0.6, {0.105, 0.105, 0.51}},
+         {0.9, {0.12, 0.12, 0.6}}},
+        gap);
     CHECK(replay.summary.at("fixtures").at(0).at("role") == "forbidden");
 }
 
 TEST_CASE("a forbidden plane keeps the tool on its side") {
     // The half-space z <= 0 of the shape, turned over: all beyond z = 0.5.
-    tryShape("name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: [1, 0, 0, 0]}",
+    tryShape("name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: [1, 0, "
+             "0, 0]}",
              {{0.0, {0.0, 0.0, 0.45}}, {0.2, {0.0, 0.0, 0.51}}, {0.4, {0.1, 0.05, 0.505}}},
              [](const dvec3& p) { return 0.5 - p.z - kLeaf; });
 }
 
 TEST_CASE("a keep_in sphere keeps the tool inside") {
-    const Replay replay = tryShape("name: bowl, role: keep_in, shape: sphere, base_T_shape: {xyz: [0, 0, 0.5]}, size: [0.1, 0, 0]",
-                                   {{0.0, {0.0, 0.0, 0.5}}, {0.3, {0.08, 0.0, 0.57}}, {0.6, {-0.05, 0.09, 0.5}}},
-                                   [](const dvec3& p) { return 0.1 - kLeaf - glm::length(p - dvec3(0.0, 0.0, 0.5)); });
+    const Replay replay = tryShape(
+        "name: bowl, role: keep_in, shape: sphere, base_T_shape: {xyz: [0, 0, 0.5]}, size: [0.1, 0, 0]",
+        {{0.0, {0.0, 0.0, 0.5}}, {0.3, {0.08, 0.0, 0.57}}, {0.6, {-0.05, 0.09, 0.5}}},
+        [](const dvec3& p) { return 0.1 - kLeaf - glm::length(p - dvec3(0.0, 0.0, 0.5)); });
     CHECK(replay.summary.at("fixtures").at(0).at("role") == "keep_in");
 }
 
 TEST_CASE("a forbidden cylinder keeps the tool off its side") {
-    tryShape("name: pipe, role: forbidden, shape: cylinder, base_T_shape: {xyz: [0, 0, 0.6], quat_xyzw: [0, 0.7071067811865476, 0, "
+    tryShape("name: pipe, role: forbidden, shape: cylinder, base_T_shape: {xyz: [0, 0, 0.6], quat_xyzw: [0, "
+             "0.7071067811865476, 0, "
              "0.7071067811865476]}, size: [0.05, 0.4, 0]", // its axis along x
              {{0.0, {0.0, 0.0, 0.52}}, {0.2, {0.02, 0.0, 0.556}}, {0.5, {0.05, 0.06, 0.58}}},
              [](const dvec3& p) { return std::hypot(p.y, p.z - 0.6) - 0.05 - kLeaf; });
 }
 
 TEST_CASE("a line lets the tool go along it and no way else") {
-    const Replay replay = tryShape("name: rail, role: guidance, shape: line, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: [0, "
-                                   "0.7071067811865476, 0, 0.7071067811865476]}", // along x
-                                   {{0.0, {0.0, 0.0, 0.5}}, {0.2, {0.05, 0.01, 0.505}}, {0.4, {0.1, -0.01, 0.49}}},
-                                   [](const dvec3& p) { return 1e-6 - std::hypot(p.y, p.z - 0.5); });
+    const Replay replay =
+        tryShape("name: rail, role: guidance, shape: line, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: [0, "
+                 "0.7071067811865476, 0, 0.7071067811865476]}", // along x
+                 {{0.0, {0.0, 0.0, 0.5}}, {0.2, {0.05, 0.01, 0.505}}, {0.4, {0.1, -0.01, 0.49}}},
+                 [](const dvec3& p) { return 1e-6 - std::hypot(p.y, p.z - 0.5); });
     CHECK(replay.ticks.back().tool.position.x == doctest::Approx(0.1).epsilon(0.01));
 }
 
-TEST_CASE("a tool of a thousand leaves from a .sph file runs, with the same digest whoever answers the query") {
+TEST_CASE(
+    "a tool of a thousand leaves from a .sph file runs, with the same digest whoever answers the query") {
     Stage stage;
     stage.recording({bumpPicture(), bumpPicture()});
     std::ostringstream sph;
     sph << "2 1000\n0 0 0 0.05\n";
     for (int i = 0; i < 1000; ++i) {
-        sph << 0.004 * (i % 10 - 4.5) << " " << 0.004 * (i / 10 % 10 - 4.5) << " " << 0.004 * (i / 100 - 9) << " 0.003\n";
+        sph << 0.004 * (i % 10 - 4.5) << " " << 0.004 * (i / 10 % 10 - 4.5) << " " << 0.004 * (i / 100 - 9)
+            << " 0.003\n";
     }
     stage.write("block.sph", sph.str());
     SceneText scene;
     scene.tool = "file: block.sph";
     stage.scene(scene);
-    stage.hand({{0.0, {0.0, 0.0, 0.45}}, {0.15, {0.0, 0.0, 0.52}}, {0.25, {0.02, 0.0, 0.52}, {0.995, 0.0998, 0.0, 0.0}}});
-    const Replay cpu = stage.replay({"--query", "cpu"}, {}, "cpu"), gpu = stage.replay({"--query", "gpu"}, {}, "gpu");
+    stage.hand({{0.0, {0.0, 0.0, 0.45}},
+                {0.15, {0.0, 0.0, 0.52}},
+                {0.25, {0.02, 0.0, 0.52}, {0.995, 0.0998, 0.0, 0.0}}});
+    const Replay cpu = stage.replay({"--query", "cpu"}, {}, "cpu"),
+                 gpu = stage.replay({"--query", "gpu"}, {}, "gpu");
     CHECK(cpu.haptic().at("max_force_N").get<double>() > 5.0);
     CHECK(cpu.summary.at("contact").at("spheres_max").get<int>() > 50);
     CHECK(cpu.summary.at("digest") == gpu.summary.at("digest"));
@@ -105,11 +121,13 @@ TEST_CASE("a base frame 100 km away gives the same forces but for what float64 p
     const auto runAt = [&](const dvec3& base, const std::string& out) {
         SceneText scene;
         std::ostringstream camera;
-        camera << "near: 0.1, far: 3.0, base_T_camera: {xyz: [" << base.x << ", " << base.y << ", " << base.z << "]}";
+        camera << "near: 0.1, far: 3.0, base_T_camera: {xyz: [" << base.x << ", " << base.y << ", " << base.z
+               << "]}";
         scene.camera = camera.str();
         scene.tool = "spheres: [[0.01, 0, 0, 0.01], [0, 0, -0.02, 0.012]]";
         stage.scene(scene);
-        std::vector<HandRow> rows{{0.0, {0.0, 0.0, 0.4375}}, {0.25, {0.0, 0.0, 0.515625}}, {0.5, {0.015625, 0.0, 0.515625}}};
+        std::vector<HandRow> rows{
+            {0.0, {0.0, 0.0, 0.4375}}, {0.25, {0.0, 0.0, 0.515625}}, {0.5, {0.015625, 0.0, 0.515625}}};
         for (HandRow& row : rows) { // binary fractions: the sum with the base is exact
             row.at = {row.at[0] + base.x, row.at[1] + base.y, row.at[2] + base.z};
         }
@@ -125,6 +143,7 @@ TEST_CASE("a base frame 100 km away gives the same forces but for what float64 p
                           glm::length(here.ticks[i].torque - there.ticks[i].torque)});
     }
     MESSAGE("largest difference: ", worst, " N or N m");
-    // A position 1e5 m away is rounded to 1.5e-11 m; 500 turns of up to 4 solves add up to 3e-8 m at most, times 1000 N/m.
+    // A position 1e5 m away is rounded to 1.5e-11 m; 500 turns of up to 4 solves add up to 3e-8 m at most,
+    // times 1000 N/m.
     CHECK(worst < 3e-5);
 }

@@ -67,8 +67,9 @@ Picture& Picture::dome(const PixelBox& box, double millimetres) {
 
 std::string lensJson(uint32_t width, uint32_t height) {
     std::ostringstream text;
-    text << "{\"width\": " << width << ", \"height\": " << height << ", \"fx\": " << kFocal << ", \"fy\": " << kFocal
-         << ",\n \"cx\": " << (width - 1) / 2.0 << ", \"cy\": " << (height - 1) / 2.0
+    text << "{\"width\": " << width << ", \"height\": " << height << ", \"fx\": " << kFocal
+         << ", \"fy\": " << kFocal << ",\n \"cx\": " << (width - 1) / 2.0
+         << ", \"cy\": " << (height - 1) / 2.0
          << ", \"distortion_model\": \"none\", \"distortion\": [],\n"
             " \"depth_scale_m_per_unit\": 0.001, \"registered_to_color\": true}\n";
     return text.str();

@@ -14,8 +14,8 @@ namespace fathom {
 struct Paint3 {
     uint8_t r, g, b;
 };
-inline constexpr Paint3 kGrey{128, 128, 128}; // no hue
-inline constexpr Paint3 kRed{200, 20, 20};    // hue 0
+inline constexpr Paint3 kGrey{128, 128, 128};  // no hue
+inline constexpr Paint3 kRed{200, 20, 20};     // hue 0
 inline constexpr Paint3 kYellow{200, 180, 20}; // hue 53
 
 struct PixelBox { // [from, to)
@@ -29,7 +29,10 @@ struct Picture {
     std::vector<Paint3> colour;
 
     Picture(uint32_t w, uint32_t h, uint16_t millimetres)
-        : width(w), height(h), depth(w * h, millimetres), colour(w * h, kGrey) {}
+        : width(w)
+        , height(h)
+        , depth(w * h, millimetres)
+        , colour(w * h, kGrey) {}
     Picture& paint(const PixelBox& box, const Paint3& paint);
     Picture& set(const PixelBox& box, uint16_t millimetres);
     // Lifts the box towards the camera as part of a ball: its middle by `millimetres`, its edges by nothing.
@@ -41,13 +44,15 @@ inline constexpr uint32_t kWidth = 64, kHeight = 48;
 inline constexpr double kFocal = 60.0, kCx = 31.5, kCy = 23.5;
 std::string lensJson(uint32_t width, uint32_t height);
 
-// Writes pictures as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's size.
+// Writes pictures as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's
+// size.
 void writeRecording(const std::filesystem::path& folder, const std::vector<Picture>& pictures);
 
 // A grey wall 600 mm away with a red bump of 60 mm in the middle, and a yellow square at the left.
 Picture bumpPicture();
 
-// Scene file sections; what is empty takes the program's own default. `fixtures` is a list of rows, each in braces.
+// Scene file sections; what is empty takes the program's own default. `fixtures` is a list of rows, each in
+// braces.
 struct SceneText {
     std::string camera = "near: 0.1, far: 3.0";
     std::vector<std::string> fixtures{kForbidRed};

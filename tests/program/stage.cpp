@@ -39,10 +39,10 @@ void checkSummaryKeys(const json& s) {
     for (const char* key : {"gpu_ms", "upload_ms", "latency_ms"}) {
         checkPercentiles(s.at("frames").at(key), three);
     }
-    checkKeys(s.at("haptic"),
-              {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks", "max_penetration_m",
-               "max_escape_depth_m", "max_force_N", "max_torque_Nm", "max_force_step_N", "stiffness_N_per_m",
-               "rotational_stiffness_Nm_per_rad", "margin_passive_min", "margin_uncoupled_min", "solver"});
+    checkKeys(s.at("haptic"), {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
+                               "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
+                               "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
+                               "margin_passive_min", "margin_uncoupled_min", "solver"});
     checkPercentiles(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"});
     checkKeys(s.at("haptic").at("solver"), {"solves_mean", "infeasible"});
     checkKeys(s.at("contact"), {"queries", "spheres_max", "overflows", "query_us", "where"});
@@ -79,13 +79,16 @@ std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
     if (!isFinite(tick.device) || !isFinite(tick.tool) || !isFinite(tick.force) || !isFinite(tick.torque)) {
         return "a pose or the wrench is not finite";
     }
-    if (std::abs(glm::length(tick.device.rotation) - 1.0) > 1e-9 || std::abs(glm::length(tick.tool.rotation) - 1.0) > 1e-9) {
+    if (std::abs(glm::length(tick.device.rotation) - 1.0) > 1e-9 ||
+        std::abs(glm::length(tick.tool.rotation) - 1.0) > 1e-9) {
         return "a quaternion is not of unit length";
     }
-    if (glm::length(tick.force) > terms.forceLimit * (1.0 + 1e-12) || glm::length(tick.torque) > terms.torqueLimit * (1.0 + 1e-12)) {
+    if (glm::length(tick.force) > terms.forceLimit * (1.0 + 1e-12) ||
+        glm::length(tick.torque) > terms.torqueLimit * (1.0 + 1e-12)) {
         return "the wrench is over its limits";
     }
-    if (tick.stalled > 1 || !(tick.guidance >= 0.0) || !(tick.guidance <= 1.0) || states.count(tick.state) == 0) {
+    if (tick.stalled > 1 || !(tick.guidance >= 0.0) || !(tick.guidance <= 1.0) ||
+        states.count(tick.state) == 0) {
         return "stalled, guidance or state is none";
     }
     if (tick.contacts > 0 && (tick.state == "free" || tick.state == "trapped")) {
@@ -125,8 +128,8 @@ Sums checkRows(const Replay& replay, const Terms& terms, double allowance) {
     for (size_t i = 0; i < replay.ticks.size(); ++i) {
         const Tick& tick = replay.ticks[i];
         std::string why = faultOf(tick, terms, allowance);
-        touched = touched || tick.contacts > 0 || tick.stalled > 0 || tick.guidance > 0.0 || tick.state == "escape" ||
-                  tick.state == "trapped";
+        touched = touched || tick.contacts > 0 || tick.stalled > 0 || tick.guidance > 0.0 ||
+                  tick.state == "escape" || tick.state == "trapped";
         if (terms.calm && !touched && (glm::length(tick.force) > 1e-9 || glm::length(tick.torque) > 1e-9)) {
             why = "a wrench before any contact";
         } else if (std::abs(tick.t - static_cast<double>(i) / terms.rate) > 1e-9) {
@@ -183,7 +186,8 @@ void checkFrames(const Replay& replay) {
         if (fs::exists(replay.out / "fixtures")) {
             const std::vector<SavedSphere> saved = readPly(file);
             CHECK(saved.size() == row.spheres);
-            const auto seen = std::count_if(saved.begin(), saved.end(), [](const SavedSphere& s) { return s.held == 0; });
+            const auto seen =
+                std::count_if(saved.begin(), saved.end(), [](const SavedSphere& s) { return s.held == 0; });
             CHECK(static_cast<uint64_t>(seen) <= row.forbidden);
         }
     }
@@ -209,7 +213,8 @@ fs::path Replay::ply(int frame) const {
 }
 
 const Tick& Replay::at(double t) const {
-    return *std::find_if(ticks.begin(), ticks.end() - 1, [t](const Tick& tick) { return tick.t >= t - 1e-9; });
+    return *std::find_if(ticks.begin(), ticks.end() - 1,
+                         [t](const Tick& tick) { return tick.t >= t - 1e-9; });
 }
 
 Replay readReplay(const fs::path& out, const ProgramRun& run) {
@@ -232,7 +237,8 @@ Stage::Stage() {
 }
 
 std::vector<std::string> Stage::command(const std::vector<std::string>& more, const std::string& out) const {
-    std::vector<std::string> words{"replay", (*this / "scene.yaml").string(), "--out", (*this / out).string()};
+    std::vector<std::string> words{"replay", (*this / "scene.yaml").string(), "--out",
+                                   (*this / out).string()};
     if (fs::exists(*this / "rec")) {
         words.insert(words.end(), {"--source", (*this / "rec").string()});
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A temporary folder with a recording, a scene and a hand path, and replays of it whose contract is checked each time.
+// A temporary folder with a recording, a scene and a hand path, and replays of it whose contract is checked
+// each time.
 #pragma once
 
 #include "tests/program/replay_output.h"
@@ -26,8 +27,8 @@ struct Replay {
 
 // What checkContract compares with.
 struct Terms {
-    double rate = 1000.0;                         // [Hz]
-    double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m]
+    double rate = 1000.0;                        // [Hz]
+    double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m]
     bool calm = true; // the hand never outruns the tool: no force before the first contact, stall or guidance
 };
 
@@ -48,9 +49,11 @@ public:
     std::string read(const std::string& name) const { return folder_.read(name); }
 
     // Command line of a replay of scene.yaml; rec and hand.csv are used where they are there.
-    std::vector<std::string> command(const std::vector<std::string>& more = {}, const std::string& out = "out") const;
+    std::vector<std::string> command(const std::vector<std::string>& more = {},
+                                     const std::string& out = "out") const;
     // Runs it, demands exit 0 and a silent standard error, and checks the contract.
-    Replay replay(const std::vector<std::string>& more = {}, const Terms& terms = {}, const std::string& out = "out") const;
+    Replay replay(const std::vector<std::string>& more = {}, const Terms& terms = {},
+                  const std::string& out = "out") const;
 
 private:
     TemporaryFolder folder_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene without camera or device for the threads of a realtime run: hand-made walls, the CPU query, a hand on a path, a sink that
-// audits.
+// A scene without camera or device for the threads of a realtime run: hand-made walls, the CPU query, a hand
+// on a path, a sink that audits.
 #pragma once
 
 #include "apps/binding/realtime_run.h"
@@ -111,12 +111,14 @@ struct AuditingSink final : RunSink {
     std::vector<TurnRow> rows;
     uint64_t frames = 0, queries = 0, unknown = 0;
 
-    void frame(const PublishedFrame&, const Fixtures& set) override {
+    void frame(const PublishedFrame& frame, const Fixtures& set) override {
         CHECK(set.frame == static_cast<int64_t>(frames));
+        CHECK(frame.t == set.captureTime);
         ++frames;
     }
     void query(const QueryNote&) override { ++queries; }
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known, std::span<const uint32_t> behind) override {
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+              std::span<const uint32_t> behind) override {
         unknown += known ? 0 : 1;
         if (obeyed != nullptr) {
             audit.tick(obeyed->fixtures, obeyed->grid, row.start, row.record.tool, behind);
@@ -137,7 +139,8 @@ inline HandPath wipingPath(double seconds) {
 
 // Presses and stays.
 inline HandPath pressingPath(double seconds) {
-    return HandPath({{0.0, at(0.0, 0.0, 0.03), 0}, {0.2, at(0.0, 0.0, 0.0), 0}, {seconds, at(0.0, 0.0, 0.0), 0}});
+    return HandPath(
+        {{0.0, at(0.0, 0.0, 0.03), 0}, {0.2, at(0.0, 0.0, 0.0), 0}, {seconds, at(0.0, 0.0, 0.0), 0}});
 }
 
 struct FakeRun {

@@ -88,7 +88,8 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
     CHECK(loop.news().sourceEnded);
 }
 
-TEST_CASE("A turn whose set has not reached the writer waits for it, and goes through at the end in any case") {
+TEST_CASE(
+    "A turn whose set has not reached the writer waits for it, and goes through at the end in any case") {
     FakeRun fake(2, pressingPath(1.0));
     Crossings crossings(16);
     RecordDrain drain(crossings, fake.sink);
@@ -166,12 +167,14 @@ TEST_CASE("A spooled camera gives the very pictures of its source, once, and lea
     CHECK_FALSE(spooled.next().has_value());
 
     stop = true; // asked to stop: the first picture is still there
-    SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop, [](uint64_t) {});
+    SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
+                      [](uint64_t) {});
     CHECK(one.next().has_value());
     CHECK_FALSE(one.next().has_value());
     std::filesystem::remove(folder);
     const auto unspooled = [&] {
-        SpooledCamera nowhere(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop, [](uint64_t) {});
+        SpooledCamera nowhere(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder,
+                              stop, [](uint64_t) {});
     };
     CHECK_THROWS_AS(unspooled(), Error);
 }

@@ -34,7 +34,8 @@ void checkEnded(const FakeRun& fake) {
 
 } // namespace
 
-TEST_CASE("A realtime run gives the writer every turn in order, obeys new sets as they come and never penetrates") {
+TEST_CASE(
+    "A realtime run gives the writer every turn in order, obeys new sets as they come and never penetrates") {
     FakeRun fake(45, wipingPath(1.5));
     const auto file = std::filesystem::temp_directory_path() / "fathom-realtime-run-test.json";
     CadenceTrace trace(file, {"only"});

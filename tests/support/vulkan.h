@@ -15,7 +15,9 @@ struct Vulkan {
     gpu::Instance instance;
     gpu::Device device;
     // FATHOM_TEST_VALIDATION=0 leaves the layers out (thread sanitizer), FATHOM_TEST_DEVICE chooses a device.
-    Vulkan() : instance(validation()), device(instance, selector()) {}
+    Vulkan()
+        : instance(validation())
+        , device(instance, selector()) {}
 
     static gpu::Validation validation() {
         const char* set = std::getenv("FATHOM_TEST_VALIDATION");

@@ -34,7 +34,8 @@ TEST_CASE("ray and project invert each other through the freiburg1 lens over the
     for (uint32_t v = 0; v < lens.height; v += 13) {
         for (uint32_t u = 0; u < lens.width; u += 7) {
             const glm::dvec2 r = lens.ray(u, v);
-            worst = std::max(worst, glm::distance(lens.project({2.0 * r.x, 2.0 * r.y, 2.0}), glm::dvec2(u, v)));
+            worst =
+                std::max(worst, glm::distance(lens.project({2.0 * r.x, 2.0 * r.y, 2.0}), glm::dvec2(u, v)));
         }
     }
     CHECK(worst < 1e-9);
