@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/replay_command.h"
 
+#include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
 
@@ -46,6 +47,14 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << "digest       " << s.digest << "\nwritten to   " << out.string() << "\n";
 }
 
+void printBudgets(const ReplaySummary& summary, const ReplaySession& session) {
+    for (const BudgetFigure& f :
+         budgetFigures(summary, session.camera->info().depth, session.device.facts().kind)) {
+        std::cout << "budget       " << f.what << " " << f.measured << " of " << f.budget << " " << f.unit
+                  << (f.holds() ? ", kept\n" : ", MISSED\n");
+    }
+}
+
 void print(const RealtimeFigures& f, const ThreadPlacement& placement, const ReplaySummary& s) {
     std::cout << "realtime     " << describe(placement) << (f.stopped ? "; stopped by a signal" : "") << "\n";
     printPart("  woken late", f.wokenLateMicros, "us");
@@ -73,6 +82,7 @@ ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& glo
         trace->file().finish();
     }
     print(summary, options.out);
+    printBudgets(summary, session);
     return summary;
 }
 
@@ -90,6 +100,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     }
     replay.rethrowFailure();
     print(summary, options.out);
+    printBudgets(summary, session);
     print(replay.figures(), placement, summary);
     return summary;
 }

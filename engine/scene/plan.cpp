@@ -19,6 +19,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.cloud = plan.spheres || plan.moments;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
     plan.occlusion = plan.colour && !camera.registered;
+    plan.treeDispatches = patchLayout(camera.depth.width, camera.depth.height).levels.size() > 2 ? 2 : 1;
     plan.thin = plan.spheres && scene.errorBudget > 0.0;
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
     for (const FixtureClass& f : scene.fixtures) {
@@ -115,8 +116,8 @@ bool Plan::has(const std::string& name) const {
 }
 
 uint32_t Plan::dispatchesPerFrame() const {
-    // classify and surface; spheres and the tree's two (patches, then all above in one group)
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 3u : 0u) +
+    // classify and surface; spheres, then the tree: patches, and all above them in one group
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 1u + treeDispatches : 0u) +
            (moments ? 1u : 0u);
 }
 

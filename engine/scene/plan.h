@@ -37,6 +37,7 @@ struct Plan {
     bool tiled = false;   // the filter's window from shared memory
     uint32_t classes = 0; // classes of points
     bool box = false;     // some class has a box
+    uint32_t treeDispatches = 2; // 1 when the picture is a single patch
     uint32_t filterRadius = 0;
     bool edge = false;
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256

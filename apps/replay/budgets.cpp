@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/budgets.h"
+
+#include <optional>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kTurnP50 = 30.0, kTurnP99 = 80.0; // [us] 256 leaves in contact with 60 k spheres
+
+// [ms] latency of a frame, upload to published.
+std::optional<double> frameBudget(const Intrinsics& depth, double forbiddenShare, DeviceKind device) {
+    const bool cpu = device == DeviceKind::Cpu;
+    if (!cpu && device != DeviceKind::Discrete) {
+        return std::nullopt;
+    }
+    if (depth.width == 640 && depth.height == 480) {
+        return forbiddenShare <= 0.1 ? (cpu ? 8.0 : 0.090) : (cpu ? 20.0 : 0.120);
+    }
+    if (depth.width == 1280 && depth.height == 720) {
+        return cpu ? 60.0 : 0.220;
+    }
+    return std::nullopt;
+}
+
+} // namespace
+
+std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intrinsics& depth,
+                                        DeviceKind device) {
+    double forbidden = 0.0;
+    for (const ReplaySummary::FixtureRow& row : summary.fixtures) {
+        forbidden += row.role == "forbidden" ? row.pointsMean.value_or(0.0) : 0.0;
+    }
+    std::vector<BudgetFigure> figures;
+    const auto add = [&](const char* what, const char* unit, const std::optional<double>& measured,
+                         double budget) {
+        if (measured) {
+            figures.push_back({what, unit, *measured, budget});
+        }
+    };
+    if (const auto budget = frameBudget(depth, forbidden / depth.pixels(), device)) {
+        add("frame p50", "ms", summary.frames.latencyMs.p50, *budget);
+    }
+    add("turn p50", "us", summary.haptic.turnMicros.p50, kTurnP50);
+    add("turn p99", "us", summary.haptic.turnMicros.p99, kTurnP99);
+    return figures;
+}
+
+} // namespace fathom

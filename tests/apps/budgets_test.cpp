@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/budgets.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+ReplaySummary summaryWith(double forbiddenPoints) {
+    ReplaySummary s;
+    s.frames.latencyMs.p50 = 9.0;
+    s.haptic.turnMicros.p50 = 12.0;
+    s.haptic.turnMicros.p99 = 90.0;
+    s.fixtures.push_back({"valve", "forbidden", forbiddenPoints, 0.0, 0.0});
+    s.fixtures.push_back({"target", "guidance", 100000.0, 0.0, 0.0});
+    return s;
+}
+
+Intrinsics picture(uint32_t width, uint32_t height) {
+    Intrinsics lens;
+    lens.width = width;
+    lens.height = height;
+    return lens;
+}
+
+} // namespace
+
+TEST_CASE("a frame over its budget and a turn over its p99 are told, a turn within its p50 holds") {
+    const auto figures = budgetFigures(summaryWith(20000.0), picture(640, 480), DeviceKind::Cpu);
+    REQUIRE(figures.size() == 3);
+    CHECK(figures[0].budget == 8.0);
+    CHECK_FALSE(figures[0].holds());
+    CHECK(figures[1].holds());
+    CHECK_FALSE(figures[2].holds());
+}
+
+TEST_CASE("the budget follows the share of forbidden pixels, the size and the device") {
+    CHECK(budgetFigures(summaryWith(40000.0), picture(640, 480), DeviceKind::Cpu)[0].budget == 20.0);
+    CHECK(budgetFigures(summaryWith(0.0), picture(640, 480), DeviceKind::Discrete)[0].budget == 0.090);
+    CHECK(budgetFigures(summaryWith(0.0), picture(1280, 720), DeviceKind::Cpu)[0].budget == 60.0);
+    CHECK(budgetFigures(summaryWith(0.0), picture(428, 240), DeviceKind::Cpu).size() == 2);
+    CHECK(budgetFigures(summaryWith(0.0), picture(640, 480), DeviceKind::Other).size() == 2);
+}
+
+TEST_CASE("what was not measured has no budget line") {
+    CHECK(budgetFigures(ReplaySummary{}, picture(640, 480), DeviceKind::Cpu).empty());
+}
