@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr double kSigmas = 3.0;
-constexpr double kDeep = 0.25; // of R + r: nearer to the surface than that only new data brings a leaf
+constexpr double kDeep = 0.25;    // of R + r: nearer to the surface than that only new data brings a leaf
 constexpr double kNearest = 1e-6; // [m] before the camera; nearer points have no pixel
 
 // Deepest of the leaf in any listed sphere [m]; 0 when it is clear of all.

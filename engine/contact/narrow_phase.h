@@ -17,8 +17,9 @@ namespace fathom {
 // One thread; allocates in the constructor only, everything else is noexcept and wait-free.
 class NarrowPhase {
 public:
-    // A pair holds a leaf behind its surface when its normal makes more than about 75 degrees with the way to the
-    // camera: so much do the ways of a tool's leaves differ, and a common motion must not deepen what is left.
+    // A pair holds a leaf behind its surface when its normal makes more than about 75 degrees with the way to
+    // the camera: so much do the ways of a tool's leaves differ, and a common motion must not deepen what is
+    // left.
     static constexpr double kCosHolds = 0.25;
 
     // Rows are kept to the `maxRows` deepest.

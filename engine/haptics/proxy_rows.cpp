@@ -74,13 +74,16 @@ void Proxy::flagBehind(const ContactSet& contacts) noexcept {
 
 void Proxy::addPairRows(const ContactSet& contacts, const Budget& budget) noexcept {
     constexpr uint32_t kNone = UINT32_MAX;
-    const bool anyBehind = std::any_of(exempt_.begin(), exempt_.end(), [](const dvec3& e) { return e != dvec3(0.0); });
+    const bool anyBehind =
+        std::any_of(exempt_.begin(), exempt_.end(), [](const dvec3& e) { return e != dvec3(0.0); });
     for (ContactRow row : narrow_.rows()) {
-        if (exempt_[row.leaf] != dvec3(0.0) && glm::dot(row.normal, exempt_[row.leaf]) < NarrowPhase::kCosHolds) {
+        if (exempt_[row.leaf] != dvec3(0.0) &&
+            glm::dot(row.normal, exempt_[row.leaf]) < NarrowPhase::kCosHolds) {
             continue; // would hold the leaf behind; its way out is added below
         }
-        // A tool with a leaf behind has one way out. All else need only not get deeper on it: so close to the sphere
-        // centres rows that ask for a way of their own ask for it to all sides, and would squeeze the tool.
+        // A tool with a leaf behind has one way out. All else need only not get deeper on it: so close to the
+        // sphere centres rows that ask for a way of their own ask for it to all sides, and would squeeze the
+        // tool.
         row.offset = anyBehind && row.gap < 0.0 ? kSkin : offsetFor(row.gap, budget);
         addRow(row);
     }
@@ -101,7 +104,8 @@ void Proxy::addBehindRow(const ContactSet& contacts, uint32_t leaf, const Budget
     row.arm = leaves_[leaf] - (pose_.position - contacts.origin);
     row.leaf = leaf;
     row.gap = -clearance_[leaf];
-    row.offset = std::max(kSkin, std::min(clearance_[leaf] + kSkin, budget.travel > kSkin ? budget.depth : 0.0));
+    row.offset =
+        std::max(kSkin, std::min(clearance_[leaf] + kSkin, budget.travel > kSkin ? budget.depth : 0.0));
     row.key = shapeKey(row.kind, 0, leaf, 0);
     addRow(row);
 }

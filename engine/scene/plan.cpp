@@ -117,8 +117,8 @@ bool Plan::has(const std::string& name) const {
 
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; spheres, then the tree: patches, and all above them in one group
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 1u + treeDispatches : 0u) +
-           (moments ? 1u : 0u);
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) +
+           (spheres ? 1u + treeDispatches : 0u) + (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -32,11 +32,11 @@ struct Plan {
     bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
     // Variants.
-    bool rays = false;    // distorted lens
-    bool colour = false;  // some class asks for colour: it is uploaded
-    bool tiled = false;   // the filter's window from shared memory
-    uint32_t classes = 0; // classes of points
-    bool box = false;     // some class has a box
+    bool rays = false;           // distorted lens
+    bool colour = false;         // some class asks for colour: it is uploaded
+    bool tiled = false;          // the filter's window from shared memory
+    uint32_t classes = 0;        // classes of points
+    bool box = false;            // some class has a box
     uint32_t treeDispatches = 2; // 1 when the picture is a single patch
     uint32_t filterRadius = 0;
     bool edge = false;

@@ -126,7 +126,8 @@ TEST_CASE("Under a constant force a free hand has moved by exactly F t^2 / (2 m)
         const double t = i * 0.001;
         CHECK(hand.handle().position.x == doctest::Approx(2.0 * t * t / 0.2).epsilon(1e-9));
         CHECK(hand.velocity().x == doctest::Approx(2.0 * t / 0.1).epsilon(1e-9));
-        CHECK(rotationLog(hand.handle().rotation).z == doctest::Approx(1e-4 * t * t / (2.0 * 0.1 * 0.0025)).epsilon(1e-9));
+        CHECK(rotationLog(hand.handle().rotation).z ==
+              doctest::Approx(1e-4 * t * t / (2.0 * 0.1 * 0.0025)).epsilon(1e-9));
     }
 }
 

@@ -57,7 +57,8 @@ struct Channel {
         argv.push_back(word.data());
     }
     argv.push_back(nullptr);
-    // Of a sanitized program: what libraries keep until the process ends is not ours (support/sanitizer_options.cpp).
+    // Of a sanitized program: what libraries keep until the process ends is not ours
+    // (support/sanitizer_options.cpp).
     const std::string leaks = std::filesystem::absolute("tests/program/leaks.supp").string();
     ::setenv("LSAN_OPTIONS", ("print_suppressions=0:suppressions=" + leaks).c_str(), 0);
     const int nothing = ::open("/dev/null", O_RDONLY);
