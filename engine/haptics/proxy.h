@@ -119,7 +119,7 @@ private:
     bool fitsExactly(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step,
                      ProxyTurn& out) noexcept;
     double bisect(const ProxyInput& input, const Step& step) noexcept;
-    bool comesNearer(const Pose& target) const noexcept;
+    bool comesNearer(const Pose& target, const Motion& taken) const noexcept;
     void recordActive() noexcept;
     void setMetric(double radius) noexcept;
 

@@ -14,6 +14,8 @@ namespace {
 
 using proxy::kNothing;
 
+constexpr double kSettling = 1e-8; // [m] travel too small to be felt: 1e-5 N at 1000 N/m
+
 bool isNothing(const Motion& m) {
     return glm::length(m.a) <= kNothing && glm::length(m.alpha) <= kNothing;
 }
@@ -234,8 +236,12 @@ bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Bud
 // True when the next pose lies nearer to the target by the metric: when the springs' energy falls. The
 // solver's answer does so by its linearisation; what arcs and raised offsets add can undo it where the rows
 // of several leaves meet, and then the tool would dance about the place although the hand is still. Written
-// so that a target far away costs no digits.
-bool Proxy::comesNearer(const Pose& target) const noexcept {
+// so that a target far away costs no digits. Steps of rounding size pass: they settle the tool, and their
+// energy is below what a position far from the base origin can tell.
+bool Proxy::comesNearer(const Pose& target, const Motion& taken) const noexcept {
+    if (glm::length(taken.a) <= kSettling && glm::length(taken.alpha) * metricRadius_ <= kSettling) {
+        return true;
+    }
     const Motion now = remaining(pose_, target), next = remaining(nextPose_, target);
     const double turning = glm::dot(next.alpha - now.alpha, next.alpha + now.alpha);
     return glm::dot(next.a - now.a, next.a + now.a) + metricRadius_ * metricRadius_ * turning < 0.0;
@@ -270,7 +276,7 @@ bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexce
         out.trapped = out.solves == 1;
         activeCount_ = 0;
     }
-    if (part == 0.0 || (!newData && !comesNearer(input.target))) {
+    if (part == 0.0 || (!newData && !comesNearer(input.target, taken))) {
         return false;
     }
     const double done = part * answer.share;
