@@ -13,6 +13,19 @@ void step(double& ramp, bool up, double change) {
     ramp = std::clamp(ramp + (up ? change : -change), 0.0, 1.0);
 }
 
+PassivityOptions passivityOf(const HapticOptions& options) {
+    PassivityOptions passivity = makePassivity(options.device, options.springs, options.coupling,
+                                               options.forceLimit, options.torqueLimit);
+    passivity.delayTicks = options.deviceDelayTicks;
+    return passivity;
+}
+
+// |part| over |whole|, 1 where there is nothing.
+double shareOf(const dvec3& part, const dvec3& whole) {
+    const double length = glm::length(whole);
+    return length > 0.0 ? glm::length(part) / length : 1.0;
+}
+
 } // namespace
 
 HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
@@ -21,8 +34,11 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
     , map_(options.baseRdevice, options.handScale)
     , guidance_(options.guidance)
     , proxy_(tool, shapes, options.proxy, map_.map(start, false))
+    , watch_(options.device, options.coupling, options.springs)
+    , passivity_(passivityOf(options))
+    , springEnd_(proxy_.pose())
     , device_(proxy_.pose())
-    , handle_(start)
+    , handle_{start.position, glm::normalize(start.rotation)}
     , toolBefore_(device_)
     , deviceBefore_(device_) {}
 
@@ -34,7 +50,7 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     now.off = input.forcesOff || (input.buttons & kDeadManOpen) != 0;
     now.clutch = (input.buttons & options_.clutchBit) != 0;
     if (now.sane) {
-        handle_ = input.deviceThandle;
+        handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
         device_ = map_.map(handle_, now.clutch);
     }
     const ContactSet* set = chooseSet(input, out);
@@ -47,15 +63,18 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
 
     ProxyTurn moved;
     moved.minGap = kNotKnown;
+    springEnd_ = device_;
     if (now.running && now.sane) {
         moved = moveTool(input, set);
     }
     stepRamps(now, moved.trapped);
-    finishWrench(springWrench(), now, out);
+    const double period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
+    finishWrench(springWrench(), period, now, out);
 
     report(now, moved, set != nullptr, out);
     holdArm(now, moved.trapped, out);
     fillMargins(input, out);
+    watch_.step(input.measuredPeriod); // in force from the next turn on
     return out;
 }
 
@@ -96,18 +115,19 @@ double HapticCycle::sceneAge(const TurnInput& input, const ContactSet* set) noex
 ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set) noexcept {
     ProxyInput wanted;
     wanted.target = device_;
-    wanted.metricRadius = options_.springs.metricRadius;
+    wanted.metricRadius = watch_.springs().metricRadius;
     wanted.contacts = set;
     wanted.deadline = input.deadline;
     if (!options_.paperGuidance) {
         // The turn is composed, not added to log(q_dev q^-1): the same to first order, and at rest the torque
         // is exactly K_r times the lead.
-        const auto lead = guidance_.lead(device_, options_.springs);
+        const auto lead = guidance_.lead(device_, watch_.springs());
         wanted.target.position += lead.translation;
         if (lead.rotation != dvec3(0.0)) {
             wanted.target.rotation = glm::normalize(rotationExp(lead.rotation) * device_.rotation);
         }
     }
+    springEnd_ = wanted.target;
     return proxy_.turn(wanted);
 }
 
@@ -118,7 +138,7 @@ void HapticCycle::stepRamps(const Situation& now, bool trapped) noexcept {
 }
 
 Wrench HapticCycle::springWrench() noexcept {
-    const Springs& springs = options_.springs;
+    const Springs& springs = watch_.springs();
     const Pose& tool = proxy_.pose();
     dvec3 slip(0.0), spin(0.0);
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
@@ -140,21 +160,63 @@ Wrench HapticCycle::springWrench() noexcept {
     return wrench;
 }
 
-void HapticCycle::finishWrench(const Wrench& spring, const Situation& now, TurnRecord& out) noexcept {
-    const Wrench wanted = scaled(spring, ramps_.product());
-    smooth_ = lowPass(wanted, smooth_, options_.lowPassGain);
-    const Wrench sized = limitSize(smooth_, options_.forceLimit, options_.torqueLimit);
+// The part of the spring wrench that guidance asked for: meant to move the hand, and no business of the
+// passivity controller.
+Wrench HapticCycle::guidancePull() const noexcept {
+    return options_.paperGuidance ? guidance_.pull(device_, watch_.springs())
+                                  : couple(watch_.springs(), springEnd_, device_, dvec3(0.0), dvec3(0.0));
+}
+
+Wrench HapticCycle::onActuatedAxes(const Wrench& wrench) const noexcept {
+    return projectOnAxes(wrench, map_.baseRhandle(handle_), options_.device.actuated).delivered;
+}
+
+Wrench HapticCycle::passivityWrench(const Wrench& spring, const Wrench& pull, double period) noexcept {
+    if (!options_.passivityController) {
+        return {};
+    }
+    PassivityTurn turn;
+    turn.device = device_;
+    turn.end = springEnd_;
+    turn.contact = onActuatedAxes({spring.force - pull.force, spring.torque - pull.torque});
+    turn.share = ramps_.product();
+    turn.springs = watch_.springs();
+    turn.period = period;
+    return passivity_.step(turn);
+}
+
+// Guidance has its share of the delivered wrench taken out, at what the size limit left of it.
+void HapticCycle::tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked,
+                                const Wrench& sized, const Wrench& delivered) noexcept {
+    const double ramp = ramps_.product();
+    const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
+    const Wrench guided = onActuatedAxes({ramp * force * pull.force, ramp * torque * pull.torque});
+    const Wrench damped = onActuatedAxes({force * damper.force, torque * damper.torque});
+    passivity_.delivered(
+        {delivered.force - guided.force - damped.force, delivered.torque - guided.torque - damped.torque},
+        damped);
+}
+
+void HapticCycle::finishWrench(const Wrench& spring, double period, const Situation& now,
+                               TurnRecord& out) noexcept {
+    smooth_ = lowPass(scaled(spring, ramps_.product()), smooth_, options_.lowPassGain);
+    const Wrench pull = guidancePull();
+    const Wrench damper = passivityWrench(spring, pull, period);
+    const Wrench asked{smooth_.force + damper.force, smooth_.torque + damper.torque};
+    const Wrench sized = limitSize(asked, options_.forceLimit, options_.torqueLimit);
     out.wrench = limitSlew(sized, previous_, options_.slewForce * options_.period,
                            options_.slewTorque * options_.period);
     out.finite = now.sane && isFinite(out.wrench);
     if (!out.finite) {
         out.wrench = smooth_ = {};
+        passivity_.reset();
         ++notFinite_;
     }
     previous_ = out.wrench;
     const auto projected = projectOnAxes(out.wrench, map_.baseRhandle(handle_), options_.device.actuated);
     out.deviceWrench = map_.toDevice(projected.delivered);
     out.residual = projected.residual;
+    tellPassivity(pull, damper, asked, sized, projected.delivered);
 }
 
 TurnState HapticCycle::stateOf(const Situation& now, const ProxyTurn& moved) const noexcept {
@@ -190,7 +252,7 @@ void HapticCycle::fillMargins(const TurnInput& input, TurnRecord& out) const noe
     if (input.measuredPeriod > 0.0) {
         live.period = input.measuredPeriod;
     }
-    const auto margins = stabilityMargins(options_.device, options_.springs, live);
+    const auto margins = stabilityMargins(options_.device, watch_.springs(), live);
     out.marginPassive = margins.passive.value_or(kNotKnown);
     out.marginUncoupled = margins.uncoupled.value_or(kNotKnown);
 }

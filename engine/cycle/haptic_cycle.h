@@ -5,6 +5,8 @@
 #include "engine/cycle/haptic_options.h"
 #include "engine/cycle/turn_record.h"
 #include "engine/haptics/hand_map.h"
+#include "engine/haptics/passivity.h"
+#include "engine/haptics/stiffness_watch.h"
 
 namespace fathom {
 
@@ -31,7 +33,10 @@ public:
     TurnRecord turn(const TurnInput& input) noexcept;
 
     const Pose& pose() const { return proxy_.pose(); } // base_T_tool: what the next contact query asks about
-    const Springs& springs() const { return options_.springs; }
+    const Springs& springs() const {
+        return watch_.springs();
+    } // in force: those of the options, or less while turns are slow
+    const PassivityController& passivity() const { return passivity_; }
     const HapticOptions& options() const { return options_; }
     uint64_t notFinite() const { return notFinite_; } // turns with a number that was not
 
@@ -59,7 +64,12 @@ private:
     ProxyTurn moveTool(const TurnInput& input, const ContactSet* set) noexcept;
     void stepRamps(const Situation& now, bool trapped) noexcept;
     Wrench springWrench() noexcept;
-    void finishWrench(const Wrench& spring, const Situation& now, TurnRecord& out) noexcept;
+    Wrench guidancePull() const noexcept;
+    Wrench passivityWrench(const Wrench& spring, const Wrench& pull, double period) noexcept;
+    Wrench onActuatedAxes(const Wrench& wrench) const noexcept;
+    void finishWrench(const Wrench& spring, double period, const Situation& now, TurnRecord& out) noexcept;
+    void tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked, const Wrench& sized,
+                       const Wrench& delivered) noexcept;
     void report(const Situation& now, const ProxyTurn& moved, bool hasSet, TurnRecord& out) const noexcept;
     TurnState stateOf(const Situation& now, const ProxyTurn& moved) const noexcept;
     void holdArm(const Situation& now, bool trapped, TurnRecord& out) noexcept;
@@ -69,7 +79,10 @@ private:
     HandMap map_;
     Guidance guidance_;
     Proxy proxy_;
+    StiffnessWatch watch_;
+    PassivityController passivity_;
 
+    Pose springEnd_;                 // base_T_tool that the solver aims at: device, led by guidance
     Pose device_, handle_;           // last good sample: mapped, raw
     Pose toolBefore_, deviceBefore_; // at the end of the turn before, for the damping
     Wrench smooth_;                  // low-pass

@@ -25,16 +25,16 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.coupling.stiffness = haptics.stiffness;
     options.coupling.rotationalStiffness = haptics.rotationalStiffness;
     options.coupling.paperGuidance = options.paperGuidance;
+    // The hand feels tau / s (hand_map.h): with a fine map, s < 1, its limit is the tighter one.
+    const double torqueShare = std::min(1.0, scene.hand.scale);
+    options.slewForce = options.coupling.slewForce = haptics.slewForce;
+    options.slewTorque = options.coupling.slewTorque = haptics.slewTorque * torqueShare;
     options.springs = makeSprings(options.device, options.coupling);
 
     options.proxy.stepCap = haptics.stepCap;
     options.proxy.solves = haptics.solves;
     options.forceLimit = haptics.forceLimit.value_or(options.device.forceLimit);
-    // The hand feels tau / s (hand_map.h): with a fine map, s < 1, its limit is the tighter one.
-    const double torqueShare = std::min(1.0, scene.hand.scale);
     options.torqueLimit = haptics.torqueLimit.value_or(options.device.torqueLimit) * torqueShare;
-    options.slewForce = haptics.slewForce;
-    options.slewTorque = haptics.slewTorque * torqueShare;
     options.needsContacts = scene.hasForbiddenPoints();
     return options;
 }

@@ -26,6 +26,11 @@ struct HapticOptions {
     double lowPassGain = 1.0;                     // limits.h; 1 = off
     bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
     double staleAfter = 0.1;   // [s] scene age from which forces fade
+    // Damps what moving fixtures put into the hand (engine/haptics/passivity.h); where nothing is generated
+    // no force changes.
+    bool passivityController = true;
+    uint32_t deviceDelayTicks =
+        0; // whole turns from write() to the hand; coupling.delayTicks counts them too
 };
 
 // Throws BadInput (unknown device) or Error (springs impossible).

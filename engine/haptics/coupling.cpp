@@ -48,15 +48,18 @@ Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options) 
     springs.rotationalDamping = options.rotationalDamping;
     const double share = options.paperGuidance ? kGuidanceShare : 0.0;
     const double handDamping = options.damping * options.handScale;
+    const double followed = options.slewForce / kContactSpeed;
     const double whole =
-        *handLimit(preset.stiffness, preset.damping, handDamping, options) / options.handScale;
+        std::min(*handLimit(preset.stiffness, preset.damping, handDamping, options), followed) /
+        options.handScale;
     springs.stiffness = options.stiffness.value_or(whole / (1.0 + share));
     demandPositive(springs.stiffness, "stiffness (damping B takes all of the device's?)");
     springs.guidanceStiffness = std::max(0.0, std::min(share * springs.stiffness, whole - springs.stiffness));
     if (options.rotationalStiffness) {
         springs.rotationalStiffness = *options.rotationalStiffness;
     } else {
-        springs.rotationalStiffness = options.toolRadius * options.toolRadius * springs.stiffness;
+        springs.rotationalStiffness = std::min(options.toolRadius * options.toolRadius * springs.stiffness,
+                                               options.slewTorque / kContactTurn);
         const double turnDamping = options.rotationalDamping / options.handScale;
         const auto limit =
             handLimit(preset.rotationalStiffness, preset.rotationalDamping, turnDamping, options);

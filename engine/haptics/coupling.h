@@ -15,6 +15,7 @@
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
+#include <limits>
 #include <optional>
 
 namespace fathom {
@@ -41,7 +42,15 @@ struct CouplingOptions {
     double damping = 0.0;                      // B_t [N s/m]
     double rotationalDamping = 0.0;            // B_r [N m s/rad]
     bool paperGuidance = false;                // K_g is wanted
+    // Slew limits of the wrench [N/s], [N m/s]: a spring that is stiffer than they can follow lags behind the
+    // hand, and a spring that lags feeds it.
+    double slewForce = std::numeric_limits<double>::infinity();
+    double slewTorque = std::numeric_limits<double>::infinity();
 };
+
+// Hands slower than this meet a spring that the slew limits never cut: K <= slew / speed.
+inline constexpr double kContactSpeed = 0.25; // [m/s]
+inline constexpr double kContactTurn = 2.5;   // [rad/s]
 
 // K_g over K_t in guidance mode `paper`; less when a K_t that the user gave leaves less below the bound.
 inline constexpr double kGuidanceShare = 0.25;
@@ -49,10 +58,11 @@ inline constexpr double kGuidanceShare = 0.25;
 // Largest passive stiffness 2 (b - |B|) / (T (1 + 2n)); negative when |B| > b.
 double passiveStiffness(double deviceDamping, double damping, double period, double delayTicks) noexcept;
 
-// Auto: K_t + K_g = the smaller of the preset's stiffness and its passive bound, over the hand map's scale s,
-// because the hand feels s K (it moves 1/s of what the tool does; hand_map.h). K_r = k0^2 K_t, or its own
-// bound times s (the hand feels K_r / s) when that is lower. With b unknown the preset's figure stands alone.
-// k follows from the two. Throws Error when nothing positive is left or a number makes no sense.
+// Auto: K_t + K_g = the smallest of the preset's stiffness, its passive bound and what the slew limit can
+// follow, over the hand map's scale s, because the hand feels s K (it moves 1/s of what the tool does;
+// hand_map.h). K_r = k0^2 K_t, or its own bound times s (the hand feels K_r / s) when that is lower. With b
+// unknown the preset's figure stands alone. k follows from the two. Throws Error when nothing positive is
+// left or a number makes no sense.
 Springs makeSprings(const DevicePreset& preset, const CouplingOptions& options);
 
 // Margins [N s/m] of the translation at the hand; > 0 = holds. Empty when b is unknown.

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/passivity.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+namespace {
+
+constexpr double kPresetPeriod = 0.001; // [s] presets' stiffness is what is rendered at 1 kHz
+
+double workOf(const Wrench& wrench, const dvec3& moved, const dvec3& turned) {
+    return glm::dot(wrench.force, moved) + glm::dot(wrench.torque, turned);
+}
+
+// Energy [J] whose gradient is min(share x pull, limit): a spring up to the limit, a constant pull beyond it.
+double energyOf(double pull, double stiffness, double share, double limit) {
+    if (!(stiffness > 0.0) || !(share > 0.0)) {
+        return 0.0;
+    }
+    const double force = share * pull;
+    return force <= limit ? force * pull / (2.0 * stiffness)
+                          : limit * pull / stiffness - limit * limit / (2.0 * stiffness * share);
+}
+
+dvec3 turnBetween(const Pose& from, const Pose& to) {
+    return rotationLog(to.rotation * glm::conjugate(from.rotation));
+}
+
+} // namespace
+
+PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
+                               const CouplingOptions& coupling, double forceLimit, double torqueLimit) {
+    PassivityOptions options;
+    const double scale = coupling.handScale;
+    // The hand moves 1/s of what the tool does, and its energies count s times at the tool (hand_map.h).
+    options.damping = preset.damping.value_or(preset.stiffness * kPresetPeriod / 2.0) / scale;
+    options.rotationalDamping = preset.rotationalDamping ? *preset.rotationalDamping * scale
+                                                         : springs.rotationalStiffness * coupling.period *
+                                                               (1.0 + 2.0 * coupling.delayTicks) / 2.0;
+    options.metricRadius = springs.metricRadius;
+    options.forceLimit = forceLimit;
+    options.torqueLimit = torqueLimit;
+    return options;
+}
+
+PassivityController::PassivityController(const PassivityOptions& options)
+    : options_(options) {
+    options_.delayTicks = std::min<uint32_t>(options_.delayTicks, kMostDelay);
+}
+
+void PassivityController::reset() noexcept {
+    applied_.fill({});
+    credit_.fill(0.0);
+    recent_ = stored_ = debt_ = 0.0;
+    started_ = false;
+}
+
+double PassivityController::storedIn(const PassivityTurn& turn) const noexcept {
+    return energyOf(glm::length(turn.contact.force), turn.springs.stiffness, turn.share,
+                    options_.forceLimit) +
+           energyOf(glm::length(turn.contact.torque), turn.springs.rotationalStiffness, turn.share,
+                    options_.torqueLimit);
+}
+
+void PassivityController::observe(const PassivityTurn& turn) noexcept {
+    const dvec3 endMoved = turn.end.position - end_.position, endTurned = turnBetween(end_, turn.end);
+    moved_ = turn.device.position - device_.position;
+    turned_ = turnBetween(device_, turn.device);
+    // The oldest of the ring: what reached the hand in the interval that ends now.
+    const Applied& held = applied_[writes_ % (options_.delayTicks + 1)];
+    const double damped = -workOf(held.damper, moved_, turned_);
+    const double stored = storedIn(turn);
+    const double credit = (options_.damping * glm::dot(endMoved, endMoved) +
+                           options_.rotationalDamping * glm::dot(endTurned, endTurned)) /
+                          turn.period;
+    const double spring = workOf(held.contact, endMoved, endTurned) + stored - stored_ - credit;
+    generated_ += std::max(0.0, spring);
+    taken_ += damped;
+    stored_ = stored;
+
+    double& slot = credit_[turns_++ % kWindow];
+    slot = credit;
+    recent_ = 0.0;
+    for (const double c :
+         credit_) { // summed anew: a running sum would keep the rounding of fast turns for ever
+        recent_ += c;
+    }
+    debt_ = std::max(debt_ + spring - damped, -recent_);
+    debt_ *= debt_ > 0.0 ? std::exp(-turn.period / kForget) : 1.0;
+}
+
+Wrench PassivityController::control(const PassivityTurn& turn) const noexcept {
+    const double owed = debt_ - kTolerance;
+    if (!(owed > 0.0)) {
+        return {};
+    }
+    dvec3 v = moved_ / turn.period, w = turned_ / turn.period;
+    v = glm::length(v) < kSlow ? dvec3(0.0) : v;
+    w = glm::length(w) < kSlowTurn ? dvec3(0.0) : w;
+    const double kk = options_.metricRadius * options_.metricRadius;
+    const double speed = glm::dot(v, v) + kk * glm::dot(w, w);
+    if (!(speed > 0.0)) {
+        return {};
+    }
+    const double most = std::min(kMostDamping * std::min(options_.damping, options_.rotationalDamping / kk),
+                                 kMostImpulse / (turn.period * (1.0 + 2.0 * options_.delayTicks)));
+    const double alpha = turn.share * std::min(owed / (turn.period * speed), most);
+    return {-alpha * v, -alpha * kk * w};
+}
+
+Wrench PassivityController::step(const PassivityTurn& turn) noexcept {
+    if (!(turn.share > 0.0) || !(turn.period > 0.0) || !isFinite(turn.device) || !isFinite(turn.end)) {
+        reset();
+        return {};
+    }
+    Wrench damper;
+    if (started_) {
+        observe(turn);
+        damper = control(turn);
+    } else {
+        stored_ = storedIn(turn);
+    }
+    started_ = true;
+    device_ = turn.device;
+    end_ = turn.end;
+    if (!std::isfinite(debt_) || !std::isfinite(stored_)) {
+        reset();
+        return {};
+    }
+    return damper;
+}
+
+void PassivityController::delivered(const Wrench& contact, const Wrench& damper) noexcept {
+    applied_[writes_ % (options_.delayTicks + 1)] = {contact, damper};
+    ++writes_;
+}
+
+} // namespace fathom

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/stiffness_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+StiffnessWatch::StiffnessWatch(const DevicePreset& preset, const CouplingOptions& options,
+                               const Springs& planned)
+    : options_(options)
+    , planned_(planned)
+    , springs_(planned)
+    , period_(options.period) {
+    // A hand map of scale s: the hand feels s K_t and K_r / s (hand_map.h), and the same of B.
+    if (preset.damping && !options.stiffness) {
+        damping_ = *preset.damping / options.handScale;
+    }
+    if (preset.rotationalDamping && !options.rotationalStiffness) {
+        rotationalDamping_ = *preset.rotationalDamping * options.handScale;
+    }
+}
+
+double StiffnessWatch::wantedShare() const noexcept {
+    if (!damping_) {
+        return 1.0;
+    }
+    const double whole = planned_.stiffness + planned_.guidanceStiffness;
+    const double bound = passiveStiffness(*damping_, options_.damping, period_, options_.delayTicks);
+    return std::clamp(bound / whole, kLeastShare, 1.0);
+}
+
+void StiffnessWatch::step(double measuredPeriod) noexcept {
+    if (!(measuredPeriod > 0.0) || !std::isfinite(measuredPeriod)) {
+        return;
+    }
+    period_ += std::min(1.0, measuredPeriod / kAverage) * (measuredPeriod - period_);
+    share_ += std::clamp(wantedShare() - share_, -measuredPeriod / kDown, measuredPeriod / kUp);
+    springs_ = planned_;
+    springs_.stiffness = share_ * planned_.stiffness;
+    springs_.guidanceStiffness = share_ * planned_.guidanceStiffness;
+    if (!options_.rotationalStiffness) {
+        // K_r as planned, or k0^2 K_t, or its own bound: whichever is lowest. All of them move slowly.
+        double turn = std::min(planned_.rotationalStiffness,
+                               options_.toolRadius * options_.toolRadius * springs_.stiffness);
+        if (rotationalDamping_) {
+            const double bound = passiveStiffness(*rotationalDamping_, options_.rotationalDamping, period_,
+                                                  options_.delayTicks);
+            turn = std::min(turn, std::max(bound, kLeastShare * planned_.rotationalStiffness));
+        }
+        springs_.rotationalStiffness = turn;
+    }
+    springs_.metricRadius = std::sqrt(springs_.rotationalStiffness / springs_.stiffness);
+}
+
+} // namespace fathom

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passivity controller and the watch over the stiffness inside the haptic turn.
+#include "tests/cycle/haptic_rig.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// At rest 3 mm inside the wall.
+HapticRig restingRig(bool controller) {
+    HapticRig rig(plainScene(), at(0, 0, 0.02));
+    rig.options.passivityController = controller;
+    rig.restart();
+    rig.show(wallSet());
+    rig.age = false;
+    rig.turns(250);
+    rig.hand = at(0, 0, 0.0072);
+    rig.turns(50);
+    return rig;
+}
+
+// The wall 2 mm higher.
+Fixtures raisedWall() {
+    Fixtures fixtures = wallSet(2);
+    fixtures.origin.z = 0.002;
+    return fixtures;
+}
+
+} // namespace
+
+TEST_CASE("Over a static wall the wrench is the same with the passivity controller and without it") {
+    HapticRig with(plainScene(), at(0, 0, 0.02)), without(plainScene(), at(0, 0, 0.02));
+    CHECK(with.options.passivityController); // the default
+    without.options.passivityController = false;
+    without.restart();
+    for (HapticRig* rig : {&with, &without}) {
+        rig->show(wallSet());
+        rig->age = false;
+    }
+    double largest = 0.0;
+    for (int i = 0; i < 1500; ++i) {
+        const double s = 0.004 * i;
+        with.hand =
+            without.hand = {{0.02 * std::sin(s), 0.01 * std::cos(1.3 * s), 0.008 + 0.012 * std::cos(2.1 * s)},
+                            rotationExp({0.3 * std::sin(s), 0.0, s})};
+        const auto a = with.turn(), b = without.turn();
+        REQUIRE(a.wrench.force == b.wrench.force);
+        REQUIRE(a.wrench.torque == b.wrench.torque);
+        largest = std::max(largest, glm::length(a.wrench.force));
+    }
+    CHECK(largest > 5.0);
+    CHECK(with.cycle->passivity().taken() == 0.0);
+}
+
+TEST_CASE("A wall that jumps is counted, and the hand is damped while it moves and owes, within all limits") {
+    auto rig = restingRig(true), off = restingRig(false);
+    const double force = glm::length(rig.turn().wrench.force);
+    off.turn();
+    for (HapticRig* r : {&rig, &off}) {
+        r->show(raisedWall());
+        r->age = false;
+        r->turns(3); // 1 mm a turn, skin included
+    }
+    const double p = force / 1000.0;
+    CHECK(rig.cycle->passivity().generated() == doctest::Approx(1000.0 * (p * 0.002 + 2e-6)).epsilon(0.01));
+    CHECK(off.cycle->passivity().generated() == 0.0);
+    dvec3 before = rig.turn().wrench.force;
+    off.turn();
+    double weaker = 0.0;
+    for (int i = 0; i < 60; ++i) { // the hand gives way at 30 mm/s
+        rig.hand.position.z += 3e-5;
+        off.hand.position.z += 3e-5;
+        const auto a = rig.turn(), b = off.turn();
+        CHECK(a.tool.position == b.tool.position); // damping is no business of the tool
+        CHECK(a.wrench.force.z <= b.wrench.force.z + 1e-12);
+        CHECK(glm::distance(a.wrench.force, before) <= 2.0 * (1.0 + 1e-12));
+        before = a.wrench.force;
+        weaker = std::max(weaker, b.wrench.force.z - a.wrench.force.z);
+    }
+    CHECK(weaker == doctest::Approx(20.0 * 0.03).epsilon(0.01)); // 20 N s/m at 0.03 m/s
+    CHECK(rig.cycle->passivity().taken() > 0.0);
+}
+
+TEST_CASE("Forces off: nothing is added to the zero, and an old debt is forgotten") {
+    auto rig = restingRig(true);
+    rig.show(raisedWall());
+    rig.age = false;
+    rig.turns(3);
+    REQUIRE(rig.cycle->passivity().debt() > 0.005);
+    rig.forcesOff = true;
+    rig.turns(220);
+    for (int i = 0; i < 50; ++i) {
+        rig.hand.position.x += 1e-4;
+        CHECK(glm::length(rig.turn().wrench.force) == 0.0);
+    }
+    CHECK(rig.cycle->passivity().debt() == 0.0);
+}
+
+TEST_CASE("What guidance does to the hand is not taken for generation") {
+    Scene scene = plainScene();
+    scene.fixtures.emplace_back();
+    scene.fixtures.back().role = Role::Guidance;
+    HapticRig rig(scene, at(0, 0, 0.05));
+    rig.show(wallSet());
+    rig.age = false;
+    GuidancePose target;
+    target.present = target.planar = true;
+    target.target = at(0, 0, 0.12);
+    rig.guidance = {target};
+    rig.buttons = kGuidanceButton;
+    rig.turns(900);
+    for (int i = 0; i < 500; ++i) { // the hand is drawn along: 2 N over 50 mm
+        rig.hand.position.z += 1e-4;
+        const auto record = rig.turn();
+        CHECK(record.wrench.force.z == doctest::Approx(2.0).epsilon(1e-9));
+    }
+    CHECK(rig.cycle->passivity().taken() == 0.0);
+    CHECK(rig.cycle->passivity().generated() <= 1e-9);
+}
+
+TEST_CASE("Slow turns lower the automatic stiffness smoothly and the margin comes back to 0; lockstep "
+          "changes nothing") {
+    HapticRig rig(plainScene(), at(0, 0, 0.05));
+    TurnInput input;
+    input.deviceThandle = rig.hand;
+    for (int i = 0; i < 300; ++i) { // nothing measured
+        rig.cycle->turn(input);
+    }
+    CHECK(rig.cycle->springs().stiffness == 1000.0);
+    input.measuredPeriod = 0.002;
+    double before = 1000.0;
+    TurnRecord record;
+    for (int i = 0; i < 400; ++i) {
+        record = rig.cycle->turn(input);
+        const double now = rig.cycle->springs().stiffness;
+        CHECK(now <= before);
+        CHECK(before - now <= 10.0 + 1e-9);
+        before = now;
+        if (i == 0) {
+            CHECK(record.marginPassive == doctest::Approx(-0.5));
+        }
+    }
+    CHECK(before == doctest::Approx(500.0));
+    CHECK(rig.cycle->springs().metricRadius == doctest::Approx(rig.options.springs.metricRadius));
+    CHECK(std::abs(record.marginPassive) <= 1e-6);
+    CHECK(std::abs(record.marginUncoupled) <= 1e-6);
+}
+
+TEST_CASE("An orientation that is not of unit length is the same orientation, and lets no wrench through a "
+          "dead axis") {
+    HapticRig unit(plainScene("w5d"), at(0, 0, 0.02)), scaled(plainScene("w5d"), at(0, 0, 0.02));
+    for (HapticRig* rig : {&unit, &scaled}) {
+        rig->show(wallSet());
+        rig->age = false;
+    }
+    for (int i = 0; i < 400; ++i) {
+        unit.hand = {{0.0, 0.0, 0.02 - 4e-5 * i}, rotationExp({0.002 * i, 0.3, 0.004 * i})};
+        scaled.hand = unit.hand;
+        scaled.hand.rotation = scaled.hand.rotation * (i % 2 == 0 ? 1e-3 : 50.0);
+        const auto a = unit.turn(), b = scaled.turn();
+        REQUIRE(glm::distance(a.deviceWrench.force, b.deviceWrench.force) <= 1e-9);
+        REQUIRE(glm::distance(a.deviceWrench.torque, b.deviceWrench.torque) <= 1e-9);
+        REQUIRE(glm::distance(b.deviceWrench.force + b.residual.force, b.wrench.force) <= 1e-12);
+    }
+}

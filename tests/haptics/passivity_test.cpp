@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// The passivity observer counts what a fixture generates and nothing else, and the controller takes it back
+// by damping.
+#include "engine/haptics/passivity.h"
+
+#include "tests/haptics/allocation_count.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <utility>
+
+using namespace fathom;
+
+static_assert(noexcept(std::declval<PassivityController&>().step(std::declval<const PassivityTurn&>())));
+static_assert(noexcept(std::declval<PassivityController&>().delivered(std::declval<const Wrench&>(),
+                                                                      std::declval<const Wrench&>())));
+
+namespace {
+
+constexpr double kPeriod = 0.001;
+
+// A hand on a spring: K = 1000 N/m, K_r = 0.4 N m/rad (k = 20 mm), and a device whose damping makes that just
+// passive.
+struct Loop {
+    double stiffness = 1000.0, radius = 0.02;
+    PassivityOptions options;
+    PassivityController controller;
+    Pose tool, hand;
+
+    explicit Loop(double damping = 0.5, uint32_t delay = 0, double forceLimit = 20.0)
+        : options{damping, damping * radius * radius, radius, forceLimit, 2.0, delay}
+        , controller(options) {}
+
+    Wrench spring() const {
+        Springs s = springs();
+        return couple(s, tool, hand, dvec3(0.0), dvec3(0.0));
+    }
+    Springs springs() const {
+        Springs s;
+        s.stiffness = stiffness;
+        s.rotationalStiffness = stiffness * radius * radius;
+        s.metricRadius = radius;
+        return s;
+    }
+    // One turn: observe, then deliver spring (up to the force limit) and damper.
+    Wrench turn(double share = 1.0) {
+        PassivityTurn t;
+        t.device = t.end = hand;
+        t.contact = spring();
+        t.share = share;
+        t.springs = springs();
+        t.period = kPeriod;
+        const Wrench damper = controller.step(t);
+        Wrench contact = t.contact;
+        const double length = share * glm::length(contact.force);
+        contact.force *= share * std::min(1.0, options.forceLimit / std::max(length, 1e-300));
+        contact.torque *= share;
+        controller.delivered(contact, damper);
+        return damper;
+    }
+};
+
+bool isZero(const Wrench& w) {
+    return w.force == dvec3(0.0) && w.torque == dvec3(0.0);
+}
+
+// Proxy on a flat wall at z = 0: the projection of the hand.
+void rest(Loop& loop) {
+    loop.tool.position = {loop.hand.position.x, loop.hand.position.y, std::max(0.0, loop.hand.position.z)};
+}
+
+} // namespace
+
+TEST_CASE("On a wall that stands still the controller stays out of it, whatever the hand does, up to the "
+          "passive bound") {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    for (const double step : {1e-7, 1e-5, 1e-3, 2e-2}) {
+        CAPTURE(step);
+        Loop loop;
+        for (int i = 0; i < 4000; ++i) {
+            loop.hand.position += step * dvec3(normal(random), normal(random), normal(random));
+            loop.hand.position.z = std::clamp(loop.hand.position.z, -0.05, 0.02);
+            rest(loop);
+            REQUIRE(isZero(loop.turn()));
+            REQUIRE(loop.controller.debt() <= 1e-12);
+        }
+        CHECK(loop.controller.generated() <= 1e-12);
+        CHECK(loop.controller.taken() == 0.0);
+    }
+}
+
+TEST_CASE("Rotations of any size against a tool that is held generate nothing either") {
+    std::mt19937_64 random(2);
+    std::normal_distribution<double> normal;
+    Loop loop;
+    for (int i = 0; i < 20000; ++i) {
+        loop.hand.rotation = glm::normalize(
+            rotationExp(0.05 * dvec3(normal(random), normal(random), normal(random))) * loop.hand.rotation);
+        REQUIRE(isZero(loop.turn()));
+    }
+    CHECK(loop.controller.debt() <= 1e-12);
+}
+
+TEST_CASE("A spring at its force limit stores less, and that is not taken for generation") {
+    Loop loop;
+    for (int i = 0; i < 2000; ++i) { // to 60 mm: three times the limit, and out again
+        loop.hand.position.z = -0.06 * std::sin(3.14159265358979 * i / 2000.0);
+        rest(loop);
+        REQUIRE(isZero(loop.turn()));
+    }
+    CHECK(loop.controller.generated() <= 1e-12);
+}
+
+TEST_CASE("A wall that jumps by delta at penetration p is counted as K p delta + K delta^2 / 2, in that very "
+          "turn") {
+    for (const double jump : {0.0005, 0.002, 0.005}) {
+        Loop loop;
+        loop.hand.position.z = -0.003;
+        loop.turn();
+        loop.tool.position.z = jump;
+        loop.turn();
+        CHECK(loop.controller.generated() ==
+              doctest::Approx(1000.0 * (0.003 * jump + 0.5 * jump * jump)).epsilon(1e-9));
+        CHECK(loop.controller.debt() ==
+              doctest::Approx(loop.controller.generated()).epsilon(0.003)); // forgetting starts
+        const double before = loop.controller.debt();
+        loop.tool.position.z = 0.0; // back before the hand could take any of it: nothing is owed
+        loop.turn();
+        CHECK(loop.controller.debt() <= 0.01 * before);
+    }
+}
+
+TEST_CASE("The damper works against the hand, is capped, and stops when the debt is paid") {
+    Loop loop;
+    loop.hand.position.z = -0.003;
+    loop.turn();
+    loop.tool.position.z = 0.002; // 8 mJ
+    double paid = 0.0;
+    bool stopped = false;
+    for (int i = 0; i < 400 && !stopped; ++i) {
+        const dvec3 moved(1e-4, 0.0, 0.0); // 0.1 m/s along the wall: the spring does no work
+        loop.hand.position += moved;
+        loop.tool.position.x = loop.hand.position.x;
+        const Wrench damper = loop.turn();
+        CHECK(damper.force.x <= 0.0);
+        CHECK(damper.force.x >= -20.0 * 0.1 * (1.0 + 1e-9)); // 0.02 N s^2/m over 1 ms
+        CHECK(damper.force.y == 0.0);
+        CHECK(damper.torque == dvec3(0.0));
+        paid += -damper.force.x * 1e-4;
+        stopped = isZero(damper) && i > 5;
+    }
+    CHECK(stopped);
+    CHECK(paid <= 0.008);
+    CHECK(paid >= 0.004); // the rest went into the device's own damping and was forgotten
+    CHECK(loop.controller.taken() == doctest::Approx(paid).epsilon(1e-9));
+}
+
+TEST_CASE(
+    "Slower than 0.1 mm/s and 1 mrad/s nothing is damped; a turn of the hand is damped by a torque alone") {
+    Loop loop;
+    loop.hand.position.z = -0.003;
+    loop.turn();
+    loop.tool.position.z = 0.002;
+    loop.turn();
+    loop.hand.position.x += 0.9e-7;
+    loop.tool.position.x += 0.9e-7;
+    loop.hand.rotation = loop.tool.rotation = rotationExp({0.0, 0.9e-6, 0.0});
+    CHECK(isZero(loop.turn()));
+    loop.hand.rotation = loop.tool.rotation = rotationExp({0.0, 1e-3, 0.0}) * loop.hand.rotation; // 1 rad/s
+    const Wrench damper = loop.turn();
+    CHECK(damper.force == dvec3(0.0));
+    CHECK(damper.torque.y < 0.0);
+    CHECK(damper.torque.y >= -20.0 * 0.02 * 0.02 * (1.0 + 1e-9));
+    CHECK(std::abs(damper.torque.x) + std::abs(damper.torque.z) <= 1e-12);
+}
+
+TEST_CASE("Beyond the bound every turn generates (K/2 - b/T) of the square of its step") {
+    Loop loop(0.25); // half of what 1000 N/m needs
+    loop.hand.position.z = -0.001;
+    rest(loop);
+    loop.turn();
+    double expected = 0.0;
+    for (int i = 0; i < 100; ++i) {
+        const double step = (i % 2 == 0 ? -1.0 : 1.0) * 4e-5;
+        loop.hand.position.z += step;
+        rest(loop);
+        loop.turn();
+        expected += (500.0 - 250.0) * step * step;
+        CHECK(loop.controller.generated() == doctest::Approx(expected).epsilon(1e-6));
+    }
+    CHECK(expected > 0.0);
+}
+
+TEST_CASE("With a delay the wrench is paired with the motion that it meets, n turns later") {
+    Loop early(2.0, 0), late(2.0, 3);
+    for (Loop* loop : {&early, &late}) {
+        loop->hand.position.z = -0.004;
+        loop->turn();
+    }
+    // The first three wrenches have not reached the hand: a hand that leaves in the meantime got nothing.
+    for (Loop* loop : {&early, &late}) {
+        loop->hand.position.z = 0.001;
+        rest(*loop);
+        loop->turn();
+    }
+    // early: 4 N over 5 mm = 20 mJ out, 8 mJ were stored, 50 mJ damped; late: 0 out.
+    CHECK(early.controller.generated() == 0.0);
+    CHECK(late.controller.generated() == 0.0);
+    for (Loop* loop : {&early, &late}) {
+        for (int i = 0; i < 2; ++i) {
+            loop->turn();
+        }
+        loop->hand.position.z += 0.005; // in free space, while the delayed 4 N arrive
+        rest(*loop);
+        loop->turn();
+    }
+    CHECK(early.controller.debt() <= 0.0);
+    CHECK(late.controller.debt() > early.controller.debt());
+}
+
+TEST_CASE("Ramped out, or fed with numbers that are not, it forgets everything and asks for nothing") {
+    for (const bool bad : {false, true}) {
+        Loop loop;
+        loop.hand.position.z = -0.003;
+        loop.turn();
+        loop.tool.position.z = 0.002;
+        loop.turn();
+        REQUIRE(loop.controller.debt() > 0.007);
+        const Pose good = loop.hand;
+        if (bad) {
+            loop.hand.position.x = std::numeric_limits<double>::quiet_NaN();
+            CHECK(isZero(loop.turn()));
+        } else {
+            CHECK(isZero(loop.turn(0.0)));
+        }
+        CHECK(loop.controller.debt() == 0.0);
+        loop.hand = good;
+        CHECK(isZero(loop.turn()));
+        loop.hand.position.x += 1e-4;
+        CHECK(isZero(loop.turn()));
+    }
+}
+
+TEST_CASE("b comes from the preset, over the hand map's scale; unknown, it is what the preset's stiffness "
+          "needs at 1 kHz") {
+    CouplingOptions coupling;
+    coupling.handScale = 2.0;
+    const PassivityOptions known = makePassivity(
+        devicePreset("ideal"), makeSprings(devicePreset("ideal"), coupling), coupling, 20.0, 2.0);
+    CHECK(known.damping == doctest::Approx(0.25));
+    CHECK(known.rotationalDamping == doctest::Approx(0.02));
+    coupling.handScale = 1.0;
+    const Springs springs = makeSprings(devicePreset("touch"), coupling);
+    const PassivityOptions unknown = makePassivity(devicePreset("touch"), springs, coupling, 3.3, 0.2);
+    CHECK(unknown.damping == doctest::Approx(0.2)); // 400 N/m
+    CHECK(unknown.rotationalDamping == doctest::Approx(springs.rotationalStiffness * 0.0005));
+}
+
+TEST_CASE("No turn of the controller allocates") {
+    Loop loop;
+    const uint64_t before = allocationCount();
+    for (int i = 0; i < 500; ++i) {
+        loop.hand.position.z = -0.002 * (i % 7);
+        loop.tool.position.z = 0.001 * (i % 3);
+        loop.turn(i % 100 == 99 ? 0.0 : 1.0);
+    }
+    CHECK(allocationCount() == before);
+}

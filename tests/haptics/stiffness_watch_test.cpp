@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// The automatic stiffness follows the bound of turns that come slower than planned, smoothly, and nothing
+// else changes it.
+#include "engine/haptics/stiffness_watch.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace fathom;
+
+namespace {
+
+StiffnessWatch watchOf(const CouplingOptions& options, const char* device = "ideal") {
+    const DevicePreset& preset = devicePreset(device);
+    return {preset, options, makeSprings(preset, options)};
+}
+
+void run(StiffnessWatch& watch, double period, double seconds) {
+    for (double t = 0.0; t < seconds; t += period) {
+        watch.step(period);
+    }
+}
+
+} // namespace
+
+TEST_CASE("As planned, or with nothing measured, the springs stay what they are to the last bit") {
+    CouplingOptions options;
+    options.toolRadius = 0.05;
+    StiffnessWatch watch = watchOf(options);
+    const Springs planned = watch.springs();
+    for (const double period : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
+                                std::numeric_limits<double>::infinity(), 0.001, 0.0005}) {
+        for (int i = 0; i < 500; ++i) {
+            watch.step(period);
+        }
+        CHECK(watch.springs().stiffness == planned.stiffness);
+        CHECK(watch.springs().rotationalStiffness == planned.rotationalStiffness);
+        CHECK(watch.springs().metricRadius == planned.metricRadius);
+    }
+}
+
+TEST_CASE("Turns of 2 ms halve the stiffness within its time, never in a step, and it comes back") {
+    CouplingOptions options;
+    options.toolRadius = 0.05;
+    StiffnessWatch watch = watchOf(options);
+    double before = watch.springs().stiffness;
+    CHECK(before == 1000.0);
+    for (int i = 0; i < 500; ++i) {
+        watch.step(0.002);
+        CHECK(watch.springs().stiffness <= before);
+        CHECK(before - watch.springs().stiffness <= 1000.0 * 0.002 / StiffnessWatch::kDown + 1e-9);
+        before = watch.springs().stiffness;
+    }
+    CHECK(before == doctest::Approx(500.0));
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(500.0 * 0.05 * 0.05));
+    CHECK(watch.springs().metricRadius == doctest::Approx(0.05));
+    run(watch, 0.001, 0.1);
+    CHECK(watch.springs().stiffness < 600.0);
+    run(watch, 0.001, 3.0);
+    CHECK(watch.springs().stiffness == doctest::Approx(1000.0).epsilon(1e-9));
+}
+
+TEST_CASE("K_r has a bound of its own, and k follows the two") {
+    CouplingOptions options;
+    options.toolRadius = 0.2; // k0^2 K_t = 40: cut to 20 by b_r
+    StiffnessWatch watch = watchOf(options);
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(20.0));
+    run(watch, 0.002, 2.0);
+    CHECK(watch.springs().rotationalStiffness == doctest::Approx(10.0));
+    CHECK(watch.springs().stiffness == doctest::Approx(500.0));
+    CHECK(watch.springs().metricRadius == doctest::Approx(std::sqrt(10.0 / 500.0)));
+}
+
+TEST_CASE("One turn that comes late takes little, and half of an hour-long stall leaves something") {
+    CouplingOptions options;
+    StiffnessWatch watch = watchOf(options);
+    run(watch, 0.001, 0.5);
+    watch.step(0.01);
+    run(watch, 0.001, 0.05);
+    CHECK(watch.springs().stiffness >= 700.0 - 1e-9);
+    for (int i = 0; i < 100; ++i) {
+        watch.step(1800.0);
+    }
+    CHECK(watch.springs().stiffness == doctest::Approx(10.0));
+    CHECK(watch.springs().rotationalStiffness > 0.0);
+    CHECK(std::isfinite(watch.springs().metricRadius));
+}
+
+TEST_CASE("A stiffness that the user gave, and a device whose b nobody knows, are left alone") {
+    CouplingOptions options;
+    options.stiffness = 900.0;
+    StiffnessWatch given = watchOf(options);
+    run(given, 0.003, 2.0);
+    CHECK(given.springs().stiffness == 900.0);
+    StiffnessWatch unknown = watchOf(CouplingOptions{}, "touch");
+    run(unknown, 0.003, 2.0);
+    CHECK(unknown.springs().stiffness == 400.0);
+}
+
+TEST_CASE("The bound counts delay and the share of guidance") {
+    CouplingOptions options;
+    options.delayTicks = 1.0;
+    options.paperGuidance = true;
+    StiffnessWatch watch = watchOf(options);
+    const Springs planned = watch.springs();
+    CHECK(planned.stiffness + planned.guidanceStiffness == doctest::Approx(1000.0 / 3.0));
+    run(watch, 0.002, 2.0);
+    CHECK(watch.springs().stiffness == doctest::Approx(0.5 * planned.stiffness));
+    CHECK(watch.springs().guidanceStiffness == doctest::Approx(0.5 * planned.guidanceStiffness));
+}
+
+TEST_CASE("The automatic stiffness is one that the slew limits can follow at 0.25 m/s and 2.5 rad/s; a given "
+          "one is not cut") {
+    CouplingOptions options;
+    options.toolRadius = 1.0;
+    options.slewForce = 100.0, options.slewTorque = 5.0;
+    const Springs springs = makeSprings(devicePreset("ideal"), options);
+    CHECK(springs.stiffness == doctest::Approx(400.0));
+    CHECK(springs.rotationalStiffness == doctest::Approx(2.0));
+    options.stiffness = 900.0;
+    CHECK(makeSprings(devicePreset("ideal"), options).stiffness == 900.0);
+}
