@@ -4,6 +4,7 @@
 #include "apps/global_options.h"
 #include "apps/plan/plan_command.h"
 #include "apps/replay/replay_command.h"
+#include "apps/stability/stability_command.h"
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
@@ -55,6 +56,7 @@ int run(int argc, char** argv) {
     fathom::addPlanCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
+    fathom::addStabilityCommand(app, global, result);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

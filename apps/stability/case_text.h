@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small words for the notes of cases, and conditions that a case needs beside its figure.
+#pragma once
+
+#include "apps/stability/stability_case.h"
+
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace fathom::stability {
+
+// Four significant digits.
+inline std::string num(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", value);
+    return text;
+}
+inline std::string num(uint64_t value) {
+    return std::to_string(value);
+}
+
+inline Outcome outcomeOf(double figure, double limit, std::string unit, std::string note) {
+    Outcome out;
+    out.figure = figure;
+    out.limit = limit;
+    out.unit = std::move(unit);
+    out.note = std::move(note);
+    return out;
+}
+
+// A condition beside the figure: when it fails the figure becomes NaN, which never holds, and the note says
+// why.
+inline void demand(Outcome& outcome, bool holds, const std::string& what) {
+    if (!holds) {
+        outcome.figure = std::numeric_limits<double>::quiet_NaN();
+        outcome.note += " FAILED: " + what + ".";
+    }
+}
+
+} // namespace fathom::stability

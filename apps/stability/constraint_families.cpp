@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/stability/constraint_families.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+
+struct Draft {         // what the rows of one set share
+    double lean = 0.0; // [rad] of a groove's wall from upright
+    std::array<dvec3, 4> bundles;
+    std::vector<double> inside; // a point that feasible families obey
+};
+
+Draft draft(const RowScale& scale, Dice& dice) {
+    Draft d;
+    d.lean = 0.5 * kDegree * dice.logUniform(0.1, 20.0);
+    for (dvec3& axis : d.bundles) {
+        axis = dice.direction();
+    }
+    for (int i = 0; i < 6; ++i) {
+        d.inside.push_back(dice.uniform(-0.1, 0.1) * (i < 3 ? scale.step : scale.turn));
+    }
+    return d;
+}
+
+double along(std::span<const double> row, std::span<const double> x) {
+    double sum = 0.0;
+    for (size_t i = 0; i < row.size(); ++i) {
+        sum += row[i] * x[i];
+    }
+    return sum;
+}
+
+void addRow(RowSet& set, RowFamily family, size_t index, const RowScale& scale, const Draft& draft,
+            Dice& dice) {
+    const dvec3 noise = dice.direction();
+    const dvec3 arm = dice.inCube(scale.arm);
+    const double gap = dice.uniform(-0.2, 0.05) * scale.step;
+    const double side = index % 2 == 0 ? 1.0 : -1.0;
+    switch (family) {
+    case RowFamily::FlatWall:
+        set.addContact(glm::normalize(dvec3(0, 0, 1) + 1e-3 * noise), arm, gap);
+        break;
+    case RowFamily::Groove:
+        set.addContact({side * std::cos(draft.lean), 0.0, std::sin(draft.lean)}, {0.0, arm.y, 0.0}, gap);
+        break;
+    case RowFamily::Needle: {
+        const double angle = dice.uniform(0.0, 6.283185307179586);
+        set.addContact(glm::normalize(dvec3(std::cos(angle), std::sin(angle), 0.01 * noise.z)),
+                       {0.0, 0.0, arm.z}, gap);
+        break;
+    }
+    case RowFamily::Corner: {
+        dvec3 axis(0.0);
+        axis[static_cast<int>(index % 3)] = 1.0;
+        set.addContact(glm::normalize(axis + 0.01 * noise), arm, gap);
+        break;
+    }
+    case RowFamily::OpposingWalls:
+        set.addContact({0.0, 0.0, side}, dvec3(0.0), index % 4 == 3 ? gap : -std::abs(gap));
+        break;
+    case RowFamily::NearParallel:
+        set.addContact(glm::normalize(draft.bundles[index % 4] + 1e-9 * noise),
+                       0.1 * scale.arm * draft.bundles[0], gap);
+        break;
+    case RowFamily::Relief:
+        set.addContact(glm::normalize(dvec3(0, 0, 1) + 0.5 * noise), arm,
+                       index < 3 ? 0.0 : -2.0 * std::abs(gap));
+        break;
+    default:
+        set.addContact(noise, arm, gap);
+        break;
+    }
+}
+
+void addCopy(RowSet& set, double looser, Dice& dice) {
+    const size_t copied = dice.below(set.rows());
+    const auto row = set.normal(copied);
+    const std::vector<double> twin(row.begin(), row.end());
+    set.add(twin, set.offsets[copied] - (dice.chance(0.5) ? 0.0 : looser));
+}
+
+RowSet emptyRowSet(const RowScale& scale, Dice& dice) {
+    RowSet set;
+    set.metric.assign(36, 0.0);
+    for (size_t i = 0; i < 6; ++i) {
+        set.metric[i * 7] = i < 3 ? 1.0 : scale.radius * scale.radius;
+        set.target.push_back(dice.uniform(-1.0, 1.0) * (i < 3 ? scale.step : scale.turn));
+    }
+    return set;
+}
+
+} // namespace
+
+const char* nameOf(RowFamily family) {
+    constexpr std::array<const char*, kRowFamilies> kNames{
+        "generic", "feasible",       "flat-wall",  "groove",        "needle",
+        "corner",  "opposing-walls", "duplicates", "near-parallel", "relief"};
+    return kNames[static_cast<size_t>(family)];
+}
+
+void RowSet::addContact(const dvec3& normalOut, const dvec3& arm, double offset) {
+    const dvec3 moment = glm::cross(arm, normalOut);
+    const std::array<double, 6> row{normalOut.x, normalOut.y, normalOut.z, moment.x, moment.y, moment.z};
+    add(row, offset);
+}
+
+RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Dice& dice) {
+    RowSet set = emptyRowSet(scale, dice);
+    const Draft shared = draft(scale, dice);
+    while (set.rows() < rows) {
+        const size_t index = set.rows();
+        if (family == RowFamily::Duplicates && index > 0 && dice.chance(0.5)) {
+            addCopy(set, 0.01 * scale.step, dice);
+            continue;
+        }
+        addRow(set, family, index, scale, shared, dice);
+        if (family == RowFamily::Feasible || family == RowFamily::Duplicates) {
+            set.offsets.back() =
+                along(set.normal(index), shared.inside) - dice.uniform(0.0, 0.1) * scale.step;
+        }
+    }
+    return set;
+}
+
+RowSet makeArmSet(size_t rows, double floor, Dice& dice) {
+    constexpr size_t n = 8;
+    RowSet set;
+    set.unknowns = n;
+    std::array<double, n * n> a{};
+    for (double& value : a) {
+        value = dice.normal();
+    }
+    set.metric.assign(n * n, 0.0);
+    for (size_t i = 0; i < n; ++i) {
+        for (size_t j = 0; j <= i; ++j) {
+            double sum = i == j ? floor : 0.0;
+            for (size_t k = 0; k < n; ++k) {
+                sum += a[i * n + k] * a[j * n + k];
+            }
+            set.metric[i * n + j] = set.metric[j * n + i] = sum;
+        }
+    }
+    std::array<double, n> row{}, inside{};
+    for (size_t i = 0; i < n; ++i) {
+        set.target.push_back(dice.uniform(-0.1, 0.1));
+        inside[i] = dice.uniform(-0.01, 0.01);
+    }
+    while (set.rows() < rows) {
+        for (double& value : row) {
+            value = dice.normal();
+        }
+        set.add(row, along(row, inside) - dice.uniform(-0.002, 0.02));
+    }
+    return set;
+}
+
+RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale& scale, Dice& dice) {
+    RowSet set = emptyRowSet(scale, dice);
+    const Draft shared = draft(scale, dice);
+    while (set.rows() < rows) {
+        set.addContact(dice.direction(), dice.inCube(scale.arm), 0.0);
+        set.offsets.back() =
+            along(set.normal(set.rows() - 1), shared.inside) - margin - dice.uniform(0.0, 0.1) * scale.step;
+    }
+    if (feasible) {
+        return set;
+    }
+    // The last row is made to contradict up to five others: n = -sum of w_i n_i, d = margin - sum of w_i d_i.
+    std::vector<double> last(6, 0.0);
+    double offset = margin;
+    const size_t others = std::min<size_t>(rows - 1, 1 + dice.below(5));
+    for (size_t k = 0; k < others; ++k) {
+        const double weight = dice.uniform(0.1, 1.0);
+        for (size_t i = 0; i < 6; ++i) {
+            last[i] -= weight * set.normal(k)[i];
+        }
+        offset -= weight * set.offsets[k];
+    }
+    std::copy(last.begin(), last.end(), set.normals.end() - 6);
+    set.offsets.back() = offset;
+    return set;
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/stability/curve_plot.h"
+
+#include "apps/replay/picture.h"
+#include "apps/replay/plot_axis.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr Colour kPaper{1.0, 1.0, 1.0}, kInk{0.10, 0.14, 0.19}, kQuiet{0.39, 0.43, 0.48},
+    kGrid{0.885, 0.895, 0.91};
+constexpr std::array<Colour, 6> kLines{{{0.16, 0.42, 0.80},
+                                        {0.80, 0.45, 0.10},
+                                        {0.15, 0.55, 0.30},
+                                        {0.70, 0.20, 0.45},
+                                        {0.35, 0.35, 0.40},
+                                        {0.10, 0.60, 0.65}}};
+constexpr int kWidth = 960, kHeight = 600;
+constexpr double kLeft = 96.0, kRight = 930.0, kTop = 110.0, kBottom = 530.0;
+
+// An axis that may count in decades.
+struct Scale {
+    PlotAxis axis;
+    bool log = false;
+
+    bool has(double value) const { return std::isfinite(value) && (!log || value > 0.0); }
+    double at(double value) const { return axis.at(log ? std::log10(value) : value); }
+    // Whole decades; where only few are in sight 2 and 5 as well.
+    std::vector<PlotTick> logTicks(int most) const {
+        std::vector<PlotTick> ticks;
+        const double range = axis.hi - axis.lo, step = std::max(1.0, std::ceil(range / most));
+        for (double decade = std::floor(axis.lo); decade <= axis.hi + 1e-9; decade += step) {
+            for (const double part : {1.0, 2.0, 5.0}) {
+                const double value = decade + std::log10(part);
+                if (value >= axis.lo - 1e-9 && value <= axis.hi + 1e-9 && (part == 1.0 || range < 2.2)) {
+                    ticks.push_back({value, roundNumber(std::pow(10.0, value))});
+                }
+            }
+        }
+        return ticks;
+    }
+    std::vector<PlotTick> ticks(int most) const {
+        if (!log) {
+            return ticksOf(axis, most);
+        }
+        return logTicks(most);
+    }
+};
+
+Scale scaleOf(const std::vector<Outcome::Curve>& curves, bool ofX, double from, double to) {
+    Scale scale;
+    scale.log = ofX ? curves.front().logX : curves.front().logY;
+    double lo = HUGE_VAL, hi = -HUGE_VAL;
+    for (const Outcome::Curve& c : curves) {
+        for (const double value : ofX ? c.x : c.y) {
+            if (scale.has(value)) {
+                lo = std::min(lo, scale.log ? std::log10(value) : value);
+                hi = std::max(hi, scale.log ? std::log10(value) : value);
+            }
+        }
+    }
+    if (!(lo <= hi)) {
+        lo = 0.0, hi = 1.0;
+    }
+    if (scale.log && hi - lo < 0.5) { // a decade at least, or there is nothing to read off
+        const double middle = 0.5 * (lo + hi);
+        lo = middle - 0.5, hi = middle + 0.5;
+    }
+    // Room above and below, and never a range of nothing; a linear axis of amounts starts at 0.
+    const double range = hi - lo > 1e-12 * std::abs(hi) ? hi - lo : std::max(std::abs(hi), 1e-9);
+    const bool fromZero = !scale.log && lo >= 0.0 && lo < 0.5 * hi;
+    scale.axis = {fromZero ? 0.0 : lo - (ofX ? 0.0 : 0.05 * range),
+                  hi + (ofX && hi > lo ? 0.0 : 0.05 * range), from, to};
+    return scale;
+}
+
+void drawGrid(const Picture& picture, const Scale& x, const Scale& y) {
+    picture.setColour(kGrid);
+    cairo_set_line_width(picture.cr(), 1.0);
+    for (const PlotTick& tick : x.ticks(9)) {
+        const double at = x.axis.at(tick.value);
+        picture.setColour(kGrid);
+        cairo_move_to(picture.cr(), at, kTop);
+        cairo_line_to(picture.cr(), at, kBottom);
+        cairo_stroke(picture.cr());
+        picture.text(at, kBottom + 20.0, tick.label, 13.0, kQuiet, Align::Centre);
+    }
+    for (const PlotTick& tick : y.ticks(7)) {
+        const double at = y.axis.at(tick.value);
+        picture.setColour(kGrid);
+        cairo_move_to(picture.cr(), kLeft, at);
+        cairo_line_to(picture.cr(), kRight, at);
+        cairo_stroke(picture.cr());
+        picture.text(kLeft - 8.0, at + 4.0, tick.label, 13.0, kQuiet, Align::Right);
+    }
+}
+
+void drawCurve(const Picture& picture, const Scale& x, const Scale& y, const Outcome::Curve& curve,
+               Colour colour) {
+    cairo_t* cr = picture.cr();
+    picture.setColour(colour);
+    cairo_set_line_width(cr, 2.0);
+    const size_t count = std::min(curve.x.size(), curve.y.size());
+    bool open = false;
+    for (size_t i = 0; i < count; ++i) {
+        if (!x.has(curve.x[i]) || !y.has(curve.y[i])) {
+            open = false;
+            continue;
+        }
+        (open ? cairo_line_to : cairo_move_to)(cr, x.at(curve.x[i]), y.at(curve.y[i]));
+        open = true;
+    }
+    cairo_stroke(cr);
+    for (size_t i = 0; i < count && count <= 60; ++i) {
+        if (x.has(curve.x[i]) && y.has(curve.y[i])) {
+            cairo_arc(cr, x.at(curve.x[i]), y.at(curve.y[i]), 3.5, 0.0, 6.283185307179586);
+            cairo_fill(cr);
+        }
+    }
+}
+
+void drawLegend(const Picture& picture, const std::vector<Outcome::Curve>& curves) {
+    double left = kLeft;
+    for (size_t i = 0; i < curves.size(); ++i) {
+        picture.setColour(kLines[i % kLines.size()]);
+        cairo_rectangle(picture.cr(), left, 84.0, 18.0, 4.0);
+        cairo_fill(picture.cr());
+        picture.text(left + 24.0, 91.0, curves[i].name, 13.0, kInk);
+        left += 44.0 + picture.textWidth(curves[i].name, 13.0);
+    }
+}
+
+} // namespace
+
+void writeCurvePlot(const std::filesystem::path& file, const std::string& title, const std::string& subtitle,
+                    const std::vector<Outcome::Curve>& curves) {
+    const Picture picture(kWidth, kHeight, kPaper);
+    const Scale x = scaleOf(curves, true, kLeft, kRight), y = scaleOf(curves, false, kBottom, kTop);
+    picture.text(24.0, 36.0, title, 20.0, kInk, Align::Left, true);
+    picture.text(24.0, 60.0, subtitle, 13.0, kQuiet);
+    drawGrid(picture, x, y);
+    for (size_t i = 0; i < curves.size(); ++i) {
+        drawCurve(picture, x, y, curves[i], kLines[i % kLines.size()]);
+    }
+    drawLegend(picture, curves);
+    picture.text(0.5 * (kLeft + kRight), kBottom + 52.0, curves.front().xLabel, 15.0, kInk, Align::Centre);
+    cairo_save(picture.cr());
+    cairo_translate(picture.cr(), 26.0, 0.5 * (kTop + kBottom));
+    cairo_rotate(picture.cr(), -1.5707963267948966);
+    picture.text(0.0, 0.0, curves.front().yLabel, 15.0, kInk, Align::Centre);
+    cairo_restore(picture.cr());
+    picture.writePng(file);
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group guarantee: whatever the hand does and however late the contact answers come, no leaf enters a region.
+#include "apps/stability/case_text.h"
+#include "apps/stability/storm.h"
+#include "devices/simulated/analytic_scene.h"
+
+#include <array>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kLimit = 1e-5;                            // [m]
+constexpr std::array<double, 3> kSpeeds{0.05, 0.5, 5.0};   // [m/s]
+constexpr std::array<uint32_t, 5> kLate{0, 1, 5, 20, 100}; // [ms]
+constexpr double kTwentyTurns = 20.0 * 6.283185307179586;  // [rad/s]
+
+int turnsOf(Effort effort, int full) {
+    return effort == Effort::Full ? full : full / 30;
+}
+
+// All speeds and latenesses; shortened, one speed for each lateness.
+Outcome anyHand(const World& world, Effort effort, const std::string& what) {
+    StormFigures all;
+    Outcome::Curve stalls{
+        "stalled turns", "answers late by [ms]", "share of the turns", {}, {}, false, false};
+    for (size_t late = 0; late < kLate.size(); ++late) {
+        StormFigures some;
+        for (size_t s = 0; s < kSpeeds.size(); ++s) {
+            if (effort == Effort::Short && s != late % kSpeeds.size()) {
+                continue;
+            }
+            Storm storm;
+            storm.manner.speed = kSpeeds[s];
+            storm.manner.spin = s == 2 ? kTwentyTurns : 20.0;
+            storm.manner.turnOvers = 2.0;
+            storm.faults = {kLate[late], false, late % 2 == 1 ? 0.3 : 0.0};
+            storm.turns = turnsOf(effort, 30000);
+            storm.seed = 100 * late + s;
+            rage(world, storm, some);
+        }
+        stalls.x.push_back(kLate[late]);
+        stalls.y.push_back(static_cast<double>(some.rig.stalled) / static_cast<double>(some.rig.turns));
+        all.add(some);
+    }
+    Outcome out = penetrationOutcome(
+        all, kLimit,
+        what + " Hands of 0.05, 0.5 and 5 m/s that leap up to 10 m and turn over; answers late by 0, "
+               "1, 5, 20 and 100 ms, 30 % of them lost at 1 and 20 ms. ");
+    out.curves.push_back(std::move(stalls));
+    return out;
+}
+
+// One manner in every world that is laid by hand.
+Outcome anyWorld(const HandManner& manner, const AnswerFaults& faults, Effort effort,
+                 const std::string& what) {
+    StormFigures all;
+    const std::array<World, 5> worlds{wallWorld(), cornerWorld(), slotWorld(), grooveWorld(20.0),
+                                      rubbleWorld()};
+    for (size_t w = 0; w < worlds.size(); ++w) {
+        Storm storm;
+        storm.manner = manner;
+        storm.faults = faults;
+        storm.turns = turnsOf(effort, 30000);
+        storm.seed = w + 1;
+        rage(worlds[w], storm, all);
+    }
+    return penetrationOutcome(all, kLimit, what + " Wall, corner, slot, groove and rubble. ");
+}
+
+void addWorldCases(std::vector<Case>& cases) {
+    for (const std::string& scene : analyticSceneNames()) {
+        cases.push_back({"guarantee-scene-" + scene, Group::Guarantee, [scene](Effort effort) {
+                             return anyHand(analyticWorld(scene, 0.04, true), effort,
+                                            "Analytic scene '" + scene +
+                                                "' with camera noise, regions of 40 mm, 9 leaves.");
+                         }});
+    }
+    const std::array<std::array<const char*, 2>, 3> recordings{
+        {{"apps/scenes/valve_globe.yaml", "valve_globe_d435"},
+         {"apps/scenes/valve_ball.yaml", "valve_ball_d435"},
+         {"apps/scenes/ycb.yaml", "ycb_posecnn_demo"}}};
+    for (const auto& [file, folder] : recordings) {
+        if (!std::filesystem::exists(recordingFolder(folder)) || !std::filesystem::exists(file)) {
+            continue; // counted by nobody: the suite says which recordings are missing
+        }
+        cases.push_back({std::string("guarantee-recording-") + folder, Group::Guarantee,
+                         [file = std::string(file), folder = std::string(folder)](Effort effort) {
+                             return anyHand(
+                                 recordedWorld(file, folder).value(), effort,
+                                 "First frame of the recording " + folder +
+                                     ", its regions made on the CPU by the float64 twins of the passes.");
+                         }});
+    }
+}
+
+} // namespace
+
+std::vector<Case> guaranteeCases() {
+    std::vector<Case> cases;
+    const auto put = [&](const std::string& name, const HandManner& manner, const AnswerFaults& faults,
+                         const std::string& what) {
+        cases.push_back({"guarantee-" + name, Group::Guarantee,
+                         [=](Effort effort) { return anyWorld(manner, faults, effort, what); }});
+    };
+    const HandManner plain{};
+    put("speed-005", {0.05, 2.0, 0.0, 0.0, 8.0, 0.0}, {}, "Hand of 0.05 m/s that hops about the arena.");
+    put("speed-05", {0.5, 5.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 0.5 m/s.");
+    put("speed-5", {5.0, 20.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 5 m/s.");
+    put("leaps-10m", {0.5, 5.0, 20.0, 10.0, 20.0, 0.0}, {}, "20 leaps of up to 10 m a second.");
+    put("half-turns", {0.5, 0.0, 0.0, 0.0, 8.0, 30.0}, {},
+        "30 rotations by 180 degrees a second, each at once.");
+    put("twenty-turns-a-second", {0.5, kTwentyTurns, 0.0, 0.0, 8.0, 0.0}, {},
+        "Rotation at 10 to 20 turns a second.");
+    for (const uint32_t late : kLate) {
+        put("answers-late-" + std::to_string(late) + "ms", plain, {late, false, 0.0},
+            "Answers late by " + std::to_string(late) + " ms.");
+    }
+    put("answers-jitter-100ms", plain, {100, true, 0.0}, "Answers late by 0 to 100 ms, drawn anew for each.");
+    put("answers-lost-half", plain, {0, false, 0.5}, "Half of the answers lost.");
+    put("answers-lost-95", plain, {20, true, 0.95}, "95 % of the answers lost, the rest late by 0 to 20 ms.");
+    addWorldCases(cases);
+    return cases;
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group guidance, targets: far ones, and ones that flicker. The points are in guidance_plane_cases.cpp.
+#include "apps/stability/case_text.h"
+#include "apps/stability/dice.h"
+#include "apps/stability/guidance_parts.h"
+#include "apps/stability/loop_rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+double angleBetween(const dvec3& a, const dvec3& b) {
+    return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
+}
+
+// How hard guidance pulls when its target is out of reach: F_g and tau_g, in both modes, in the right
+// direction.
+Outcome farTarget(Effort effort) {
+    double worst = 0.0;
+    Dice dice(1);
+    const int targets = effort == Effort::Full ? 2000 : 300;
+    const GuidanceLimits limits;
+    for (int n = 0; n < targets; ++n) {
+        GuidancePose target;
+        target.present = target.planar = true;
+        target.rollFree = n % 2 == 0;
+        const double distance = dice.logUniform(0.01, 1e6);
+        const dvec3 way = dice.direction();
+        target.target = {distance * way, dice.rotation()};
+        Guidance guidance;
+        guidance.step({}, {}, false, false, 0.001);
+        for (int i = 0; i < 600; ++i) {
+            guidance.step({&target, 1}, {}, true, false, 0.001);
+        }
+        Springs springs;
+        springs.stiffness = 1000.0, springs.rotationalStiffness = 1.0, springs.metricRadius = 0.0316,
+        springs.guidanceStiffness = 250.0;
+        const Guidance::Lead lead = guidance.lead({}, springs);
+        const Wrench pull = guidance.pull({}, springs);
+        worst = std::max({worst, std::abs(springs.stiffness * glm::length(lead.translation) - limits.force),
+                          std::abs(glm::length(pull.force) - limits.force),
+                          limits.force * angleBetween(lead.translation, way),
+                          springs.rotationalStiffness * glm::length(lead.rotation) - limits.torque,
+                          glm::length(pull.torque) - limits.torque});
+    }
+    return outcomeOf(worst, 1e-9, "N",
+                     "Targets 10 mm to 1000 km away, any orientation: how far the pull is off F_g = 2 N in "
+                     "size and direction, or beyond 0.1 N m, in both "
+                     "modes; " +
+                         num(uint64_t(targets)) + " targets.");
+}
+
+// Two valves: one class whose place flips between them, and two classes of which one or the other is lost.
+Outcome flicker(Effort effort) {
+    double largest = 0.0;
+    int changes = 0;
+    Dice dice(2);
+    for (const bool oneClass : {true, false}) {
+        LoopSpec spec;
+        spec.stiffness = 1000.0;
+        const Tool tool(buildSphereTree(spec.leaves));
+        HapticCycle cycle(tool, std::span<const Shape>{}, loopOptions(spec, tool), {});
+        std::vector<GuidancePose> poses(oneClass ? 1 : 2);
+        for (size_t i = 0; i < poses.size(); ++i) {
+            poses[i].planar = poses[i].present = true;
+            poses[i].target.position = {i == 0 ? 0.3 : -0.3, 0.02, 0.0};
+            poses[i].target.rotation = rotationExp({0.0, 0.0, i == 0 ? 0.5 : -0.5});
+        }
+        dvec3 before(0.0);
+        int chosen = -2;
+        for (int i = 0; i < (effort == Effort::Full ? 60000 : 8000); ++i) {
+            if (i % 33 == 0) { // a frame
+                if (oneClass) {
+                    poses[0].target.position.x = dice.chance(0.5) ? 0.3 : -0.3;
+                } else {
+                    poses[0].present = dice.chance(0.6);
+                    poses[1].present = !poses[0].present || dice.chance(0.5);
+                }
+            }
+            TurnInput input;
+            input.time = i * 0.001;
+            input.guidance = poses;
+            input.buttons = i > 100 ? kGuidanceButton : 0;
+            const TurnRecord record = cycle.turn(input);
+            largest = std::max(largest, glm::distance(record.wrench.force, before));
+            before = record.wrench.force;
+            changes += !oneClass && chosen >= 0 && record.guidanceClass != chosen && record.guidanceClass >= 0
+                           ? 1
+                           : 0;
+            chosen = record.guidanceClass;
+        }
+    }
+    // 0.1 m/s of slew turn the pull of 2 N by at most 0.1 mm over what is left of the lead, 2 mm: 0.1 N a
+    // turn.
+    Outcome out = outcomeOf(largest, 0.1 + 1e-6, "N",
+                            "A target that flips between two valves 0.6 m apart at random frames, and two "
+                            "classes that come and go: largest step of the force "
+                            "between two turns. Limit: the slew of 0.1 m/s times K = 1000 N/m and 1 ms.");
+    demand(out, changes == 0,
+           "the valve was changed " + std::to_string(changes) + " times while the button was held");
+    return out;
+}
+
+} // namespace
+
+std::vector<Case> guidanceCases() {
+    std::vector<Case> all{{"guidance-target-out-of-reach", Group::Guidance, farTarget},
+                          {"guidance-flickers-between-two-valves", Group::Guidance, flicker}};
+    for (Case& one : guidancePlaneCases()) {
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/stability/lockstep_rig.h"
+
+#include "engine/reference/contact_oracle.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace fathom::stability {
+
+HapticOptions plainHapticOptions(const Tool& tool) {
+    Scene scene;
+    scene.fixtures.emplace_back();
+    return makeHapticOptions(scene, tool);
+}
+
+LockstepRig::LockstepRig(const Tool& tool, const Pose& start, const RigSetup& setup)
+    : LockstepRig(tool, plainHapticOptions(tool), start, setup) {}
+
+LockstepRig::LockstepRig(const Tool& tool, const HapticOptions& options, const Pose& start,
+                         const RigSetup& setup)
+    : tool_(tool)
+    , options_(options)
+    , setup_(setup)
+    , cycle_(std::make_unique<HapticCycle>(tool_, std::span<const Shape>{}, options_, start))
+    , cull_(setup.capacity)
+    , audit_(tool_) {}
+
+void LockstepRig::show(Fixtures set) {
+    auto next = std::make_unique<Published>();
+    next->set = std::move(set);
+    next->set.generation = ++generation_;
+    next->set.frame = static_cast<int64_t>(generation_) - 1;
+    next->set.captureTime = captured_ = static_cast<double>(now_) * options_.period;
+    next->grid.build(next->set.spheres);
+    published_.push_back(std::move(next));
+    forgetOldSets();
+}
+
+void LockstepRig::forgetOldSets() {
+    const uint64_t used = inForce_ ? inForce_->generation : generation_;
+    const uint64_t asked = pending_.empty() ? generation_ : pending_.front().set->generation;
+    while (published_.size() > 1 && published_.front()->set.generation < std::min(used, asked)) {
+        published_.pop_front();
+    }
+}
+
+std::unique_ptr<ContactSet> LockstepRig::spare() {
+    if (spare_.empty()) {
+        return std::make_unique<ContactSet>();
+    }
+    std::unique_ptr<ContactSet> set = std::move(spare_.back());
+    spare_.pop_back();
+    return set;
+}
+
+void LockstepRig::ask() {
+    if (published_.empty() || dice_.chance(faults.lost)) {
+        return;
+    }
+    const Published& newest = *published_.back();
+    std::unique_ptr<ContactSet> set = spare();
+    cull_.query(tool_, cycle_->pose(), setup_.reach, newest.set, newest.grid, *set);
+    behind_.update(tool_, newest.set, newest.grid.maxRadius(), *set);
+    const uint64_t late = faults.jitter ? dice_.below(faults.late + 1) : faults.late;
+    pending_.push_back({now_ + late, std::move(set)});
+}
+
+// The newest answer that is due; older ones go unread.
+std::unique_ptr<ContactSet> LockstepRig::arrived() {
+    std::unique_ptr<ContactSet> offered;
+    while (!pending_.empty() && pending_.front().due <= now_) {
+        if (offered) {
+            spare_.push_back(std::move(offered));
+        }
+        offered = std::move(pending_.front().set);
+        pending_.pop_front();
+    }
+    return offered;
+}
+
+TurnRecord LockstepRig::turn(const Pose& hand) {
+    ask();
+    std::unique_ptr<ContactSet> offered = arrived();
+    const Pose before = cycle_->pose();
+    TurnInput input;
+    input.time = static_cast<double>(now_) * options_.period;
+    input.deviceThandle = hand;
+    input.contacts = inForce_.get();
+    input.offered = offered.get();
+    if (!published_.empty()) {
+        input.frame = published_.back()->set.frame;
+        input.generation = generation_;
+        input.captureTime = fresh_ ? input.time : captured_;
+    }
+    const TurnRecord record = cycle_->turn(input);
+    if (record.adopted) {
+        std::swap(inForce_, offered);
+    } else if (offered) {
+        ++figures.refused;
+    }
+    if (offered) {
+        spare_.push_back(std::move(offered));
+    }
+    judge(before, record);
+    ++now_;
+    return record;
+}
+
+const LockstepRig::Published* LockstepRig::published(uint64_t generation) const {
+    for (const auto& p : published_) {
+        if (p->set.generation == generation) {
+            return p.get();
+        }
+    }
+    throw Error("stability: a contact set names a fixture set that is gone");
+}
+
+void LockstepRig::judge(const Pose& before, const TurnRecord& record) {
+    if (inForce_) {
+        std::vector<uint32_t> behind;
+        for (const ContactSet::Behind& flag : inForce_->behind) {
+            behind.push_back(flag.leaf);
+        }
+        const Published& obeyed = *published(inForce_->generation);
+        audit_.tick(obeyed.set, obeyed.grid, before, record.tool, behind);
+    }
+    ++figures.turns;
+    figures.contact += record.contacts > 0 ? 1 : 0;
+    figures.stalled += record.stalled ? 1 : 0;
+    figures.trapped += record.state == TurnState::Trapped ? 1 : 0;
+    figures.escape += record.state == TurnState::Escape ? 1 : 0;
+    figures.notFinite += record.finite ? 0 : 1;
+    figures.path += glm::distance(before.position, record.tool.position);
+    figures.force = std::max(figures.force, glm::length(record.wrench.force));
+    figures.torque = std::max(figures.torque, glm::length(record.wrench.torque));
+    if (before_) {
+        figures.forceStep = std::max(figures.forceStep, glm::distance(record.wrench.force, before_->force));
+        figures.torqueStep =
+            std::max(figures.torqueStep, glm::distance(record.wrench.torque, before_->torque));
+    }
+    before_ = record.wrench;
+}
+
+double LockstepRig::depth() const {
+    return -oracleSmallestGap(tool_, cycle_->pose(), shown());
+}
+
+} // namespace fathom::stability

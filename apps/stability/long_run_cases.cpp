@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group long-run: one million turns in lockstep, with frames, guidance, dead-man and a hand that roams:
+// nothing drifts, nothing grows, and the same run gives the same digest.
+#include "apps/replay/digest.h"
+#include "apps/replay/turn_to_tick.h"
+#include "apps/stability/case_text.h"
+#include "apps/stability/dice.h"
+#include "apps/stability/loop_rig.h"
+#include "apps/stability/worlds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <unistd.h>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kLegSeconds = 0.35; // from one waypoint of the hand to the next
+constexpr int kTurnsAFrame = 33;
+
+uint64_t ticksFor(Effort effort) {
+    return effort == Effort::Full ? 1000000 : 50000;
+}
+
+// A hand that roams over and into a wall for so long, turns over, presses the buttons of guidance and
+// dead-man (the clutch would let it wander off), and ends at rest far from everything.
+LoopSpec roamingSpec(uint64_t ticks) {
+    LoopSpec spec;
+    spec.hand = kHands[3];
+    spec.leaves = crossLeaves(0.008);
+    spec.encoderStep = 1e-6;
+    spec.encoderAngle = 1e-5;
+    spec.fixtures = sphereWall(0.0, 1);
+    GuidancePose target;
+    target.present = target.planar = true;
+    target.target = {{0.01, 0.02, 0.05}, rotationExp({0.4, 0.2, 0.0})};
+    spec.guidance = {target};
+    Dice dice(77);
+    const double seconds = static_cast<double>(ticks) * spec.period();
+    double t = 0.0;
+    spec.path = {wayAt(0.0, {0.0, 0.0, 0.15})};
+    for (; t < seconds - 4.0 * kLegSeconds; t += kLegSeconds) {
+        HandWaypoint way = wayAt(t + kLegSeconds, {dice.uniform(-0.03, 0.03), dice.uniform(-0.03, 0.03),
+                                                   dice.uniform(-0.01, 0.09)});
+        way.deviceThandle.rotation = dice.rotation();
+        way.buttons = dice.chance(0.3) ? kGuidanceButton : dice.chance(0.05) ? kDeadManOpen : 0u;
+        spec.path.push_back(way);
+    }
+    spec.path.push_back(wayAt(t + kLegSeconds, {0.0, 0.0, 0.15}));
+    return spec;
+}
+
+double residentMiB() {
+    std::ifstream file("/proc/self/statm");
+    double pages = 0.0, resident = 0.0;
+    file >> pages >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1048576.0;
+}
+
+struct LongRun {
+    std::string digest;
+    double norm = 0.0;   // largest distance of a quaternion's length from 1
+    double growth = 0.0; // [MiB] of the process from a tenth of the run to its end
+    double clock = 0.0;  // [s] the cycle's clock off ticks x period at the end
+    uint64_t contacts = 0, escapes = 0, guided = 0, notFinite = 0;
+    double rest = 0.0; // [m] tool to hand at the end
+    Outcome::Curve memory{"resident memory", "turn", "MiB", {}, {}, false, false};
+};
+
+void judge(const TurnRecord& record, LongRun& run, Digest& digest) {
+    run.norm = std::max({run.norm, std::abs(glm::length(record.tool.rotation) - 1.0),
+                         std::abs(glm::length(record.device.rotation) - 1.0)});
+    run.contacts += record.contacts > 0;
+    run.escapes += record.state == TurnState::Escape;
+    run.guided += record.guidance > 0.0;
+    digest.add(tickOf(record, 0.0, false));
+}
+
+LongRun roam(uint64_t ticks) {
+    LongRun run;
+    Digest digest;
+    LoopRig rig(roamingSpec(ticks));
+    Dice dice(5);
+    double early = 0.0;
+    uint64_t generation = 1;
+    for (uint64_t i = 0; i < ticks; ++i) {
+        if (i % kTurnsAFrame == kTurnsAFrame - 1) { // the surface comes and goes by up to 1.5 mm
+            rig.show(sphereWall(dice.uniform(0.0, 0.0015), ++generation));
+        }
+        judge(rig.tick(), run, digest);
+        if (i % (ticks / 20) == ticks / 20 - 1) {
+            run.memory.x.push_back(static_cast<double>(i + 1));
+            run.memory.y.push_back(residentMiB());
+        }
+        early = i == ticks / 10 ? residentMiB() : early;
+    }
+    run.growth = residentMiB() - early;
+    run.clock = std::abs(rig.time() - static_cast<double>(ticks) * rig.options().period);
+    run.notFinite = rig.cycle().notFinite();
+    run.rest = glm::distance(rig.last().tool.position, rig.last().device.position);
+    run.digest = digest.hex();
+    return run;
+}
+
+std::string storyOf(const LongRun& run, uint64_t ticks) {
+    return num(ticks) +
+           " turns of a closed loop in lockstep: frames at 30 Hz, a hand that roams, turns over and presses "
+           "its buttons (" +
+           num(run.contacts) + " turns in contact, " + num(run.escapes) + " escaping, " + num(run.guided) +
+           " guided). ";
+}
+
+void demandLively(Outcome& out, const LongRun& run, uint64_t ticks) {
+    demand(out, run.contacts > ticks / 50 && run.guided > ticks / 50 && run.escapes > 10,
+           "contact, guidance and escapes were expected");
+    demand(out, run.notFinite == 0, "some turn was not finite");
+}
+
+Outcome norms(Effort effort) {
+    const LongRun run = roam(ticksFor(effort));
+    Outcome out = outcomeOf(run.norm, 1e-14, "1",
+                            storyOf(run, ticksFor(effort)) +
+                                "Largest distance of a quaternion's length from 1 at any turn.");
+    demandLively(out, run, ticksFor(effort));
+    return out;
+}
+
+Outcome memory(Effort effort) {
+    const LongRun run = roam(ticksFor(effort));
+    Outcome out = outcomeOf(run.growth, 1.0, "MiB",
+                            storyOf(run, ticksFor(effort)) +
+                                "Growth of the process from a tenth of the run to its end.");
+    demandLively(out, run, ticksFor(effort));
+    out.curves.push_back(run.memory);
+    return out;
+}
+
+Outcome digests(Effort effort) {
+    const LongRun first = roam(ticksFor(effort)), second = roam(ticksFor(effort)),
+                  other = roam(ticksFor(effort) / 2);
+    Outcome out = outcomeOf(first.digest == second.digest ? 0.0 : 1.0, 0.0, "1",
+                            storyOf(first, ticksFor(effort)) +
+                                "Digests that differ between two equal runs: " + first.digest + ".");
+    demandLively(out, first, ticksFor(effort));
+    demand(out, other.digest != first.digest, "half the run was expected to have another digest");
+    return out;
+}
+
+Outcome rest(Effort effort) {
+    const LongRun run = roam(ticksFor(effort));
+    Outcome out = outcomeOf(
+        run.rest, 1e-9, "m",
+        storyOf(run, ticksFor(effort)) +
+            "Back in free space at the end, the tool is where the hand is; the loop's clock was off by " +
+            num(run.clock) + " s.");
+    demandLively(out, run, ticksFor(effort));
+    return out;
+}
+
+} // namespace
+
+std::vector<Case> longRunCases() {
+    return {{"long-run-quaternions-keep-their-length", Group::LongRun, norms},
+            {"long-run-memory-does-not-grow", Group::LongRun, memory},
+            {"long-run-same-digest-twice", Group::LongRun, digests},
+            {"long-run-comes-back", Group::LongRun, rest}};
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group new-data: surfaces that jump and sweep over the tool, and the ways out.
+#include "apps/stability/new_data_streams.h"
+
+#include "apps/stability/case_text.h"
+#include "apps/stability/escape_run.h"
+#include "apps/stability/wall_camera.h"
+#include "apps/stability/worlds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kPerTurn = 1e-3;                      // [m] depth given back a turn
+constexpr double kBall = 0.01;                         // [m] tool
+constexpr double kStand = WallCamera::kRegion + kBall; // [m] before the wall where the tool rests
+constexpr double kWall = 0.5;                          // [m]
+constexpr double kTurnsAside =
+    3.0; // beyond depth / 1 mm: the answer, the last fraction, dimples that send it sideways
+
+int some(Effort effort, int full, int brief) {
+    return effort == Effort::Full ? full : brief;
+}
+
+// On the camera's side of the wall at z.
+std::function<bool(const Pose&)> inFrontOf(double z) {
+    return [z](const Pose& pose) { return pose.position.z < z; };
+}
+
+struct JumpFigures {
+    double ratio = 0.0;      // turns over what 1 mm a turn allows
+    double growth = 0.0;     // [m]
+    double front = 1.0;      // [m] least distance in front of the wall at the end
+    double forceStep = 0.0;  // [N]
+    double torqueStep = 0.0; // [N m]
+    uint64_t runs = 0, stuck = 0, flagged = 0;
+    double turns = 0.0; // most
+};
+
+// Rests on the wall (pressed or not), then the wall stands `jump` nearer.
+void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_t late, uint64_t seed,
+              JumpFigures& f) {
+    Dice dice(seed);
+    WallCamera camera(false, seed);
+    const dvec3 at(dice.uniform(-0.03, 0.03), dice.uniform(-0.03, 0.03), kWall - kStand - 0.005);
+    const Pose hand{at + dvec3(0, 0, press), dice.rotation()};
+    const double back =
+        tool.boundingRadius() - kBall; // wherever its leaves are, the tool starts before the wall
+    LockstepRig rig(tool, {at - dvec3(0, 0, back), hand.rotation});
+    rig.faults.late = late;
+    rig.show(camera.look({kWall, noise, 0.0}));
+    for (uint32_t k = 0; k < 100 + 3 * late; ++k) {
+        rig.turn(hand);
+    }
+    const double resting = rig.pose().position.z;
+    rig.show(camera.look({kWall - jump, noise, 0.0}));
+    const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(kWall - jump));
+    const double way = std::max(0.0, resting - (kWall - jump - kStand)) + 3.0 * noise;
+    // A late answer is certified for 10 mm about the pose it was asked at: one wait for each.
+    const double waits = late > 0 ? (std::ceil(way / 0.00999) + 2.0) * (late + 1.0) : 0.0;
+    f.ratio = std::max(f.ratio, e.turns / (std::ceil(way / kPerTurn) + kTurnsAside + waits));
+    f.turns = std::max(f.turns, static_cast<double>(e.turns));
+    f.growth = std::max(f.growth, rig.audit().maxPenetration());
+    f.front = std::min(f.front, kWall - jump - rig.pose().position.z);
+    f.forceStep = std::max(f.forceStep, rig.figures.forceStep);
+    f.torqueStep = std::max(f.torqueStep, rig.figures.torqueStep);
+    f.stuck += e.out ? 0 : 1;
+    f.flagged += rig.audit().behindTicks() > 0 ? 1 : 0;
+    ++f.runs;
+}
+
+void demandJump(Outcome& out, const JumpFigures& f) {
+    demand(out, f.stuck == 0, num(f.stuck) + " runs never out");
+    demand(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
+    demand(out, f.front > 0.5 * kStand, "a tool came out " + num(f.front) + " m in front: the far side");
+}
+
+std::string wordsOf(const JumpFigures& f) {
+    return num(f.runs) + " runs, " + num(f.flagged) + " of them flagged behind; at most " + num(f.turns) +
+           " turns; ends at least " + num(f.front * 1e3) +
+           " mm in front of the new surface; force step at most " + num(f.forceStep) + " N.";
+}
+
+JumpFigures jumps(Effort effort, double jump, uint32_t late) {
+    JumpFigures f;
+    const Tool ball = ballTool(kBall);
+    const int trials = some(effort, 40, 4);
+    for (int i = 0; i < trials; ++i) {
+        jumpOnce(ball, jump, i % 2 == 0 ? 0.0 : 0.0005, i % 4 < 2 ? 0.0 : 0.02, late,
+                 static_cast<uint64_t>(i + 1), f);
+    }
+    return f;
+}
+
+Outcome jumpCase(Effort effort, double jump) {
+    const JumpFigures f = jumps(effort, jump, 0);
+    Outcome out = outcomeOf(
+        f.ratio, 1.0, "1",
+        "Turns until the tool is out over way / 1 mm + 3: wall 500 mm away jumps " + num(jump * 1e3) +
+            " mm over a ball of 10 mm with regions of 40 mm, pressed or not, noise 0 or 0.5 mm. " +
+            wordsOf(f));
+    demandJump(out, f);
+    return out;
+}
+
+Outcome lateJumpCase(Effort effort, uint32_t late) {
+    JumpFigures all;
+    for (const double jump : {0.01, 0.055}) {
+        const JumpFigures f = jumps(effort, jump, late);
+        all.ratio = std::max(all.ratio, f.ratio);
+        all.turns = std::max(all.turns, f.turns);
+        all.growth = std::max(all.growth, f.growth);
+        all.front = std::min(all.front, f.front);
+        all.forceStep = std::max(all.forceStep, f.forceStep);
+        all.stuck += f.stuck;
+        all.runs += f.runs;
+        all.flagged += f.flagged;
+    }
+    Outcome out = outcomeOf(all.ratio, 1.0, "1",
+                            "Turns until out over what 1 mm a turn and a wait for every 10 mm of certified "
+                            "reach allow: jumps of 10 "
+                            "and 55 mm, answers late by " +
+                                num(uint64_t{late}) + " ms. " + wordsOf(all));
+    demandJump(out, all);
+    return out;
+}
+
+// All jumps with a tool whose leaves make levers: what the hand feels of it.
+Outcome stepCase(Effort effort, bool torque) {
+    JumpFigures f;
+    const Tool cross = toolOf(crossLeaves(0.008));
+    const HapticOptions options = plainHapticOptions(cross);
+    uint64_t seed = 1;
+    for (const double jump : {0.002, 0.01, 0.03, 0.06}) {
+        for (int i = 0; i < some(effort, 12, 2); ++i) {
+            jumpOnce(cross, jump, 0.0005, i % 2 == 0 ? 0.0 : 0.03, 0, ++seed, f);
+        }
+    }
+    const double limit = (torque ? options.slewTorque : options.slewForce) * options.period;
+    Outcome out = outcomeOf(torque ? f.torqueStep : f.forceStep, limit * (1.0 + 1e-9), torque ? "N m" : "N",
+                            std::string("Largest step of the delivered ") + (torque ? "torque" : "force") +
+                                " between two turns while the wall jumps 2 to 60 mm over a tool of nine "
+                                "leaves; the limit is the slew "
+                                "limit of a turn. " +
+                                num(f.runs) + " runs.");
+    demand(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
+    demand(out, f.forceStep > 0.0, "no force was felt");
+    demand(out, f.stuck == 0, num(f.stuck) + " runs never out");
+    return out;
+}
+
+// The wall comes at the tool frame after frame.
+Outcome sweepCase(Effort effort, double speed) {
+    double ratio = 0.0, front = 1.0, growth = 0.0, forceStep = 0.0;
+    uint64_t stuck = 0;
+    const int trials = some(effort, 20, 2);
+    for (int i = 0; i < trials; ++i) {
+        Dice dice(static_cast<uint64_t>(40 + i));
+        WallCamera camera(i % 2 == 1, static_cast<uint64_t>(i + 1));
+        const double sweep = 0.25, noise = i % 4 < 2 ? 0.0 : 0.0005;
+        const Pose hand{dvec3(dice.uniform(-0.02, 0.02), dice.uniform(-0.02, 0.02), 0.6 - kStand - 0.01),
+                        kUpright};
+        LockstepRig rig(ballTool(kBall), hand);
+        const auto frames = static_cast<int>(std::ceil(sweep / (speed * WallCamera::kFrame)));
+        int turn = 0;
+        double z = 0.6;
+        for (int frame = 0; frame <= frames; ++frame) {
+            z = std::max(0.6 - sweep, 0.6 - speed * WallCamera::kFrame * frame);
+            rig.show(camera.look({z, noise, 0.0}));
+            for (; frame < frames && turn < (frame + 1) * 1000 / 30; ++turn) {
+                rig.turn(hand);
+            }
+        }
+        const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(z));
+        const double way = sweep, swept = frames * WallCamera::kFrame * 1000.0;
+        ratio = std::max(ratio, (turn + e.turns) /
+                                    (std::max(std::ceil(way / kPerTurn), swept) + 34.0 + kTurnsAside));
+        front = std::min(front, z - rig.pose().position.z);
+        growth = std::max(growth, rig.audit().maxPenetration());
+        forceStep = std::max(forceStep, rig.figures.forceStep);
+        stuck += e.out ? 0 : 1;
+    }
+    Outcome out =
+        outcomeOf(ratio, 1.0, "1",
+                  "Turns from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
+                  "mm a turn, and a "
+                  "frame: wall at " +
+                      num(speed) + " m/s, 30 Hz, with and without hold and noise, " + num(uint64_t(trials)) +
+                      " runs. At over 1 m/s the surface outruns the 1 mm a turn and the tool is out "
+                      "after it has stopped, still on the camera's side (" +
+                      num(front * 1e3) + " mm in front).");
+    demand(out, stuck == 0, num(stuck) + " runs never out");
+    demand(out, growth <= 1e-5, "a depth grew by " + num(growth) + " m");
+    demand(out, front > 0.5 * kStand, "a tool came out on the far side");
+    demand(out, forceStep <= 2.0 + 1e-9, "force step of " + num(forceStep) + " N");
+    return out;
+}
+
+} // namespace
+
+std::vector<Case> newDataCases() {
+    std::vector<Case> cases;
+    const auto put = [&](const std::string& name, std::function<Outcome(Effort)> run) {
+        cases.push_back({"new-data-" + name, Group::NewData, std::move(run)});
+    };
+    for (const int jump : {1, 3, 10, 30, 50, 55, 80, 100}) {
+        put("jump-" + std::to_string(jump) + "mm", [jump](Effort e) { return jumpCase(e, 1e-3 * jump); });
+    }
+    for (const uint32_t late : {5u, 20u, 100u}) {
+        put("jump-late-" + std::to_string(late) + "ms", [late](Effort e) { return lateJumpCase(e, late); });
+    }
+    put("force-step", [](Effort e) { return stepCase(e, false); });
+    put("torque-step", [](Effort e) { return stepCase(e, true); });
+    put("sweep-05", [](Effort e) { return sweepCase(e, 0.5); });
+    put("sweep-15", [](Effort e) { return sweepCase(e, 1.5); });
+    put("sweep-3", [](Effort e) { return sweepCase(e, 3.0); });
+    addStreamCases(cases);
+    return cases;
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/stability/new_data_streams.h"
+
+#include "apps/stability/case_text.h"
+#include "apps/stability/escape_run.h"
+#include "apps/stability/wall_camera.h"
+#include "apps/stability/worlds.h"
+#include "devices/recorded/recorded_camera.h"
+#include "engine/scene/load.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kBall = 0.01, kWall = 0.5, kStand = WallCamera::kRegion + kBall; // [m]
+constexpr double kSlewStep = 2.0 * (1.0 + 1e-9); // [N] a turn at 2000 N/s and 1 kHz
+
+int some(Effort effort, int full, int brief) {
+    return effort == Effort::Full ? full : brief;
+}
+
+void demandSound(Outcome& out, const LockstepRig& rig) {
+    demand(out, rig.audit().maxPenetration() <= 1e-5,
+           "a depth grew by " + num(rig.audit().maxPenetration()) + " m");
+    demand(out, rig.figures.forceStep <= kSlewStep, "force step of " + num(rig.figures.forceStep) + " N");
+    demand(out, rig.figures.notFinite == 0, "a wrench that is not finite");
+    demand(out, rig.figures.contact > 0, "the tool never touched");
+}
+
+std::string wordsOf(const LockstepRig& rig) {
+    return num(rig.figures.turns) + " turns, force step at most " + num(rig.figures.forceStep) +
+           " N, force up to " + num(rig.figures.force) + " N, " + num(rig.figures.escape) +
+           " turns escaping, " + num(rig.figures.trapped) + " trapped, deepest beyond the allowance " +
+           num(rig.audit().maxPenetration()) + " m.";
+}
+
+// The hand presses 15 mm into the wall while it loses a share of its pixels in every frame. Figure: how far
+// the tool sinks.
+Outcome flickerCase(Effort effort, bool hold) {
+    WallCamera camera(hold, 3);
+    const Pose hand{dvec3(0.004, -0.003, kWall - kStand + 0.015), kUpright};
+    LockstepRig rig(ballTool(kBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
+    rig.show(camera.look({kWall, 0.0, 0.0}));
+    for (int k = 0; k < 200; ++k) {
+        rig.turn(hand);
+    }
+    const double resting = rig.pose().position.z;
+    double deepest = resting, hole = 0.0;
+    Outcome::Curve curve{hold ? "with hold" : "without hold",
+                         "time [s]",
+                         "tool below its resting place [mm]",
+                         {},
+                         {},
+                         false,
+                         false};
+    const int frames = some(effort, 300, 20);
+    for (int frame = 0; frame < frames; ++frame) {
+        rig.show(camera.look({kWall, 0.0, 0.24}));
+        hole = std::max(hole, camera.largestHole(rig.pose().position.x, rig.pose().position.y));
+        for (int k = 0; k < 33; ++k) {
+            rig.turn(hand);
+            deepest = std::max(deepest, rig.pose().position.z);
+        }
+        curve.x.push_back(frame * WallCamera::kFrame);
+        curve.y.push_back(1e3 * (rig.pose().position.z - resting));
+    }
+    // A hole of radius h in the wall lets the tool sink until it meets the rim; held points leave no hole.
+    const double theory = hold ? 0.0 : kStand - std::sqrt(kStand * kStand - hole * hole);
+    Outcome out = outcomeOf(
+        deepest - resting, theory + 2e-4, "m",
+        "How far a tool pressed 15 mm into the wall sinks while 24 % of the pixels flicker, hold " +
+            std::string(hold ? "on" : "off") + ", " + num(uint64_t(frames)) + " frames. Limit: " +
+            (hold ? std::string("nothing")
+                  : "R + r - sqrt((R + r)^2 - h^2) for the largest hole, h = " + num(hole * 1e3) + " mm") +
+            ", and twice the error budget. " + wordsOf(rig));
+    demandSound(out, rig);
+    out.curves.push_back(std::move(curve));
+    return out;
+}
+
+// Whole frames without any depth.
+Outcome dropoutCase(Effort effort, bool hold) {
+    WallCamera camera(hold, 4);
+    const Pose hand{dvec3(0.001, 0.002, kWall - kStand + 0.015), kUpright};
+    LockstepRig rig(ballTool(kBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
+    double worst = 0.0;
+    const int rounds = some(effort, 60, 4);
+    uint64_t stuck = 0;
+    for (int round = 0; round < rounds; ++round) {
+        rig.show(camera.look({kWall, 0.0, 0.0}));
+        for (int k = 0; k < 200; ++k) {
+            rig.turn(hand);
+        }
+        const double resting = rig.pose().position.z;
+        for (int blind = 0; blind < 5; ++blind) {
+            rig.show(camera.look({kWall, 0.0, 1.0}));
+            for (int k = 0; k < 33; ++k) {
+                rig.turn(hand);
+            }
+        }
+        const double sunk = rig.pose().position.z - resting;
+        rig.show(camera.look({kWall, 0.0, 0.0}));
+        const EscapeFigures e = escape(rig, hand, 400);
+        stuck += e.out ? 0 : 1;
+        worst = std::max(worst, hold ? sunk : e.turns / (std::ceil(std::max(0.0, sunk) / 1e-3) + 3.0));
+    }
+    Outcome out = hold ? outcomeOf(worst, 1e-6, "m",
+                                   "How far a pressed tool sinks in five blind frames (0.17 s) with a hold "
+                                   "of 0.5 s: it must not. ")
+                       : outcomeOf(worst, 1.0, "1",
+                                   "Without hold the tool follows the hand 15 mm into the wall in five blind "
+                                   "frames; turns until it is "
+                                   "out again over way / 1 mm + 3. ");
+    out.note += wordsOf(rig);
+    demandSound(out, rig);
+    demand(out, stuck == 0, num(stuck) + " times never out");
+    return out;
+}
+
+// Sigma of 5 mm drawn anew in every frame, or a new set in every turn, or a wall that stands at two places by
+// turns.
+Outcome restlessCase(Effort effort, double noise, double leap, int turnsEach, const std::string& what) {
+    WallCamera camera(false, 5);
+    const Pose hand{dvec3(-0.003, 0.001, kWall - kStand + 0.01), kUpright};
+    LockstepRig rig(toolOf(crossLeaves(0.008)), {hand.position - dvec3(0, 0, 0.15), kUpright});
+    const int frames = some(effort, 600, 40);
+    for (int frame = 0; frame < frames; ++frame) {
+        rig.show(camera.look({kWall - (frame % 2 == 1 ? leap : 0.0), noise, 0.0}));
+        for (int k = 0; k < turnsEach; ++k) {
+            rig.turn(hand);
+        }
+    }
+    Outcome out = outcomeOf(rig.figures.forceStep, kSlewStep, "N",
+                            "Largest step of the delivered force: " + what + " " + wordsOf(rig));
+    demandSound(out, rig);
+    return out;
+}
+
+Fixtures vice(double overlap) { // two walls of spheres that leave 2 overlap too little for the ball
+    Fixtures set;
+    const double half = kStand - overlap;
+    addWall(set, dvec3(0, 0, -half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
+    addWall(set, dvec3(0, 0, half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
+    return set;
+}
+
+struct ViceRun {
+    int recognised = -1;     // turns until trapped
+    double moved = 0.0;      // [m] while trapped
+    double forceAfter = 0.0; // [N] 0.2 s later
+    EscapeFigures left;
+};
+
+// The vice closes, holds the tool for 0.4 s, and one jaw goes away.
+ViceRun closeVice(LockstepRig& rig, double overlap, const Pose& hand) {
+    ViceRun run;
+    rig.show(vice(-0.003));
+    for (int k = 0; k < 100; ++k) {
+        rig.turn(hand);
+    }
+    rig.show(vice(overlap));
+    const dvec3 held = rig.pose().position;
+    for (int k = 1; k <= 400; ++k) {
+        const TurnRecord record = rig.turn(hand);
+        if (run.recognised < 0 && record.state == TurnState::Trapped) {
+            run.recognised = k;
+        }
+        run.moved = std::max(run.moved, glm::distance(record.tool.position, held));
+        run.forceAfter = k > 201 + std::max(0, run.recognised)
+                             ? std::max(run.forceAfter, glm::length(record.wrench.force))
+                             : 0.0;
+    }
+    Fixtures open;
+    addWall(open, dvec3(0, 0, -(kStand - overlap)), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
+    rig.show(std::move(open));
+    run.left = escape(rig, hand, 200);
+    return run;
+}
+
+enum class ViceFigure { Recognised, ForceOut, Left };
+
+Outcome viceCase(Effort effort, ViceFigure what) {
+    double worst = 0.0, moved = 0.0;
+    Dice dice(6);
+    Outcome out = outcomeOf(0.0, 0.0, "1", "");
+    const int trials = some(effort, 40, 4);
+    for (int i = 0; i < trials; ++i) {
+        const double overlap = dice.logUniform(0.0005, 0.02);
+        const Pose hand{0.0005 * dice.direction() + dvec3(0.012 * (i % 2), 0, 0), kUpright};
+        LockstepRig rig(ballTool(kBall), {hand.position, kUpright});
+        const ViceRun run = closeVice(rig, overlap, hand);
+        const double turns = run.recognised < 0 ? 1e9 : run.recognised;
+        const double left = run.left.turns / (std::ceil((overlap + 0.001) / 1e-3) + 3.0);
+        worst = std::max(worst, what == ViceFigure::Recognised ? turns
+                                : what == ViceFigure::ForceOut ? run.forceAfter
+                                                               : left);
+        moved = std::max(moved, run.moved);
+        demand(out, run.left.out, "a tool that never left");
+        demand(out, rig.figures.forceStep <= kSlewStep, "force step of " + num(rig.figures.forceStep) + " N");
+        demand(out, rig.audit().maxPenetration() <= 1e-5, "a depth grew");
+    }
+    const std::string vices = " Two walls close on the ball, 0.5 to 20 mm too near on either side; " +
+                              num(uint64_t(trials)) + " runs. The tool moved by at most " + num(moved) +
+                              " m while held.";
+    const std::string failed = out.note;
+    const bool sound = failed.empty();
+    switch (what) {
+    case ViceFigure::Recognised:
+        out = outcomeOf(worst, 3.0, "turns", "Turns until the state says trapped." + vices);
+        break;
+    case ViceFigure::ForceOut:
+        out = outcomeOf(worst, 1e-9, "N", "Force from 0.2 s after being trapped on: it ramps out." + vices);
+        break;
+    case ViceFigure::Left:
+        out = outcomeOf(worst, 1.0, "1",
+                        "Turns until out once one wall is gone, over depth / 1 mm + 4." + vices);
+        break;
+    }
+    demand(out, sound, failed);
+    return out;
+}
+
+// A recording's own frames at 30 Hz over a tool that the hand presses into its regions.
+Outcome recordingCase(Effort effort, const std::string& file, const std::string& folder) {
+    const World world = recordedWorld(file, folder).value();
+    const Scene scene = loadScene(file);
+    RecordedCamera camera(recordingFolder(folder));
+    PictureFixtures make(scene, camera.info(), true);
+    LockstepRig rig(toolOf(world.leaves), world.start);
+    const int frames = some(effort, 60, 4);
+    Dice dice(7);
+    for (int frame = 0; frame < frames; ++frame) {
+        const std::optional<Frame> next = camera.next();
+        if (!next) {
+            break;
+        }
+        rig.show(make.make(**next));
+        const Pose hand{world.focus + 0.05 * dice.direction(), rotationExp(0.2 * dice.direction())};
+        for (int k = 0; k < (frame == 0 ? 300 : 33); ++k) {
+            rig.turn(hand);
+        }
+    }
+    Outcome out = outcomeOf(rig.audit().maxPenetration(), 1e-5, "m",
+                            "Deepest beyond the allowance while the frames of " + folder +
+                                " come at 30 Hz and the hand presses into its regions; regions made on the "
+                                "CPU by the float64 twins, hold "
+                                "on. " +
+                                wordsOf(rig));
+    demandSound(out, rig);
+    return out;
+}
+
+void addRecordings(std::vector<Case>& cases) {
+    for (const char* name : {"valve_globe", "valve_ball"}) {
+        const std::string file = std::string("apps/scenes/") + name + ".yaml",
+                          folder = std::string(name) + "_d435";
+        if (std::filesystem::exists(recordingFolder(folder)) && std::filesystem::exists(file)) {
+            cases.push_back({"new-data-recording-" + folder, Group::NewData,
+                             [=](Effort effort) { return recordingCase(effort, file, folder); }});
+        }
+    }
+}
+
+} // namespace
+
+void addStreamCases(std::vector<Case>& cases) {
+    const auto put = [&](const char* name, std::function<Outcome(Effort)> run) {
+        cases.push_back({std::string("new-data-") + name, Group::NewData, std::move(run)});
+    };
+    put("flicker-24-percent", [](Effort e) { return flickerCase(e, false); });
+    put("flicker-24-percent-hold", [](Effort e) { return flickerCase(e, true); });
+    put("dropout-frames", [](Effort e) { return dropoutCase(e, false); });
+    put("dropout-frames-hold", [](Effort e) { return dropoutCase(e, true); });
+    put("noise-5mm",
+        [](Effort e) { return restlessCase(e, 0.005, 0.0, 33, "noise of 5 mm drawn anew in every frame."); });
+    put("every-turn", [](Effort e) {
+        return restlessCase(e, 0.001, 0.0, 1, "a new set with noise of 1 mm in every turn.");
+    });
+    put("two-places", [](Effort e) {
+        return restlessCase(e, 0.0, 0.02, 33, "a wall that stands 20 mm nearer in every second frame.");
+    });
+    put("trapped-recognised", [](Effort e) { return viceCase(e, ViceFigure::Recognised); });
+    put("trapped-force-out", [](Effort e) { return viceCase(e, ViceFigure::ForceOut); });
+    put("trapped-left", [](Effort e) { return viceCase(e, ViceFigure::Left); });
+    addRecordings(cases);
+}
+
+} // namespace fathom::stability

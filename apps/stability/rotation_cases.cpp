@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group rotation: half turns, whole turns, fast spins, guidance without roll, levers. Devices are in
+// rotation_device_cases.cpp.
+#include "apps/stability/case_text.h"
+#include "apps/stability/dice.h"
+#include "apps/stability/pressing.h"
+#include "apps/stability/turner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+Shape axisShape() {
+    Shape shape = lineShape({0.0, 0.0, 1.0});
+    shape.kind = ShapeKind::Axis; // the tool's z stays on z: any tilt of the hand is felt
+    return shape;
+}
+
+Pose turned(const dvec3& rotation) {
+    return {dvec3(0.0), rotationExp(rotation)};
+}
+
+// Through the half turn and back, slowly, about axes across the one that is held.
+Outcome halfTurn(Effort effort) {
+    double step = 0.0, torque = 0.0, allowed = 1.0;
+    bool sound = true;
+    const int ticks = effort == Effort::Full ? 20000 : 4000;
+    for (const double heading : {0.0, 0.7, 2.9}) {
+        const Shape axis = axisShape();
+        Turner turner("ideal", true, {&axis, 1}, {});
+        allowed = turner.options().slewTorque * turner.options().period;
+        const dvec3 about(std::cos(heading), std::sin(heading), 0.0);
+        dvec3 before(0.0);
+        for (int i = 0; i < ticks; ++i) {
+            const double angle =
+                kPi * (1.0 + 0.06 * std::sin(40.0 * kPi * i / ticks)) * std::min(1.0, 4.0 * i / ticks);
+            const TurnRecord& record = turner.turn(turned(angle * about));
+            step = std::max(step, glm::distance(record.wrench.torque, before));
+            torque = std::max(torque, glm::length(record.wrench.torque));
+            sound = sound && record.finite && std::abs(glm::length(record.tool.rotation) - 1.0) < 1e-12;
+            before = record.wrench.torque;
+        }
+    }
+    Outcome out =
+        outcomeOf(step / allowed, 1.0 + 1e-9, "1",
+                  "The hand swings through the half turn against a held axis, 30 crossings about three axes: "
+                  "largest step of the torque over the "
+                  "slew limit of a turn. The shortest arc changes sides there; the largest torque was " +
+                      num(torque) + " N m.");
+    demand(out, sound && torque <= 2.0 + 1e-9,
+           "finite numbers, a unit quaternion and at most 2 N m were expected");
+    return out;
+}
+
+// Whole turns: over the half turn the spring lets go of what it took.
+Outcome wholeTurns(Effort effort) {
+    const int ticks = effort == Effort::Full ? 40000 : 8000;
+    double drawn = -1e9, stored = 1.0;
+    for (const double heading : {0.0, 1.1, 2.5}) {
+        const Shape axis = axisShape();
+        Turner turner("ideal", false, {&axis, 1}, {});
+        for (int i = 0; i < 300; ++i) {
+            turner.turn({}); // ramp
+        }
+        const dvec3 about(std::cos(heading), std::sin(heading), 0.0);
+        dvec3 before(0.0);
+        double work = 0.0;
+        for (int i = 1; i <= ticks; ++i) {
+            const TurnRecord& record = turner.turn(turned(2.0 * kPi * i / ticks * about));
+            work += glm::dot(0.5 * (record.wrench.torque + before), 2.0 * kPi / ticks * about);
+            before = record.wrench.torque;
+        }
+        stored = 0.5 * turner.options().springs.rotationalStiffness * kPi * kPi;
+        drawn = std::max(drawn, work);
+    }
+    return outcomeOf(
+        drawn / stored, 1e-3, "1",
+        "Whole turns of the hand against a held axis: work that one turn gives over what the spring holds at "
+        "the half turn (" +
+            num(stored) +
+            " J); the change of sides falls between two turns of the cycle, which is all that is left.");
+}
+
+// Guidance without a roll of its own: the torque has no part about the axis that it aims, wherever the hand
+// points.
+Outcome noRoll(Effort effort) {
+    double worst = 0.0, felt = 0.0;
+    Dice dice(8);
+    const int hands = effort == Effort::Full ? 60 : 10;
+    for (int n = 0; n < hands; ++n) {
+        GuidancePose target;
+        target.present = target.planar = target.rollFree = true;
+        target.target = {dvec3(0.0), dice.rotation()};
+        Pose hand{dvec3(0.0), dice.rotation()};
+        if (n % 5 == 0) { // points the very other way
+            hand.rotation = target.target.rotation * rotationExp({kPi, 0.0, 0.0});
+        }
+        Turner turner("ideal", true, {}, hand);
+        turner.guidance = {target};
+        const dvec3 aimed = target.target.rotation * dvec3(0.0, 0.0, 1.0);
+        for (int i = 0; i < 800; ++i) {
+            const TurnRecord& record = turner.turn(hand);
+            worst = std::max(worst, std::abs(glm::dot(record.wrench.torque, aimed)));
+            felt = std::max(felt, glm::length(record.wrench.torque));
+        }
+    }
+    Outcome out = outcomeOf(worst, 1e-9, "N m",
+                            "A guidance target without roll, hands that point anywhere, one in five the very "
+                            "other way: largest torque about the axis of the "
+                            "target; across it " +
+                                num(felt) + " N m (0.1 is the limit).");
+    demand(out, felt > 0.09 && felt < 0.1001, "guidance was expected to pull with 0.1 N m");
+    return out;
+}
+
+// Twenty turns a second with a tool that has no room to turn.
+Outcome fastSpin(Effort effort) {
+    double norm = 0.0, step = 0.0;
+    bool sound = true;
+    const Shape axis = axisShape();
+    Turner turner("ideal", true, {&axis, 1}, {});
+    const double allowed = turner.options().slewTorque * turner.options().period;
+    dvec3 before(0.0);
+    Dice dice(5);
+    dvec3 about = dice.direction();
+    dquat hand(1.0, 0.0, 0.0, 0.0);
+    for (int i = 0; i < (effort == Effort::Full ? 100000 : 10000); ++i) {
+        about = i % 500 == 0 ? dice.direction() : about;
+        hand = glm::normalize(rotationExp(40.0 * kPi * 0.001 * about) * hand);
+        const TurnRecord& record = turner.turn({dvec3(0.0), hand});
+        norm = std::max({norm, std::abs(glm::length(record.tool.rotation) - 1.0),
+                         std::abs(glm::length(record.device.rotation) - 1.0)});
+        step = std::max(step, glm::distance(record.wrench.torque, before) / allowed);
+        sound = sound && record.finite;
+        before = record.wrench.torque;
+    }
+    Outcome out = outcomeOf(step, 1.0 + 1e-9, "1",
+                            "A hand that spins 20 times a second, about another axis every half second, "
+                            "against a held axis: largest torque step over the slew "
+                            "limit; quaternions off unit length by at most " +
+                                num(norm) + ".");
+    demand(out, sound && norm < 1e-14, "finite numbers and unit quaternions were expected");
+    return out;
+}
+
+// The lever: a cross of balls pressed with a tilt, the loop closed in all six ways.
+Outcome leverSettles(Effort effort) {
+    double worst = 0.0;
+    LoopGrid grid;
+    grid.masses = {0.1, 0.5};
+    grid.every = effort == Effort::Full ? 1 : 7;
+    LoopSpec base = pressedSpec(Ground::Wall, kPressed);
+    base.leaves = crossLeaves(0.008);
+    for (HandWaypoint& way : base.path) {
+        way.deviceThandle.position.z += 0.05;
+        way.deviceThandle.rotation = rotationExp({2.0, 0.3, 0.0});
+    }
+    const size_t runs = forEachLoop(grid, base, [&](LoopSpec spec) {
+        const double window = std::max(0.3, 3.0 * kPi / std::sqrt(spec.hand.stiffness / spec.wholeMass()));
+        spec.path.back().t = kPressed + 2.0 * window;
+        LoopRig rig(spec);
+        rig.run(kPressed);
+        double early = 1e-4, late = 0.0;
+        while (rig.time() < kPressed + 2.0 * window) {
+            rig.tick();
+            double& peak = rig.time() < kPressed + window ? early : late;
+            peak = std::max(peak, glm::length(rig.hand().spin()));
+        }
+        worst = std::max(worst, late / early);
+    });
+    return outcomeOf(worst, 0.9, "1",
+                     "A tilted cross of nine balls pressed into a wall, all six ways of the loop closed: "
+                     "fastest spin of the hand late over early, worst of " +
+                         num(uint64_t{runs}) + " loops with the automatic stiffness.");
+}
+
+} // namespace
+
+std::vector<Case> rotationCases() {
+    std::vector<Case> all{{"half-turn-against-a-held-axis", Group::Rotation, halfTurn},
+                          {"whole-turns-draw-no-energy", Group::Rotation, wholeTurns},
+                          {"guidance-without-roll", Group::Rotation, noRoll},
+                          {"twenty-turns-a-second", Group::Rotation, fastSpin},
+                          {"lever-settles", Group::Rotation, leverSettles}};
+    for (Case& one : rotationDeviceCases()) {
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group rotation, devices: quaternions of any length, no torque, a dead axis.
+#include "apps/stability/case_text.h"
+#include "apps/stability/dice.h"
+#include "apps/stability/turner.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace fathom::stability {
+
+namespace {
+
+// The same motion with quaternions a thousand times too short and too long.
+Outcome anyLength(Effort effort) {
+    double worst = 0.0;
+    Dice dice(3);
+    const int ticks = effort == Effort::Full ? 4000 : 800;
+    for (const char* device : {"ideal", "w5d"}) {
+        for (const double length : {1e-6, 1e-3, 0.5, 1.001, 1e3, 1e6}) {
+            const Shape wall = wallShape({0.0, 0.0, 1.0}, 0.0);
+            const Pose start{{0.0, 0.0, 0.03}, dquat(1.0, 0.0, 0.0, 0.0)};
+            Turner unit(device, true, {&wall, 1}, start), scaled(device, true, {&wall, 1}, start);
+            for (int i = 0; i < ticks; ++i) {
+                const double s = static_cast<double>(i) / ticks;
+                Pose pose{{0.0, 0.0, 0.03 - 0.03 * s},
+                          rotationExp({1.2 * std::sin(9.0 * s), 0.8 * s, 3.0 * s})};
+                const TurnRecord a = unit.turn(pose);
+                pose.rotation = pose.rotation * (length * dice.uniform(0.9, 1.1));
+                const TurnRecord b = scaled.turn(pose);
+                worst = std::max({worst, glm::distance(a.deviceWrench.force, b.deviceWrench.force),
+                                  glm::distance(a.deviceWrench.torque, b.deviceWrench.torque),
+                                  glm::distance(a.tool.position, b.tool.position)});
+            }
+        }
+    }
+    return outcomeOf(worst, 1e-9, "N",
+                     "Orientations as quaternions of length 1e-6 to 1e6, another at every turn: largest "
+                     "difference of wrench [N, N m] and tool [m] to the "
+                     "same motion with unit ones; a device with all axes and one without roll.");
+}
+
+struct Leak {
+    double wrong = 0.0, broken = 0.0,
+           felt = 0.0; // on axes that are not there; sum of the parts against the whole; largest torque
+};
+
+Leak leakOf(const char* device, const std::function<dvec3(const Wrench&, const Pose&)>& absent, int ticks) {
+    Leak leak;
+    Dice dice(17);
+    const Shape wall = wallShape({0.0, 0.0, 1.0}, 0.0);
+    Turner turner(device, true, {&wall, 1}, {{0.0, 0.0, 0.02}, dquat(1.0, 0.0, 0.0, 0.0)});
+    const dvec3 a = dice.direction(), b = dice.direction();
+    for (int i = 0; i < ticks; ++i) {
+        const double s = 6.0 * i / 1000.0;
+        const Pose raw{{0.01 * std::sin(s), 0.0, 0.01 * std::cos(0.7 * s)},
+                       rotationExp(1.5 * std::sin(s) * a) * rotationExp(s * b)};
+        const TurnRecord& record = turner.turn(raw);
+        leak.wrong = std::max(leak.wrong, glm::length(absent(record.deviceWrench, raw)));
+        leak.broken = std::max(
+            {leak.broken,
+             glm::distance(record.deviceWrench.force + record.residual.force, record.wrench.force),
+             glm::distance(record.deviceWrench.torque + record.residual.torque, record.wrench.torque)});
+        leak.felt = std::max(leak.felt, glm::length(record.wrench.torque));
+    }
+    return leak;
+}
+
+Outcome leakOutcome(const Leak& leak, const std::string& what) {
+    Outcome out = outcomeOf(std::max(leak.wrong, leak.broken), 1e-12, "N m",
+                            what +
+                                " Largest torque on what is not there, and largest gap between the parts and "
+                                "the whole; the whole reached " +
+                                num(leak.felt) + " N m.");
+    demand(out, leak.felt > 0.05, "some torque was expected");
+    return out;
+}
+
+Outcome noTorque(Effort effort) {
+    return leakOutcome(leakOf(
+                           "touch", [](const Wrench& w, const Pose&) { return w.torque; },
+                           effort == Effort::Full ? 20000 : 3000),
+                       "A device without torque, turned over and over on a wall with a cross of nine balls.");
+}
+
+Outcome deadAxis(Effort effort) {
+    const auto roll = [](const Wrench& w, const Pose& raw) {
+        const dvec3 axis = raw.rotation * dvec3(0.0, 0.0, 1.0);
+        return glm::dot(w.torque, axis) * axis;
+    };
+    return leakOutcome(leakOf("w5d", roll, effort == Effort::Full ? 20000 : 3000),
+                       "A device whose roll is not actuated, turned over and over.");
+}
+
+} // namespace
+
+std::vector<Case> rotationDeviceCases() {
+    return {{"quaternions-of-any-length", Group::Rotation, anyLength},
+            {"device-without-torque", Group::Rotation, noTorque},
+            {"device-with-a-dead-axis", Group::Rotation, deadAxis}};
+}
+
+} // namespace fathom::stability

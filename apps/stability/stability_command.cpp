@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/stability/stability_command.h"
+
+#include "apps/replay/output_file.h"
+#include "apps/stability/stability_plots.h"
+#include "apps/stability/stability_report.h"
+#include "engine/gpu/device.h"
+
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace fathom {
+
+namespace {
+
+struct StabilityOptions {
+    std::vector<std::string> cases;
+    std::filesystem::path out;
+    bool brief = false;
+};
+
+struct ChosenDevice {
+    gpu::Instance instance;
+    gpu::Device device;
+    explicit ChosenDevice(const std::string& selector)
+        : device(instance, selector) {}
+};
+
+void print(const stability::CaseResult& r) {
+    std::cout << (r.outcome.holds() ? "holds  " : "BROKEN ") << std::left << std::setw(40) << r.name << " "
+              << stability::comparison(r.outcome) << "  (" << std::setprecision(3) << r.seconds << " s)"
+              << std::endl;
+    if (!r.outcome.holds()) {
+        std::cout << "       " << r.outcome.note << std::endl;
+    }
+}
+
+int runStability(const StabilityOptions& options, const GlobalOptions& global) {
+    std::optional<ChosenDevice> chosen;
+    const stability::DeviceSource source = [&]() -> gpu::Device& {
+        return (chosen ? *chosen : chosen.emplace(global.device)).device;
+    };
+    const auto cases = stability::chosenCases(stability::allCases(source), options.cases);
+    prepareOutputFolder(options.out, false);
+    std::vector<stability::CaseResult> results;
+    double seconds = 0.0;
+    for (const stability::Case& one : cases) {
+        results.push_back(
+            stability::runCase(one, options.brief ? stability::Effort::Short : stability::Effort::Full));
+        seconds += results.back().seconds;
+        print(results.back());
+    }
+    stability::writeReport(options.out, results, stability::deviceDescription(global.device));
+    stability::writePlots(options.out, results);
+    const bool holds = stability::allHold(results);
+    std::cout << results.size() << " cases in " << seconds << " s, " << (holds ? "all hold" : "NOT all hold")
+              << "; written to " << options.out.string() << std::endl;
+    return holds ? 0 : 1;
+}
+
+} // namespace
+
+void addStabilityCommand(CLI::App& app, const GlobalOptions& global, int& result) {
+    auto options = std::make_shared<StabilityOptions>();
+    CLI::App* command =
+        app.add_subcommand("stability", "measure the stiff and extreme cases against their limits");
+    command->add_option("CASE", options->cases, "cases or groups; all when none is named");
+    command->add_flag("--short", options->brief,
+                      "the shortened form that the tests run, with the same limits");
+    command->add_option("--out", options->out, "output folder; its files are replaced")->required();
+    command->callback([options, &global, &result] { result = runStability(*options, global); });
+}
+
+} // namespace fathom

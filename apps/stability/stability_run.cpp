@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/stability/stability_run.h"
+
+#include "apps/stability/case_text.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <limits>
+#include <set>
+
+namespace fathom::stability {
+
+namespace {
+
+const char* nameOfGroup(Group group) {
+    return kGroupNames[static_cast<size_t>(group)];
+}
+
+std::string knownNames(const std::vector<Case>& all) {
+    std::string names = "groups ";
+    for (const char* group : kGroupNames) {
+        names += std::string(group) + ", ";
+    }
+    names += "cases ";
+    for (const Case& c : all) {
+        names += c.name + (&c == &all.back() ? "" : ", ");
+    }
+    return names;
+}
+
+} // namespace
+
+std::vector<Case> allCases(const DeviceSource& device) {
+    std::array groups{solverCases(),   geometryCases(), guaranteeCases(),       newDataCases(), stiffCases(),
+                      rotationCases(), guidanceCases(), precisionCases(device), longRunCases()};
+    std::vector<Case> all;
+    std::set<std::string> names;
+    for (std::vector<Case>& group : groups) {
+        for (Case& c : group) {
+            if (!names.insert(c.name).second) {
+                throw Error("stability: two cases are called " + c.name);
+            }
+            all.push_back(std::move(c));
+        }
+    }
+    return all;
+}
+
+std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<std::string>& names) {
+    if (names.empty()) {
+        return all;
+    }
+    for (const std::string& name : names) {
+        const bool known = std::any_of(all.begin(), all.end(), [&](const Case& c) {
+            return c.name == name || nameOfGroup(c.group) == name;
+        });
+        if (!known) {
+            throw BadInput("stability", "CASE", "'" + name + "'", knownNames(all));
+        }
+    }
+    std::vector<Case> chosen;
+    for (const Case& c : all) {
+        if (std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+                return c.name == name || nameOfGroup(c.group) == name;
+            })) {
+            chosen.push_back(c);
+        }
+    }
+    return chosen;
+}
+
+CaseResult runCase(const Case& one, Effort effort) {
+    CaseResult result{one.name, one.group, {}, 0.0};
+    const auto start = std::chrono::steady_clock::now();
+    try {
+        result.outcome = one.run(effort);
+    } catch (const Error& e) {
+        result.outcome = outcomeOf(std::numeric_limits<double>::quiet_NaN(), 0.0, "1", "");
+        demand(result.outcome, false, e.what());
+    }
+    result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return result;
+}
+
+std::string comparison(const Outcome& outcome) {
+    const std::string unit = outcome.unit == "1" ? "" : " " + outcome.unit;
+    return num(outcome.figure) + " " + outcome.relation + " " + num(outcome.limit) + unit;
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group stiff, part three: fixtures that stand still give no energy, in the closed loop and along closed
+// paths of the hand.
+#include "apps/stability/case_text.h"
+#include "apps/stability/pressing.h"
+#include "apps/stability/stiff_cases.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kTolerance = 1e-6; // [J]
+
+struct EnergyFigures {
+    double net = -1e9;  // [J] largest at any time from the first touch on
+    double given = 0.0; // [J] largest that the fixture had given at any time, the device's damping aside
+    double taken = 0.0; // [J] most that the controller took
+    std::string who;
+    size_t runs = 0;
+};
+
+// Largest net energy out at any time, less `allowance` a metre of path.
+void pressAndWatch(const LoopSpec& spec, double allowance, EnergyFigures& all) {
+    LoopRig rig(spec);
+    bool touched = false;
+    while (rig.time() < spec.path.back().t) {
+        touched = rig.tick().contacts > 0 || touched;
+        all.given = std::max(all.given, rig.energyOut());
+        const double net = rig.netEnergyOut() - allowance * rig.path();
+        if (touched && net > all.net) {
+            all.net = net;
+            all.who = nameOf(spec);
+        }
+    }
+    all.taken = std::max(all.taken, rig.cycle().passivity().taken());
+}
+
+LoopGrid gridFor(Effort effort, size_t every) {
+    LoopGrid grid;
+    grid.hands = {0, 1, 2, 3, 4};
+    grid.every = effort == Effort::Full ? 1 : every;
+    return grid;
+}
+
+// Pushed, slid, and pulled out again.
+LoopSpec inAndOut(Ground ground) {
+    LoopSpec spec = pressedSpec(ground, 1.2);
+    const HandWaypoint start = spec.path.front();
+    spec.path.push_back(wayAt(1.5, start.deviceThandle.position));
+    spec.path.push_back(wayAt(2.0, start.deviceThandle.position));
+    return spec;
+}
+
+Outcome staticGrounds(Effort effort) {
+    EnergyFigures all;
+    for (const Ground ground : kGrounds) {
+        LoopGrid grid = gridFor(effort, 23);
+        if (ground == Ground::Spheres) {
+            grid.masses = {0.2};
+        }
+        all.runs += forEachLoop(grid, inAndOut(ground), [&](LoopSpec spec) {
+            // The free device is thrown at it, 0.1 m/s, by a spring that lets go in the wall.
+            spec.hand.stiffness = std::max(spec.hand.stiffness, 10.0);
+            pressAndWatch(spec, 0.0, all);
+        });
+    }
+    return outcomeOf(all.net, kTolerance, "J",
+                     "Wall, corner, slot and a wall of spheres, pressed, slid along and left: the fixture's "
+                     "energy into the hand less what the "
+                     "device's own damping took, largest at any time from the first touch on of " +
+                         num(uint64_t{all.runs}) + " loops (" + all.who + "); without that damping up to " +
+                         num(all.given * 1e3) + " mJ (the sampled spring's). Controller on; it took " +
+                         num(all.taken * 1e6) + " uJ.");
+}
+
+Outcome withEncoders(Effort effort) {
+    EnergyFigures all;
+    for (const double step : {1e-6, 1e-5, 1e-4}) {
+        LoopSpec base = inAndOut(Ground::Wall);
+        base.encoderStep = step;
+        all.runs += forEachLoop(gridFor(effort, 23), base, [&](LoopSpec spec) {
+            spec.hand.stiffness = std::max(spec.hand.stiffness, 10.0);
+            const double k = passiveStiffness(spec.damping, 0.0, spec.period(), spec.delay);
+            pressAndWatch(spec, std::sqrt(3.0) * k * step / 2.0, all);
+        });
+    }
+    return outcomeOf(all.net, kTolerance, "J",
+                     "The same wall by encoders of 1 um to 0.1 mm: net energy beyond sqrt(3) K step / 2 a "
+                     "metre of path, worst of " +
+                         num(uint64_t{all.runs}) + " loops (" + all.who +
+                         "). The restated part is physics: a position is known to half a step on each axis, "
+                         "the force is wrong by up to K times that, "
+                         "and no controller can see it.");
+}
+
+// Controller on and off, the same loop: equal to the last bit unless it acted.
+Outcome controllerIdle(Effort effort) {
+    double largest = 0.0;
+    size_t runs = 0;
+    for (const Ground ground : kGrounds) {
+        LoopGrid grid = gridFor(effort, 31);
+        if (ground == Ground::Spheres) {
+            grid.masses = {0.2};
+        }
+        runs += forEachLoop(grid, inAndOut(ground), [&](LoopSpec spec) {
+            LoopRig on(spec);
+            spec.controller = false;
+            LoopRig off(spec);
+            while (on.time() < spec.path.back().t) {
+                const Wrench a = on.tick().wrench, b = off.tick().wrench;
+                largest =
+                    std::max({largest, glm::distance(a.force, b.force), glm::distance(a.torque, b.torque)});
+            }
+        });
+    }
+    return outcomeOf(largest, 1e-9, "N",
+                     "The passivity controller changes nothing where nothing is generated: largest "
+                     "difference of the wrench with it and without it over " +
+                         num(uint64_t{runs}) +
+                         " loops with static fixtures, delays of 0, 1 and 3 ticks included.");
+}
+
+} // namespace
+
+std::vector<Case> energyCases() {
+    return {{"static-fixtures-give-no-energy", Group::Stiff, staticGrounds},
+            {"static-fixtures-by-encoders", Group::Stiff, withEncoders},
+            {"controller-leaves-static-fixtures-alone", Group::Stiff, controllerIdle}};
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// Group stiff, part four: closed paths of the hand round static contacts draw no energy, because the solver's
+// metric is tied to the springs.
+#include "apps/stability/case_text.h"
+#include "apps/stability/dice.h"
+#include "apps/stability/loop_rig.h"
+#include "apps/stability/stiff_cases.h"
+#include "apps/stability/worlds.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::stability {
+
+namespace {
+
+constexpr double kTwoPi = 6.28318530717958647692;
+
+// A path of the hand in all six ways that comes back to where it began.
+struct ClosedPath {
+    dvec3 focus{0.0};
+    std::array<dvec3, 2> way{}, turn{}; // [m], [rad]
+
+    Pose at(double phase) const {
+        const double a = kTwoPi * phase;
+        const dvec3 moved = way[0] * std::sin(a) + way[1] * (std::cos(a) - 1.0);
+        return {focus + moved, rotationExp(turn[0] * std::sin(2.0 * a) + turn[1] * (1.0 - std::cos(a)))};
+    }
+};
+
+struct Drawn {
+    double most = -1e9;  // [J] in one loop
+    double least = 1e9;  // [J] negative: what a loop took from the hand
+    double stored = 0.0; // [J] largest energy of the springs
+    size_t loops = 0;
+};
+
+// Scripted hand: the cycle alone, poses in, wrench out.
+class LoopWalk {
+public:
+    LoopWalk(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
+             const ClosedPath& path)
+        : options_(options)
+        , path_(path)
+        , cycle_(tool, shapes, options, path.at(0.0)) {}
+
+    // Work of the wrench on the hand along `ticks` turns of one loop by the trapezium rule: no part of it is
+    // the sampling's.
+    double once(int ticks) {
+        double drawn = 0.0;
+        for (int i = 0; i <= ticks; ++i) {
+            drawn += turn(path_.at(static_cast<double>(i) / ticks), i > 0);
+        }
+        return drawn;
+    }
+    // Until the forces have ramped up.
+    void warmUp() {
+        for (double t = 0.0; t < 1.1 * HapticCycle::kRampTime; t += options_.period) {
+            turn(path_.at(0.0), false);
+        }
+    }
+    double stored() const { return stored_; }
+
+private:
+    double turn(const Pose& device, bool count) {
+        TurnInput input;
+        input.time = time_;
+        input.deviceThandle = device;
+        time_ += options_.period;
+        const Wrench now = cycle_.turn(input).wrench;
+        const dvec3 moved = device.position - was_.position;
+        const dvec3 turned = rotationLog(device.rotation * glm::conjugate(was_.rotation));
+        const double work = 0.5 * (glm::dot(now.force + before_.force, moved) +
+                                   glm::dot(now.torque + before_.torque, turned));
+        stored_ = std::max(stored_,
+                           0.5 * glm::dot(now.force, now.force) / options_.springs.stiffness +
+                               0.5 * glm::dot(now.torque, now.torque) / options_.springs.rotationalStiffness);
+        before_ = now;
+        was_ = device;
+        return count ? work : 0.0;
+    }
+
+    HapticOptions options_;
+    ClosedPath path_;
+    HapticCycle cycle_;
+    Wrench before_;
+    Pose was_;
+    double time_ = 0.0, stored_ = 0.0;
+};
+
+struct Scenery {
+    std::vector<Shape> shapes;
+    dvec3 focus; // where the tool's centre touches, about
+};
+
+Shape solid(ShapeKind kind, const dvec3& size, const Pose& pose) {
+    Shape shape;
+    shape.kind = kind;
+    shape.size = size;
+    shape.baseTshape = pose;
+    return shape;
+}
+
+std::vector<Scenery> sceneries() {
+    std::vector<Scenery> all;
+    all.push_back({{wallShape({0.0, 0.0, 1.0}, 0.0)}, {0.0, 0.0, 0.008}});
+    all.push_back({{wallShape({0.0, 0.0, 1.0}, 0.0), wallShape({1.0, 0.0, 0.0}, -0.038),
+                    wallShape({0.0, 1.0, 0.0}, -0.008)},
+                   {0.0, 0.0, 0.008}});
+    all.push_back({{wallShape({0.6, 0.0, 0.8}, 0.0), wallShape({-0.6, 0.0, 0.8}, 0.0)}, {0.0, 0.0, 0.01}});
+    all.push_back(
+        {{solid(ShapeKind::Sphere, {0.05, 0.0, 0.0}, {{0.0, 0.0, -0.05}, kUpright})}, {0.0, 0.0, 0.008}});
+    all.push_back(
+        {{solid(ShapeKind::Box, {0.1, 0.1, 0.1}, {{0.0, 0.0, -0.05}, rotationExp({0.5, 0.3, 0.0})})},
+         {0.01, 0.0, 0.012}});
+    all.push_back(
+        {{solid(ShapeKind::Cylinder, {0.03, 0.3, 0.0}, {{0.0, 0.0, -0.03}, rotationExp({1.5, 0.0, 0.0})})},
+         {0.0, 0.0, 0.008}});
+    return all;
+}
+
+HapticOptions quietOptions(const Tool& tool, double metricError) {
+    LoopSpec spec;
+    spec.limited = spec.controller = false;
+    spec.stiffness = 1000.0;
+    spec.rotationalStiffness = 1000.0 * tool.gyrationRadius() * tool.gyrationRadius();
+    HapticOptions options = loopOptions(spec, tool);
+    options.springs.metricRadius *= metricError;
+    return options;
+}
+
+Drawn walkLoops(Effort effort, double metricError) {
+    Drawn all;
+    Dice dice(20);
+    const Tool tool = toolOf(crossLeaves(0.008));
+    const int rounds = effort == Effort::Full ? 6 : 1, ticks = effort == Effort::Full ? 20000 : 8000;
+    for (const Scenery& scenery : sceneries()) {
+        for (int round = 0; round < rounds; ++round) {
+            ClosedPath path;
+            path.focus = scenery.focus;
+            for (size_t i = 0; i < 2; ++i) {
+                path.way[i] = 0.012 * dice.direction();
+                path.turn[i] = 0.3 * dice.direction();
+            }
+            LoopWalk walk(tool, scenery.shapes, quietOptions(tool, metricError), path);
+            walk.warmUp();
+            walk.once(ticks); // the first loop may fall into place
+            const double drawn = walk.once(ticks);
+            all.most = std::max(all.most, drawn);
+            all.least = std::min(all.least, drawn);
+            all.stored = std::max(all.stored, walk.stored());
+            ++all.loops;
+        }
+    }
+    return all;
+}
+
+Outcome closedLoops(Effort effort) {
+    const Drawn tied = walkLoops(effort, 1.0), off = walkLoops(effort, 1.6);
+    Outcome out = outcomeOf(tied.most / tied.stored, 1e-4, "1",
+                            "Closed 6-axis paths of the hand round a wall, a corner, a groove, a ball, a box "
+                            "and a bar with a cross of nine balls: most "
+                            "energy drawn in one loop of " +
+                                num(uint64_t{tied.loops}) + " over what the springs held at most, " +
+                                num(tied.stored * 1e3) + " mJ: " + num(tied.most * 1e3) +
+                                " mJ drawn (one loop took " + num(-tied.least * 1e3) +
+                                " mJ; both halve with the length of a turn). With a metric 1.6 times off the "
+                                "springs' own up to " +
+                                num(off.most * 1e3) + " mJ are drawn.");
+    demand(out, off.most > 1e-3, "a wrong metric was expected to be seen");
+    return out;
+}
+
+} // namespace
+
+std::vector<Case> pathCases() {
+    return {{"closed-hand-paths-draw-no-energy", Group::Stiff, closedLoops}};
+}
+
+} // namespace fathom::stability

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the cases touch: clouds of region spheres laid by hand, pictures of analytic scenes, recordings; each
+// with a tool and a place to start from.
+#pragma once
+
+#include "apps/stability/wild_hand.h"
+#include "engine/contact/fixtures.h"
+#include "engine/contact/tool.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom::stability {
+
+inline const dquat kUpright(1.0, 0.0, 0.0, 0.0);
+
+struct World {
+    std::string name;
+    Fixtures fixtures;
+    std::vector<Sphere> leaves; // of the tool
+    Pose start;                 // base_T_tool outside every region
+    dvec3 focus{0.0};           // [m] base frame: where the hand is drawn to
+    double arena = 0.15;        // [m]
+};
+
+Tool toolOf(const std::vector<Sphere>& leaves);
+Tool ballTool(double radius);
+
+// A rod of overlapping balls with a cross bar, 60 mm each: rotation matters.
+std::vector<Sphere> crossLeaves(double radius);
+
+void addSphere(Fixtures& set, const dvec3& aboutOrigin, double radius);
+// Square patch of a plane spanned by the unit vectors u and v, a sphere every `spacing` [m].
+void addWall(Fixtures& set, const dvec3& centre, const dvec3& u, const dvec3& v, double half, double spacing,
+             double radius);
+// Copy with the whole scene moved by `way` in the base frame; the numbers about the origin stay.
+World movedBy(const World& world, const dvec3& way);
+
+World wallWorld();
+World cornerWorld(); // concave, three walls
+World slotWorld();   // 1 mm of room on each side of a 10 mm ball
+World grooveWorld(double degrees);
+World needleWorld(); // spikes of 0.1 to 0.2 mm and a tool of 0.5 mm
+World rubbleWorld(); // 1500 balls of 2 to 20 mm
+
+// A frame of the simulated camera (no noise unless wanted), 160 x 120, regions of `radius` [m].
+World analyticWorld(const std::string& scene, double radius, bool noise);
+
+// First frame of a recording by the scene file's classes; empty when the folder is not there.
+std::optional<World> recordedWorld(const std::string& sceneFile, const std::string& folder);
+// Where recordings lie, from the folder that the program is started in.
+std::filesystem::path recordingFolder(const std::string& name);
+
+} // namespace fathom::stability

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// The groups of solver and contact: every case of `fathom stability` in short.
+#include "tests/stability/group_check.h"
+
+#include <filesystem>
+
+using namespace fathom;
+using namespace fathom::stability;
+using namespace fathom::testing;
+
+TEST_CASE("Every case of group solver holds: random row sets of every family against the exact optimum") {
+    checkGroup(solverCases(), Group::Solver, 15);
+}
+
+TEST_CASE("Every case of group geometry holds: degenerate contacts, sizes from 1 um to 10 m, 100 km from the "
+          "origin") {
+    checkGroup(geometryCases(), Group::Geometry, 15);
+}
+
+TEST_CASE("Every case of group guarantee holds: no hand and no lateness of the answers makes a leaf enter a "
+          "region") {
+    if (!std::filesystem::exists("../shared/data/valve_globe_d435")) {
+        MESSAGE("SKIPPED ALOUD: no recordings at ../shared/data; their cases of guarantee and new-data are "
+                "left out");
+    }
+    checkGroup(guaranteeCases(), Group::Guarantee, 20);
+}
+
+TEST_CASE(
+    "Every case of group new-data holds: the tool comes out of what jumps over it, on the camera's side") {
+    checkGroup(newDataCases(), Group::NewData, 20);
+}
