@@ -69,6 +69,7 @@ std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession
     }
     SimulatedHandOptions loop;
     loop.loop = session.scene.hand.loop;
+    loop.delayTicks = session.scene.haptics.delay;
     return std::make_unique<SimulatedHand>(path, loop);
 }
 

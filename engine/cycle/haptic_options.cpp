@@ -19,7 +19,8 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.paperGuidance = haptics.guidance == Scene::Haptics::GuidanceMode::Paper && scene.hasGuidance();
 
     options.coupling.period = options.period;
-    options.coupling.delayTicks = lowPassDelayTicks(options.lowPassGain);
+    options.deviceDelayTicks = haptics.delay;
+    options.coupling.delayTicks = haptics.delay + lowPassDelayTicks(options.lowPassGain);
     options.coupling.handScale = scene.hand.scale;
     options.coupling.toolRadius = tool.gyrationRadius();
     options.coupling.stiffness = haptics.stiffness;

@@ -40,7 +40,7 @@ void loadLimits(const YamlNode& limits, Scene::Haptics& haptics) {
 
 void loadHaptics(const YamlNode& node, Scene& scene) {
     node.checkKeys({"rate_hz", "device", "stiffness", "rotational_stiffness", "guidance", "step_cap",
-                    "solves", "limits"});
+                    "solves", "delay", "limits"});
     Scene::Haptics& haptics = scene.haptics;
     if (const auto rate = node.find("rate_hz")) {
         haptics.rateHz = rate->number(Range::between(100.0, 10000.0));
@@ -63,6 +63,9 @@ void loadHaptics(const YamlNode& node, Scene& scene) {
     }
     if (const auto solves = node.find("solves")) {
         haptics.solves = solves->integer(1, 16);
+    }
+    if (const auto delay = node.find("delay")) {
+        haptics.delay = delay->integer(0, 64);
     }
     if (const auto limits = node.find("limits")) {
         loadLimits(*limits, haptics);

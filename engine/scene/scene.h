@@ -108,6 +108,7 @@ struct Scene {
         double slewForce = 2000.0;                     // [N/s]
         double slewTorque = 50.0;                      // [N m/s]
         double lowpassHz = 0.0;                        // 0 = off
+        uint32_t delay = 0;                            // whole turns from a wrench to the hand
     } haptics;
 
     struct Contact {

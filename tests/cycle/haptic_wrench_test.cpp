@@ -180,6 +180,18 @@ TEST_CASE(
     CHECK(record.marginPassive == doctest::Approx(0.0));
 }
 
+TEST_CASE(
+    "A delay of n turns to the hand lowers the automatic stiffness by 1 + 2n and leaves a margin of zero") {
+    for (const uint32_t delay : {0u, 1u, 3u, 64u}) {
+        Scene scene = plainScene();
+        scene.haptics.delay = delay;
+        HapticRig rig(scene, at(0, 0, 0.02));
+        CHECK(rig.options.springs.stiffness == doctest::Approx(1000.0 / (1.0 + 2.0 * delay)));
+        CHECK(rig.options.deviceDelayTicks == delay);
+        CHECK(std::abs(rig.turn().marginPassive) < 1e-12);
+    }
+}
+
 TEST_CASE("A set that does not cover the tool is refused and the one in force is kept") {
     HapticRig rig(plainScene(), at(0, 0, 0.05));
     rig.show(wallSet(1));

@@ -33,7 +33,7 @@ hand:
   map: {base_R_device: [0,1,0,0], scale: 2.5, clutch: 8}
   loop: {mass: 0.3, damping: 0, stiffness: 400}
 haptics: { rate_hz: 2000, device: w5d, stiffness: 800, rotational_stiffness: 1.5, guidance: paper, step_cap: 0.001,
-  solves: 16, limits: {force: 5, torque: 0.2, slew_N_per_s: 1000, slew_Nm_per_s: 20, lowpass_hz: 300} }
+  solves: 16, delay: 2, limits: {force: 5, torque: 0.2, slew_N_per_s: 1000, slew_Nm_per_s: 20, lowpass_hz: 300} }
 contact: { where: gpu, reach: 0.02, delay: 1000 }
 )";
 
@@ -137,6 +137,7 @@ TEST_CASE("hand, haptics and contact are taken as written") {
     CHECK(scene.haptics.guidance == Scene::Haptics::GuidanceMode::Paper);
     CHECK(scene.haptics.stepCap == 0.001);
     CHECK(scene.haptics.solves == 16);
+    CHECK(scene.haptics.delay == 2);
     CHECK(scene.haptics.forceLimit == 5.0);
     CHECK(scene.haptics.torqueLimit == 0.2);
     CHECK(scene.haptics.slewForce == 1000.0);

@@ -218,6 +218,8 @@ TEST_CASE("hand, haptics and contact values outside their range are refused") {
         section("haptics: {step_cap: 0.051}", "haptics.step_cap: 0.051", "from 1e-05 to 0.05"),
         section("haptics: {solves: 0}", "haptics.solves: 0", "from 1 to 16"),
         section("haptics: {solves: 17}", "haptics.solves: 17", "from 1 to 16"),
+        section("haptics: {delay: 65}", "haptics.delay: 65", "from 0 to 64"),
+        section("haptics: {delay: 1.5}", "haptics.delay: 1.5", "from 0 to 64"),
         section("haptics: {limits: {force: -1}}", "haptics.limits.force: -1",
                 "preset or a number of at least 0"),
         section("haptics: {limits: {slew_N_per_s: 0}}", "haptics.limits.slew_N_per_s: 0", "above 0"),
