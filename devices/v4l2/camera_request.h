@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a user asks of a live camera, in one line: "v4l2:DEVICE[,NAME=VALUE]...".
+#pragma once
+
+#include "devices/v4l2/video_node.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+struct CameraRequest {
+    std::string text;            // as given, for messages
+    std::string device = "auto"; // /dev/videoN with the depth; auto = the first camera that has any
+    std::string colour = "auto"; // /dev/videoN; auto = of the same camera, if it has any; none
+    uint32_t format = 0;         // depth format by name; 0 = one that is depth by itself
+    uint32_t colourFormat = 0;   // 0 = the best that there is
+    std::optional<VideoSize> size, colourSize; // default: the intrinsics', else 640x480
+    double rate = 30.0;                        // [1/s]
+    std::filesystem::path intrinsics;          // as intrinsics.json of a recording; empty = ask the camera
+    uint64_t frames = 0;                       // the source ends after so many; 0 = never
+    bool everyFrame = false; // hand out every picture, late or not, in place of the newest (recording)
+    double silence = 3.0;    // [s] without a picture: the stream is started anew, after twice that it is lost
+
+    static constexpr const char* kAllowed =
+        "v4l2:auto or v4l2:/dev/videoN, then any of ,colour=auto|none|/dev/videoN ,format=NAME "
+        ",colour_format=NAME ,size=WxH ,colour_size=WxH ,rate=N ,intrinsics=FILE ,frames=N";
+};
+
+// Whether `text` names a live camera and no file.
+bool isCameraRequest(const std::string& text);
+
+// `text` with or without the leading "v4l2:". Throws BadInput.
+CameraRequest parseCameraRequest(const std::string& text);
+
+} // namespace fathom

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/v4l2/capture_stream.h"
+
+#include "engine/types/error.h"
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <ctime>
+#include <linux/videodev2.h>
+#include <sys/mman.h>
+
+namespace fathom {
+
+namespace {
+
+v4l2_buffer bufferAt(uint32_t index) {
+    v4l2_buffer buffer{};
+    buffer.index = index;
+    buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    buffer.memory = V4L2_MEMORY_MMAP;
+    return buffer;
+}
+
+double monotonicNow() {
+    timespec now{};
+    ::clock_gettime(CLOCK_MONOTONIC, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+} // namespace
+
+CaptureStream::CaptureStream(VideoNode node, const StreamRequest& request)
+    : node_(std::move(node))
+    , request_(request) {
+    negotiate();
+    setRate();
+    try {
+        map();
+        for (uint32_t i = 0; i < kBuffers; ++i) {
+            queue(i);
+        }
+        start();
+    } catch (...) {
+        unmap();
+        throw;
+    }
+}
+
+CaptureStream::~CaptureStream() {
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    node_.control(VIDIOC_STREAMOFF, &type);
+    unmap();
+}
+
+void CaptureStream::fail(const char* what) const {
+    if (errno == ENODEV || errno == EIO || errno == EPIPE || errno == EPROTO) {
+        throw DeviceLost(node_.file().string() + ": " + what + ": " + std::strerror(errno));
+    }
+    throw BadInput(node_.file().string(), what, std::strerror(errno),
+                   errno == EBUSY ? "a camera that no other program uses"
+                                  : "a camera that streams what it offers: " + node_.offer());
+}
+
+void CaptureStream::negotiate() {
+    v4l2_format format{};
+    format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    format.fmt.pix.width = request_.size.width;
+    format.fmt.pix.height = request_.size.height;
+    format.fmt.pix.pixelformat = request_.fourcc;
+    format.fmt.pix.field = V4L2_FIELD_NONE;
+    if (node_.control(VIDIOC_S_FMT, &format) != 0) {
+        fail("format");
+    }
+    const VideoSize got{format.fmt.pix.width, format.fmt.pix.height};
+    if (format.fmt.pix.pixelformat != request_.fourcc || got != request_.size) {
+        throw BadInput(node_.file().string(), "format",
+                       fourccName(request_.fourcc) + " " + sizeName(request_.size), node_.offer());
+    }
+    stride_ = format.fmt.pix.bytesperline;
+}
+
+// A rate that the camera has not is no reason to refuse: the one it took is known afterwards.
+void CaptureStream::setRate() {
+    v4l2_streamparm parameters{};
+    parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    parameters.parm.capture.timeperframe = {1000, static_cast<uint32_t>(std::lround(1000.0 * request_.rate))};
+    period_ = 1.0 / request_.rate;
+    if (node_.control(VIDIOC_S_PARM, &parameters) == 0) {
+        const v4l2_fract took = parameters.parm.capture.timeperframe;
+        if (took.numerator > 0 && took.denominator > 0) {
+            period_ = static_cast<double>(took.numerator) / took.denominator;
+        }
+    }
+}
+
+void CaptureStream::map() {
+    v4l2_requestbuffers request{};
+    request.count = kBuffers;
+    request.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    request.memory = V4L2_MEMORY_MMAP;
+    if (node_.control(VIDIOC_REQBUFS, &request) != 0) {
+        fail("buffers");
+    }
+    if (request.count < kBuffers) {
+        throw BadInput(node_.file().string(), "buffers", std::to_string(request.count),
+                       std::to_string(kBuffers) + " or more");
+    }
+    for (uint32_t i = 0; i < kBuffers; ++i) {
+        v4l2_buffer buffer = bufferAt(i);
+        if (node_.control(VIDIOC_QUERYBUF, &buffer) != 0) {
+            fail("buffers");
+        }
+        // Read and write: memory of pages that may only be read cannot be imported by every GPU driver.
+        void* at = ::mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED, node_.descriptor(),
+                          static_cast<off_t>(buffer.m.offset));
+        if (at == MAP_FAILED) {
+            fail("buffers");
+        }
+        buffers_[i] = {static_cast<std::byte*>(at), buffer.length};
+    }
+}
+
+void CaptureStream::unmap() noexcept {
+    for (auto& buffer : buffers_) {
+        if (!buffer.empty()) {
+            ::munmap(buffer.data(), buffer.size());
+            buffer = {};
+        }
+    }
+}
+
+bool CaptureStream::queue(uint32_t index) noexcept {
+    v4l2_buffer buffer = bufferAt(index);
+    const bool done = node_.control(VIDIOC_QBUF, &buffer) == 0;
+    queued_ += done ? 1 : 0;
+    return done;
+}
+
+void CaptureStream::start() {
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    if (node_.control(VIDIOC_STREAMON, &type) != 0) {
+        fail("streaming");
+    }
+}
+
+void CaptureStream::restart() {
+    int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    if (node_.control(VIDIOC_STREAMOFF, &type) != 0) {
+        throw DeviceLost(node_.file().string() + ": streaming: " + std::strerror(errno));
+    }
+    queued_ = 0;
+    lastSequence_.reset();
+    for (uint32_t i = 0; i < kBuffers; ++i) {
+        if (!held_[i].load()) {
+            queue(i);
+        }
+    }
+    try {
+        start();
+    } catch (const BadInput& e) {
+        throw DeviceLost(e.what());
+    }
+}
+
+std::optional<CapturedBuffer> CaptureStream::take() {
+    v4l2_buffer buffer = bufferAt(0);
+    if (node_.control(VIDIOC_DQBUF, &buffer) != 0) {
+        if (errno == EAGAIN || errno == EIO) { // EIO: one picture's transfer failed, the next may not
+            return std::nullopt;
+        }
+        throw DeviceLost(node_.file().string() + ": " + std::strerror(errno));
+    }
+    --queued_;
+    held_[buffer.index] = true;
+    if (lastSequence_ && buffer.sequence > *lastSequence_ + 1) {
+        missing_ += buffer.sequence - *lastSequence_ - 1;
+    }
+    lastSequence_ = buffer.sequence;
+    CapturedBuffer out;
+    out.index = buffer.index;
+    out.sequence = buffer.sequence;
+    out.stamp = stampOf(buffer.timestamp.tv_sec, buffer.timestamp.tv_usec, buffer.flags);
+    out.bytes =
+        buffers_[buffer.index].first(std::min<size_t>(buffer.bytesused, buffers_[buffer.index].size()));
+    out.damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
+    return out;
+}
+
+double CaptureStream::stampOf(long seconds, long micros, uint32_t flags) {
+    if ((flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) != V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC) {
+        return monotonicNow();
+    }
+    exposureStamps_ = (flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+    return static_cast<double>(seconds) + 1e-6 * static_cast<double>(micros);
+}
+
+void CaptureStream::giveBack(uint32_t index) noexcept {
+    if (held_[index].exchange(false)) {
+        queue(index);
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// One stream of pictures from a video node: four mapped buffers that go round between driver and camera.
+#pragma once
+
+#include "devices/v4l2/video_node.h"
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <optional>
+#include <span>
+
+namespace fathom {
+
+struct StreamRequest {
+    uint32_t fourcc = 0;
+    VideoSize size;     // [pixels]
+    double rate = 30.0; // [1/s]
+};
+
+struct CapturedBuffer {
+    uint32_t index = 0;
+    uint32_t sequence = 0; // the driver's frame counter; a gap = frames that never came here
+    double stamp = 0.0;    // [s] CLOCK_MONOTONIC, start of exposure where the driver knows it
+    std::span<const std::byte> bytes;
+    bool damaged = false; // the driver says so
+};
+
+// Streams from construction to destruction. One thread takes; any thread gives back. Buffers stay mapped, at
+// the same addresses, as long as the object lives, even when the camera is gone.
+class CaptureStream {
+public:
+    static constexpr uint32_t kBuffers = 4;
+
+    // Throws BadInput, with what the device offers, when it gives another format, size or too few buffers;
+    // DeviceLost when it goes meanwhile.
+    CaptureStream(VideoNode node, const StreamRequest& request);
+    ~CaptureStream();
+    CaptureStream(const CaptureStream&) = delete;
+    CaptureStream& operator=(const CaptureStream&) = delete;
+
+    // The oldest picture that is ready, or nothing; never waits. Throws DeviceLost when the device is gone.
+    std::optional<CapturedBuffer> take();
+    // The picture has been read. Of a device that is gone: nothing happens.
+    void giveBack(uint32_t index) noexcept;
+    // Stops and starts again: for a stream that has gone silent. Pictures not given back yet stay valid.
+    // Throws DeviceLost.
+    void restart();
+
+    const VideoNode& node() const { return node_; }
+    const StreamRequest& request() const { return request_; }
+    uint32_t stride() const { return stride_; }             // [bytes] from row to row; 0 when compressed
+    double period() const { return period_; }               // [s] as the driver set it
+    uint32_t queued() const { return queued_.load(); }      // buffers that the driver can fill
+    uint64_t missing() const { return missing_; }           // frames lost before take(): sequence gaps
+    bool exposureStamps() const { return exposureStamps_; } // stamps are of the start of exposure
+    uint32_t taken() const { return kBuffers - queued_.load(); }
+
+private:
+    void negotiate();
+    void setRate();
+    void map();
+    void unmap() noexcept;
+    bool queue(uint32_t index) noexcept;
+    void start();
+    [[noreturn]] void fail(const char* what) const;
+    double stampOf(long seconds, long micros, uint32_t flags);
+
+    VideoNode node_;
+    StreamRequest request_;
+    uint32_t stride_ = 0;
+    double period_ = 0.0;
+    std::array<std::span<std::byte>, kBuffers> buffers_;
+    std::array<std::atomic<bool>, kBuffers> held_{}; // by the camera's side
+    std::atomic<uint32_t> queued_{0};
+    std::optional<uint32_t> lastSequence_;
+    uint64_t missing_ = 0;
+    bool exposureStamps_ = false;
+};
+
+} // namespace fathom

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/v4l2/frame_pairing.h"
+
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kAtOnce = 0.55, kAtMost = 1.0; // of the colour's period
+constexpr size_t kWaiting = 2;                  // depth pictures that may wait: of four buffers
+constexpr size_t kColours = 2;                  // that are kept: the driver needs the rest
+
+} // namespace
+
+FramePairing::FramePairing(double colourPeriod)
+    : period_(colourPeriod) {}
+
+void FramePairing::depth(const CapturedBuffer& buffer) {
+    depth_.push_back(buffer);
+}
+
+void FramePairing::colour(const CapturedBuffer& buffer) {
+    colour_.push_back(buffer);
+    while (colour_.size() > kColours) {
+        used_.push_back(colour_.front());
+        colour_.pop_front();
+    }
+}
+
+void FramePairing::clear() {
+    depth_.clear();
+    colour_.clear();
+    unpaired_.clear();
+    used_.clear();
+}
+
+const CapturedBuffer* FramePairing::nearest(double stamp) const {
+    const CapturedBuffer* best = nullptr;
+    for (const CapturedBuffer& one : colour_) {
+        if (best == nullptr || std::abs(one.stamp - stamp) < std::abs(best->stamp - stamp)) {
+            best = &one;
+        }
+    }
+    return best;
+}
+
+// The newest one at or before `stamp` may still be the nearest of the next depth picture.
+void FramePairing::dropColourBefore(double stamp) {
+    while (colour_.size() > 1 && colour_[1].stamp <= stamp) {
+        used_.push_back(colour_.front());
+        colour_.pop_front();
+    }
+}
+
+std::optional<FramePairing::Pair> FramePairing::next() {
+    while (!depth_.empty()) {
+        const CapturedBuffer oldest = depth_.front();
+        if (period_ == 0.0) {
+            depth_.pop_front();
+            return Pair{oldest, std::nullopt};
+        }
+        dropColourBefore(oldest.stamp);
+        const CapturedBuffer* best = nearest(oldest.stamp);
+        const double distance = best == nullptr ? INFINITY : std::abs(best->stamp - oldest.stamp);
+        const bool later = !colour_.empty() && colour_.back().stamp >= oldest.stamp;
+        if (distance > kAtOnce * period_ && !later && depth_.size() <= kWaiting) {
+            return std::nullopt;
+        }
+        depth_.pop_front();
+        if (distance <= kAtMost * period_) {
+            return Pair{oldest, *best};
+        }
+        unpaired_.push_back(oldest);
+    }
+    return std::nullopt;
+}
+
+} // namespace fathom

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lenses, depth unit and extrinsics of a live camera: from a file of the user's, or from the camera itself.
+#pragma once
+
+#include "devices/v4l2/choose_nodes.h"
+#include "engine/types/camera_info.h"
+
+namespace fathom {
+
+struct LiveCalibration {
+    CameraInfo info;    // of the pictures to be streamed
+    std::string origin; // where the figures come from, for the user
+};
+
+// Throws BadInput when neither has them, or when they are of other sizes than the request's.
+LiveCalibration calibrationFor(const CameraRequest& request, const ChosenNodes& nodes);
+
+} // namespace fathom

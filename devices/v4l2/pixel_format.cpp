@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/v4l2/pixel_format.h"
+
+#include "devices/v4l2/jpeg_image.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+namespace fathom {
+
+namespace {
+
+constexpr uint32_t kZ16 = fourccOf("Z16 "), kInzi = fourccOf("INZI"), kY16 = fourccOf("Y16 "),
+                   kY12 = fourccOf("Y12 "), kY10 = fourccOf("Y10 "), kY10b = fourccOf("Y10B"),
+                   kYuyv = fourccOf("YUYV"), kUyvy = fourccOf("UYVY"), kRgb3 = fourccOf("RGB3"),
+                   kBgr3 = fourccOf("BGR3"), kMjpg = fourccOf("MJPG"), kJpeg = fourccOf("JPEG");
+
+constexpr std::array kDeclared{kZ16, kInzi};
+constexpr std::array kColour{kRgb3, kBgr3, kYuyv, kUyvy, kMjpg, kJpeg};
+
+uint32_t rgba(int r, int g, int b) {
+    const auto byte = [](int v) { return static_cast<uint32_t>(std::clamp(v, 0, 255)); };
+    return byte(r) | byte(g) << 8 | byte(b) << 16 | 0xff000000u;
+}
+
+// BT.601, limited range, in 1/256.
+void yuvPair(int y0, int y1, int u, int v, uint32_t* out) {
+    const int d = u - 128, e = v - 128;
+    const int red = 409 * e + 128, green = -100 * d - 208 * e + 128, blue = 516 * d + 128;
+    for (const int y : {y0, y1}) {
+        const int c = 298 * (y - 16);
+        *out++ = rgba((c + red) >> 8, (c + green) >> 8, (c + blue) >> 8);
+    }
+}
+
+void yuvRow(const uint8_t* in, uint32_t width, bool lumaFirst, uint32_t* out) {
+    const int y = lumaFirst ? 0 : 1, u = lumaFirst ? 1 : 0;
+    for (uint32_t x = 0; x + 1 < width; x += 2, in += 4, out += 2) {
+        yuvPair(in[y], in[y + 2], in[u], in[u + 2], out);
+    }
+    if (width % 2 == 1) { // the last pair's second half lies outside
+        uint32_t pair[2];
+        yuvPair(in[y], in[y], in[u], in[u + 2], pair);
+        *out = pair[0];
+    }
+}
+
+void rgbRow(const uint8_t* in, uint32_t width, bool redFirst, uint32_t* out) {
+    for (uint32_t x = 0; x < width; ++x, in += 3) {
+        out[x] = rgba(in[redFirst ? 0 : 2], in[1], in[redFirst ? 2 : 0]);
+    }
+}
+
+uint32_t leastStride(uint32_t fourcc, uint32_t width) {
+    if (const auto layout = depthLayout(fourcc)) {
+        return (width * layout->bitsPerPixel + 7) / 8;
+    }
+    if (fourcc == kYuyv || fourcc == kUyvy) {
+        return (width + 1) / 2 * 4;
+    }
+    return fourcc == kRgb3 || fourcc == kBgr3 ? 3 * width : 0;
+}
+
+} // namespace
+
+std::optional<DepthLayout> depthLayout(uint32_t fourcc) {
+    switch (fourcc) {
+    case kZ16:
+    case kY16:
+        return DepthLayout{};
+    case kInzi:
+        return DepthLayout{.planesBefore = 1};
+    case kY12:
+        return DepthLayout{.mask = 0x0fff};
+    case kY10:
+        return DepthLayout{.mask = 0x03ff};
+    case kY10b:
+        return DepthLayout{.bitsPerPixel = 10, .packed = true, .mask = 0x03ff};
+    default:
+        return std::nullopt;
+    }
+}
+
+std::span<const uint32_t> declaredDepthFormats() {
+    return kDeclared;
+}
+
+std::span<const uint32_t> colourFormats() {
+    return kColour;
+}
+
+size_t pictureBytes(uint32_t fourcc, VideoSize size, uint32_t stride) {
+    const size_t row = leastStride(fourcc, size.width);
+    if (row == 0 || size.height == 0) {
+        return 0;
+    }
+    const auto layout = depthLayout(fourcc);
+    const size_t rows = size_t{size.height} * (1 + (layout ? layout->planesBefore : 0));
+    return (rows - 1) * std::max<size_t>(stride, row) + row;
+}
+
+void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
+                 std::span<uint16_t> out) {
+    const size_t row = std::max<size_t>(stride, (size_t{size.width} * layout.bitsPerPixel + 7) / 8);
+    const auto* in = reinterpret_cast<const uint8_t*>(bytes.data()) + row * size.height * layout.planesBefore;
+    for (uint32_t y = 0; y < size.height; ++y, in += row) {
+        uint16_t* to = out.data() + size_t{y} * size.width;
+        for (uint32_t x = 0; x < size.width; ++x) {
+            if (layout.packed) {
+                const uint32_t bit = 10 * x;
+                const uint8_t* at = in + bit / 8;
+                to[x] = static_cast<uint16_t>((at[0] << 8 | at[1]) >> (6 - bit % 8) & layout.mask);
+            } else {
+                to[x] = static_cast<uint16_t>((in[2 * x] | in[2 * x + 1] << 8) & layout.mask);
+            }
+        }
+    }
+}
+
+std::string unpackColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
+                         std::span<uint32_t> out) {
+    if (fourcc == kMjpg || fourcc == kJpeg) {
+        return readJpeg(bytes, size, out);
+    }
+    const size_t wanted = pictureBytes(fourcc, size, stride);
+    if (wanted == 0 || depthLayout(fourcc)) {
+        return "no colour format: " + fourccName(fourcc);
+    }
+    if (bytes.size() < wanted) {
+        return "a colour picture of " + std::to_string(bytes.size()) + " bytes, " + std::to_string(wanted) +
+               " make one";
+    }
+    const size_t row = std::max(stride, leastStride(fourcc, size.width));
+    for (uint32_t y = 0; y < size.height; ++y) {
+        const auto* in = reinterpret_cast<const uint8_t*>(bytes.data()) + row * y;
+        uint32_t* to = out.data() + size_t{y} * size.width;
+        if (fourcc == kRgb3 || fourcc == kBgr3) {
+            rgbRow(in, size.width, fourcc == kRgb3, to);
+        } else {
+            yuvRow(in, size.width, fourcc == kYuyv, to);
+        }
+    }
+    return "";
+}
+
+} // namespace fathom

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/v4l2/realsense_tables.h"
+
+#include "devices/v4l2/inverse_distortion.h"
+#include "engine/types/error.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
+
+namespace fathom::realsense {
+
+namespace {
+
+constexpr size_t kHeader = 16;
+
+uint32_t word(std::span<const uint8_t> bytes, size_t at) {
+    return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
+}
+
+double real(std::span<const uint8_t> bytes, size_t at) {
+    const uint32_t bits = word(bytes, at);
+    float value = 0.0f;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+// What follows the header: version (2 bytes), table number (2), size, parameter, checksum.
+std::span<const uint8_t> body(std::span<const uint8_t> table, uint32_t number, size_t least) {
+    const std::string name = "calibration table " + std::to_string(number);
+    if (table.size() < kHeader + least) {
+        throw Error(name + ": " + std::to_string(table.size()) + " bytes, " +
+                    std::to_string(kHeader + least) + " make one");
+    }
+    const uint32_t size = word(table, 4);
+    if ((word(table, 0) >> 16) != number || size < least || size > table.size() - kHeader) {
+        throw Error(name + ": its header tells of table " + std::to_string(word(table, 0) >> 16) + " with " +
+                    std::to_string(size) + " bytes");
+    }
+    if (crc32(table.subspan(kHeader, size)) != word(table, 12)) {
+        throw Error(name + ": wrong checksum");
+    }
+    return table.subspan(kHeader, size);
+}
+
+void checkLens(const Intrinsics& lens, uint32_t number) {
+    if (!(lens.fx > 0.0) || !(lens.fy > 0.0) || !std::isfinite(lens.fx + lens.fy + lens.cx + lens.cy)) {
+        throw Error("calibration table " + std::to_string(number) + ": no lens of " +
+                    sizeName({lens.width, lens.height}));
+    }
+}
+
+} // namespace
+
+uint32_t crc32(std::span<const uint8_t> bytes) {
+    uint32_t crc = 0xffffffffu;
+    for (const uint8_t byte : bytes) {
+        crc ^= byte;
+        for (int bit = 0; bit < 8; ++bit) {
+            crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0u);
+        }
+    }
+    return ~crc;
+}
+
+Intrinsics depthLens(std::span<const uint8_t> table, VideoSize size) {
+    struct Row {
+        VideoSize size;
+        size_t index;
+    };
+    constexpr std::array<Row, 11> kRows{{{{1920, 1080}, 0},
+                                         {{1280, 720}, 1},
+                                         {{640, 480}, 2},
+                                         {{848, 480}, 3},
+                                         {{640, 360}, 4},
+                                         {{424, 240}, 5},
+                                         {{320, 240}, 6},
+                                         {{480, 270}, 7},
+                                         {{1280, 800}, 8},
+                                         {{960, 540}, 9},
+                                         {{640, 400}, 12}}};
+    constexpr size_t kRectified = 240; // 16 rows of fx fy cx cy [pixels]
+    const auto bytes = body(table, kDepthTable, 560);
+    Row row{{1920, 1080}, 0}; // other sizes: the first row, scaled
+    for (const Row& one : kRows) {
+        row = one.size == size ? one : row;
+    }
+    const double sx = static_cast<double>(size.width) / row.size.width,
+                 sy = static_cast<double>(size.height) / row.size.height;
+    const size_t at = kRectified + 16 * row.index;
+    Intrinsics lens{.width = size.width,
+                    .height = size.height,
+                    .fx = real(bytes, at) * sx,
+                    .fy = real(bytes, at + 4) * sy,
+                    .cx = real(bytes, at + 8) * sx,
+                    .cy = real(bytes, at + 12) * sy};
+    checkLens(lens, kDepthTable);
+    return lens;
+}
+
+// K is normalised to -1..1 over the picture that was calibrated; a picture of another shape is cut from it.
+ColourTable colourLens(std::span<const uint8_t> table, VideoSize size) {
+    const auto bytes = body(table, kColourTable, 216);
+    double fx = real(bytes, 0), cx = real(bytes, 8), fy = real(bytes, 16), cy = real(bytes, 20);
+    const uint32_t calibrated = word(bytes, 128); // width, height: 16 bits each
+    const uint32_t width = calibrated & 0xffff, height = calibrated >> 16;
+    const double was = width > 0 && height > 0 ? static_cast<double>(height) / width : 9.0 / 16.0;
+    const double is = static_cast<double>(size.height) / size.width;
+    (is < was ? fy : fx) *= is < was ? was / is : is / was;
+    (is < was ? cy : cx) *= is < was ? was / is : is / was;
+    ColourTable colour;
+    colour.lens = {.width = size.width,
+                   .height = size.height,
+                   .fx = 0.5 * fx * size.width,
+                   .fy = 0.5 * fy * size.height,
+                   .cx = 0.5 * (1.0 + cx) * size.width,
+                   .cy = 0.5 * (1.0 + cy) * size.height};
+    checkLens(colour.lens, kColourTable);
+    std::array<double, 5> inverseCoefficients{};
+    glm::dmat3 rotation;
+    for (size_t i = 0; i < 9; ++i) {
+        rotation[static_cast<glm::length_t>(i / 3)][static_cast<glm::length_t>(i % 3)] =
+            real(bytes, 168 + 4 * i);
+    }
+    for (size_t i = 0; i < 5; ++i) {
+        inverseCoefficients[i] = real(bytes, 36 + 4 * i);
+    }
+    colour.lens.distortion = forwardDistortion(colour.lens, inverseCoefficients);
+    const dvec3 shift = -0.001 * dvec3(real(bytes, 204), real(bytes, 208), real(bytes, 212));
+    // The table's pose maps colour to depth (it is registered from colour to depth).
+    colour.colourTdepth = inverse(Pose{shift, glm::normalize(glm::quat_cast(rotation))});
+    return colour;
+}
+
+} // namespace fathom::realsense

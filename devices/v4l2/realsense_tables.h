@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The calibration tables that a RealSense D4xx keeps, taken apart. Source of the layouts: librealsense
+// (Apache-2.0), src/ds/d400/d400-private.{h,cpp}.
+#pragma once
+
+#include "devices/v4l2/video_node.h"
+#include "engine/types/camera_info.h"
+
+#include <cstdint>
+#include <span>
+
+namespace fathom::realsense {
+
+constexpr uint32_t kDepthTable = 25, kColourTable = 32;
+
+// All throw Error that says what is wrong: length, table number or checksum.
+
+// Lens of the rectified depth picture of that size, no distortion. table: 576 bytes, header included.
+Intrinsics depthLens(std::span<const uint8_t> table, VideoSize size);
+
+struct ColourTable {
+    Intrinsics lens;
+    Pose colourTdepth; // maps points of the depth camera to the colour camera
+};
+ColourTable colourLens(std::span<const uint8_t> table, VideoSize size);
+
+// CRC-32 of zlib, as in the tables' headers.
+uint32_t crc32(std::span<const uint8_t> bytes);
+
+} // namespace fathom::realsense

@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/v4l2/v4l2_camera.h"
+
+#include "devices/v4l2/camera_streams.h"
+#include "devices/v4l2/live_calibration.h"
+#include "devices/v4l2/pixel_format.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <poll.h>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr uint32_t kDriverKeeps = 2; // buffers; a lease that would leave fewer is a copy
+constexpr int kPollMs = 50;
+constexpr double kFirstPicture = 5.0; // [s] that a camera may take to start
+
+double secondsSince(Clock::time_point t) {
+    return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+Clock::time_point grace() {
+    return Clock::now() + std::chrono::milliseconds(static_cast<int>(1e3 * kFirstPicture));
+}
+
+} // namespace
+
+V4l2Camera::V4l2Camera(const CameraRequest& request)
+    : request_(request) {
+    ChosenNodes nodes = chooseNodes(request);
+    const LiveCalibration calibration = calibrationFor(request, nodes);
+    info_ = calibration.info;
+    description_ =
+        "camera " + nodes.depth.card() + " (" + nodes.depth.file().string() + ", " + calibration.origin + ")";
+    depthRequest_ = {nodes.depthFormat, {info_.depth.width, info_.depth.height}, request.rate};
+    colourRequest_ = {nodes.colourFormat, {info_.colour.width, info_.colour.height}, request.rate};
+    known_ = KnownCamera{nodes.depth.identity(), nodes.colour ? nodes.colour->identity() : ""};
+    slots_ = std::make_unique<FrameSlots>(std::max(info_.depth.pixels(), info_.colour.pixels()),
+                                          info_.hasColour, kFramesInFlight + 1);
+    streams_ = std::make_unique<Streams>(std::move(nodes), depthRequest_, colourRequest_);
+    open();
+}
+
+V4l2Camera::~V4l2Camera() = default;
+
+void V4l2Camera::open() {
+    pairing_ = FramePairing(streams_->colour ? streams_->colour->period() : 0.0);
+    depthPeriod_ = streams_->depth.period();
+    lastDepth_ = lastColour_ = grace();
+    restarted_ = false;
+}
+
+// Retired streams stay as long as a frame shows their memory.
+void V4l2Camera::close() {
+    arrivals_.clear();
+    pairing_.clear();
+    if (streams_) {
+        missingBefore_ += streams_->missing();
+        retired_.push_back(std::move(streams_));
+    }
+    std::erase_if(retired_, [](const auto& streams) { return streams->leased.load() == 0; });
+}
+
+void V4l2Camera::reopen() {
+    close(); // an unplugged device keeps its number as long as its memory is mapped
+    try {
+        streams_ = std::make_unique<Streams>(chooseNodes(request_, known_), depthRequest_, colourRequest_);
+    } catch (const BadInput& e) {
+        throw DeviceLost(e.what());
+    }
+    open();
+}
+
+uint64_t V4l2Camera::lost() const {
+    return missingBefore_ + (streams_ ? streams_->missing() : 0) + overtaken_;
+}
+
+std::optional<Frame> V4l2Camera::next() {
+    if (request_.frames != 0 && delivered_ >= request_.frames) {
+        return std::nullopt;
+    }
+    try {
+        if (!streams_) {
+            reopen();
+        }
+        for (;;) {
+            gather();
+            if (std::optional<Frame> frame = settle()) {
+                return frame;
+            }
+            wait();
+        }
+    } catch (const DeviceLost&) {
+        close();
+        throw;
+    }
+}
+
+// Everything that the driver has ready, in order of capture.
+void V4l2Camera::gather() {
+    const size_t before = arrivals_.size();
+    while (const auto buffer = streams_->depth.take()) {
+        arrivals_.push_back({true, *buffer});
+        lastDepth_ = std::max(lastDepth_, Clock::now());
+        restarted_ = false;
+    }
+    while (const auto buffer = streams_->colour ? streams_->colour->take() : std::nullopt) {
+        arrivals_.push_back({false, *buffer});
+        lastColour_ = std::max(lastColour_, Clock::now());
+    }
+    if (arrivals_.size() > before + 1) {
+        std::stable_sort(arrivals_.begin(), arrivals_.end(),
+                         [](const Arrival& a, const Arrival& b) { return a.buffer.stamp < b.buffer.stamp; });
+    }
+}
+
+void V4l2Camera::watch(bool depth, CaptureStream& stream, Clock::time_point& last) {
+    const double silent = secondsSince(last);
+    if (silent > 2.0 * request_.silence) {
+        throw DeviceLost(stream.node().file().string() + ": no picture for " + std::to_string(silent) + " s");
+    }
+    if (silent > request_.silence && !restarted_) {
+        spdlog::warn("{}: no {} picture for {:.1f} s: started anew", stream.node().file().string(),
+                     depth ? "depth" : "colour", silent);
+        restarted_ = true;
+        stream.restart();
+    }
+}
+
+void V4l2Camera::wait() {
+    pollfd ready[2] = {{streams_->depth.node().descriptor(), POLLIN, 0}, {-1, POLLIN, 0}};
+    if (streams_->colour) {
+        ready[1].fd = streams_->colour->node().descriptor();
+    }
+    ::poll(ready, 2, kPollMs);
+    for (const pollfd& one : ready) {
+        if (one.fd >= 0 && (one.revents & POLLERR) != 0 && (one.revents & POLLIN) == 0) {
+            // Unplugged (gather() learns it), or not streaming: nothing to wait for either way.
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+    }
+    watch(true, streams_->depth, lastDepth_);
+    if (streams_->colour) {
+        watch(false, *streams_->colour, lastColour_);
+    }
+}
+
+std::optional<Frame> V4l2Camera::settle() {
+    std::vector<FramePairing::Pair> pairs;
+    while (pairs.empty() || !request_.everyFrame) {
+        if (auto pair = pairing_.next()) {
+            pairs.push_back(*pair);
+        } else if (!arrivals_.empty()) {
+            const Arrival arrival = arrivals_.front();
+            arrivals_.erase(arrivals_.begin());
+            arrival.depth ? pairing_.depth(arrival.buffer) : pairing_.colour(arrival.buffer);
+        } else {
+            break;
+        }
+    }
+    std::optional<Frame> frame;
+    for (size_t i = 0; i < pairs.size(); ++i) {
+        if (i + 1 < pairs.size()) { // a newer one is here
+            ++overtaken_;
+            streams_->depth.giveBack(pairs[i].depth.index);
+        } else {
+            frame = lease(pairs[i]);
+        }
+    }
+    recycle();
+    return frame;
+}
+
+void V4l2Camera::recycle() {
+    for (const CapturedBuffer& depth : pairing_.unpairedDepth()) {
+        skip(depth.sequence, "no colour picture near it in time");
+        streams_->depth.giveBack(depth.index);
+    }
+    for (const CapturedBuffer& colour : pairing_.usedColour()) {
+        streams_->colour->giveBack(colour.index);
+    }
+}
+
+void V4l2Camera::skip(uint32_t sequence, const std::string& fault) {
+    ++skipped_;
+    spdlog::warn("{}: picture {} skipped: {}", description_, sequence, fault);
+}
+
+std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error(description_ + ": more frames are leased than the camera has memory for");
+    }
+    Frame::Content content;
+    const std::string fault = fill(pair, *slot, content);
+    const bool inPlace = fault.empty() && content.depth.data() != slot->depth().data();
+    if (!inPlace) {
+        streams_->depth.giveBack(pair.depth.index);
+    }
+    if (!fault.empty()) {
+        slot->release();
+        skip(pair.depth.sequence, fault);
+        return std::nullopt;
+    }
+    content.index = delivered_++;
+    content.sourceNumber = delivered_;
+    content.captureTime = lastStamp_ = pair.depth.stamp;
+    if (!inPlace) {
+        ++copied_;
+        return Frame(content, slot->giveBack());
+    }
+    ++streams_->leased;
+    return Frame(content, [slot, streams = streams_.get(), buffer = pair.depth.index] {
+        slot->release();
+        streams->depth.giveBack(buffer);
+        --streams->leased; // last: the streams may go now
+    });
+}
+
+std::string V4l2Camera::fill(const FramePairing::Pair& pair, FrameSlot& slot, Frame::Content& content) {
+    if (pair.depth.damaged) {
+        return "the driver marks it as damaged";
+    }
+    if (pair.depth.stamp < lastStamp_) {
+        return "its time stamp goes back";
+    }
+    if (!fillDepth(pair.depth, slot, content)) {
+        return "short: " + std::to_string(pair.depth.bytes.size()) + " bytes";
+    }
+    if (pair.colour && info_.hasColour) {
+        if (pair.colour->damaged) {
+            return "the driver marks its colour picture as damaged";
+        }
+        content.colour = slot.colour().first(info_.colour.pixels());
+        return unpackColour(colourRequest_.fourcc, colourRequest_.size, streams_->colour->stride(),
+                            pair.colour->bytes, slot.colour());
+    }
+    return "";
+}
+
+// False when bytes are missing.
+bool V4l2Camera::fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::Content& content) {
+    const uint32_t stride = streams_->depth.stride();
+    if (depth.bytes.size() < pictureBytes(depthRequest_.fourcc, depthRequest_.size, stride)) {
+        return false;
+    }
+    const DepthLayout layout = *depthLayout(depthRequest_.fourcc);
+    const size_t row = 2 * size_t{info_.depth.width};
+    if (!layout.packed && layout.mask == 0xffff && stride <= row &&
+        streams_->depth.queued() >= kDriverKeeps) {
+        const auto* first = reinterpret_cast<const uint16_t*>(depth.bytes.data());
+        content.depth = {first + size_t{layout.planesBefore} * info_.depth.pixels(), info_.depth.pixels()};
+        return true;
+    }
+    unpackDepth(layout, depthRequest_.size, stride, depth.bytes, slot.depth());
+    content.depth = slot.depth().first(info_.depth.pixels());
+    return true;
+}
+
+} // namespace fathom

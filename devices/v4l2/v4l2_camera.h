@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// A live depth camera, with colour where it has any, through the kernel's V4L2: no maker's library.
+#pragma once
+
+#include "devices/camera.h"
+#include "devices/frame_slots.h"
+#include "devices/v4l2/choose_nodes.h"
+#include "devices/v4l2/frame_pairing.h"
+
+#include <chrono>
+#include <memory>
+#include <vector>
+
+namespace fathom {
+
+// Depth of 16-bit rows without gaps is leased where the driver put it (no copy) while the driver keeps two
+// buffers; anything else is unpacked into memory of the camera's own. Capture times are CLOCK_MONOTONIC [s],
+// at the start of exposure for UVC cameras. Frames count from 0; each is new (source number index + 1).
+//
+// next() gives the newest pair there is (every one, in order, with everyFrame). A damaged, short or unpaired
+// picture is skipped, counted, named in the log. A stream without pictures for `silence` is started anew, and
+// after twice that the camera counts as lost. When it is lost (unplugged), next() throws DeviceLost, and
+// looks for the same camera again at each later call.
+class V4l2Camera final : public Camera {
+public:
+    // Throws BadInput: no such device, no such format or size (it says what there is), no intrinsics.
+    explicit V4l2Camera(const CameraRequest& request);
+    ~V4l2Camera() override;
+
+    const CameraInfo& info() const override { return info_; }
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return skipped_; }
+    std::string description() const override { return description_; }
+    bool live() const override { return true; }
+    // Gaps in the driver's counter, and pictures that a newer one overtook before they were asked for.
+    uint64_t lost() const override;
+    std::optional<double> framePeriod() const override { return depthPeriod_; }
+
+    uint64_t overtaken() const { return overtaken_; }
+    uint64_t copied() const { return copied_; } // frames whose depth was not leased in place
+
+private:
+    struct Streams;
+    struct Arrival {
+        bool depth = false;
+        CapturedBuffer buffer;
+    };
+
+    void open();
+    void reopen();
+    void close();
+    void gather();
+    void wait();
+    void watch(bool depth, CaptureStream& stream, std::chrono::steady_clock::time_point& last);
+    std::optional<Frame> settle();
+    std::optional<Frame> lease(const FramePairing::Pair& pair);
+    std::string fill(const FramePairing::Pair& pair, FrameSlot& slot, Frame::Content& content);
+    bool fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::Content& content);
+    void skip(uint32_t sequence, const std::string& fault);
+    void recycle();
+
+    CameraRequest request_;
+    CameraInfo info_;
+    std::string description_;
+    StreamRequest depthRequest_, colourRequest_;
+    std::optional<KnownCamera> known_;
+    std::unique_ptr<FrameSlots> slots_;
+    std::unique_ptr<Streams> streams_;
+    std::vector<std::unique_ptr<Streams>> retired_; // their last leases still live
+    FramePairing pairing_{0.0};
+    std::vector<Arrival> arrivals_; // taken, not yet paired; oldest first
+    std::chrono::steady_clock::time_point lastDepth_, lastColour_;
+    bool restarted_ = false;
+    double depthPeriod_ = 0.0, lastStamp_ = 0.0;
+    uint32_t delivered_ = 0, skipped_ = 0;
+    uint64_t overtaken_ = 0, copied_ = 0, missingBefore_ = 0;
+};
+
+} // namespace fathom

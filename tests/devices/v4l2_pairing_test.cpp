@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pairing of depth and colour streams by time stamp, without a camera.
+#include "devices/v4l2/frame_pairing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace fathom;
+
+namespace {
+
+constexpr double kPeriod = 1.0 / 30.0;
+
+CapturedBuffer at(double stamp, uint32_t index = 0) {
+    CapturedBuffer buffer;
+    buffer.stamp = stamp;
+    buffer.index = index;
+    return buffer;
+}
+
+struct Event {
+    bool depth;
+    double stamp;
+    double arrival;
+};
+
+// Feeds two streams in order of arrival; the distances in time of all pairs.
+struct Run {
+    std::vector<double> distances;
+    size_t unpaired = 0, mostHeld = 0;
+};
+Run run(FramePairing& pairing, std::vector<Event> events) {
+    std::stable_sort(events.begin(), events.end(),
+                     [](const Event& a, const Event& b) { return a.arrival < b.arrival; });
+    Run result;
+    size_t held = 0;
+    for (const Event& e : events) {
+        e.depth ? pairing.depth(at(e.stamp)) : pairing.colour(at(e.stamp));
+        ++held;
+        result.mostHeld = std::max(result.mostHeld, held);
+        while (const auto pair = pairing.next()) {
+            result.distances.push_back(pair->depth.stamp - pair->colour->stamp);
+            --held;
+        }
+        const size_t unpaired = pairing.unpairedDepth().size();
+        result.unpaired += unpaired;
+        held -= unpaired + pairing.usedColour().size();
+    }
+    return result;
+}
+
+std::vector<Event> streams(double phase, double depthRate, double colourRate, double colourDelay,
+                           int seconds) {
+    std::vector<Event> events;
+    for (int i = 0; i < seconds * depthRate; ++i) {
+        events.push_back({true, i / depthRate, i / depthRate + 0.005});
+    }
+    for (int i = 0; i < seconds * colourRate; ++i) {
+        const double t = phase + i / colourRate;
+        events.push_back({false, t, t + colourDelay});
+    }
+    return events;
+}
+
+} // namespace
+
+TEST_CASE(
+    "Every depth picture is paired with its nearest colour picture, whatever the phase of the streams") {
+    for (const double phase : {0.0, 0.004, 0.012, 0.0166, 0.0167, 0.02, 0.033}) {
+        FramePairing pairing(kPeriod);
+        const Run result = run(pairing, streams(phase, 30, 30, 0.005, 4));
+        CHECK(result.distances.size() >= 118);
+        CHECK(result.unpaired <= 1);
+        for (size_t i = 1; i < result.distances.size(); ++i) { // before the first there may be no colour yet
+            CHECK(std::abs(result.distances[i]) <= 0.56 * kPeriod);
+        }
+        CHECK(result.mostHeld <= 5); // of eight buffers
+    }
+}
+
+TEST_CASE("A slower colour stream serves several depth pictures, a faster one is thinned") {
+    for (const double rate : {15.0, 60.0}) {
+        FramePairing pairing(1.0 / rate);
+        const Run result = run(pairing, streams(0.003, 30, rate, 0.005, 4));
+        CHECK(result.distances.size() >= 116);
+        for (const double d : result.distances) {
+            CHECK(std::abs(d) <= 1.0 / rate);
+        }
+    }
+}
+
+TEST_CASE("Colour that comes two frames late by transport still finds its depth picture") {
+    FramePairing pairing(kPeriod);
+    const Run result = run(pairing, streams(0.002, 30, 30, 0.06, 4));
+    CHECK(result.distances.size() >= 110);
+    for (const double d : result.distances) {
+        CHECK(std::abs(d) <= kPeriod);
+    }
+}
+
+TEST_CASE("Without a colour picture near in time a depth picture is let go, and never more than two wait") {
+    FramePairing pairing(kPeriod);
+    pairing.colour(at(0.0));
+    for (int i = 0; i < 10; ++i) {
+        pairing.depth(at(1.0 + i * kPeriod));
+    }
+    CHECK_FALSE(pairing.next());
+    CHECK(pairing.unpairedDepth().size() == 8);
+    CHECK(pairing.unpairedDepth().empty()); // handed over once
+    pairing.clear();
+    CHECK_FALSE(pairing.next());
+}
+
+TEST_CASE("Without a colour stream each depth picture stands for itself, at once and in order") {
+    FramePairing pairing(0.0);
+    pairing.depth(at(1.0, 1));
+    pairing.depth(at(2.0, 2));
+    const auto first = pairing.next(), second = pairing.next();
+    REQUIRE(first);
+    REQUIRE(second);
+    CHECK(first->depth.index == 1);
+    CHECK_FALSE(first->colour);
+    CHECK(second->depth.index == 2);
+    CHECK_FALSE(pairing.next());
+}
+
+TEST_CASE("Streams with jitter and dropped pictures lose no more pairs than pictures") {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> jitter(0.0, 0.004);
+    FramePairing pairing(kPeriod);
+    std::vector<Event> events = streams(0.010, 30, 30, 0.008, 20);
+    size_t kept = 0, depth = 0;
+    for (size_t i = 0; i < events.size(); ++i) {
+        events[i].stamp += jitter(random);
+        events[i].arrival = std::max(events[i].arrival, events[i].stamp);
+        if (random() % 20 != 0) {
+            depth += events[i].depth ? 1 : 0;
+            events[kept++] = events[i];
+        }
+    }
+    events.resize(kept);
+    const Run result = run(pairing, events);
+    CHECK(result.distances.size() + result.unpaired >= depth - 2);
+    CHECK(result.unpaired <= depth / 20);
+}
