@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// What goes wrong with a camera: every fault on the kernel's own stack, and what the product makes of it.
+#include "tests/vm/camera/live_camera.h"
+
+#include "engine/types/error.h"
+
+#include <thread>
+
+using namespace fathom;
+using namespace fathom::vm;
+
+namespace {
+
+// The driver hides damaged pictures unless told not to; it reads this when a stream starts.
+class NoDrop {
+public:
+    NoDrop() { std::ofstream("/sys/module/uvcvideo/parameters/nodrop") << "1"; }
+    ~NoDrop() { std::ofstream("/sys/module/uvcvideo/parameters/nodrop") << "0"; }
+};
+
+void readFrames(V4l2Camera& camera, int count) {
+    for (int i = 0; i < count; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        REQUIRE(isPlainDepth(*frame, 320));
+    }
+}
+
+bool isLost(V4l2Camera& camera) {
+    try {
+        camera.next();
+    } catch (const DeviceLost&) {
+        return true;
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("Pictures that the driver throws away show as gaps of its counter, and are counted as lost") {
+    UvcCamera device({.colour = false});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    readFrames(*camera, 3);
+    const uint64_t before = camera->lost();
+    device.depth().faults.errorBit = 2;
+    device.depth().faults.cutShort = 1;
+    readFrames(*camera, 6);
+    CHECK(camera->lost() >= before + 2); // one may hide behind a toggle that the driver had not seen
+    CHECK(device.depth().faults.errorBit == 0);
+    CHECK(device.depth().faults.cutShort == 0);
+    CHECK(camera->skipped() == 0);
+}
+
+TEST_CASE(
+    "A short picture and one with the error bit are skipped and counted when the driver lets them through") {
+    const NoDrop noDrop;
+    UvcCamera device({.colour = false});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    readFrames(*camera, 2);
+    device.depth().faults.cutShort = 1;
+    readFrames(*camera, 4);
+    CHECK(camera->skipped() + camera->overtaken() >= 1);
+    const uint32_t skipped = camera->skipped();
+    device.depth().faults.errorBit = 1;
+    readFrames(*camera, 4);
+    CHECK(camera->skipped() + camera->overtaken() > skipped);
+}
+
+TEST_CASE("A frame bit that does not change costs a picture and no more") {
+    UvcCamera device({.colour = false});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    readFrames(*camera, 2);
+    device.depth().faults.sameToggle = 1;
+    readFrames(*camera, 5);
+    CHECK(device.depth().faults.sameToggle == 0);
+}
+
+TEST_CASE(
+    "A camera that is unplugged in mid-stream is lost at once, and the same one is found when it is back") {
+    auto device = std::make_unique<UvcCamera>(UvcCameraOptions{});
+    device->plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    auto held = camera->next();
+    REQUIRE(held);
+    std::thread pull([&device] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        device->unplug();
+    });
+    bool lost = false;
+    const auto start = std::chrono::steady_clock::now();
+    while (!lost && std::chrono::steady_clock::now() - start < std::chrono::seconds(10)) {
+        lost = isLost(*camera);
+    }
+    pull.join();
+    CHECK(lost);
+    CHECK(isPlainDepth(*held, 320)); // a frame outlives the camera's unplugging
+    CHECK(isLost(*camera));
+    held.reset();
+    // Another camera with another serial number is not taken for it.
+    UvcCamera other({.serial = "OTHER"});
+    other.plug();
+    REQUIRE(waitForCamera());
+    CHECK(isLost(*camera));
+    other.unplug();
+    REQUIRE(waitForNoCamera());
+    device->plug();
+    REQUIRE(waitForCamera());
+    readFrames(*camera, 3);
+}
+
+TEST_CASE("A stream that falls silent is started anew, and is lost when that does not help") {
+    UvcCamera device({.colour = false});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    const IntrinsicsFile lens(320, 240);
+    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    request.silence = 0.4;
+    V4l2Camera camera(request);
+    readFrames(camera, 2);
+    device.depth().faults.silent = true;
+    std::thread wake([&device] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(600));
+        device.depth().faults.silent = false;
+    });
+    readFrames(camera, 2); // after a restart
+    wake.join();
+    device.depth().faults.silent = true;
+    CHECK_THROWS_AS(readFrames(camera, 5), DeviceLost);
+    device.depth().faults.silent = false;
+    readFrames(camera, 1); // opened anew
+}

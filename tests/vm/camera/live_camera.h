@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the camera tests share: a simulated camera plugged in, and the product's camera opened on it.
+#pragma once
+
+#include "devices/v4l2/v4l2_camera.h"
+#include "tests/vm/uvc_camera.h"
+#include "tests/vm/vhci_port.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace fathom::vm {
+
+// intrinsics.json of a registered camera of that size, removed at the end.
+class IntrinsicsFile {
+public:
+    IntrinsicsFile(int width, int height, double scale = 0.001)
+        : path_(std::filesystem::temp_directory_path() / ("intrinsics-" + std::to_string(width) + ".json")) {
+        std::ofstream(path_) << "{\"width\": " << width << ", \"height\": " << height
+                             << ", \"fx\": 300, \"fy\": 300, \"cx\": " << width / 2
+                             << ", \"cy\": " << height / 2 << ", \"depth_scale_m_per_unit\": " << scale
+                             << "}";
+    }
+    ~IntrinsicsFile() { std::filesystem::remove(path_); }
+    IntrinsicsFile(const IntrinsicsFile&) = delete;
+    IntrinsicsFile& operator=(const IntrinsicsFile&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+// Waits until the kernel offers a node with depth, and colour when wanted.
+inline bool waitForCamera(bool colour = true) {
+    return waitFor([colour] {
+        bool depth = false, picture = !colour;
+        for (const VideoNode& node : openVideoNodes()) {
+            depth = depth || node.offers(fourccOf("Z16 "));
+            picture = picture || node.offers(fourccOf("YUYV")) || node.offers(fourccOf("MJPG"));
+        }
+        return depth && picture;
+    });
+}
+
+inline bool waitForNoCamera() {
+    return waitFor([] { return openVideoNodes().empty(); });
+}
+
+inline std::unique_ptr<V4l2Camera> openLive(const std::string& options) {
+    return std::make_unique<V4l2Camera>(parseCameraRequest("v4l2:auto" + options));
+}
+
+// The message of the refusal; empty when it opens.
+inline std::string refusalOf(const std::string& text) {
+    try {
+        V4l2Camera camera(parseCameraRequest(text));
+    } catch (const std::exception& e) {
+        return e.what();
+    }
+    return "";
+}
+
+// Whether the depth is plainDepth()'s but for pixel 0.
+inline bool isPlainDepth(const Frame& frame, uint32_t width) {
+    for (uint32_t i = 1; i < frame->depth.size(); ++i) {
+        if (frame->depth[i] != 1000 + i % width + 2 * (i / width)) {
+            return false;
+        }
+    }
+    return !frame->depth.empty();
+}
+
+} // namespace fathom::vm

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// The product's camera on the kernel's own uvcvideo and a simulated UVC camera.
+#include "tests/vm/camera/live_camera.h"
+
+#include "engine/types/error.h"
+
+#include <set>
+
+using namespace fathom;
+using namespace fathom::vm;
+
+namespace {
+
+int channel(uint32_t pixel, int i) {
+    return static_cast<int>(pixel >> (8 * i) & 255);
+}
+
+void checkColour(const Frame& frame, uint32_t width, uint32_t height, int tolerance) {
+    REQUIRE(frame->colour.size() == width * height);
+    const uint32_t red = frame->colour[5 * width + 5], blue = frame->colour[5 * width + width - 5];
+    CHECK(channel(red, 0) >= 255 - tolerance);
+    CHECK(channel(red, 1) <= tolerance);
+    CHECK(channel(red, 2) <= tolerance);
+    CHECK(channel(blue, 0) <= tolerance);
+    CHECK(channel(blue, 2) >= 255 - tolerance);
+}
+
+} // namespace
+
+TEST_CASE("A live camera delivers depth and colour as they were sent, stamped with the monotonic clock") {
+    UvcCamera device({});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240, 0.0005);
+    const auto camera = openLive(",intrinsics=" + lens.path().string() + ",frames=20");
+    CHECK(camera->live());
+    CHECK(camera->info().hasColour);
+    CHECK(camera->info().metresPerUnit == 0.0005);
+    std::set<const void*> places;
+    double last = 0.0, age = 0.0;
+    uint32_t count = 0;
+    int number = -1;
+    while (const auto frame = camera->next()) {
+        const double now =
+            std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+        CHECK((*frame)->index == count);
+        CHECK((*frame)->captureTime > last);
+        CHECK((*frame)->captureTime <= now);
+        CHECK(isPlainDepth(*frame, 320));
+        CHECK(int{(*frame)->depth[0]} > number);
+        checkColour(*frame, 320, 240, 4);
+        number = (*frame)->depth[0];
+        age += now - last;
+        last = (*frame)->captureTime;
+        places.insert((*frame)->depth.data());
+        ++count;
+    }
+    CHECK(count == 20);
+    CHECK(camera->copied() == 0); // depth stayed where the driver put it
+    CHECK(places.size() <= CaptureStream::kBuffers);
+    CHECK(camera->next() == std::nullopt);
+    MESSAGE("20 pairs of 320x240, " << camera->lost() << " lost, " << camera->skipped() << " skipped");
+}
+
+TEST_CASE("Frames held by the engine leave the driver two buffers, and later ones are copies") {
+    UvcCamera device({.colour = false});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    std::vector<Frame> held;
+    for (int i = 0; i < 4; ++i) {
+        auto frame = camera->next();
+        REQUIRE(frame);
+        held.push_back(std::move(*frame));
+    }
+    CHECK(camera->copied() == 2);
+    for (const Frame& frame : held) {
+        CHECK(isPlainDepth(frame, 320)); // not overwritten while it is held
+    }
+    CHECK_FALSE(camera->info().hasColour);
+    held.clear();
+    CHECK(camera->next());
+}
+
+TEST_CASE("Motion JPEG colour is decoded") {
+    UvcCamera device({.width = 64, .height = 48, .motionJpeg = true, .paintColour = redAndBlueJpeg(64, 48)});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(64, 48);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    for (int i = 0; i < 3; ++i) {
+        const auto frame = camera->next();
+        REQUIRE(frame);
+        checkColour(*frame, 64, 48, 40);
+    }
+}
+
+TEST_CASE("What a camera does not have is refused with what it has") {
+    UvcCamera device({});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240);
+    const std::string file = ",intrinsics=" + lens.path().string();
+    CHECK(refusalOf("v4l2:auto").find("intrinsics: missing: this camera does not tell its own") !=
+          std::string::npos);
+    CHECK(refusalOf("v4l2:auto,size=640x480" + file).find("320x240, the size that") != std::string::npos);
+    const IntrinsicsFile large(640, 480);
+    CHECK(refusalOf("v4l2:auto,intrinsics=" + large.path().string()).find("(allowed: Z16 320x240)") !=
+          std::string::npos);
+    CHECK(refusalOf("v4l2:/dev/video77" + file).find("/dev/video77: device: No such file") !=
+          std::string::npos);
+    CHECK(refusalOf("v4l2:/dev/null" + file).find("no video device") != std::string::npos);
+    CHECK(refusalOf("v4l2:auto,format=Y16" + file).find("no depth among") != std::string::npos);
+    CHECK(refusalOf("v4l2:auto,colour_format=RGB3" + file).find("colour_format: RGB3") != std::string::npos);
+    const auto camera = openLive(file);
+    CHECK(refusalOf("v4l2:auto" + file).find("a camera that no other program uses") != std::string::npos);
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// One streaming interface of a simulated UVC camera: descriptors, negotiation and bulk payloads.
+// Source: USB Device Class Definition for Video Devices 1.1/1.5 and its payload documents.
+#pragma once
+
+#include "tests/vm/usb_device.h"
+
+#include <functional>
+
+namespace fathom::vm {
+
+enum class UvcFormat { Z16, Yuyv, Mjpeg };
+
+// Paints picture n: Z16 and YUYV rows of 16-bit words, or a whole JPEG.
+using UvcPainter = std::function<void(uint32_t n, Bytes& picture)>;
+
+// What may go wrong, set by a test while the camera runs. Each count is of pictures still to be spoilt.
+struct UvcFaults {
+    std::atomic<int> cutShort{0};    // ends half-way
+    std::atomic<int> errorBit{0};    // the header says that it is bad
+    std::atomic<int> sameToggle{0};  // the frame bit does not change: the driver is out of step
+    std::atomic<bool> silent{false}; // nothing comes
+};
+
+class UvcStream {
+public:
+    struct Shape {
+        UvcFormat format = UvcFormat::Z16;
+        uint16_t width = 320, height = 240;
+        uint8_t interfaceNumber = 1, endpoint = 1, terminal = 2;
+        bool wholePayloads = false; // one payload a picture with a capture-timing block (RealSense)
+    };
+    UvcStream(const Shape& shape, UvcPainter painter);
+
+    Bytes descriptors() const; // of the interface, class-specific ones and endpoint included
+    const Shape& shape() const { return shape_; }
+
+    UsbReply control(const UsbSetup& setup, const Bytes& out); // probe and commit
+    void stop() { on_ = false; }
+    // Next bulk transfer of at most `room` bytes; nothing while no picture is due.
+    std::optional<UsbReply> transfer(size_t room);
+    Clock::time_point due() const;
+
+    UvcFaults faults;
+    std::atomic<uint32_t> sent{0}; // pictures, whole or spoilt
+
+private:
+    Bytes formatDescriptor() const;
+    Bytes frameDescriptor() const;
+    uint32_t pictureBytes() const { return uint32_t{2} * shape_.width * shape_.height; }
+    uint32_t payloadBytes() const;
+    Bytes probe() const;
+    bool nextPicture();
+    void header(Bytes& out, bool end);
+
+    Shape shape_;
+    UvcPainter painter_;
+    uint32_t interval_ = 333333; // [100 ns]
+    bool on_ = false;
+    Clock::time_point due_;
+    Bytes picture_;
+    size_t at_ = 0, end_ = 0;
+    uint32_t number_ = 0;
+    uint8_t toggle_ = 0;
+    bool bad_ = false, busy_ = false;
+};
+
+} // namespace fathom::vm
