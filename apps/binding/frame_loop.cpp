@@ -30,6 +30,7 @@ bool FrameLoop::first() {
         return false;
     }
     firstIndex_ = *index;
+    news_.live = feed_.captured().has_value();
     publish(0.0);
     return true;
 }
@@ -61,6 +62,10 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
 
 void FrameLoop::run(const std::atomic<bool>& stop) {
     while (const std::optional<uint32_t> index = fetch(stop)) {
+        if (const std::optional<RunClock::Time> taken = feed_.captured()) {
+            publish(std::max(clock_.at(*taken), news_.captureTime)); // not before the run's own start
+            continue;
+        }
         const double due = origin_ + period_ * (*index - firstIndex_);
         clock_.sleepUntil(due, stop);
         if (stop.load(std::memory_order_relaxed)) {

@@ -20,6 +20,9 @@ public:
     // Gets the next picture ready; its index, or nothing when the source has ended. Throws DeviceLost when
     // the camera is gone (it is asked again later), Error otherwise.
     virtual std::optional<uint32_t> fetch() = 0;
+    // When that picture was taken, of a source whose pictures come by themselves (a live camera): it is
+    // waited for in fetch(), and paced by nobody. Nothing: the loop paces the source.
+    virtual std::optional<RunClock::Time> captured() const { return std::nullopt; }
     // That picture, captured at t [s], becomes the newest fixture set. Fills everything in `out` but its t. A
     // picture that is the same again makes no set: `changed` false, the set and the colour in `out` are left
     // alone.
@@ -27,8 +30,9 @@ public:
 };
 
 // The source's pictures come at period x (index - first index), by the clock: a picture counts as captured
-// when its turn comes. When one takes so long that a live camera would have thrown pictures away meanwhile,
-// these are counted as lost and the source plays on from there: no recorded picture is left out.
+// when its turn comes; one of a live source when it was taken. When one takes so long that a live camera
+// would have thrown pictures away meanwhile, these are counted as lost and the source plays on from there: no
+// recorded picture is left out.
 class FrameLoop {
 public:
     FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period,

@@ -4,6 +4,7 @@
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
+#include "devices/v4l2/v4l2_camera.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/model/sph_file.h"
 #include "engine/types/error.h"
@@ -23,6 +24,18 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     return std::make_unique<SimulatedCamera>(*solids, options);
 }
 
+std::unique_ptr<Camera> openLive(CameraRequest request, Pictures pictures) {
+    request.everyFrame = pictures == Pictures::Every;
+    return std::make_unique<V4l2Camera>(request);
+}
+
+std::unique_ptr<Camera> openNamed(const std::string& source, Pictures pictures) {
+    if (isCameraRequest(source)) {
+        return openLive(parseCameraRequest(source), pictures);
+    }
+    return std::make_unique<RecordedCamera>(source);
+}
+
 } // namespace
 
 Scene openScene(const std::filesystem::path& file) {
@@ -37,9 +50,10 @@ Scene openScene(const std::filesystem::path& file) {
     throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
 }
 
-std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source) {
+std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
+                                   Pictures pictures) {
     if (source) {
-        return std::make_unique<RecordedCamera>(*source);
+        return openNamed(source->string(), pictures);
     }
     switch (scene.source.kind) {
     case CameraSource::Kind::Simulated:
@@ -49,8 +63,11 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
     case CameraSource::Kind::V4l2:
         break;
     }
-    throw BadInput(scene.file.string(), "camera.source.v4l2", scene.source.value,
-                   "simulated or recorded: this build has no live camera");
+    CameraRequest request = parseCameraRequest(scene.source.value);
+    if (!request.intrinsics.empty()) { // as all paths in a scene file
+        request.intrinsics = scene.file.parent_path() / request.intrinsics;
+    }
+    return openLive(request, pictures);
 }
 
 Tool openTool(const Scene& scene) {

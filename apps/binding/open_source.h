@@ -15,8 +15,16 @@ namespace fathom {
 // The scene file, read and checked, names of device presets included. Throws BadInput.
 Scene openScene(const std::filesystem::path& file);
 
-// The scene's camera, or the recording in `source` when given. Throws BadInput.
-std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source);
+// What --source takes.
+inline constexpr const char* kSourceHelp =
+    "in place of the scene's camera: a recording folder, or a live camera as v4l2:auto";
+
+// Of a live camera: the newest at each call, or every one in order (for recordings).
+enum class Pictures { Newest, Every };
+
+// The scene's camera, or `source` when given: a recording, or a live camera ("v4l2:..."). Throws BadInput.
+std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
+                                   Pictures pictures = Pictures::Newest);
 
 // The scene's tool: listed spheres or a .sph file. Throws BadInput.
 Tool openTool(const Scene& scene);

@@ -55,7 +55,7 @@ void addPlanCommand(CLI::App& app, const GlobalOptions& global) {
     CLI::App* command =
         app.add_subcommand("plan", "print which passes, buffers and threads a scene gets, and why");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
-    command->add_option("--source", options->source, "recording folder in place of the scene's camera");
+    command->add_option("--source", options->source, kSourceHelp);
     command->callback([options, &global] { runPlan(*options, global); });
 }
 

@@ -36,7 +36,16 @@ public:
 
     std::optional<uint32_t> fetch() override {
         next_ = session_.camera->next();
+        taken_ = next_ ? (*next_)->captureTime : taken_;
         return next_ ? std::optional((*next_)->index) : std::nullopt;
+    }
+
+    std::optional<RunClock::Time> captured() const override {
+        if (!session_.camera->live()) {
+            return std::nullopt;
+        }
+        const std::chrono::duration<double> sinceBoot(taken_);
+        return RunClock::Time(std::chrono::duration_cast<std::chrono::nanoseconds>(sinceBoot));
     }
 
     void publish(double t, PublishedFrame& out) override {
@@ -44,6 +53,10 @@ public:
         colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
         out.report = session_.frames.process(std::move(*next_));
         next_.reset();
+        if (const auto taken = captured()) {
+            using Millis = std::chrono::duration<float, std::milli>;
+            exposureMs.push_back(Millis(out.report.times.published - *taken).count());
+        }
         out.changed = !out.report.unchanged;
         if (out.changed) { // a copy for the writer: the set itself goes round among the cadences
             const auto set = session_.frames.sets().newest();
@@ -53,8 +66,11 @@ public:
         }
     }
 
+    std::vector<float> exposureMs; // [ms] from a live picture's exposure to its published set
+
 private:
     ReplaySession& session_;
+    double taken_ = 0.0; // [s] on the camera's clock
     std::optional<Frame> next_;
     std::vector<uint32_t> colour_;
 };
@@ -129,7 +145,9 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     run_->run(cycle, *hand, path.duration(), *this, signals_.asked());
     progress_.finish();
     figures_.wokenLateMicros = percentilesOf(std::move(wokenLateMicros_));
-    figures_.framesLost = run_->framesLost();
+    figures_.framesLost = session_.camera->live() ? session_.camera->lost() : run_->framesLost();
+    figures_.exposureMs = percentilesOf(std::move(feed_->exposureMs));
+    figures_.live = session_.camera->live();
     figures_.periodsMissed = run_->periodsMissed();
     figures_.staleTurns = run_->staleTurns();
     figures_.recordsLost = run_->recordsLost();
@@ -139,6 +157,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
 
 ReplayRecorder::Ending RealtimeReplay::ending(const HapticCycle& cycle) {
     ReplayRecorder::Ending ending;
+    ending.exposureMs = figures_.live ? std::optional(figures_.exposureMs) : std::nullopt;
     ending.skipped = session_.camera->skipped();
     ending.contact = session_.contact.statistics();
     ending.where = session_.where();

@@ -20,7 +20,9 @@ namespace fathom {
 // What only a realtime run has to tell.
 struct RealtimeFigures {
     Percentiles wokenLateMicros; // [us] wake-ups after they were due, compute time apart
-    uint64_t framesLost = 0;     // that a live camera would have thrown away
+    Percentiles exposureMs;      // [ms] live camera: from start of exposure to the published set
+    bool live = false;           // the camera is
+    uint64_t framesLost = 0;     // by a live camera, or that one would have thrown away
     uint64_t periodsMissed = 0;  // without a turn
     uint64_t staleTurns = 0;     // with a scene old enough for forces to fade
     uint64_t recordsLost = 0;    // the writer fell behind

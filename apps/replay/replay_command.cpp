@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/replay_command.h"
 
+#include "apps/binding/open_source.h"
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
@@ -58,10 +59,11 @@ void printBudgets(const ReplaySummary& summary, const ReplaySession& session) {
 void print(const RealtimeFigures& f, const ThreadPlacement& placement, const ReplaySummary& s) {
     std::cout << "realtime     " << describe(placement) << (f.stopped ? "; stopped by a signal" : "") << "\n";
     printPart("  woken late", f.wokenLateMicros, "us");
+    printPart("  exposed   ", f.exposureMs, "ms before the set was published");
     std::cout << "  turns     " << s.haptic.late << " of " << s.haptic.ticks
               << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
-              << f.framesLost << " that a live camera would have lost; scene too old in " << f.staleTurns
-              << " turns\n";
+              << f.framesLost << (f.live ? " lost" : " that a live camera would have lost")
+              << "; scene too old in " << f.staleTurns << " turns\n";
     if (f.recordsLost > 0) {
         std::cout << "  records   " << f.recordsLost << " lost: the writer could not keep up\n";
     }
@@ -122,7 +124,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = app.add_subcommand("replay", "run frames and a hand through the engine, headless");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
-    command->add_option("--source", options->source, "recording folder in place of the scene's camera");
+    command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
     command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
     command->add_option("--query", options->query, "where contacts are found")

@@ -160,8 +160,12 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     haptics_.commit();
     frames_.commit();
     writePictures(ending);
-    summary.frames = {frameCount_, ending.skipped, percentilesOf(std::move(gpuMs_)),
-                      percentilesOf(std::move(uploadMs_)), percentilesOf(std::move(latencyMs_))};
+    summary.frames = {frameCount_,
+                      ending.skipped,
+                      percentilesOf(std::move(gpuMs_)),
+                      percentilesOf(std::move(uploadMs_)),
+                      percentilesOf(std::move(latencyMs_)),
+                      ending.exposureMs};
     summary.haptic.take(std::move(totals_));
     summary.haptic.maxPenetration = ending.maxPenetration;
     summary.haptic.maxEscapeDepth = ending.maxEscapeDepth;

@@ -35,6 +35,7 @@ public:
 
     // What only the caller knows.
     struct Ending {
+        std::optional<Percentiles> exposureMs; // [ms] live cameras: start of exposure to published set
         uint64_t skipped = 0;
         QueryStatistics contact;
         std::string where = "none";                           // cpu, gpu, none

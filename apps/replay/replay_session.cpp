@@ -5,6 +5,7 @@
 #include "apps/binding/open_source.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/simulated/simulated_hand.h"
+#include "engine/types/error.h"
 
 namespace fathom {
 
@@ -30,12 +31,21 @@ std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scen
     return waypoints;
 }
 
+// Lockstep has a clock of its own: a picture that comes when it comes has no place on it.
+std::unique_ptr<Camera> openReplayCamera(const Scene& scene, const ReplayOptions& options) {
+    auto camera = openCamera(
+        scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
+    if (camera->live() && !options.realtime) {
+        throw BadInput("replay", "--source", camera->description(), "--realtime with a live camera");
+    }
+    return camera;
+}
+
 } // namespace
 
 ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers)
     : scene(sceneOf(options))
-    , camera(openCamera(scene, options.source.empty() ? std::nullopt
-                                                      : std::optional<std::filesystem::path>(options.source)))
+    , camera(openReplayCamera(scene, options))
     , tool(openTool(scene))
     , device(instance, global.device)
     , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))

@@ -26,11 +26,15 @@ Json times(const Percentiles& p) {
 }
 
 Json framesJson(const ReplaySummary::Frames& frames) {
-    return {{"count", frames.count},
-            {"skipped", frames.skipped},
-            {"gpu_ms", times(frames.gpuMs)},
-            {"upload_ms", times(frames.uploadMs)},
-            {"latency_ms", times(frames.latencyMs)}};
+    Json json{{"count", frames.count},
+              {"skipped", frames.skipped},
+              {"gpu_ms", times(frames.gpuMs)},
+              {"upload_ms", times(frames.uploadMs)},
+              {"latency_ms", times(frames.latencyMs)}};
+    if (frames.exposureMs) {
+        json["exposure_to_published_ms"] = times(*frames.exposureMs);
+    }
+    return json;
 }
 
 Json hapticJson(const ReplaySummary::Haptic& haptic) {

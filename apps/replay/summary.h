@@ -22,6 +22,7 @@ struct ReplaySummary {
         uint64_t count = 0;   // used, static ones included
         uint64_t skipped = 0; // count + skipped = lines read
         Percentiles gpuMs, uploadMs, latencyMs;
+        std::optional<Percentiles> exposureMs; // live cameras: start of exposure to published set
     } frames;
 
     struct Haptic {

@@ -28,6 +28,13 @@ void FramePairing::colour(const CapturedBuffer& buffer) {
     }
 }
 
+void FramePairing::letGo() {
+    unpaired_.insert(unpaired_.end(), depth_.begin(), depth_.end());
+    used_.insert(used_.end(), colour_.begin(), colour_.end());
+    depth_.clear();
+    colour_.clear();
+}
+
 void FramePairing::clear() {
     depth_.clear();
     colour_.clear();

@@ -37,6 +37,8 @@ public:
     // Buffers that are no longer needed and in no pair, since the last call: depth unpaired, colour used up.
     std::vector<CapturedBuffer> unpairedDepth() { return std::exchange(unpaired_, {}); }
     std::vector<CapturedBuffer> usedColour() { return std::exchange(used_, {}); }
+    // Everything held is let go, as unpaired and used up.
+    void letGo();
     // Everything held is forgotten (the streams start anew).
     void clear();
 

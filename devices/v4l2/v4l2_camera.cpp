@@ -91,7 +91,9 @@ std::optional<Frame> V4l2Camera::next() {
         }
         for (;;) {
             gather();
-            if (std::optional<Frame> frame = settle()) {
+            if (!request_.everyFrame && starved()) {
+                giveUpStale();
+            } else if (std::optional<Frame> frame = settle()) {
                 return frame;
             }
             wait();
@@ -118,6 +120,24 @@ void V4l2Camera::gather() {
         std::stable_sort(arrivals_.begin(), arrivals_.end(),
                          [](const Arrival& a, const Arrival& b) { return a.buffer.stamp < b.buffer.stamp; });
     }
+}
+
+// A driver without a free buffer throws away what comes then, not what it has: all that it gives is old.
+bool V4l2Camera::starved() const {
+    return streams_->depth.queued() == 0 || (streams_->colour && streams_->colour->queued() == 0);
+}
+
+void V4l2Camera::giveUpStale() {
+    for (const Arrival& arrival : arrivals_) {
+        arrival.depth ? pairing_.depth(arrival.buffer) : pairing_.colour(arrival.buffer);
+    }
+    arrivals_.clear();
+    pairing_.letGo();
+    for (const CapturedBuffer& depth : pairing_.unpairedDepth()) {
+        ++overtaken_;
+        streams_->depth.giveBack(depth.index);
+    }
+    recycle();
 }
 
 void V4l2Camera::watch(bool depth, CaptureStream& stream, Clock::time_point& last) {

@@ -17,10 +17,11 @@ namespace fathom {
 // buffers; anything else is unpacked into memory of the camera's own. Capture times are CLOCK_MONOTONIC [s],
 // at the start of exposure for UVC cameras. Frames count from 0; each is new (source number index + 1).
 //
-// next() gives the newest pair there is (every one, in order, with everyFrame). A damaged, short or unpaired
-// picture is skipped, counted, named in the log. A stream without pictures for `silence` is started anew, and
-// after twice that the camera counts as lost. When it is lost (unplugged), next() throws DeviceLost, and
-// looks for the same camera again at each later call.
+// next() gives the newest pair there is, none from before a pause in which the driver ran out of buffers
+// (every one, in order, with everyFrame). A damaged, short or unpaired picture is skipped, counted, named in
+// the log. A stream without pictures for `silence` is started anew, and after twice that the camera counts as
+// lost. When it is lost (unplugged), next() throws DeviceLost, and looks for the same camera again at each
+// later call.
 class V4l2Camera final : public Camera {
 public:
     // Throws BadInput: no such device, no such format or size (it says what there is), no intrinsics.
@@ -52,6 +53,8 @@ private:
     void gather();
     void wait();
     void watch(bool depth, CaptureStream& stream, std::chrono::steady_clock::time_point& last);
+    bool starved() const;
+    void giveUpStale();
     std::optional<Frame> settle();
     std::optional<Frame> lease(const FramePairing::Pair& pair);
     std::string fill(const FramePairing::Pair& pair, FrameSlot& slot, Frame::Content& content);

@@ -88,6 +88,44 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
     CHECK(loop.news().sourceEnded);
 }
 
+TEST_CASE("Pictures of a live source keep the time they were taken at, and the loop paces none of them") {
+    // Each was taken 20 ms before it is there; they come without a pause.
+    class LiveFeed final : public FrameFeed {
+    public:
+        explicit LiveFeed(FakeFeed& feed)
+            : feed_(feed) {}
+        std::optional<uint32_t> fetch() override {
+            taken_ = std::chrono::steady_clock::now() - std::chrono::milliseconds(20);
+            return feed_.fetch();
+        }
+        std::optional<RunClock::Time> captured() const override { return taken_; }
+        void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
+
+    private:
+        FakeFeed& feed_;
+        RunClock::Time taken_;
+    };
+    FakeRun fake(8, pressingPath(1.0));
+    LiveFeed live(fake.feed);
+    Crossings crossings(16);
+    RunClock clock;
+    FrameLoop loop(live, crossings, clock, 1000.0, nullptr); // paced, it would take hours
+    REQUIRE(loop.first());
+    clock.start(0.0);
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::atomic<bool> stop{false};
+    loop.run(stop);
+    REQUIRE(fake.feed.captured.size() == 8);
+    CHECK(fake.feed.captured[0] == 0.0);
+    CHECK(fake.feed.captured[1] >= 0.03 - 1e-6);
+    for (size_t i = 1; i < 8; ++i) {
+        CHECK(fake.feed.captured[i] >= fake.feed.captured[i - 1]);
+        CHECK(fake.feed.captured[i] <= clock.now() - 0.02 + 1e-6);
+    }
+    CHECK(loop.lost() == 0);
+    CHECK(loop.news().live);
+}
+
 TEST_CASE(
     "A turn whose set has not reached the writer waits for it, and goes through at the end in any case") {
     FakeRun fake(2, pressingPath(1.0));

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 
 #include <set>
+#include <thread>
 
 using namespace fathom;
 using namespace fathom::vm;
@@ -81,6 +82,21 @@ TEST_CASE("Frames held by the engine leave the driver two buffers, and later one
     CHECK_FALSE(camera->info().hasColour);
     held.clear();
     CHECK(camera->next());
+}
+
+TEST_CASE("After a pause the camera gives a picture of now, not one that waited in a buffer") {
+    UvcCamera device({});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    REQUIRE(camera->next());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // 45 pictures; the driver holds four
+    const uint32_t sent = device.depth().sent;
+    const auto frame = camera->next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[0] + 2u >= sent);
+    CHECK(camera->lost() >= 30);
 }
 
 TEST_CASE("Motion JPEG colour is decoded") {
