@@ -3,6 +3,7 @@
 // hold or an internal error, 2 bad input, 3 device lost.
 #include "apps/global_options.h"
 #include "apps/plan/plan_command.h"
+#include "apps/record/record_command.h"
 #include "apps/replay/replay_command.h"
 #include "apps/stability/stability_command.h"
 #include "engine/types/error.h"
@@ -57,6 +58,7 @@ int run(int argc, char** argv) {
     int result = 0;
     fathom::addReplayCommand(app, global, result);
     fathom::addStabilityCommand(app, global, result);
+    fathom::addRecordCommand(app, global, result);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -44,9 +44,11 @@ RecordedCamera::RecordedCamera(const fs::path& folder)
     , intrinsics_(readIntrinsics(folder / "intrinsics.json"))
     , index_(readIndex(folder, intrinsics_))
     , poses_(readPoses(folder))
-    , slots_(std::max(intrinsics_.camera.depth.pixels(), intrinsics_.camera.colour.pixels()), true,
-             kFramesInFlight + 2) {
-    checkColourSize();
+    , slots_(std::max(intrinsics_.camera.depth.pixels(), intrinsics_.camera.colour.pixels()),
+             intrinsics_.camera.hasColour, kFramesInFlight + 2) {
+    if (info().hasColour) {
+        checkColourSize();
+    }
 }
 
 // One odd picture is a bad frame; a colour stream that never has the size told is a recording without
@@ -84,6 +86,9 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
     if (!fault.empty()) {
         return line.depth.string() + ": " + fault;
     }
+    if (!camera.hasColour) {
+        return "";
+    }
     fault = readColourPng(line.colour, sizeOf(camera.colour), slot.colour().first(camera.colour.pixels()));
     return fault.empty() ? "" : line.colour.string() + ": " + fault;
 }
@@ -94,7 +99,7 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
     content.sourceNumber = index;
     content.captureTime = index_[index].depthStamp;
     content.depth = slot.depth().first(info().depth.pixels());
-    content.colour = slot.colour().first(info().colour.pixels());
+    content.colour = slot.colour().first(info().hasColour ? info().colour.pixels() : 0);
     if (poses_) {
         content.baseTcamera = poses_->at(content.captureTime);
     }

@@ -143,7 +143,12 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vec
 std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsics& intrinsics) {
     std::vector<IndexLine> index;
     std::string source = "associations.txt";
-    if (fs::exists(folder / "associations.txt")) {
+    if (!intrinsics.camera.hasColour) {
+        source = "depth.txt";
+        for (StampedFile& depth : readStampedFiles(folder, "depth.txt")) {
+            index.push_back({depth.stamp, depth.stamp, std::move(depth.file), {}, ""});
+        }
+    } else if (fs::exists(folder / "associations.txt")) {
         index = readAssociations(folder);
     } else if (fs::exists(folder / "rgb.txt") && fs::exists(folder / "depth.txt")) {
         source = "rgb.txt and depth.txt";

@@ -20,7 +20,8 @@ struct IndexLine {
 // rgb.txt and depth.txt ("t path") joined to pairs, closest stamps first, each picture once, at most 0.02 s
 // apart, in order of depth.txt (as the TUM tool associate.py does). Without those: the stamps of
 // intrinsics.json for the files of depth/ and rgb/ in order of their names, joined alike within pairWithin.
-// Throws BadInput when there is no index, nothing in it, or stamps and files differ in number.
+// A recording without colour: one entry a line of depth.txt. Throws BadInput when there is no index, nothing
+// in it, or stamps and files differ in number.
 std::vector<IndexLine> readIndex(const std::filesystem::path& folder, const RecordingIntrinsics& intrinsics);
 
 } // namespace fathom

@@ -144,7 +144,11 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file) {
         readOneLens(root, camera);
     }
     camera.metresPerUnit = root.at("depth_scale_m_per_unit").positive();
-    camera.hasColour = true;
+    const auto colourThere = root.find("has_color");
+    camera.hasColour = !colourThere || colourThere->boolean();
+    if (!camera.hasColour && !camera.registered) {
+        colourThere->refuse("true where there is a block color");
+    }
     readStamps(root, intrinsics);
     return intrinsics;
 }

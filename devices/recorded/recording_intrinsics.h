@@ -25,7 +25,8 @@ struct RecordingIntrinsics {
 // true]. Two lenses: depth and color (or colour) blocks of the same keys, depth_scale_m_per_unit,
 // registered_to_color, and unless registered extrinsics_topic_tf {Depth, Color: {t [m], q_xyzw}}. Distortion
 // is Brown-Conrady k1 k2 p1 p2 [k3] (plumb_bob); other models are accepted only with all coefficients zero.
-// Throws BadInput naming the file and field.
+// has_color: false (flat only) tells of a recording of depth alone. Throws BadInput naming the file and
+// field.
 RecordingIntrinsics readIntrinsics(const std::filesystem::path& file);
 
 } // namespace fathom

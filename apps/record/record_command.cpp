@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/record/record_command.h"
+
+#include "apps/binding/open_source.h"
+#include "apps/binding/stop_signals.h"
+#include "devices/recorded/recording_writer.h"
+#include "engine/types/error.h"
+
+#include <iomanip>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+namespace fathom {
+
+namespace {
+
+struct RecordOptions {
+    std::string scene, source, out;
+    double seconds = 0.0; // 0 = until the source ends or a signal
+};
+
+// Pictures until the source ends, `seconds` have passed on its own clock, or a signal.
+double copyFrames(Camera& camera, RecordingWriter& writer, double seconds, const std::atomic<bool>& stop) {
+    std::optional<double> first;
+    double last = 0.0;
+    while (!stop.load()) {
+        const std::optional<Frame> frame = camera.next();
+        if (!frame) {
+            break;
+        }
+        first = first.value_or((*frame)->captureTime);
+        if (seconds > 0.0 && (*frame)->captureTime - *first >= seconds) {
+            break;
+        }
+        writer.add(*frame);
+        last = (*frame)->captureTime;
+    }
+    return first ? last - *first : 0.0;
+}
+
+int runRecord(const RecordOptions& options) {
+    const Scene scene = openScene(options.scene);
+    const auto camera = openCamera(
+        scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source),
+        Pictures::Every);
+    const StopSignals signals;
+    RecordingWriter writer(options.out, camera->info(), 2);
+    double length = 0.0;
+    std::string gone;
+    try {
+        length = copyFrames(*camera, writer, options.seconds, signals.asked());
+    } catch (const DeviceLost& e) {
+        gone = e.what(); // what was seen until then is kept
+    }
+    writer.finish();
+    std::cout << std::setprecision(4) << "recorded     " << writer.frames() << " pictures in " << length
+              << " s, " << camera->skipped() << " skipped, " << camera->lost() << " lost\n"
+              << "from         " << camera->description() << "\nwritten to   " << options.out << "\n";
+    if (!gone.empty()) {
+        throw DeviceLost(gone);
+    }
+    if (writer.frames() == 0) {
+        throw BadInput(camera->description(), "frames", "none usable", "at least one usable frame");
+    }
+    if (camera->lost() > 0) {
+        std::cerr << "fathom: record: " << camera->lost() << " pictures lost: disk or processor too slow\n";
+        return 1;
+    }
+    return 0;
+}
+
+} // namespace
+
+void addRecordCommand(CLI::App& app, const GlobalOptions&, int& result) {
+    auto options = std::make_shared<RecordOptions>();
+    CLI::App* command =
+        app.add_subcommand("record", "write what the scene's camera sees as a recording for replay");
+    command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
+    command->add_option("--source", options->source, kSourceHelp);
+    command
+        ->add_option("--seconds", options->seconds,
+                     "end after so long; default: until the source ends or Ctrl-C")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--out", options->out, "folder of the recording; it must not have one yet")
+        ->required();
+    command->callback([options, &result] { result = runRecord(*options); });
+}
+
+} // namespace fathom

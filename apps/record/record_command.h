@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom record SCENE.yaml --out DIR`: what the scene's camera sees, as a recording that `replay` reads.
+#pragma once
+
+#include "apps/global_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace fathom {
+
+// result: the exit code; 1 when a live camera lost pictures.
+void addRecordCommand(CLI::App& app, const GlobalOptions& global, int& result);
+
+} // namespace fathom

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// PNG pictures written by libpng: small effort, no loss.
+#pragma once
+
+#include "devices/recorded/png_image.h"
+
+namespace fathom {
+
+// Both write the whole file or throw Error naming it. pixels: size.width x size.height.
+void writeDepthPng(const std::filesystem::path& file, PngSize size, std::span<const uint16_t> pixels);
+// R8 G8 B8 A8 (0xAABBGGRR) to 8-bit RGB.
+void writeColourPng(const std::filesystem::path& file, PngSize size, std::span<const uint32_t> pixels);
+
+} // namespace fathom

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/recording_writer.h"
+
+#include "devices/recorded/png_output.h"
+#include "engine/types/error.h"
+
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace fathom {
+
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+std::string numbered(const char* folder, uint32_t number) {
+    char name[32];
+    std::snprintf(name, sizeof name, "%s/%06u.png", folder, number);
+    return name;
+}
+
+std::string text(double value) {
+    char digits[40];
+    std::snprintf(digits, sizeof digits, "%.9f", value);
+    return digits;
+}
+
+Json lensJson(const Intrinsics& lens) {
+    return {{"width", lens.width},
+            {"height", lens.height},
+            {"fx", lens.fx},
+            {"fy", lens.fy},
+            {"cx", lens.cx},
+            {"cy", lens.cy},
+            {"distortion_model", "plumb_bob"},
+            {"distortion", lens.distortion}};
+}
+
+Json poseJson(const Pose& pose) {
+    const dvec3& t = pose.position;
+    const dquat& q = pose.rotation;
+    return {{"t", {t.x, t.y, t.z}}, {"q_xyzw", {q.x, q.y, q.z, q.w}}};
+}
+
+Json intrinsicsJson(const CameraInfo& camera) {
+    Json json = camera.registered ? lensJson(camera.depth) : Json{};
+    if (!camera.registered) {
+        json["depth"] = lensJson(camera.depth);
+        json["color"] = lensJson(camera.colour);
+        json["extrinsics_topic_tf"] = {{"Depth", poseJson(Pose{})}, {"Color", poseJson(camera.colourTdepth)}};
+    }
+    json["depth_scale_m_per_unit"] = camera.metresPerUnit;
+    json["registered_to_color"] = camera.registered;
+    if (!camera.hasColour) {
+        json["has_color"] = false;
+    }
+    return json;
+}
+
+const fs::path& freshFolder(const fs::path& folder) {
+    for (const char* name : {"associations.txt", "depth.txt"}) {
+        if (fs::exists(folder / name)) {
+            throw BadInput("--out", folder.string(), std::string("has ") + name,
+                           "a folder without a recording");
+        }
+    }
+    std::error_code failed;
+    fs::create_directories(folder / "depth", failed);
+    fs::create_directories(folder / "rgb", failed);
+    if (failed) {
+        throw Error(folder.string() + ": cannot be written (" + failed.message() + ")");
+    }
+    return folder;
+}
+
+void check(const std::ofstream& file, const fs::path& name) {
+    if (!file) {
+        throw Error(name.string() + ": cannot be written");
+    }
+}
+
+} // namespace
+
+RecordingWriter::RecordingWriter(const fs::path& folder, const CameraInfo& camera, unsigned threads)
+    : folder_(freshFolder(folder))
+    , camera_(camera)
+    , index_(folder / (camera.hasColour ? "associations.txt" : "depth.txt")) {
+    std::ofstream intrinsics(folder / "intrinsics.json");
+    intrinsics << intrinsicsJson(camera).dump(2) << "\n";
+    intrinsics.flush();
+    check(intrinsics, folder / "intrinsics.json");
+    check(index_, folder / "index");
+    for (unsigned i = 0; i < std::max(1u, threads); ++i) {
+        threads_.emplace_back([this] { encode(); });
+    }
+}
+
+RecordingWriter::~RecordingWriter() {
+    end();
+}
+
+void RecordingWriter::add(const Frame& frame) {
+    Job job;
+    job.stamp = frame->captureTime;
+    job.depth.assign(frame->depth.begin(), frame->depth.end());
+    job.colour.assign(frame->colour.begin(), frame->colour.end());
+    job.pose = frame->baseTcamera;
+    std::unique_lock lock(mutex_);
+    const auto begin = std::chrono::steady_clock::now();
+    room_.wait(lock, [this] { return waiting_.size() < kWaiting || failure_; });
+    const std::chrono::duration<double> held = std::chrono::steady_clock::now() - begin;
+    longestWait_ = std::max(longestWait_, held.count());
+    if (failure_) {
+        std::rethrow_exception(failure_);
+    }
+    job.number = added_++;
+    waiting_.push_back(std::move(job));
+    work_.notify_one();
+}
+
+void RecordingWriter::encode() {
+    for (;;) {
+        Job job;
+        {
+            std::unique_lock lock(mutex_);
+            work_.wait(lock, [this] { return !waiting_.empty() || ending_; });
+            if (waiting_.empty()) {
+                return;
+            }
+            job = std::move(waiting_.front());
+            waiting_.pop_front();
+            room_.notify_one();
+        }
+        try {
+            write(job);
+            done(job);
+        } catch (...) {
+            const std::lock_guard lock(mutex_);
+            failure_ = failure_ ? failure_ : std::current_exception();
+            room_.notify_all();
+        }
+    }
+}
+
+void RecordingWriter::write(const Job& job) const {
+    const auto size = [](const Intrinsics& lens) { return PngSize{lens.width, lens.height}; };
+    writeDepthPng(folder_ / numbered("depth", job.number), size(camera_.depth), job.depth);
+    if (camera_.hasColour) {
+        writeColourPng(folder_ / numbered("rgb", job.number), size(camera_.colour), job.colour);
+    }
+}
+
+// Lines go out in order, each once all before it are there.
+void RecordingWriter::done(const Job& job) {
+    const std::string depth = text(job.stamp) + " " + numbered("depth", job.number);
+    const std::string line =
+        camera_.hasColour ? text(job.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
+    const std::lock_guard lock(mutex_);
+    indexLines_[job.number] = line;
+    if (job.pose) {
+        const dvec3& t = job.pose->position;
+        const dquat& q = job.pose->rotation;
+        std::string pose = text(job.stamp);
+        for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) {
+            char digits[40];
+            std::snprintf(digits, sizeof digits, " %.17g", value);
+            pose += digits;
+        }
+        poseLines_[job.number] = pose;
+    }
+    while (!indexLines_.empty() && indexLines_.begin()->first == indexed_) {
+        index_ << indexLines_.begin()->second << "\n";
+        indexLines_.erase(indexLines_.begin());
+        if (const auto pose = poseLines_.find(indexed_); pose != poseLines_.end()) {
+            if (!poses_.is_open()) {
+                poses_.open(folder_ / "poses.txt");
+            }
+            poses_ << pose->second << "\n" << std::flush;
+            poseLines_.erase(pose);
+        }
+        ++indexed_;
+    }
+    index_.flush();
+    check(index_, folder_ / "index");
+}
+
+void RecordingWriter::end() noexcept {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    work_.notify_all();
+    for (std::thread& thread : threads_) {
+        thread.join();
+    }
+    threads_.clear();
+}
+
+void RecordingWriter::finish() {
+    end();
+    if (failure_) {
+        std::rethrow_exception(failure_);
+    }
+}
+
+} // namespace fathom

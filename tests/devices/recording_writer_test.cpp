@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the recording writer leaves is what the recorded camera reads, to the last bit.
+#include "devices/recorded/recording_writer.h"
+
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <doctest/doctest.h>
+#include <random>
+
+using namespace fathom;
+
+namespace {
+
+constexpr uint32_t kWidth = 37, kHeight = 23;
+
+CameraInfo someCamera(bool registered, bool colour = true) {
+    CameraInfo info;
+    info.depth = {.width = kWidth, .height = kHeight, .fx = 30.5, .fy = 30.25, .cx = 18.125, .cy = 11.0};
+    info.colour = info.depth;
+    info.metresPerUnit = 0.00025;
+    info.registered = registered;
+    info.hasColour = colour;
+    if (!registered) {
+        info.colour.width = 40;
+        info.colour.height = 20;
+        info.colour.distortion = {0.01, -0.02, 0.001, -0.001, 0.003};
+        info.colourTdepth = {{0.015, -0.001, 0.002}, glm::normalize(dquat(1.0, 0.01, -0.02, 0.005))};
+    }
+    return info;
+}
+
+struct Picture {
+    std::vector<uint16_t> depth;
+    std::vector<uint32_t> colour;
+    Frame frame(uint32_t i, bool pose) const {
+        Frame::Content content;
+        content.index = i;
+        content.sourceNumber = i + 1;
+        content.captureTime = 86400.125 + i / 30.0;
+        content.depth = depth;
+        content.colour = colour;
+        if (pose) {
+            content.baseTcamera = Pose{{0.1 * i, 0.2, 0.3}, dquat(1, 0, 0, 0)};
+        }
+        return Frame(content, nullptr);
+    }
+};
+
+std::vector<Picture> somePictures(const CameraInfo& info, uint32_t count) {
+    std::mt19937 random(11);
+    std::vector<Picture> pictures(count);
+    for (Picture& p : pictures) {
+        p.depth.resize(info.depth.pixels());
+        p.colour.resize(info.hasColour ? info.colour.pixels() : 0);
+        for (uint16_t& d : p.depth) {
+            d = static_cast<uint16_t>(random());
+        }
+        for (uint32_t& c : p.colour) {
+            c = static_cast<uint32_t>(random()) | 0xff000000u;
+        }
+    }
+    return pictures;
+}
+
+void roundTrip(const CameraInfo& info, uint32_t count, bool poses) {
+    const TemporaryFolder folder;
+    const std::vector<Picture> pictures = somePictures(info, count);
+    {
+        RecordingWriter writer(folder.path() / "rec", info, 2);
+        for (uint32_t i = 0; i < count; ++i) {
+            writer.add(pictures[i].frame(i, poses));
+        }
+        writer.finish();
+        CHECK(writer.frames() == count);
+    }
+    RecordedCamera camera(folder.path() / "rec");
+    const CameraInfo& read = camera.info();
+    CHECK(read.hasColour == info.hasColour);
+    CHECK(read.registered == info.registered);
+    CHECK(read.metresPerUnit == info.metresPerUnit);
+    CHECK(read.depth.fx == info.depth.fx);
+    CHECK(read.depth.cy == info.depth.cy);
+    if (!info.registered) {
+        CHECK(read.colour.width == info.colour.width);
+        CHECK(read.colour.distortion == info.colour.distortion);
+        CHECK(glm::length(read.colourTdepth.position - info.colourTdepth.position) < 1e-15);
+    }
+    for (uint32_t i = 0; i < count; ++i) {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((*frame)->captureTime == doctest::Approx(86400.125 + i / 30.0).epsilon(1e-14));
+        CHECK(std::equal((*frame)->depth.begin(), (*frame)->depth.end(), pictures[i].depth.begin()));
+        CHECK((*frame)->colour.size() == pictures[i].colour.size());
+        CHECK(std::equal((*frame)->colour.begin(), (*frame)->colour.end(), pictures[i].colour.begin()));
+        CHECK((*frame)->baseTcamera.has_value() == poses);
+        if (poses) {
+            CHECK((*frame)->baseTcamera->position.x == doctest::Approx(0.1 * i).epsilon(1e-9));
+        }
+    }
+    CHECK_FALSE(camera.next());
+    CHECK(camera.skipped() == 0);
+}
+
+} // namespace
+
+TEST_CASE("A recording that is written is read again without a changed bit: registered, two lenses, poses") {
+    roundTrip(someCamera(true), 25, false);
+    roundTrip(someCamera(false), 7, true);
+    roundTrip(someCamera(true), 1, true);
+}
+
+TEST_CASE("A recording of depth alone is written and read") {
+    roundTrip(someCamera(true, false), 9, false);
+}
+
+TEST_CASE("A folder that has a recording is not written over, and one that cannot be written is an error") {
+    const TemporaryFolder folder;
+    { RecordingWriter writer(folder.path() / "rec", someCamera(true), 1); }
+    CHECK_THROWS_AS(RecordingWriter(folder.path() / "rec", someCamera(true), 1), BadInput);
+    CHECK_THROWS_AS(RecordingWriter("/proc/rec", someCamera(true), 1), Error);
+}
+
+TEST_CASE(
+    "A picture that cannot be written stops the recording with the file's name; what came before stays") {
+    const TemporaryFolder folder;
+    const CameraInfo info = someCamera(true);
+    const std::vector<Picture> pictures = somePictures(info, 3);
+    RecordingWriter writer(folder.path() / "rec", info, 1);
+    std::filesystem::create_directory(folder.path() / "rec/depth/000002.png"); // in the way
+    for (uint32_t i = 0; i < 3; ++i) {
+        writer.add(pictures[i].frame(i, false));
+    }
+    CHECK_THROWS_WITH(writer.finish(), doctest::Contains("000002.png"));
+    RecordedCamera camera(folder.path() / "rec");
+    CHECK(camera.next());
+    CHECK(camera.next());
+    CHECK_FALSE(camera.next());
+}
