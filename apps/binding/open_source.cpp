@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/open_source.h"
 
+#include "devices/bag/bag_camera.h"
+#include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
@@ -33,6 +35,12 @@ std::unique_ptr<Camera> openNamed(const std::string& source, Pictures pictures) 
     if (isCameraRequest(source)) {
         return openLive(parseCameraRequest(source), pictures);
     }
+    if (source.ends_with(".bag")) {
+        return std::make_unique<BagCamera>(source);
+    }
+    if (source.ends_with(".pcd")) {
+        return std::make_unique<PcdCamera>(source);
+    }
     return std::make_unique<RecordedCamera>(source);
 }
 
@@ -59,7 +67,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
     case CameraSource::Kind::Simulated:
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
-        return std::make_unique<RecordedCamera>(scene.source.value);
+        return openNamed(scene.source.value, pictures);
     case CameraSource::Kind::V4l2:
         break;
     }

@@ -16,8 +16,8 @@ namespace fathom {
 Scene openScene(const std::filesystem::path& file);
 
 // What --source takes.
-inline constexpr const char* kSourceHelp =
-    "in place of the scene's camera: a recording folder, or a live camera as v4l2:auto";
+inline constexpr const char* kSourceHelp = "in place of the scene's camera: a recording folder, a ROS bag, "
+                                           "an organised PCD, or a live camera as v4l2:auto";
 
 // Of a live camera: the newest at each call, or every one in order (for recordings).
 enum class Pictures { Newest, Every };

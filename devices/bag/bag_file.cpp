@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/bag_file.h"
+
+#include "devices/bag/byte_cursor.h"
+#include "devices/bag/unpack_chunk.h"
+
+#include <algorithm>
+#include <cerrno>
+
+namespace fathom {
+
+namespace {
+
+constexpr char kMagic[] = "#ROSBAG V2.0\n";
+constexpr uint8_t kMessage = 2, kBagHeader = 3, kIndexData = 4, kChunk = 5, kChunkInfo = 6, kConnection = 7;
+constexpr uint32_t kMostBytes = 1u << 30; // of one record or chunk
+constexpr size_t kKept = 2;               // unpacked chunks
+
+std::map<std::string, std::string> parseFields(std::span<const uint8_t> bytes) {
+    std::map<std::string, std::string> fields;
+    for (ByteCursor cursor(bytes); !cursor.empty();) {
+        const std::string field = cursor.text();
+        const size_t equals = field.find('=');
+        if (equals == std::string::npos) {
+            throw Error("a header field without '='");
+        }
+        fields[field.substr(0, equals)] = field.substr(equals + 1);
+    }
+    return fields;
+}
+
+template <class T>
+T number(const std::map<std::string, std::string>& fields, const char* name) {
+    const auto it = fields.find(name);
+    if (it == fields.end() || it->second.size() != sizeof(T)) {
+        throw Error(std::string("a header without '") + name + "'");
+    }
+    T value;
+    std::memcpy(&value, it->second.data(), sizeof(T));
+    return value;
+}
+
+std::string word(const std::map<std::string, std::string>& fields, const char* name) {
+    const auto it = fields.find(name);
+    return it == fields.end() ? "" : it->second;
+}
+
+} // namespace
+
+BagFile::BagFile(const std::filesystem::path& file)
+    : file_(file)
+    , in_(file, std::ios::binary) {
+    std::error_code failed;
+    size_ = std::filesystem::file_size(file, failed);
+    std::string magic(sizeof kMagic - 1, ' ');
+    if (failed || !in_.read(magic.data(), static_cast<std::streamsize>(magic.size())) || magic != kMagic) {
+        throw BadInput(file.string(), "format", failed ? "cannot be read" : "no bag",
+                       "a ROS 1 bag of version 2.0");
+    }
+    try {
+        const Record header = readRecord();
+        if (number<uint8_t>(header.fields, "op") != kBagHeader) {
+            throw Error("no bag header");
+        }
+        const auto indexAt = number<uint64_t>(header.fields, "index_pos");
+        if (indexAt == 0 || indexAt >= size_) {
+            throw BadInput(file.string(), "index", "missing: the bag was not closed",
+                           "an indexed bag (rosbag reindex)");
+        }
+        readIndex(indexAt);
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(file.string(), "content", e.what(), "a whole ROS 1 bag of version 2.0");
+    }
+}
+
+std::vector<uint8_t> BagFile::readBlock() {
+    uint32_t count = 0;
+    in_.read(reinterpret_cast<char*>(&count), sizeof count);
+    if (!in_ || count > kMostBytes || count > size_) {
+        throw Error("truncated");
+    }
+    std::vector<uint8_t> bytes(count);
+    in_.read(reinterpret_cast<char*>(bytes.data()), count);
+    if (!in_) {
+        throw Error("truncated");
+    }
+    return bytes;
+}
+
+BagFile::Record BagFile::readRecord() {
+    Record record;
+    record.fields = parseFields(readBlock());
+    record.data = readBlock();
+    return record;
+}
+
+void BagFile::readIndex(uint64_t indexAt) {
+    std::map<uint32_t, size_t> topicOf; // of a connection
+    std::vector<uint64_t> chunks;
+    in_.seekg(static_cast<std::streamoff>(indexAt));
+    while (static_cast<uint64_t>(in_.tellg()) < size_) {
+        const Record record = readRecord();
+        const auto op = number<uint8_t>(record.fields, "op");
+        if (op == kConnection) {
+            const std::string name = word(record.fields, "topic");
+            auto topic = std::find_if(topics_.begin(), topics_.end(),
+                                      [&](const BagTopic& t) { return t.name == name; });
+            if (topic == topics_.end()) {
+                topic = topics_.insert(topic, {name, word(parseFields(record.data), "type"), {}});
+            }
+            topicOf[number<uint32_t>(record.fields, "conn")] = static_cast<size_t>(topic - topics_.begin());
+        } else if (op == kChunkInfo) {
+            chunks.push_back(number<uint64_t>(record.fields, "chunk_pos"));
+        }
+    }
+    for (const uint64_t chunk : chunks) {
+        readChunkIndex(chunk, topicOf);
+    }
+    for (BagTopic& topic : topics_) {
+        std::stable_sort(topic.messages.begin(), topic.messages.end(),
+                         [](const BagEntry& a, const BagEntry& b) { return a.time < b.time; });
+    }
+}
+
+// Behind a chunk follow its index records, one a connection: time and place of each message.
+void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf) {
+    in_.seekg(static_cast<std::streamoff>(chunkAt));
+    if (number<uint8_t>(readRecord().fields, "op") != kChunk) {
+        throw Error("the index points at no chunk");
+    }
+    while (static_cast<uint64_t>(in_.tellg()) < size_) {
+        const Record record = readRecord();
+        if (number<uint8_t>(record.fields, "op") != kIndexData) {
+            return;
+        }
+        const auto topic = topicOf.find(number<uint32_t>(record.fields, "conn"));
+        if (topic == topicOf.end()) {
+            throw Error("the index names a connection that is not there");
+        }
+        for (ByteCursor cursor(record.data); !cursor.empty();) {
+            const uint32_t seconds = cursor.word(), nanos = cursor.word(), offset = cursor.word();
+            topics_[topic->second].messages.push_back({seconds * 1000000000ull + nanos, chunkAt, offset});
+        }
+    }
+}
+
+const BagTopic* BagFile::find(const std::string& name) const {
+    const auto topic =
+        std::find_if(topics_.begin(), topics_.end(), [&](const BagTopic& t) { return t.name == name; });
+    return topic == topics_.end() ? nullptr : &*topic;
+}
+
+const BagFile::Unpacked& BagFile::unpack(uint64_t chunkAt) {
+    for (Unpacked& kept : unpacked_) {
+        if (kept.chunk == chunkAt) {
+            kept.used = ++clock_;
+            return kept;
+        }
+    }
+    in_.clear();
+    in_.seekg(static_cast<std::streamoff>(chunkAt));
+    const Record record = readRecord();
+    const auto size = number<uint32_t>(record.fields, "size");
+    if (size > kMostBytes) {
+        throw Error("a chunk of " + std::to_string(size) + " bytes");
+    }
+    Unpacked fresh{chunkAt, unpackChunk(word(record.fields, "compression"), record.data, size), ++clock_};
+    if (unpacked_.size() == kKept) {
+        auto oldest = std::min_element(unpacked_.begin(), unpacked_.end(),
+                                       [](const Unpacked& a, const Unpacked& b) { return a.used < b.used; });
+        *oldest = std::move(fresh);
+        return *oldest;
+    }
+    unpacked_.reserve(kKept);
+    unpacked_.push_back(std::move(fresh));
+    return unpacked_.back();
+}
+
+std::span<const uint8_t> BagFile::read(const BagEntry& entry) {
+    const Unpacked& chunk = unpack(entry.chunk);
+    ByteCursor cursor(chunk.bytes);
+    cursor.take(entry.offset);
+    if (number<uint8_t>(parseFields(cursor.block()), "op") != kMessage) {
+        throw Error("the index points at no message");
+    }
+    return cursor.block();
+}
+
+} // namespace fathom

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ROS 1 bag, format 2.0: its topics and, through its index, any message. Source:
+// wiki.ros.org/Bags/Format/2.0.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct BagEntry {
+    uint64_t time = 0;   // [ns] when it was recorded
+    uint64_t chunk = 0;  // place of the chunk record in the file
+    uint32_t offset = 0; // in the chunk, unpacked
+};
+
+struct BagTopic {
+    std::string name, type;
+    std::vector<BagEntry> messages; // in order of time
+};
+
+// One thread. Chunks are stored plain, in bz2 or in LZ4 frames; the last two stay unpacked in memory.
+class BagFile {
+public:
+    // Throws BadInput naming the file: no bag of version 2.0, not indexed (it was not closed), damaged.
+    explicit BagFile(const std::filesystem::path& file);
+
+    const std::vector<BagTopic>& topics() const { return topics_; }
+    // Null when there is none of that name.
+    const BagTopic* find(const std::string& name) const;
+    // The message as it is serialised. Valid until two other chunks have been read. Throws Error.
+    std::span<const uint8_t> read(const BagEntry& entry);
+    const std::filesystem::path& file() const { return file_; }
+
+private:
+    using Fields = std::map<std::string, std::string>;
+    struct Record {
+        Fields fields;
+        std::vector<uint8_t> data;
+    };
+    struct Unpacked {
+        uint64_t chunk = 0;
+        std::vector<uint8_t> bytes;
+        uint64_t used = 0;
+    };
+
+    Record readRecord();
+    std::vector<uint8_t> readBlock();
+    void readIndex(uint64_t indexAt);
+    void readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf);
+    const Unpacked& unpack(uint64_t chunkAt);
+
+    std::filesystem::path file_;
+    std::ifstream in_;
+    uint64_t size_ = 0;
+    std::vector<BagTopic> topics_;
+    std::vector<Unpacked> unpacked_;
+    uint64_t clock_ = 0;
+};
+
+} // namespace fathom

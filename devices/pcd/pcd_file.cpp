@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/pcd/pcd_file.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace fathom {
+
+namespace {
+
+constexpr uint32_t kMostWidth = 3840, kMostHeight = 2160;
+constexpr size_t kMostBytesOfPoint = 4096;
+
+struct Field {
+    std::string name;
+    size_t size = 4, count = 1, offset = 0; // [bytes], values, [bytes] in a point
+    char type = 'F';
+};
+
+struct Header {
+    std::vector<Field> fields;
+    uint32_t width = 0, height = 0;
+    std::string data;
+    size_t bytes = 0; // a point
+};
+
+struct Source {
+    std::string file;
+    std::vector<uint8_t> bytes;
+    size_t at = 0;
+
+    [[noreturn]] void refuse(const std::string& field, const std::string& value,
+                             const std::string& allowed) const {
+        throw BadInput(file, field, value, allowed);
+    }
+    std::string line() {
+        const auto begin = bytes.begin() + static_cast<long>(at);
+        const auto end = std::find(begin, bytes.end(), '\n');
+        if (end == bytes.end()) {
+            refuse("header", "cut off", "a PCD header that ends in DATA");
+        }
+        at = static_cast<size_t>(end - bytes.begin()) + 1;
+        std::string text(begin, end);
+        while (!text.empty() && text.back() == '\r') {
+            text.pop_back();
+        }
+        return text;
+    }
+};
+
+std::vector<std::string> wordsOf(const std::string& line) {
+    std::istringstream in(line);
+    return {std::istream_iterator<std::string>(in), {}};
+}
+
+size_t wholeNumber(const Source& source, const std::string& field, const std::string& word, size_t most) {
+    size_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || value < 1 || value > most) {
+        source.refuse(field, word, "1 to " + std::to_string(most));
+    }
+    return value;
+}
+
+void checkCount(const Source& source, const std::vector<std::string>& words, const Header& header) {
+    if (words.size() != header.fields.size() + 1 || header.fields.empty()) {
+        source.refuse(words.front(), std::to_string(words.size() - 1) + " values",
+                      "as many as FIELDS has: " + std::to_string(header.fields.size()));
+    }
+}
+
+void readHeaderLine(const Source& source, const std::vector<std::string>& words, Header& header) {
+    const std::string& key = words.front();
+    if (key == "FIELDS" || key == "COLUMNS") {
+        for (size_t i = 1; i < words.size(); ++i) {
+            header.fields.push_back({words[i]});
+        }
+    } else if (key == "SIZE" || key == "TYPE" || key == "COUNT") {
+        checkCount(source, words, header);
+        for (size_t i = 0; i < header.fields.size(); ++i) {
+            Field& field = header.fields[i];
+            if (key == "TYPE") {
+                field.type = words[i + 1][0];
+            } else {
+                (key == "SIZE" ? field.size : field.count) =
+                    wholeNumber(source, key, words[i + 1], key == "SIZE" ? 8 : 1024);
+            }
+        }
+    } else if (words.size() > 1 && key == "WIDTH") {
+        header.width = static_cast<uint32_t>(wholeNumber(source, key, words[1], SIZE_MAX >> 33));
+    } else if (words.size() > 1 && key == "HEIGHT") {
+        header.height = static_cast<uint32_t>(wholeNumber(source, key, words[1], kMostHeight));
+    } else if (words.size() > 1 && key == "DATA") {
+        header.data = words[1];
+    }
+}
+
+Header readHeader(Source& source) {
+    Header header;
+    while (header.data.empty()) {
+        const std::vector<std::string> words = wordsOf(source.line());
+        if (!words.empty() && words.front()[0] != '#') {
+            readHeaderLine(source, words, header);
+        }
+    }
+    if (header.height < 2) {
+        source.refuse("HEIGHT", std::to_string(header.height), "2 or more: an organised cloud, row by row");
+    }
+    if (header.width < 2 || header.width > kMostWidth) {
+        source.refuse("WIDTH", std::to_string(header.width), "2 to " + std::to_string(kMostWidth));
+    }
+    for (Field& field : header.fields) {
+        field.offset = header.bytes;
+        header.bytes += field.size * field.count;
+    }
+    if (header.bytes > kMostBytesOfPoint) {
+        source.refuse("SIZE", std::to_string(header.bytes) + " bytes a point",
+                      "at most " + std::to_string(kMostBytesOfPoint));
+    }
+    return header;
+}
+
+// Ascii values, turned into the bytes that a binary file would have.
+std::vector<uint8_t> readAscii(Source& source, const Header& header) {
+    const std::string text(source.bytes.begin() + static_cast<long>(source.at), source.bytes.end());
+    std::istringstream in(text);
+    std::vector<uint8_t> out(header.bytes * header.width * header.height, 0);
+    for (size_t point = 0; point < size_t{header.width} * header.height; ++point) {
+        for (const Field& field : header.fields) {
+            for (size_t i = 0; i < field.count; ++i) {
+                std::string word;
+                if (!(in >> word)) {
+                    source.refuse("DATA", "ends at point " + std::to_string(point), "WIDTH x HEIGHT points");
+                }
+                uint8_t* to = out.data() + point * header.bytes + field.offset + i * field.size;
+                if (field.type == 'F' && field.size == 4) {
+                    const float value = std::strtof(word.c_str(), nullptr);
+                    std::memcpy(to, &value, 4);
+                } else if (field.type == 'F') {
+                    const double value = std::strtod(word.c_str(), nullptr);
+                    std::memcpy(to, &value, std::min<size_t>(8, field.size));
+                } else {
+                    const int64_t value = std::strtoll(word.c_str(), nullptr, 10);
+                    std::memcpy(to, &value, field.size);
+                }
+            }
+        }
+    }
+    return out;
+}
+
+// Compressed: all of the first field, then all of the second...
+std::vector<uint8_t> readCompressed(const Source& source, const Header& header) {
+    const size_t points = size_t{header.width} * header.height, wanted = points * header.bytes;
+    uint32_t packed = 0, unpacked = 0;
+    if (source.bytes.size() - source.at < 8) {
+        source.refuse("DATA", "cut off", "sizes and compressed points");
+    }
+    std::memcpy(&packed, source.bytes.data() + source.at, 4);
+    std::memcpy(&unpacked, source.bytes.data() + source.at + 4, 4);
+    std::vector<uint8_t> columns(wanted);
+    if (unpacked != wanted || packed > source.bytes.size() - source.at - 8 ||
+        !unpackLzf({source.bytes.data() + source.at + 8, packed}, columns)) {
+        source.refuse("DATA", std::to_string(unpacked) + " bytes unpacked",
+                      std::to_string(wanted) + ", undamaged");
+    }
+    std::vector<uint8_t> out(wanted);
+    for (const Field& field : header.fields) {
+        const size_t size = field.size * field.count;
+        const uint8_t* column = columns.data() + field.offset * points;
+        for (size_t i = 0; i < points; ++i) {
+            std::memcpy(out.data() + i * header.bytes + field.offset, column + i * size, size);
+        }
+    }
+    return out;
+}
+
+std::vector<uint8_t> readPoints(Source& source, const Header& header) {
+    if (header.data == "ascii") {
+        return readAscii(source, header);
+    }
+    if (header.data == "binary_compressed") {
+        return readCompressed(source, header);
+    }
+    if (header.data != "binary") {
+        source.refuse("DATA", header.data, "ascii, binary, binary_compressed");
+    }
+    const size_t wanted = header.bytes * header.width * header.height;
+    if (source.bytes.size() - source.at < wanted) {
+        source.refuse("DATA", std::to_string(source.bytes.size() - source.at) + " bytes",
+                      std::to_string(wanted));
+    }
+    const auto begin = source.bytes.begin() + static_cast<long>(source.at);
+    return {begin, begin + static_cast<long>(wanted)};
+}
+
+const Field* find(const Header& header, const char* name) {
+    const auto it = std::find_if(header.fields.begin(), header.fields.end(),
+                                 [&](const Field& f) { return f.name == name; });
+    return it == header.fields.end() ? nullptr : &*it;
+}
+
+double realAt(const uint8_t* point, const Field& field) {
+    if (field.type == 'F' && field.size == 8) {
+        double value = 0.0;
+        std::memcpy(&value, point + field.offset, 8);
+        return value;
+    }
+    float value = 0.0f;
+    std::memcpy(&value, point + field.offset, 4);
+    return value;
+}
+
+} // namespace
+
+bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out) {
+    size_t from = 0, to = 0;
+    while (from < in.size()) {
+        const uint32_t control = in[from++];
+        if (control < 32) { // so many bytes and one as they are
+            const size_t count = control + 1;
+            if (from + count > in.size() || to + count > out.size()) {
+                return false;
+            }
+            std::memcpy(out.data() + to, in.data() + from, count);
+            from += count;
+            to += count;
+            continue;
+        }
+        size_t count = control >> 5, back = (control & 31) << 8;
+        if (count == 7) {
+            count += from < in.size() ? in[from++] : 0;
+        }
+        if (from >= in.size()) {
+            return false;
+        }
+        back += in[from++] + 1u;
+        count += 2;
+        if (back > to || to + count > out.size()) {
+            return false;
+        }
+        for (size_t i = 0; i < count; ++i, ++to) { // may overlap what it copies
+            out[to] = out[to - back];
+        }
+    }
+    return to == out.size();
+}
+
+PcdCloud readPcd(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) {
+        throw BadInput(file.string(), "file", "cannot be read", "an organised PCD file");
+    }
+    Source source{file.string(), {std::istreambuf_iterator<char>(in), {}}, 0};
+    const Header header = readHeader(source);
+    const Field *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
+    const Field* colour = find(header, "rgb") != nullptr ? find(header, "rgb") : find(header, "rgba");
+    const Field* intensity = find(header, "intensity");
+    for (const Field* field : {x, y, z}) {
+        if (field == nullptr || field->type != 'F' || field->size < 4) {
+            source.refuse("FIELDS", field == nullptr ? "no x, y, z" : field->name, "x, y and z of type F");
+        }
+    }
+    const std::vector<uint8_t> bytes = readPoints(source, header);
+    PcdCloud cloud{header.width, header.height, {}, {}, {}};
+    for (size_t i = 0; i < size_t{header.width} * header.height; ++i) {
+        const uint8_t* point = bytes.data() + i * header.bytes;
+        cloud.points.push_back({realAt(point, *x), realAt(point, *y), realAt(point, *z)});
+        if (colour != nullptr && colour->size == 4) { // 0xAARRGGBB in an integer or in a float's bits
+            const uint8_t* c = point + colour->offset;
+            cloud.colour.push_back(uint32_t{c[2]} | uint32_t{c[1]} << 8 | uint32_t{c[0]} << 16 | 0xff000000u);
+        }
+        if (intensity != nullptr && intensity->type == 'F') {
+            cloud.intensity.push_back(static_cast<float>(realAt(point, *intensity)));
+        }
+    }
+    return cloud;
+}
+
+} // namespace fathom

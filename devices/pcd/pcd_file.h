@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Organised point clouds in PCD files: ascii, binary and LZF-compressed. Source: the PCD format's page of the
+// Point Cloud Library's documentation; LZF: the format of liblzf.
+#pragma once
+
+#include "engine/types/pose.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace fathom {
+
+struct PcdCloud {
+    uint32_t width = 0, height = 0;
+    std::vector<dvec3> points;    // [m] row by row; not finite where nothing was measured
+    std::vector<uint32_t> colour; // 0xAABBGGRR; empty without a field rgb or rgba
+    std::vector<float> intensity; // empty without a field intensity
+};
+
+// Throws BadInput naming the file and the header's line, also for a cloud that is not organised (height 1).
+PcdCloud readPcd(const std::filesystem::path& file);
+
+// LZF: out has the unpacked size. False when the data does not come out at exactly that size.
+bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out);
+
+} // namespace fathom

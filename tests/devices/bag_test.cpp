@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bag/bag_camera.h"
+
+#include "devices/bag/unpack_chunk.h"
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <bzlib.h>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <lz4frame.h>
+#include <spdlog/spdlog.h>
+
+using namespace fathom;
+
+namespace {
+
+// Bytes as ROS 1 serialises them.
+struct Out {
+    std::string bytes;
+    template <class T>
+    Out& put(T value) {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+        return *this;
+    }
+    Out& text(const std::string& s) {
+        put(static_cast<uint32_t>(s.size()));
+        bytes += s;
+        return *this;
+    }
+};
+
+template <class T>
+std::string raw(T value) {
+    return Out().put(value).bytes;
+}
+
+std::string record(const std::vector<std::pair<std::string, std::string>>& fields, const std::string& data) {
+    Out header;
+    for (const auto& [name, value] : fields) {
+        header.text(name + "=" + value);
+    }
+    return Out().text(header.bytes).text(data).bytes;
+}
+
+std::string packed(const std::string& bytes, const std::string& compression) {
+    std::string out(bytes.size() + 4096, 0);
+    if (compression == "lz4") {
+        out.resize(LZ4F_compressFrame(out.data(), out.size(), bytes.data(), bytes.size(), nullptr));
+    } else if (compression == "bz2") {
+        auto size = static_cast<unsigned>(out.size());
+        BZ2_bzBuffToBuffCompress(out.data(), &size, const_cast<char*>(bytes.data()),
+                                 static_cast<unsigned>(bytes.size()), 1, 0, 0);
+        out.resize(size);
+    } else {
+        return bytes;
+    }
+    return out;
+}
+
+// A bag with one chunk, written by the format's page.
+class BagMaker {
+public:
+    void add(const std::string& topic, const std::string& type, double t, const std::string& message) {
+        uint32_t conn = 0;
+        while (conn < topics_.size() && topics_[conn].first != topic) {
+            ++conn;
+        }
+        if (conn == topics_.size()) {
+            topics_.emplace_back(topic, type);
+            index_.emplace_back();
+        }
+        const auto seconds = static_cast<uint32_t>(t),
+                   nanos = static_cast<uint32_t>(std::lround((t - seconds) * 1e9));
+        const std::string time = Out().put(seconds).put(nanos).bytes;
+        index_[conn] += time + raw(static_cast<uint32_t>(chunk_.size()));
+        chunk_ += record({{"op", "\x02"}, {"conn", raw(conn)}, {"time", time}}, message);
+    }
+    std::string bag(const std::string& compression, bool indexed = true) const {
+        const std::string magic = "#ROSBAG V2.0\n";
+        const auto header = [&](uint64_t at) {
+            return record({{"op", "\x03"}, {"index_pos", raw(at)}}, std::string(64, ' '));
+        };
+        const size_t chunkAt = magic.size() + header(0).size();
+        std::string body = record({{"op", "\x05"},
+                                   {"compression", compression},
+                                   {"size", raw(static_cast<uint32_t>(chunk_.size()))}},
+                                  packed(chunk_, compression));
+        std::string tail;
+        for (uint32_t conn = 0; conn < topics_.size(); ++conn) {
+            body += record({{"op", "\x04"}, {"conn", raw(conn)}}, index_[conn]);
+            tail += record({{"op", "\x07"}, {"conn", raw(conn)}, {"topic", topics_[conn].first}},
+                           Out().text("type=" + topics_[conn].second).bytes);
+        }
+        tail += record({{"op", "\x06"}, {"chunk_pos", raw(uint64_t{chunkAt})}}, "");
+        return magic + header(indexed ? chunkAt + body.size() : 0) + body + tail;
+    }
+
+private:
+    std::vector<std::pair<std::string, std::string>> topics_;
+    std::vector<std::string> index_;
+    std::string chunk_;
+};
+
+std::string stamped(double t) {
+    return Out()
+        .put(uint32_t{7})
+        .put(static_cast<uint32_t>(t))
+        .put(static_cast<uint32_t>(std::lround((t - std::floor(t)) * 1e9)))
+        .text("camera")
+        .bytes;
+}
+
+std::string image(double t, const std::string& encoding, uint32_t step, const std::string& pixels) {
+    return stamped(t) + Out()
+                            .put(uint32_t{2})
+                            .put(uint32_t{3})
+                            .text(encoding)
+                            .put(uint8_t{0})
+                            .put(step)
+                            .text(pixels)
+                            .bytes;
+}
+
+std::string info(double fx) {
+    Out out;
+    out.bytes = stamped(0);
+    out.put(uint32_t{2}).put(uint32_t{3}).text("plumb_bob").put(uint32_t{0});
+    for (const double k : {fx, 0.0, 1.0, 0.0, 5.0, 0.5, 0.0, 0.0, 1.0}) {
+        out.put(k);
+    }
+    return out.bytes + std::string(21 * 8 + 25, '\0');
+}
+
+// Three depth pictures 100 ms apart and two colour pictures, 3 x 2 pixels, rows with padding.
+BagMaker smallBag(double colourFx = 4.0) {
+    BagMaker maker;
+    maker.add("/cam/depth/camera_info", "sensor_msgs/CameraInfo", 1.0, info(4.0));
+    maker.add("/cam/color/camera_info", "sensor_msgs/CameraInfo", 1.0, info(colourFx));
+    for (int i = 0; i < 3; ++i) {
+        std::string rows;
+        for (uint16_t v = 0; v < 8; ++v) {
+            rows += raw(static_cast<uint16_t>(100 * (i + 1) + v));
+        }
+        maker.add("/cam/depth/image_rect", "sensor_msgs/Image", 1.0 + 0.1 * i,
+                  image(1.0 + 0.1 * i, "16UC1", 8, rows));
+    }
+    for (int i = 0; i < 2; ++i) {
+        const std::string rows(18, static_cast<char>(10 * (i + 1)));
+        maker.add("/cam/color/image_raw", "sensor_msgs/Image", 1.02 + 0.1 * i,
+                  image(1.02 + 0.1 * i, "bgr8", 9, rows));
+    }
+    return maker;
+}
+
+std::string refusal(const std::filesystem::path& file) {
+    try {
+        BagCamera camera(file);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE(
+    "A bag's pictures come out alike from plain, bz2 and LZ4 chunks, paired by time, padding left out") {
+    const TemporaryFolder folder;
+    for (const char* compression : {"none", "bz2", "lz4"}) {
+        folder.write("a.bag", smallBag().bag(compression));
+        BagCamera camera(folder.path() / "a.bag");
+        CHECK(camera.info().registered);
+        CHECK(camera.info().metresPerUnit == 0.001);
+        CHECK(camera.info().depth.fx == 4.0);
+        for (int i = 0; i < 2; ++i) {
+            const auto frame = camera.next();
+            REQUIRE(frame);
+            CHECK((*frame)->captureTime == doctest::Approx(1.0 + 0.1 * i));
+            CHECK((*frame)->depth[2] == 100 * (i + 1) + 2);
+            CHECK((*frame)->depth[3] == 100 * (i + 1) + 4); // the first of the second row
+            CHECK((*frame)->colour[5] == (0xff000000u | 0x010101u * static_cast<uint32_t>(10 * (i + 1))));
+        }
+        CHECK_FALSE(camera.next()); // the third has no colour within 50 ms
+        CHECK(camera.skipped() == 1);
+    }
+}
+
+TEST_CASE("A bag that was not closed, is cut off or damaged, or has no depth is refused in one line") {
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& bytes) {
+        folder.write("a.bag", bytes);
+        const std::string said = refusal(folder.path() / "a.bag");
+        CHECK(said.find('\n') == std::string::npos);
+        return said;
+    };
+    const std::string whole = smallBag().bag("none");
+    CHECK(refused(smallBag().bag("none", false)).find("rosbag reindex") != std::string::npos);
+    CHECK(refused("#ROSBAG V1.2\nxxxx").find("version 2.0") != std::string::npos);
+    CHECK(refused("").find("version 2.0") != std::string::npos);
+    CHECK(refused(smallBag(5.0).bag("lz4")).find("extrinsics: missing") != std::string::npos);
+    BagMaker none;
+    none.add("/talk", "std_msgs/String", 1.0, "hello");
+    CHECK(refused(none.bag("none")).find("no pictures") != std::string::npos);
+    for (size_t keep = 0; keep < whole.size(); keep += 97) { // never a crash, never a picture from nowhere
+        CHECK_FALSE(refused(whole.substr(0, keep)).empty());
+    }
+}
+
+TEST_CASE("A bag with any byte changed is refused or read, and never breaks the reader") {
+    const TemporaryFolder folder;
+    const std::string whole = smallBag().bag("lz4");
+    const auto level = spdlog::get_level();
+    spdlog::set_level(spdlog::level::off);
+    for (size_t at = 13; at < whole.size(); at += 3) {
+        std::string changed = whole;
+        changed[at] = static_cast<char>(changed[at] ^ 0x5a);
+        folder.write("a.bag", changed);
+        try {
+            BagCamera camera(folder.path() / "a.bag");
+            while (camera.next()) {
+            }
+        } catch (const Error&) {
+        }
+    }
+    spdlog::set_level(level);
+    CHECK_THROWS_AS(unpackChunk("zip", {}, 0), Error);
+}
+
+TEST_CASE("A real RealSense bag gives the pictures, lenses and extrinsics that were taken from it") {
+    if (!haveRecording("realsense_bag")) {
+        return;
+    }
+    const auto folder = kRecordings / "realsense_bag";
+    BagCamera bag(folder / "single_depth_color_640x480.bag");
+    RecordedCamera recorded(folder);
+    const CameraInfo &a = bag.info(), &b = recorded.info();
+    CHECK_FALSE(a.registered);
+    CHECK(a.metresPerUnit == doctest::Approx(0.001).epsilon(1e-12));
+    CHECK(a.depth.fx == doctest::Approx(b.depth.fx).epsilon(1e-12));
+    CHECK(a.colour.cy == doctest::Approx(b.colour.cy).epsilon(1e-12));
+    CHECK(glm::length(a.colourTdepth.position - b.colourTdepth.position) < 1e-9);
+    CHECK(std::abs(glm::dot(a.colourTdepth.rotation, b.colourTdepth.rotation)) ==
+          doctest::Approx(1.0).epsilon(1e-12));
+    const auto one = bag.next(), other = recorded.next();
+    REQUIRE(one);
+    REQUIRE(other);
+    CHECK(std::equal((*one)->depth.begin(), (*one)->depth.end(), (*other)->depth.begin()));
+    REQUIRE((*one)->colour.size() == (*other)->colour.size());
+    CHECK(std::equal((*one)->colour.begin(), (*one)->colour.end(), (*other)->colour.begin()));
+    CHECK_FALSE(bag.next());
+    CHECK(bag.skipped() == 1); // its second depth picture is 113 ms from the one colour picture
+}

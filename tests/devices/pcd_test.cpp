@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/pcd/pcd_camera.h"
+
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "tests/devices/recorded_folder.h"
+
+#include <cmath>
+#include <cstring>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+constexpr uint32_t kWidth = 9, kHeight = 7;
+
+// A wall at 1 m, tilted, seen by a pinhole; pixel 0 without a point.
+std::string cloudText(const std::string& data, bool up = false) {
+    std::string text =
+        "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 9\n"
+        "HEIGHT 7\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 63\nDATA " +
+        data + "\n";
+    for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
+        const float u = static_cast<float>(i % kWidth), v = static_cast<float>(i / kWidth);
+        const float z = i == 0 ? NAN : 1.0f + 0.05f * u, sign = up ? -1.0f : 1.0f;
+        const float values[3] = {(u - 4.25f) / 10.0f * z, sign * (v - 3.5f) / 11.0f * z, sign * z};
+        const uint32_t colour = 0x00102030 + i; // red, green, blue
+        if (data == "ascii") {
+            text += std::to_string(values[0]) + " " + std::to_string(values[1]) + " " +
+                    std::to_string(values[2]) + " " + std::to_string(colour) + "\n";
+        } else {
+            text.append(reinterpret_cast<const char*>(values), sizeof values);
+            text.append(reinterpret_cast<const char*>(&colour), sizeof colour);
+        }
+    }
+    return text;
+}
+
+void checkCloud(const std::filesystem::path& file) {
+    PcdCamera camera(file);
+    const CameraInfo& info = camera.info();
+    CHECK(info.depth.fx == doctest::Approx(10.0).epsilon(1e-3));
+    CHECK(info.depth.fy == doctest::Approx(11.0).epsilon(1e-3));
+    CHECK(info.depth.cx == doctest::Approx(4.25).epsilon(1e-3));
+    CHECK(info.depth.cy == doctest::Approx(3.5).epsilon(1e-3));
+    const auto frame = camera.next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[0] == 0);
+    CHECK((*frame)->depth[8] == 14000);
+    CHECK((*frame)->colour[1] == 0xff312010u);
+    CHECK_FALSE(camera.next());
+}
+
+std::string refusal(const std::filesystem::path& file) {
+    try {
+        PcdCamera camera(file);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("An organised cloud gives back its lens and depth: ascii, binary, and with y up and z backward") {
+    const TemporaryFolder folder;
+    folder.write("a.pcd", cloudText("ascii"));
+    folder.write("b.pcd", cloudText("binary"));
+    folder.write("c.pcd", cloudText("binary", true));
+    for (const char* name : {"a.pcd", "b.pcd", "c.pcd"}) {
+        checkCloud(folder.path() / name);
+    }
+}
+
+TEST_CASE("A cloud that is not organised, cut off, or seen by no pinhole is refused with the line") {
+    const TemporaryFolder folder;
+    const std::string whole = cloudText("binary");
+    const auto changed = [&](const std::string& from, const std::string& to) {
+        std::string text = whole;
+        text.replace(text.find(from), from.size(), to);
+        folder.write("x.pcd", text);
+        return refusal(folder.path() / "x.pcd");
+    };
+    CHECK(changed("HEIGHT 7", "HEIGHT 1").find("an organised cloud") != std::string::npos);
+    CHECK(changed("HEIGHT 7", "HEIGHT 8").find("DATA: 1008 bytes (allowed: 1152)") != std::string::npos);
+    CHECK(changed("FIELDS x y z", "FIELDS a b c").find("no x, y, z") != std::string::npos);
+    CHECK(changed("SIZE 4 4 4 4", "SIZE 4 4 4").find("as many as FIELDS") != std::string::npos);
+    CHECK(changed("DATA binary\n", "DATA parquet\n").find("binary_compressed") != std::string::npos);
+    CHECK(changed("WIDTH 9", "WIDTH x").find("WIDTH: x") != std::string::npos);
+    CHECK(changed("WIDTH 9\nHEIGHT 7", "WIDTH 7\nHEIGHT 9").find("off a pinhole's rays") !=
+          std::string::npos);
+    CHECK(refusal(folder.path() / "none.pcd").find("cannot be read") != std::string::npos);
+    folder.write("y.pcd", "DATA");
+    CHECK(refusal(folder.path() / "y.pcd").find("cut off") != std::string::npos);
+}
+
+TEST_CASE("LZF unpacks literals, short and long matches and overlapping ones, and refuses damaged data") {
+    // "ab", then 7 bytes from 2 back ("abababa"), then 11 from 1 back.
+    const std::vector<uint8_t> packed{1, 'a', 'b', 5 << 5, 1, 7 << 5, 2, 0};
+    std::vector<uint8_t> out(2 + 7 + 11);
+    REQUIRE(unpackLzf(packed, out));
+    CHECK(std::string(out.begin(), out.end()) == "ababababaaaaaaaaaaaa");
+    std::vector<uint8_t> small(5), large(40);
+    CHECK_FALSE(unpackLzf(packed, small));
+    CHECK_FALSE(unpackLzf(packed, large));
+    CHECK_FALSE(unpackLzf(std::vector<uint8_t>{3 << 5, 0}, small)); // points before the start
+    CHECK_FALSE(unpackLzf(std::vector<uint8_t>{1, 'a'}, small));
+    CHECK_FALSE(unpackLzf(std::vector<uint8_t>{7 << 5}, small));
+}
+
+TEST_CASE("A real compressed cloud gives the depth picture and lens of its recording") {
+    if (!haveRecording("pcl_milk_table")) {
+        return;
+    }
+    const auto folder = kRecordings / "pcl_milk_table";
+    PcdCamera cloud(folder / "milk_cartoon_all_small_clorox.pcd");
+    RecordedCamera recorded(folder);
+    CHECK(cloud.info().depth.fx == doctest::Approx(525.0).epsilon(1e-4));
+    CHECK(cloud.info().depth.cy == doctest::Approx(239.5).epsilon(1e-4));
+    const auto a = cloud.next(), b = recorded.next();
+    REQUIRE(a);
+    REQUIRE(b);
+    size_t differ = 0, colours = 0, valid = 0;
+    for (size_t i = 0; i < (*b)->depth.size(); ++i) {
+        const double z = (*a)->depth[i] * cloud.info().metresPerUnit,
+                     w = (*b)->depth[i] * recorded.info().metresPerUnit;
+        differ += std::abs(z - w) > 1.01e-4 ? 1 : 0;
+        colours += ((*a)->colour[i] & 0xffffff) != ((*b)->colour[i] & 0xffffff) ? 1 : 0;
+        valid += (*a)->depth[i] != 0 ? 1 : 0;
+    }
+    CHECK(valid > 200000);
+    CHECK(differ == 0);
+    CHECK(colours == 0);
+}
