@@ -4,6 +4,7 @@
 #include "apps/global_options.h"
 #include "apps/plan/plan_command.h"
 #include "apps/record/record_command.h"
+#include "apps/register/register_command.h"
 #include "apps/replay/replay_command.h"
 #include "apps/stability/stability_command.h"
 #include "engine/types/error.h"
@@ -55,6 +56,7 @@ int run(int argc, char** argv) {
     app.parse_complete_callback(
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
     fathom::addPlanCommand(app, global);
+    fathom::addRegisterCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
     fathom::addStabilityCommand(app, global, result);

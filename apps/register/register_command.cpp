@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/register/register_command.h"
+
+#include "apps/binding/open_source.h"
+#include "apps/register/tag_finder.h"
+#include "engine/types/error.h"
+
+#include <cstdio>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <sstream>
+
+namespace fathom {
+
+namespace {
+
+struct RegisterOptions {
+    std::string scene, source, points, tags, out;
+    uint32_t frames = 30;
+};
+
+std::vector<PointPair> seenTags(const RegisterOptions& options) {
+    const auto camera = openCamera(
+        openScene(options.scene),
+        options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
+    if (!camera->info().hasColour) {
+        throw BadInput(camera->description(), "colour", "none", "a camera with colour, or --points");
+    }
+    TagFinder finder(camera->info(), readTagPlaces(options.tags));
+    std::vector<PointPair> pairs;
+    uint32_t frames = 0, with = 0;
+    for (; frames < options.frames; ++frames) {
+        const std::optional<Frame> frame = camera->next();
+        if (!frame) {
+            break;
+        }
+        const std::vector<PointPair> found = finder.find(*frame);
+        with += found.empty() ? 0 : 1;
+        pairs.insert(pairs.end(), found.begin(), found.end());
+    }
+    std::cout << "# " << pairs.size() / 4 << " sights of known tags in " << with << " of " << frames
+              << " pictures of " << camera->description() << "\n";
+    if (pairs.empty()) {
+        throw BadInput(camera->description(), "tags", "none seen",
+                       "a tag of " + options.tags + " in colour and depth");
+    }
+    return pairs;
+}
+
+std::string asYaml(const RigidFit& fit) {
+    const dvec3& t = fit.baseTcamera.position;
+    const dquat& q = fit.baseTcamera.rotation;
+    char text[400];
+    std::snprintf(text, sizeof text,
+                  "base_T_camera: {xyz: [%.9g, %.9g, %.9g], quat_xyzw: [%.12g, %.12g, %.12g, %.12g]}\n"
+                  "registration_sigma: %.6g\n",
+                  t.x, t.y, t.z, q.x, q.y, q.z, q.w, fit.sigma);
+    return text;
+}
+
+void runRegister(const RegisterOptions& options) {
+    if (options.points.empty() == options.tags.empty()) {
+        throw BadInput("register", "--points, --tags", options.points.empty() ? "neither" : "both",
+                       "one of them");
+    }
+    const bool fromTags = !options.tags.empty();
+    const std::vector<PointPair> pairs = fromTags ? seenTags(options) : readPointPairs(options.points);
+    const RigidFit fit = fitRigid(pairs, fromTags ? options.tags : options.points);
+    const std::string yaml = asYaml(fit);
+    std::cout << "# " << pairs.size() << " pairs of points; root of the mean square distance "
+              << 1e3 * fit.sigma << " mm, largest " << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n"
+              << "# for the section camera of the scene; every region grows by 3 registration_sigma\n"
+              << yaml;
+    if (!options.out.empty()) {
+        std::ofstream file(options.out);
+        file << yaml << std::flush;
+        if (!file) {
+            throw BadInput("register", "--out", options.out, "a file that can be written");
+        }
+    }
+}
+
+} // namespace
+
+std::vector<PointPair> readPointPairs(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    if (!in) {
+        throw BadInput(file.string(), "file", "cannot be read",
+                       "CSV rows camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
+    }
+    std::vector<PointPair> pairs;
+    int number = 0;
+    for (std::string line; std::getline(in, line);) {
+        ++number;
+        if (line.empty() || line[0] == '#' || line[0] == 'c') { // a comment, or the header
+            continue;
+        }
+        std::string spaced = line;
+        for (char& c : spaced) {
+            c = c == ',' ? ' ' : c;
+        }
+        std::istringstream words(spaced);
+        PointPair pair;
+        std::string more;
+        dvec3 &c = pair.camera, &b = pair.base;
+        if (!(words >> c.x >> c.y >> c.z >> b.x >> b.y >> b.z) || words >> more) {
+            throw BadInput(file.string(), "line " + std::to_string(number), line, "six numbers [m]");
+        }
+        pair.name = "line " + std::to_string(number);
+        pairs.push_back(pair);
+    }
+    return pairs;
+}
+
+void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
+    auto options = std::make_shared<RegisterOptions>();
+    CLI::App* command = app.add_subcommand("register", "find base_T_camera and its uncertainty");
+    command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
+    command->add_option("--source", options->source, kSourceHelp);
+    command->add_option("--tags", options->tags,
+                        "AprilTags 36h11 in the base frame: CSV id,size_m,x,y,z,qx,qy,qz,qw");
+    command->add_option(
+        "--points", options->points,
+        "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
+    command->add_option("--frames", options->frames, "how many pictures to look at")
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--out", options->out, "file for the two lines of YAML");
+    command->callback([options] { runRegister(*options); });
+}
+
+} // namespace fathom

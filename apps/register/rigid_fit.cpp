@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/register/rigid_fit.h"
+
+#include "engine/types/error.h"
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kLeastSpread = 1e-3; // [m] across the points' main direction
+
+Eigen::Vector3d toEigen(const dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// Horn's symmetric matrix: its largest eigenvector is the rotation's quaternion (w, x, y, z).
+Eigen::Matrix4d hornMatrix(const Eigen::Matrix3d& s) {
+    Eigen::Matrix4d n;
+    n << s(0, 0) + s(1, 1) + s(2, 2), s(1, 2) - s(2, 1), s(2, 0) - s(0, 2), s(0, 1) - s(1, 0), //
+        s(1, 2) - s(2, 1), s(0, 0) - s(1, 1) - s(2, 2), s(0, 1) + s(1, 0), s(2, 0) + s(0, 2),  //
+        s(2, 0) - s(0, 2), s(0, 1) + s(1, 0), -s(0, 0) + s(1, 1) - s(2, 2), s(1, 2) + s(2, 1), //
+        s(0, 1) - s(1, 0), s(2, 0) + s(0, 2), s(1, 2) + s(2, 1), -s(0, 0) - s(1, 1) + s(2, 2);
+    return n;
+}
+
+} // namespace
+
+RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source) {
+    const auto count = static_cast<double>(pairs.size());
+    if (pairs.size() < 4) {
+        throw BadInput(source, "pairs", std::to_string(pairs.size()), "4 or more, not on one line");
+    }
+    dvec3 camera(0.0), base(0.0);
+    for (const PointPair& pair : pairs) {
+        camera += pair.camera / count;
+        base += pair.base / count;
+    }
+    Eigen::Matrix3d cross = Eigen::Matrix3d::Zero(), spread = Eigen::Matrix3d::Zero();
+    for (const PointPair& pair : pairs) {
+        const Eigen::Vector3d c = toEigen(pair.camera - camera), b = toEigen(pair.base - base);
+        cross += c * b.transpose();
+        spread += b * b.transpose() / count;
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> shape(spread);
+    if (!(shape.eigenvalues()(1) > kLeastSpread * kLeastSpread)) {
+        throw BadInput(source, "pairs", "all on one line", "points that span a surface");
+    }
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d> solver(hornMatrix(cross));
+    const Eigen::Vector4d q = solver.eigenvectors().col(3);
+    RigidFit fit;
+    fit.baseTcamera.rotation = glm::normalize(dquat(q(0), q(1), q(2), q(3)));
+    fit.baseTcamera.position = base - fit.baseTcamera.rotation * camera;
+    double squares = 0.0;
+    for (const PointPair& pair : pairs) {
+        const double distance =
+            glm::length(fit.baseTcamera.rotation * pair.camera + fit.baseTcamera.position - pair.base);
+        squares += distance * distance;
+        if (distance >= fit.worst) {
+            fit.worst = distance;
+            fit.worstName = pair.name;
+        }
+    }
+    // Six of the 3n measured numbers went into the pose.
+    fit.sigma = std::sqrt(squares / (count - 2.0));
+    return fit;
+}
+
+} // namespace fathom

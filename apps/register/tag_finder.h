@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// AprilTags in a depth + colour frame, as points in the frame of the depth camera.
+#pragma once
+
+#include "apps/register/rigid_fit.h"
+#include "engine/types/camera_info.h"
+#include "engine/types/frame.h"
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <vector>
+
+namespace fathom {
+
+// A printed tag of the family 36h11. Its frame: origin in its middle, x to its right, y down, z into it, as
+// it is read.
+struct TagPlace {
+    double size = 0.0; // [m] edge of the black square
+    Pose baseTtag;
+};
+
+// CSV rows "id,size_m,x,y,z,qx,qy,qz,qw"; lines with # are comments. Throws BadInput.
+std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file);
+
+class TagFinder {
+public:
+    TagFinder(const CameraInfo& camera, std::map<int, TagPlace> places);
+    ~TagFinder();
+
+    // The four corners of every known tag in the frame: where the rays of the colour camera through them meet
+    // the plane that the depth inside the tag makes (depth at an edge is the least certain of all). A tag
+    // with fewer than 50 depth pixels, or whose depth is off its plane by more than 1 % of its distance, is
+    // left out.
+    std::vector<PointPair> find(const Frame& frame);
+
+private:
+    struct Detector;
+    struct Corners {
+        int id = 0;
+        std::array<glm::dvec2, 4> pixels; // of the colour picture, in order of the tag's corners
+    };
+    std::vector<Corners> detect(const Frame& frame);
+    std::vector<dvec3> depthInside(const Frame& frame, const Corners& corners) const;
+
+    CameraInfo camera_;
+    std::map<int, TagPlace> places_;
+    std::unique_ptr<Detector> detector_;
+    std::vector<uint8_t> grey_;
+};
+
+} // namespace fathom

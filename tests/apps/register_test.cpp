@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// Registration: known poses come back from points and from tags in drawn pictures.
+#include "apps/register/register_command.h"
+#include "apps/register/tag_finder.h"
+#include "engine/types/error.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag36h11.h>
+#include <cmath>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <random>
+
+using namespace fathom;
+
+namespace {
+
+const Pose kTruth{{0.4, -0.3, 1.2}, glm::normalize(dquat(0.3, 0.8, -0.4, 0.2))};
+
+double angleBetween(const dquat& a, const dquat& b) {
+    return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
+}
+
+std::vector<PointPair> somePairs(size_t count, double noise) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-0.5, 0.5);
+    std::normal_distribution<double> error(0.0, 1.0);
+    std::vector<PointPair> pairs;
+    for (size_t i = 0; i < count; ++i) {
+        const dvec3 p(place(random), place(random), 1.0 + place(random));
+        const dvec3 e(error(random), error(random), error(random));
+        pairs.push_back({p, kTruth.rotation * p + kTruth.position + noise * e, std::to_string(i)});
+    }
+    return pairs;
+}
+
+// Tag 7 of 0.2 m, tilted, 1 m before a depth + colour camera with two lenses, drawn by casting a ray through
+// each pixel.
+struct TagPicture {
+    CameraInfo info;
+    Pose cameraTtag{{0.03, -0.02, 1.0}, glm::normalize(dquat(1.0, 0.12, -0.2, 0.05))};
+    std::vector<uint16_t> depth;
+    std::vector<uint32_t> colour;
+
+    explicit TagPicture(double noise) {
+        info.depth = {.width = 320, .height = 240, .fx = 280, .fy = 281, .cx = 161, .cy = 119};
+        info.colour = {.width = 640, .height = 480, .fx = 600, .fy = 601, .cx = 318, .cy = 243};
+        info.registered = false;
+        info.colourTdepth = {{0.015, 0.001, -0.002}, glm::normalize(dquat(1.0, 0.004, -0.006, 0.002))};
+        info.metresPerUnit = 0.0005;
+        std::mt19937 random(3);
+        std::normal_distribution<double> error(0.0, noise);
+        for (uint32_t i = 0; i < info.depth.pixels(); ++i) {
+            const dvec3 p = hit(info.depth.ray(i % 320, i / 320), Pose{});
+            depth.push_back(static_cast<uint16_t>(std::lround((p.z + error(random)) / info.metresPerUnit)));
+        }
+        draw();
+    }
+    // Where a ray of the camera (at cameraTdepth) meets the tag's plane: in that camera's frame.
+    dvec3 hit(const glm::dvec2& ray, const Pose& cameraTdepth) const {
+        const Pose t = cameraTdepth * cameraTtag;
+        const dvec3 n = t.rotation * dvec3(0, 0, 1), d(ray, 1.0);
+        return d * (glm::dot(t.position, n) / glm::dot(d, n));
+    }
+    void draw() {
+        apriltag_family_t* family = tag36h11_create();
+        image_u8_t* tag =
+            apriltag_to_image(family, 7); // 10 x 10 cells with its white rim; the black square is 8 wide
+        const Pose tagTcolour = inverse(info.colourTdepth * cameraTtag);
+        for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
+            int sum = 0;
+            for (int s = 0; s < 16; ++s) { // 4 x 4 rays a pixel
+                const double u = i % 640 + (s % 4 - 1.5) / 4, v = i / 640 + (s / 4 - 1.5) / 4;
+                const dvec3 p =
+                    tagTcolour.rotation * hit(info.colour.ray(u, v), info.colourTdepth) + tagTcolour.position;
+                const int x = static_cast<int>(std::floor(p.x / 0.025)) + 5,
+                          y = static_cast<int>(std::floor(p.y / 0.025)) + 5;
+                const bool on = x >= 0 && x < tag->width && y >= 0 && y < tag->height;
+                sum += on ? tag->buf[y * tag->stride + x] : 200;
+            }
+            const auto grey = static_cast<uint32_t>(sum / 16);
+            colour.push_back(grey * 0x010101u | 0xff000000u);
+        }
+        std::free(tag->buf); // the library does not export its own way
+        std::free(tag);
+        tag36h11_destroy(family);
+    }
+    Frame frame() const {
+        Frame::Content content;
+        content.depth = depth;
+        content.colour = colour;
+        return Frame(content, nullptr);
+    }
+};
+
+} // namespace
+
+TEST_CASE("A pose comes back from pairs of points to rounding, and its sigma from noisy ones") {
+    const RigidFit exact = fitRigid(somePairs(4, 0.0), "test");
+    CHECK(glm::length(exact.baseTcamera.position - kTruth.position) < 1e-12);
+    CHECK(angleBetween(exact.baseTcamera.rotation, kTruth.rotation) < 1e-7);
+    CHECK(exact.sigma < 1e-12);
+    const RigidFit noisy = fitRigid(somePairs(500, 0.003), "test");
+    CHECK(glm::length(noisy.baseTcamera.position - kTruth.position) < 0.002);
+    CHECK(noisy.sigma == doctest::Approx(0.003 * std::sqrt(3.0)).epsilon(0.1)); // of the distance: three axes
+    CHECK(noisy.worst > noisy.sigma);
+}
+
+TEST_CASE("Too few points, or points on a line, are refused") {
+    CHECK_THROWS_WITH_AS(fitRigid(somePairs(3, 0.0), "p.csv"), doctest::Contains("p.csv: pairs: 3"),
+                         BadInput);
+    std::vector<PointPair> line;
+    for (int i = 0; i < 9; ++i) {
+        const dvec3 p(0.1 * i, 0.2 * i, 1.0);
+        line.push_back({p, p, ""});
+    }
+    CHECK_THROWS_WITH_AS(fitRigid(line, "p.csv"), doctest::Contains("all on one line"), BadInput);
+}
+
+TEST_CASE("A tag in colour and depth of two lenses gives the camera's pose to millimetres, noise and all") {
+    for (const double noise : {0.0, 0.003}) {
+        const TagPicture picture(noise);
+        const Pose baseTtag = kTruth * picture.cameraTtag;
+        TagFinder finder(picture.info, {{7, {0.2, baseTtag}}, {8, {0.2, Pose{}}}});
+        const std::vector<PointPair> pairs = finder.find(picture.frame());
+        REQUIRE(pairs.size() == 4);
+        const RigidFit fit = fitRigid(pairs, "test");
+        const double shift = glm::length(fit.baseTcamera.position - kTruth.position);
+        CHECK(shift < (noise == 0.0 ? 0.003 : 0.012));
+        CHECK(angleBetween(fit.baseTcamera.rotation, kTruth.rotation) < (noise == 0.0 ? 0.003 : 0.012));
+        CHECK(fit.sigma < 0.002);
+        MESSAGE("noise " << noise << " m: position off by " << 1e3 * shift << " mm, sigma " << 1e3 * fit.sigma
+                         << " mm");
+    }
+}
+
+TEST_CASE("A tag that is not listed, or whose depth is missing or no plane, is left out") {
+    TagPicture picture(0.0);
+    CHECK(TagFinder(picture.info, {{8, {0.2, Pose{}}}}).find(picture.frame()).empty());
+    TagFinder finder(picture.info, {{7, {0.2, Pose{}}}});
+    const std::vector<uint16_t> good = picture.depth;
+    for (size_t i = 0; i < picture.depth.size(); i += 2) {
+        picture.depth[i] = static_cast<uint16_t>(picture.depth[i] + 200); // every second pixel 0.1 m behind
+    }
+    CHECK(finder.find(picture.frame()).empty());
+    std::fill(picture.depth.begin(), picture.depth.end(), uint16_t{0});
+    CHECK(finder.find(picture.frame()).empty());
+    picture.depth = good;
+    CHECK(finder.find(picture.frame()).size() == 4);
+}
+
+TEST_CASE("Lists of tags and points are read, and a wrong line is refused with its number") {
+    const testing::ScratchFolder folder;
+    const auto write = [&](const std::string& text) {
+        std::ofstream(folder.path() / "a.csv") << text;
+        return folder.path() / "a.csv";
+    };
+    const auto places = readTagPlaces(write("id,size_m,x,y,z,qx,qy,qz,qw\n# wall\n3,0.1,1,2,3,0,0,0,2\n"));
+    CHECK(places.at(3).baseTtag.position.y == 2.0);
+    CHECK(places.at(3).baseTtag.rotation.w == 1.0);
+    CHECK_THROWS_WITH_AS(readTagPlaces(write("3,0.1,1,2,3,0,0,0\n")), doctest::Contains("line 1"), BadInput);
+    CHECK_THROWS_AS(readTagPlaces(write("3,0,1,2,3,0,0,0,1\n")), BadInput);
+    CHECK_THROWS_AS(readTagPlaces(write("3,1,1,2,3,0,0,0,1\n3,1,1,2,3,0,0,0,1\n")), BadInput);
+    CHECK_THROWS_AS(readTagPlaces(write("")), BadInput);
+    CHECK(readPointPairs(write("camera_x,y\n1,2,3,4,5,6\n"))[0].base.z == 6.0);
+    CHECK_THROWS_WITH_AS(readPointPairs(write("\n1,2,3,4,5\n")), doctest::Contains("line 2"), BadInput);
+    CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
+}
