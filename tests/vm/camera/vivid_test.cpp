@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// The product's camera on vivid, the kernel's own virtual camera: formats that UVC depth cameras do not have,
+// and errors that the driver makes on purpose.
+#include "tests/vm/camera/live_camera.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <linux/videodev2.h>
+
+using namespace fathom;
+using namespace fathom::vm;
+
+namespace {
+
+struct Vivid {
+    Vivid() {
+        REQUIRE(std::system("modprobe vivid n_devs=1 node_types=1") == 0);
+        REQUIRE(waitForFile("/dev/video0"));
+    }
+    ~Vivid() {
+        std::system("rmmod vivid");
+        waitForNoCamera();
+    }
+};
+
+// A button of vivid's, by its name.
+void press(const std::string& name) {
+    const VideoNode node("/dev/video0");
+    v4l2_queryctrl query{};
+    for (query.id = V4L2_CTRL_FLAG_NEXT_CTRL; node.control(VIDIOC_QUERYCTRL, &query) == 0;
+         query.id |= V4L2_CTRL_FLAG_NEXT_CTRL) {
+        if (name == reinterpret_cast<const char*>(query.name)) {
+            v4l2_control value{query.id, 1};
+            node.control(VIDIOC_S_CTRL, &value);
+            return;
+        }
+    }
+    FAIL("vivid has no control " << name);
+}
+
+} // namespace
+
+TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth from a driver that has them, when asked for "
+          "by name") {
+    const Vivid vivid;
+    const IntrinsicsFile lens(640, 360);
+    const std::string file = ",colour=none,intrinsics=" + lens.path().string();
+    for (const auto& [name, most] :
+         {std::pair{"Y10", 0x3ff}, std::pair{"Y12", 0xfff}, std::pair{"Y16", 0xffff}}) {
+        V4l2Camera camera(parseCameraRequest("v4l2:/dev/video0,format=" + std::string(name) + file));
+        for (int i = 0; i < 3; ++i) {
+            const auto frame = camera.next();
+            REQUIRE(frame);
+            const auto [low, high] = std::minmax_element((*frame)->depth.begin(), (*frame)->depth.end());
+            CHECK(*high <= most);
+            CHECK(*high > most / 2); // its bars have white in them
+            CHECK(*low < most / 8);  // and black
+        }
+        CHECK(camera.copied() == (most == 0xffff ? 0u : 3u));
+    }
+    CHECK(refusalOf("v4l2:/dev/video0" + file).find("no depth on /dev/video0, which has YUYV") !=
+          std::string::npos);
+}
+
+TEST_CASE("A stream that ends in a fatal error is started anew; a device that the driver calls disconnected "
+          "is lost") {
+    const Vivid vivid;
+    const IntrinsicsFile lens(640, 360);
+    CameraRequest request =
+        parseCameraRequest("v4l2:/dev/video0,format=Y16,colour=none,intrinsics=" + lens.path().string());
+    request.silence = 0.5;
+    V4l2Camera camera(request);
+    REQUIRE(camera.next());
+    press("Inject Fatal Streaming Error");
+    for (int i = 0; i < 8; ++i) { // what was in the buffers, then pictures of the stream started anew
+        CHECK(camera.next());
+    }
+    press("Disconnect");
+    CHECK_THROWS_AS(
+        [&camera] {
+            for (int i = 0; i < 20; ++i) {
+                camera.next();
+            }
+        }(),
+        DeviceLost);
+}
