@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bridge/door_server.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <spdlog/spdlog.h>
+
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kBacklog = 1;
+constexpr int kMostPackets = 256; // a poll: an engine that floods must not hold the device up
+
+template <size_t N>
+void copyText(char (&to)[N], const std::string& from) {
+    std::memcpy(to, from.data(), std::min(from.size(), N - 1)); // the rest is zero already
+}
+
+dvec3 vectorOf(const double (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+} // namespace
+
+DoorServer::DoorServer(const Options& options)
+    : path_(options.path)
+    , door_(DoorSocket::listen(options.path, kBacklog))
+    , gate_(options.forceLimit, options.torqueLimit) {
+    copyText(hand_.preset, options.preset);
+    copyText(hand_.name, options.name);
+}
+
+DoorServer::~DoorServer() {
+    ::unlink(path_.c_str());
+}
+
+void DoorServer::poll() {
+    takeNewcomers();
+    takeWrenches();
+}
+
+void DoorServer::takeNewcomers() {
+    for (DoorSocket newcomer = door_.accept(); newcomer.open(); newcomer = door_.accept()) {
+        if (engine_.open()) {
+            spdlog::warn("{}: a second engine is turned away", path_.string());
+            continue; // closes it
+        }
+        engine_ = std::move(newcomer);
+        gate_.close();
+        hand_.wrench_sequence = 0;
+        spdlog::info("{}: engine connected", path_.string());
+    }
+}
+
+void DoorServer::takeWrenches() {
+    fathom_door_wrench packet;
+    for (int i = 0; i < kMostPackets && engine_.open(); ++i) {
+        size_t got = 0;
+        switch (engine_.receive(packet, FATHOM_DOOR_WRENCH, &got)) {
+        case DoorEvent::Empty:
+            return;
+        case DoorEvent::Closed:
+            drop({});
+            return;
+        case DoorEvent::Bad:
+            drop(doorFault(packet.header, got, FATHOM_DOOR_WRENCH, sizeof packet));
+            return;
+        case DoorEvent::Packet:
+            break;
+        }
+        hand_.wrench_sequence = packet.header.sequence;
+        if ((packet.flags & FATHOM_DOOR_LAST) != 0) {
+            gate_.close();
+        } else {
+            gate_.accept({vectorOf(packet.force), vectorOf(packet.torque)}, doorClock());
+        }
+    }
+}
+
+void DoorServer::drop(const std::string& why) {
+    gate_.close();
+    engine_.close();
+    if (why.empty()) {
+        spdlog::info("{}: engine gone, zero force", path_.string());
+    } else {
+        ++dropped_;
+        spdlog::warn("{}: engine dropped, zero force: {}", path_.string(), why);
+    }
+}
+
+void DoorServer::send(const HandSample& sample, uint32_t status) noexcept {
+    if (!engine_.open()) {
+        return;
+    }
+    hand_.header = doorHeader(FATHOM_DOOR_HAND, sizeof hand_, ++sent_);
+    hand_.status = status;
+    hand_.buttons = sample.buttons;
+    const dvec3& p = sample.deviceThandle.position;
+    const dquat& q = sample.deviceThandle.rotation;
+    std::copy_n(std::array{p.x, p.y, p.z}.data(), 3, hand_.position);
+    std::copy_n(std::array{q.w, q.x, q.y, q.z}.data(), 4, hand_.orientation);
+    // A full queue is an engine that does not read: its silence closes the gate soon enough.
+    if (engine_.send(hand_) == DoorEvent::Closed) {
+        gate_.close();
+        engine_.close();
+    }
+}
+
+} // namespace fathom

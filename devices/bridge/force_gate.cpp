@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bridge/force_gate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fathom {
+
+namespace {
+
+dvec3 shortened(const dvec3& v, double limit) noexcept {
+    const double length = glm::length(v);
+    return length > limit ? v * (limit / length) : v;
+}
+
+} // namespace
+
+void ForceGate::accept(const Wrench& wrench, uint64_t now) noexcept {
+    if (!isFinite(wrench.force) || !isFinite(wrench.torque)) {
+        ++notFinite_;
+        close();
+        return;
+    }
+    if (silent(now)) {
+        silences_ += open_ ? 1 : 0;
+        since_ = now;
+    }
+    wrench_ = wrench;
+    newest_ = now;
+    open_ = true;
+}
+
+void ForceGate::close() noexcept {
+    open_ = false;
+    wrench_ = {};
+}
+
+Wrench ForceGate::at(uint64_t now) const noexcept {
+    if (silent(now)) {
+        return {};
+    }
+    const double share = std::min(1.0, static_cast<double>(now - since_) / static_cast<double>(kRamp));
+    return {shortened(wrench_.force, forceLimit_) * share, shortened(wrench_.torque, torqueLimit_) * share};
+}
+
+} // namespace fathom

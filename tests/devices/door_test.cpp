@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: Apache-2.0
+// The door's two ends against each other and against packets that break its contract, in one process.
+#include "devices/bridge/door_hand.h"
+#include "devices/bridge/door_server.h"
+#include "engine/types/error.h"
+#include "tests/devices/door_rig.h"
+
+#include <cstring>
+#include <fstream>
+#include <vector>
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+constexpr uint64_t kMs = 1000000;
+constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+
+// What a BadInput of `attempt` says.
+template <class Attempt>
+std::string refusal(Attempt&& attempt) {
+    try {
+        attempt();
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "nothing";
+}
+
+bool has(const std::string& text, const std::string& part) {
+    const bool found = text.find(part) != std::string::npos;
+    if (!found) {
+        MESSAGE("'" << part << "' is not in '" << text << "'");
+    }
+    return found;
+}
+
+// A server that answers while a DoorHand is made and used on this thread.
+struct Talk {
+    explicit Talk(const std::filesystem::path& door)
+        : server(serverAt(door))
+        , thread([this] {
+            while (!stop.load()) {
+                server.poll();
+                HandSample sample;
+                sample.deviceThandle.position = {0.01 * level.load(), 0.0, 0.0};
+                sample.buttons = 1;
+                if (!mute.load()) {
+                    server.send(sample, status.load());
+                }
+                felt.store(server.wrench().force.x);
+                pauseMs(1);
+            }
+        }) {}
+    ~Talk() {
+        stop.store(true);
+        thread.join();
+    }
+    DoorServer server;
+    std::atomic<double> level{1.0}, felt{0.0};
+    std::atomic<uint32_t> status{kReady};
+    std::atomic<bool> stop{false}, mute{false};
+    std::thread thread;
+};
+
+void tick(DoorHand& hand, double fx) {
+    hand.read(0.0);
+    hand.write({{fx, 0.0, 0.0}, {}}, 0.001);
+    pauseMs(1);
+}
+
+} // namespace
+
+TEST_CASE("Samples go in, wrenches come out, and the last thing at the device is zero") {
+    DoorFolder folder;
+    Talk bridge(folder.door());
+    {
+        DoorHand hand(folder.door(), 4);
+        CHECK(hand.preset() == "falcon");
+        CHECK(has(hand.description(), "test device"));
+        CHECK(eventually([&] { // forces rise over 0.1 s from the first wrench
+            tick(hand, 2.0);
+            return bridge.felt.load() == 2.0;
+        }));
+        bridge.level.store(7.0);
+        CHECK(eventually([&] {
+            tick(hand, 2.0);
+            const HandSample sample = hand.read(0.0);
+            return sample.deviceThandle.position.x == 0.01 * 7.0 && sample.buttons == 1;
+        }));
+        CHECK(hand.alive());
+        CHECK(hand.figures().samples > 10);
+    }
+    CHECK(eventually([&] { return bridge.felt.load() == 0.0 && !bridge.server.hasEngine(); }));
+    CHECK(bridge.server.dropped() == 0);
+}
+
+TEST_CASE("An engine that falls silent is zero force at the device, and its force comes back when it does") {
+    DoorFolder folder;
+    Talk bridge(folder.door());
+    DoorHand hand(folder.door(), 4);
+    const auto push = [&] {
+        tick(hand, 2.0);
+        return bridge.felt.load() == 2.0;
+    };
+    REQUIRE(eventually(push));
+    CHECK(eventually([&] { return bridge.felt.load() == 0.0; })); // connected, but no packet
+    CHECK(bridge.server.hasEngine());
+    CHECK(eventually(push));
+    CHECK(bridge.server.gate().silences() >= 1);
+}
+
+TEST_CASE(
+    "A bridge that falls silent or is not homed is an open dead-man switch and a clutch, with zero wrench") {
+    DoorFolder folder;
+    Talk bridge(folder.door());
+    DoorHand hand(folder.door(), 4);
+    REQUIRE(eventually([&] {
+        tick(hand, 2.0);
+        return bridge.felt.load() == 2.0;
+    }));
+    SUBCASE("silent") {
+        bridge.mute.store(true);
+    }
+    SUBCASE("not homed") {
+        bridge.status.store(FATHOM_DOOR_PRESENT);
+    }
+    SUBCASE("device away") {
+        bridge.status.store(0);
+    }
+    bridge.level.store(3.0); // a pose that must not be used
+    CHECK(eventually([&] {
+        tick(hand, 2.0);
+        return !hand.alive();
+    }));
+    const double before = hand.read(0.0).deviceThandle.position.x;
+    CHECK((hand.read(0.0).buttons & 6u) == 6u);
+    CHECK(eventually([&] {
+        tick(hand, 2.0);
+        return bridge.felt.load() == 0.0;
+    }));
+    CHECK(hand.read(0.0).deviceThandle.position.x == before);
+    CHECK(hand.figures().losses >= 1);
+    bridge.mute.store(false);
+    bridge.status.store(kReady);
+    CHECK(eventually([&] {
+        tick(hand, 2.0);
+        return bridge.felt.load() == 2.0 && hand.alive();
+    }));
+}
+
+TEST_CASE("A wrench of a wrong version, kind, magic or size ends the connection with zero force") {
+    DoorFolder folder;
+    DoorServer server(serverAt(folder.door()));
+    DoorSocket engine = DoorSocket::connect(folder.door());
+    uint64_t sequence = 0;
+    const uint64_t until = doorClock() + 150 * kMs;
+    while (doorClock() < until) { // a good engine first
+        CHECK(engine.send(wrenchPacket(++sequence, 2.0)) == DoorEvent::Packet);
+        server.poll();
+        pauseMs(1);
+    }
+    engine.send(wrenchPacket(++sequence, 2.0));
+    server.poll();
+    REQUIRE(server.wrench().force.x == 2.0);
+
+    fathom_door_wrench packet = wrenchPacket(++sequence, 2.0);
+    std::vector<char> bytes(sizeof packet + 8, '\0');
+    size_t length = sizeof packet;
+    SUBCASE("version") {
+        packet.header.version = 2;
+    }
+    SUBCASE("kind") {
+        packet.header.kind = FATHOM_DOOR_HAND;
+    }
+    SUBCASE("magic") {
+        packet.header.magic = 7;
+    }
+    SUBCASE("size in the header") {
+        packet.header.size = 80;
+    }
+    SUBCASE("half a packet") {
+        length = sizeof packet / 2;
+    }
+    SUBCASE("shorter than a header") {
+        length = 5;
+    }
+    SUBCASE("one byte") {
+        length = 1;
+    }
+    SUBCASE("longer") {
+        length = sizeof packet + 8;
+    }
+    std::memcpy(bytes.data(), &packet, sizeof packet);
+    REQUIRE(::send(engine.descriptor(), bytes.data(), length, MSG_NOSIGNAL) == static_cast<ssize_t>(length));
+    server.poll();
+    CHECK_FALSE(server.hasEngine());
+    CHECK(server.wrench().force.x == 0.0);
+    CHECK(server.dropped() == 1);
+    DoorSocket next = DoorSocket::connect(folder.door()); // and the door is open for the next one
+    server.poll();
+    CHECK(server.hasEngine());
+    CHECK(server.wrench().force.x == 0.0);
+}
+
+TEST_CASE("A flood of wrenches does not hold the bridge up") {
+    DoorFolder folder;
+    DoorServer server(serverAt(folder.door()));
+    DoorSocket engine = DoorSocket::connect(folder.door());
+    uint64_t sequence = 0;
+    while (engine.send(wrenchPacket(++sequence, 1.0)) == DoorEvent::Packet) {
+    }
+    CHECK(sequence > 1); // until its queue was full, without waiting
+    server.poll();
+    server.poll();
+    CHECK(server.hasEngine());
+}
+
+TEST_CASE("A second engine is turned away and the first one goes on") {
+    DoorFolder folder;
+    Talk bridge(folder.door());
+    DoorHand hand(folder.door(), 4);
+    CHECK(
+        has(refusal([&] { DoorHand(folder.door(), 4); }), "closed by the bridge (allowed: a bridge without"));
+    CHECK(eventually([&] {
+        tick(hand, 1.0);
+        return bridge.felt.load() == 1.0;
+    }));
+}
+
+TEST_CASE("The engine refuses a bridge of another version, a silent one, and a door where nobody listens") {
+    DoorFolder folder;
+    const auto attempt = [&] { DoorHand(folder.door(), 4, 0.2); };
+    CHECK(has(refusal(attempt), "nobody listens"));
+    std::ofstream(folder.door()) << "text";
+    CHECK(has(refusal([&] { DoorServer(serverAt(folder.door())); }), "exists and is no socket"));
+    std::filesystem::remove(folder.door());
+
+    DoorSocket door = DoorSocket::listen(folder.door(), 1);
+    CHECK(has(refusal([&] { DoorServer(serverAt(folder.door())); }), "another program listens here"));
+    DoorSocket probe = door.accept();
+    CHECK(has(refusal(attempt), "no sample (allowed: a bridge that sends"));
+
+    std::atomic<bool> stop{false};
+    fathom_door_hand packet = handPacket(1, 0.0);
+    size_t length = sizeof packet;
+    std::string expected;
+    SUBCASE("version") {
+        packet.header.version = 9;
+        expected = "version 9 (allowed: 1)";
+    }
+    SUBCASE("size") {
+        length = sizeof packet - 4;
+        expected = "size 148 (allowed: 152)";
+    }
+    SUBCASE("half a header") {
+        length = 16;
+        expected = "16 bytes (allowed: 152)";
+    }
+    std::thread bridge([&] {
+        std::vector<DoorSocket> engines;
+        while (!stop.load()) {
+            DoorSocket engine = door.accept();
+            if (engine.open() && ::send(engine.descriptor(), &packet, length, MSG_NOSIGNAL) > 0) {
+                engines.push_back(std::move(engine));
+            }
+            pauseMs(1);
+        }
+    });
+    CHECK(has(refusal(attempt), expected));
+    stop.store(true);
+    bridge.join();
+}
+
+TEST_CASE("The socket file is for its owner alone, and goes with the bridge") {
+    DoorFolder folder;
+    {
+        DoorServer server(serverAt(folder.door()));
+        struct stat status {};
+        REQUIRE(::stat(folder.door().c_str(), &status) == 0);
+        CHECK((status.st_mode & 0777) == 0600);
+    }
+    CHECK_FALSE(std::filesystem::exists(folder.door()));
+    CHECK(has(refusal([&] { DoorSocket::listen(std::string(200, 'x'), 1); }), "200 characters"));
+    CHECK(has(refusal([&] { DoorSocket::listen("/proc/no-such-folder/door", 1); }),
+              "folder that you may write to"));
+}
