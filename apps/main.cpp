@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not
 // hold or an internal error, 2 bad input, 3 device lost.
+#include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
+#include "apps/guard/guard_command.h"
 #include "apps/plan/plan_command.h"
 #include "apps/record/record_command.h"
 #include "apps/register/register_command.h"
@@ -57,6 +59,8 @@ int run(int argc, char** argv) {
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });
     fathom::addPlanCommand(app, global);
     fathom::addRegisterCommand(app, global);
+    fathom::addGuardCommand(app);
+    fathom::addDevicesCommand(app);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
     fathom::addStabilityCommand(app, global, result);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/realtime_replay.h"
 
+#include "apps/binding/open_hand.h"
 #include "apps/binding/spooled_camera.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/turn_to_tick.h"
@@ -140,9 +141,13 @@ ReplayRecorder::Ending RealtimeReplay::run() {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
     }
     const HandPath path = openHandPath(session_, options_, *session_.frames.sets().newest());
-    const std::unique_ptr<HapticDevice> hand = openHand(path, session_, options_);
-    HapticCycle cycle(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle);
-    run_->run(cycle, *hand, path.duration(), *this, signals_.asked());
+    if (session_.liveHand) {
+        runLive(path);
+    } else {
+        const std::unique_ptr<HapticDevice> hand = openHand(path, session_, options_);
+        cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle);
+        run_->run(*cycle_, *hand, path.duration(), *this, signals_.asked());
+    }
     progress_.finish();
     figures_.wokenLateMicros = percentilesOf(std::move(wokenLateMicros_));
     figures_.framesLost = session_.camera->live() ? session_.camera->lost() : run_->framesLost();
@@ -152,10 +157,19 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     figures_.staleTurns = run_->staleTurns();
     figures_.recordsLost = run_->recordsLost();
     figures_.stopped = signals_.asked().load();
-    return ending(cycle);
+    return ending();
 }
 
-ReplayRecorder::Ending RealtimeReplay::ending(const HapticCycle& cycle) {
+// The tool begins where the scene's path does, wherever the hand happens to be.
+void RealtimeReplay::runLive(const HandPath& path) {
+    LiveHand& hand = *session_.liveHand;
+    awaitHand(hand, signals_.asked());
+    const Pose start = startOf(path, session_.scene);
+    cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start);
+    run_->run(*cycle_, hand, options_.seconds, *this, signals_.asked());
+}
+
+ReplayRecorder::Ending RealtimeReplay::ending() {
     ReplayRecorder::Ending ending;
     ending.exposureMs = figures_.live ? std::optional(figures_.exposureMs) : std::nullopt;
     ending.skipped = session_.camera->skipped();
@@ -165,8 +179,8 @@ ReplayRecorder::Ending RealtimeReplay::ending(const HapticCycle& cycle) {
         ending.maxPenetration = audit_.maxPenetration();
         ending.maxEscapeDepth = audit_.maxEscapeDepth();
     }
-    ending.stiffness = cycle.springs().stiffness;
-    ending.rotationalStiffness = cycle.springs().rotationalStiffness;
+    ending.stiffness = cycle_->springs().stiffness;
+    ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
     ending.device = session_.device.facts().name;
     ending.lockstep = false;
     ending.title = session_.title();

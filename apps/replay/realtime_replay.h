@@ -63,7 +63,8 @@ private:
                std::span<const uint32_t> behind);
     RealtimeOptions runOptions(CadenceTrace* trace);
     void spool();
-    ReplayRecorder::Ending ending(const HapticCycle& cycle);
+    void runLive(const HandPath& path);
+    ReplayRecorder::Ending ending();
 
     ReplaySession& session_;
     const ReplayOptions& options_;
@@ -78,6 +79,7 @@ private:
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<Answers> answers_;
     std::unique_ptr<RealtimeRun> run_;
+    std::optional<HapticCycle> cycle_;
     std::vector<float> wokenLateMicros_;
     RealtimeFigures figures_;
 };

@@ -2,9 +2,11 @@
 #include "apps/replay/replay_command.h"
 
 #include "apps/binding/open_source.h"
+#include "apps/binding/open_hand.h"
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
+#include "engine/types/error.h"
 
 #include <iomanip>
 #include <iostream>
@@ -69,6 +71,13 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
     }
 }
 
+void print(const LiveHand& hand) {
+    const LiveHandFigures f = hand.figures();
+    std::cout << "hand         " << hand.description() << ": " << axesOf(hand.preset()) << "\n  samples   "
+              << f.samples << ", oldest used " << f.worstAge * 1e3 << " ms; lost " << f.losses << " times, "
+              << f.unsent << " wrenches not taken\n";
+}
+
 std::unique_ptr<CadenceTrace> openTrace(const ReplaySession& session, const GlobalOptions& global) {
     return global.trace.empty() ? nullptr
                                 : std::make_unique<CadenceTrace>(global.trace, session.frames.passNames());
@@ -104,10 +113,16 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     print(summary, options.out);
     printBudgets(summary, session);
     print(replay.figures(), placement, summary);
+    if (session.liveHand) {
+        print(*session.liveHand);
+    }
     return summary;
 }
 
 int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
+    if (!options.handDevice.empty() && !options.realtime) {
+        throw BadInput("replay", "--hand-device", options.handDevice, "together with --realtime");
+    }
     const ReplaySummary summary =
         options.realtime ? runRealtime(options, global) : runLockstep(options, global);
     if (summary.haptic.maxPenetration.value_or(0.0) > kPenetrationLimit) {
@@ -127,6 +142,12 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
     command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
+    command
+        ->add_option("--hand-device", options->handDevice,
+                     "a live hand: falcon, spacemouse[:/dev/hidrawN], or the socket of a bridge's door")
+        ->excludes("--operator", "--hand");
+    command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
+        ->check(CLI::NonNegativeNumber);
     command->add_option("--query", options->query, "where contacts are found")
         ->check(CLI::IsMember({"cpu", "gpu"}));
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");

@@ -2,10 +2,12 @@
 #include "apps/replay/replay_session.h"
 
 #include "apps/binding/approach_path.h"
+#include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/simulated/simulated_hand.h"
 #include "engine/types/error.h"
+#include "engine/haptics/hand_map.h"
 
 namespace fathom {
 
@@ -45,6 +47,7 @@ std::unique_ptr<Camera> openReplayCamera(const Scene& scene, const ReplayOptions
 
 ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers)
     : scene(sceneOf(options))
+    , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(openReplayCamera(scene, options))
     , tool(openTool(scene))
     , device(instance, global.device)
@@ -81,6 +84,10 @@ std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession
     loop.loop = session.scene.hand.loop;
     loop.delayTicks = session.scene.haptics.delay;
     return std::make_unique<SimulatedHand>(path, loop);
+}
+
+Pose startOf(const HandPath& path, const Scene& scene) {
+    return HandMap(scene.hand.baseRdevice, scene.hand.scale).map(path.at(0.0).deviceThandle, false);
 }
 
 } // namespace fathom

@@ -5,6 +5,7 @@
 #include "apps/replay/replay_command.h"
 #include "devices/camera.h"
 #include "devices/haptic_device.h"
+#include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
 #include "engine/cycle/contact_cycle.h"
 #include "engine/cycle/frame_cycle.h"
@@ -19,6 +20,7 @@ struct ReplaySession {
     ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers);
 
     Scene scene;
+    std::unique_ptr<LiveHand> liveHand; // null = scripted or simulated
     std::unique_ptr<Camera> camera;
     Tool tool;
     gpu::Instance instance;
@@ -39,5 +41,8 @@ HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options
 // A device that follows the path; with --hand one that also feels the wrench.
 std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session,
                                        const ReplayOptions& options);
+
+// base_T_tool where the path begins: where the tool of a live hand begins, too.
+Pose startOf(const HandPath& path, const Scene& scene);
 
 } // namespace fathom

@@ -26,14 +26,22 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
+Pose begin(HandMap& map, const Pose& start, const Pose* tool0) {
+    if (tool0 == nullptr) {
+        return map.map(start, false);
+    }
+    map.align(start, *tool0);
+    return *tool0;
+}
+
 } // namespace
 
 HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
-                         const Pose& start)
+                         const Pose& start, const Pose* tool0)
     : options_(options)
     , map_(options.baseRdevice, options.handScale)
     , guidance_(options.guidance)
-    , proxy_(tool, shapes, options.proxy, map_.map(start, false))
+    , proxy_(tool, shapes, options.proxy, begin(map_, start, tool0))
     , watch_(options.device, options.coupling, options.springs)
     , passivity_(passivityOf(options))
     , springEnd_(proxy_.pose())

@@ -26,9 +26,10 @@ namespace fathom {
 // zero.
 class HapticCycle {
 public:
-    // start: raw pose of the hand before the first turn; the tool starts where it commands.
+    // start: raw pose of the hand before the first turn; the tool starts where it commands, or at base_T_tool
+    // `tool0` when that is given: then the hand map is aligned, as after a clutch.
     HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
-                const Pose& start);
+                const Pose& start, const Pose* tool0 = nullptr);
 
     TurnRecord turn(const TurnInput& input) noexcept;
 

@@ -4,6 +4,7 @@
 
 #include "devices/bridge/door_server.h"
 
+#include <chrono>
 #include <doctest/doctest.h>
 #include <filesystem>
 #include <functional>
@@ -60,9 +61,10 @@ inline void pauseMs(int ms) {
     std::this_thread::sleep_for(std::chrono::milliseconds(ms));
 }
 
-// Until `done` or 10 s are over.
+// Until `done` or 20 s are over.
 inline bool eventually(const std::function<bool()>& done) {
-    for (int i = 0; i < 10000; ++i) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (std::chrono::steady_clock::now() < until) {
         if (done()) {
             return true;
         }

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/open_hand.h"
+
+#include "devices/bridge/door_hand.h"
+#include "devices/usb/space_mouse_hand.h"
+#include "engine/haptics/device_preset.h"
+#include "engine/types/error.h"
+
+#include <chrono>
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+const std::string kSpaceMouse = "spacemouse";
+
+std::unique_ptr<LiveHand> open(const std::string& name, uint32_t clutchBit) {
+    if (name == kSpaceMouse || name.starts_with(kSpaceMouse + ":")) {
+        SpaceMouseOptions options;
+        options.clutchBit = clutchBit;
+        return std::make_unique<SpaceMouseHand>(name.substr(std::min(name.size(), kSpaceMouse.size() + 1)),
+                                                options);
+    }
+    return std::make_unique<DoorHand>(name == "falcon" ? defaultDoor(name) : std::filesystem::path(name),
+                                      clutchBit);
+}
+
+std::string listed(const AxisMask& axes) {
+    static const char* const names[] = {"x", "y", "z", "rx", "ry", "rz"};
+    std::string text;
+    for (size_t i = 0; i < axes.size(); ++i) {
+        if (axes[i]) {
+            text.append(text.empty() ? "" : " ").append(names[i]);
+        }
+    }
+    return text.empty() ? "nothing" : text;
+}
+
+} // namespace
+
+std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene) {
+    auto hand = open(name, scene.hand.clutchBit);
+    try {
+        scene.haptics.device = devicePreset(hand->preset()).name;
+    } catch (const BadInput&) {
+        std::string names;
+        for (const DevicePreset& preset : devicePresets()) {
+            names += (names.empty() ? "" : ", ") + preset.name;
+        }
+        throw BadInput("--hand-device", "preset", "'" + hand->preset() + "'", names);
+    }
+    return hand;
+}
+
+std::string axesOf(const std::string& preset) {
+    const DevicePreset& device = devicePreset(preset);
+    const AxisMask& drives = device.actuated;
+    const bool force = drives[0] || drives[1] || drives[2], torque = drives[3] || drives[4] || drives[5];
+    std::string text = listed(device.sensed) + " sensed, " + listed(drives) + " driven";
+    if (!force) {
+        text += "; force and torque are shown, not felt";
+    } else if (!torque) {
+        text += "; torque is shown, not felt";
+    }
+    return text;
+}
+
+bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
+    const auto began = std::chrono::steady_clock::now();
+    bool told = false;
+    for (;;) {
+        hand.read(0.0);
+        if (hand.alive()) {
+            return true;
+        }
+        if (stop.load()) {
+            return false;
+        }
+        if (!told && std::chrono::steady_clock::now() - began > std::chrono::seconds(1)) {
+            spdlog::warn("waiting for {}: plugged in and homed?", hand.description());
+            told = true;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/devices/devices_command.h"
+
+#include "apps/binding/open_hand.h"
+#include "devices/bridge/door_socket.h"
+#include "devices/usb/device_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <iostream>
+
+namespace fathom {
+
+namespace {
+
+const char* kindOf(DeviceFile::Kind kind) {
+    switch (kind) {
+    case DeviceFile::Kind::Falcon:
+        return "haptic  ";
+    case DeviceFile::Kind::SpaceMouse:
+        return "hand    ";
+    case DeviceFile::Kind::Camera:
+        break;
+    }
+    return "camera  ";
+}
+
+std::string capabilityOf(const DeviceFile& file) {
+    switch (file.kind) {
+    case DeviceFile::Kind::Falcon:
+        return axesOf("falcon") + "; through `fathom guard falcon`";
+    case DeviceFile::Kind::SpaceMouse:
+        return axesOf("none") + "; --hand-device spacemouse:" + file.node.string();
+    case DeviceFile::Kind::Camera:
+        break;
+    }
+    return "V4L2 video node";
+}
+
+void print(std::ostream& out, const DeviceFile& file) {
+    out << kindOf(file.kind) << file.node.string() << "  "
+        << (file.name.empty() ? "without a name" : file.name);
+    if (file.vendor != 0) {
+        out << ", " << usbIdText(file.vendor, file.product) << " at " << file.place;
+    }
+    out << "\n          " << (file.refused.empty() ? capabilityOf(file) : "REFUSED: " + file.refused) << "\n";
+}
+
+// Sockets of bridges in the user's run-time folder.
+int printDoors(std::ostream& out, const std::filesystem::path& folder) {
+    std::vector<std::filesystem::path> found;
+    std::error_code error;
+    for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
+         it.increment(error)) {
+        if (it->path().extension() == ".door" && it->is_socket(error)) {
+            found.push_back(it->path());
+        }
+    }
+    std::sort(found.begin(), found.end());
+    for (const auto& path : found) {
+        DoorSocket door;
+        const int refused = DoorSocket::tryConnect(path, door);
+        out << "door    " << path.string() << "\n          "
+            << (refused == 0              ? "a bridge listens; --hand-device " + path.string()
+                : refused == ECONNREFUSED ? std::string("REFUSED: the bridge that made it is gone")
+                                          : std::string("REFUSED: ") + std::strerror(refused))
+            << "\n";
+    }
+    return static_cast<int>(found.size());
+}
+
+} // namespace
+
+void printHandDevices(std::ostream& out, const std::filesystem::path& root,
+                      const std::filesystem::path& doors) {
+    const auto files = findDeviceFiles(root);
+    for (const DeviceFile& file : files) {
+        print(out, file);
+    }
+    if (files.empty() && printDoors(out, doors) == 0) {
+        out << "no camera, haptic device or door found\n";
+    } else if (!files.empty()) {
+        printDoors(out, doors);
+    }
+}
+
+void addDevicesCommand(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("devices", "list cameras and haptic devices, with what stops them");
+    command->callback([] {
+        const char* folder = std::getenv("XDG_RUNTIME_DIR");
+        printHandDevices(std::cout, "/", folder != nullptr ? folder : "");
+    });
+}
+
+} // namespace fathom

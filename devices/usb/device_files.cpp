@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/usb/device_files.h"
+
+#include "devices/usb/space_mouse.h"
+#include "devices/usb/udev_rule.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <tuple>
+
+#include <unistd.h>
+
+namespace fathom {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint16_t kFalconVendor = 0x0403, kFalconProduct = 0xcb48;
+
+std::string lineOf(const fs::path& file) {
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    return line;
+}
+
+std::optional<uint16_t> hexOf(const std::string& text) {
+    uint16_t value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value, 16);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+}
+
+// The USB device that a node of sysfs belongs to: the nearest folder above with idVendor.
+std::optional<fs::path> usbParent(const fs::path& device) {
+    std::error_code error;
+    fs::path folder = fs::canonical(device, error);
+    for (; !error && folder.has_relative_path(); folder = folder.parent_path()) {
+        if (fs::exists(folder / "idVendor", error)) {
+            return folder;
+        }
+    }
+    return std::nullopt;
+}
+
+void fillUsb(const fs::path& folder, DeviceFile& file) {
+    file.vendor = hexOf(lineOf(folder / "idVendor")).value_or(0);
+    file.product = hexOf(lineOf(folder / "idProduct")).value_or(0);
+    file.place = "usb " + folder.filename().string();
+    if (file.name.empty()) {
+        file.name = lineOf(folder / "product");
+    }
+}
+
+std::string refusalOf(const fs::path& node, int mode) {
+    if (::access(node.c_str(), mode) == 0) {
+        return {};
+    }
+    return errno == EACCES || errno == EPERM ? std::string("no permission: ") + kUdevRuleHint
+                                             : std::string(std::strerror(errno));
+}
+
+std::vector<fs::path> entries(const fs::path& folder) {
+    std::vector<fs::path> found;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
+        found.push_back(it->path());
+    }
+    return found;
+}
+
+std::string numberText(const std::string& text) {
+    int value = 0;
+    std::from_chars(text.data(), text.data() + text.size(), value);
+    char padded[16];
+    std::snprintf(padded, sizeof padded, "%03d", value);
+    return padded;
+}
+
+void findFalcons(const fs::path& root, std::vector<DeviceFile>& out) {
+    for (const fs::path& device : entries(root / "sys/bus/usb/devices")) {
+        DeviceFile file;
+        file.kind = DeviceFile::Kind::Falcon;
+        fillUsb(device, file);
+        if (file.vendor == kFalconVendor && file.product == kFalconProduct) {
+            file.node = root / "dev/bus/usb" / numberText(lineOf(device / "busnum")) /
+                        numberText(lineOf(device / "devnum"));
+            file.refused = refusalOf(file.node, R_OK | W_OK);
+            out.push_back(file);
+        }
+    }
+}
+
+void findSpaceMice(const fs::path& root, std::vector<DeviceFile>& out) {
+    for (const fs::path& entry : entries(root / "sys/class/hidraw")) {
+        DeviceFile file;
+        file.kind = DeviceFile::Kind::SpaceMouse;
+        const auto usb = usbParent(entry / "device");
+        if (!usb) {
+            continue;
+        }
+        fillUsb(*usb, file);
+        if (isSpaceMouse(file.vendor, file.product)) {
+            file.node = root / "dev" / entry.filename();
+            file.refused = refusalOf(file.node, R_OK);
+            out.push_back(file);
+        }
+    }
+}
+
+void findCameras(const fs::path& root, std::vector<DeviceFile>& out) {
+    for (const fs::path& entry : entries(root / "sys/class/video4linux")) {
+        if (!entry.filename().string().starts_with("video")) {
+            continue;
+        }
+        DeviceFile file;
+        file.name = lineOf(entry / "name");
+        file.node = root / "dev" / entry.filename();
+        if (const auto usb = usbParent(entry / "device")) {
+            fillUsb(*usb, file);
+        }
+        file.refused = refusalOf(file.node, R_OK | W_OK);
+        out.push_back(file);
+    }
+}
+
+} // namespace
+
+std::vector<DeviceFile> findDeviceFiles(const fs::path& root) {
+    std::vector<DeviceFile> found;
+    findFalcons(root, found);
+    findSpaceMice(root, found);
+    findCameras(root, found);
+    const auto key = [](const DeviceFile& f) { // video2 before video10
+        return std::tuple(f.kind, f.node.native().size(), f.node.native());
+    };
+    std::sort(found.begin(), found.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    return found;
+}
+
+std::string usbIdText(uint16_t vendor, uint16_t product) {
+    char text[16];
+    std::snprintf(text, sizeof text, "%04x:%04x", vendor, product);
+    return text;
+}
+
+} // namespace fathom

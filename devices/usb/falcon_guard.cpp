@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/usb/falcon_guard.h"
+
+#include "devices/usb/falcon_firmware.h"
+#include "engine/types/error.h"
+
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, until the door is looked at again
+constexpr auto kSearchPause = std::chrono::milliseconds(250);
+constexpr double kNoTorque = 0.0; // the knob only translates
+
+} // namespace
+
+FalconGuard::FalconGuard(const Options& options)
+    : firmware_(options.firmware.empty() ? std::vector<uint8_t>() : readFalconFirmware(options.firmware))
+    , device_(std::make_unique<Device>())
+    , door_({options.door, "falcon", "Novint Falcon", FalconDrive::kForceLimit, kNoTorque})
+    , place_(device_->port.place()) {
+    device_->link.start(firmware_);
+}
+
+FalconGuard::~FalconGuard() {
+    close();
+}
+
+void FalconGuard::open() {
+    auto device = std::make_unique<Device>();
+    device->link.start(firmware_);
+    place_ = device->port.place();
+    device_ = std::move(device);
+    told_.reset();
+    spdlog::warn("falcon: back at {}", place_);
+}
+
+void FalconGuard::close() noexcept {
+    if (!device_) {
+        return;
+    }
+    device_->link.stop();
+    const FalconFigures last = device_->link.figures();
+    figures_.sent += last.sent;
+    figures_.replies += last.replies;
+    figures_.late += last.late;
+    figures_.surplus += last.surplus;
+    figures_.faults += last.faults;
+    device_.reset();
+    placed_ = false;
+}
+
+void FalconGuard::tellHoming(bool homed) {
+    if (told_ != homed) {
+        told_ = homed;
+        spdlog::warn(homed ? "falcon: homed" : "falcon: not homed: pull the knob out and push it in");
+    }
+}
+
+void FalconGuard::exchange() {
+    door_.poll();
+    FalconCommand command;
+    command.motor = placed_ ? drive_.motors(door_.wrench().force) : command.motor;
+    command.red = !placed_;
+    command.green = placed_;
+    command.blue = placed_ && door_.hasEngine();
+    if (device_->link.exchange(command, kWait)) {
+        const FalconState& state = device_->link.state();
+        placed_ = drive_.place(state, sample_);
+        tellHoming(state.allHomed());
+        door_.send(sample_, FATHOM_DOOR_PRESENT | (placed_ ? FATHOM_DOOR_HOMED : 0));
+    }
+}
+
+void FalconGuard::waitForDevice(const std::atomic<bool>& stop) {
+    const auto until = std::chrono::steady_clock::now() + kSearchPause;
+    while (!stop.load() && std::chrono::steady_clock::now() < until) {
+        door_.poll();
+        door_.send(sample_, 0);
+        std::this_thread::sleep_for(2 * kWait);
+    }
+    try {
+        open();
+    } catch (const Error& e) { // not there yet, or not ready
+        spdlog::debug("falcon: {}", e.what());
+    }
+}
+
+void FalconGuard::run(const std::atomic<bool>& stop) {
+    while (!stop.load()) {
+        if (!device_) {
+            waitForDevice(stop);
+            continue;
+        }
+        try {
+            exchange();
+        } catch (const DeviceLost& e) {
+            ++losses_;
+            spdlog::warn("falcon: {}: the engine is told, looking for it again", e.what());
+            close();
+        }
+    }
+    close();
+}
+
+} // namespace fathom

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/usb/space_mouse_hand.h"
+
+#include "devices/usb/device_files.h"
+#include "devices/usb/udev_rule.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kMostReports = 64;                        // a turn
+constexpr uint32_t kGuidance = 1, kDeadManOpen = 2;     // of HandSample
+constexpr uint32_t kFirstButton = 1, kSecondButton = 2; // of the device
+
+DeviceFile choose(const std::filesystem::path& node) {
+    for (const DeviceFile& file : findDeviceFiles()) {
+        if (file.kind == DeviceFile::Kind::SpaceMouse && (node.empty() || file.node == node)) {
+            return file;
+        }
+    }
+    throw BadInput("spacemouse", node.empty() ? "/dev/hidraw*" : node.string(), "no SpaceMouse",
+                   "one that is plugged in, see `fathom devices`");
+}
+
+int openNode(const DeviceFile& file) {
+    const int descriptor = ::open(file.node.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) {
+        throw BadInput("spacemouse", file.node.string(),
+                       errno == EACCES ? "no permission" : std::strerror(errno), kUdevRuleHint);
+    }
+    return descriptor;
+}
+
+} // namespace
+
+SpaceMouseHand::SpaceMouseHand(const std::filesystem::path& node, const SpaceMouseOptions& options)
+    : descriptor_(-1)
+    , options_(options) {
+    const DeviceFile file = choose(node);
+    descriptor_ = openNode(file);
+    name_ = file.name + " at " + file.node.string();
+}
+
+SpaceMouseHand::SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options)
+    : descriptor_(descriptor)
+    , name_(std::move(name))
+    , options_(options) {}
+
+SpaceMouseHand::~SpaceMouseHand() {
+    if (descriptor_ >= 0) {
+        ::close(descriptor_);
+    }
+}
+
+void SpaceMouseHand::takeReports(double t) noexcept {
+    uint8_t report[64];
+    for (int i = 0; i < kMostReports && descriptor_ >= 0; ++i) {
+        const ssize_t got = ::read(descriptor_, report, sizeof report);
+        if (got > 0) {
+            if (takeSpaceMouseReport({report, static_cast<size_t>(got)}, state_)) {
+                heard_ = t;
+                ++figures_.samples;
+            }
+        } else if (got < 0 && (errno == EAGAIN || errno == EINTR)) {
+            return;
+        } else { // unplugged
+            ::close(descriptor_);
+            descriptor_ = -1;
+            state_ = {};
+            ++figures_.losses;
+        }
+    }
+}
+
+HandSample SpaceMouseHand::read(double t) noexcept {
+    takeReports(t);
+    if (t - heard_ > kSilence) {
+        state_.shift = state_.turn = {};
+    }
+    const double step = started_ ? std::clamp(t - before_, 0.0, kMostStep) : 0.0;
+    before_ = t;
+    started_ = true;
+    pose_.position += step * options_.speed * spaceMouseAxes(state_.shift);
+    pose_.rotation =
+        glm::normalize(rotationExp(step * options_.turnSpeed * spaceMouseAxes(state_.turn)) * pose_.rotation);
+    HandSample sample{pose_, 0};
+    if (descriptor_ < 0) {
+        sample.buttons = kDeadManOpen | options_.clutchBit;
+        return sample;
+    }
+    sample.buttons |= (state_.buttons & kFirstButton) != 0 ? kGuidance : 0;
+    sample.buttons |= (state_.buttons & kSecondButton) != 0 ? kDeadManOpen : 0;
+    return sample;
+}
+
+} // namespace fathom

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Novint Falcon made of code on the real USB stack: FT232R framing, latency timer, boot loader, firmware,
+// and the faults that tests ask for.
+#pragma once
+
+#include "tests/vm/usb_device.h"
+
+#include <array>
+#include <mutex>
+
+namespace fathom::vm {
+
+// Every public member may be used by the test while the device is plugged in.
+class FalconDevice final : public UsbDevice {
+public:
+    explicit FalconDevice(bool booted = true);
+    ~FalconDevice() override;
+
+    // What the next answers suffer from; counted down by one an answer.
+    struct Faults {
+        std::atomic<int> half{0};    // only nine characters come, in the transfer of their own
+        std::atomic<int> twofold{0}; // two packets in one transfer
+        std::atomic<int> late{0};    // comes after lateMs
+        std::atomic<int> dropped{0}; // does not come; modem status alone does
+        std::atomic<int> wrong{0};   // a character out of range
+        std::atomic<int> lateMs{15};
+    } faults;
+    std::atomic<bool> statusOnly{false}; // nothing but modem status, ever
+    std::atomic<bool> homed{true};
+    std::atomic<int> wrongEchoAt{-1}; // byte of the firmware
+    std::atomic<int> latencyMs{16};
+
+    void setEncoders(const std::array<int16_t, 3>& encoders);
+    std::array<int16_t, 3> motors() const;               // newest command
+    std::vector<std::array<int16_t, 3>> history() const; // all of them
+    Bytes firmware() const;
+    std::atomic<uint64_t> commands{0}, statusPackets{0};
+
+    static constexpr int kFirmwareSize = 300; // that runs once it is in
+
+private:
+    UsbReply control(const UsbSetup& setup, const Bytes& out) override;
+    int out(uint8_t endpoint, const Bytes& data) override;
+    std::optional<UsbReply> in(uint8_t endpoint, size_t room) override;
+    Clock::time_point due() override;
+    void boot(const Bytes& data);
+    void command(const Bytes& packet);
+    UsbReply packed(size_t room);
+
+    mutable std::mutex mutex_; // of what follows, between test and device
+    std::array<int16_t, 3> encoders_{}, motors_{};
+    std::vector<std::array<int16_t, 3>> history_;
+    Bytes firmware_;
+
+    bool running_;
+    bool echoing_ = false;
+    Bytes received_, toSend_;
+    Bytes later_;
+    Clock::time_point laterAt_{}, lastSent_ = Clock::now();
+};
+
+} // namespace fathom::vm

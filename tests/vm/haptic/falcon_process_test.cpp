@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom guard falcon` as a process between a simulated Falcon and an engine that is killed.
+#include "devices/bridge/door_hand.h"
+#include "devices/usb/device_files.h"
+#include "devices/usb/falcon_kinematics.h"
+#include "engine/types/error.h"
+#include "tests/devices/door_rig.h"
+#include "tests/vm/haptic/falcon_device.h"
+
+#include <cstdlib>
+
+using namespace fathom;
+using namespace fathom::testing;
+using fathom::vm::FalconDevice;
+
+namespace {
+
+using Motors = std::array<int16_t, 3>;
+constexpr Motors kStill{};
+
+// An engine that presses for ever, once there is a door.
+int press(const std::filesystem::path& door) {
+    for (;;) {
+        try {
+            DoorHand hand(door, 4);
+            for (;;) {
+                hand.read(0.0);
+                hand.write({{1.0, 2.0, 3.0}, {}}, 0.001);
+                pauseMs(1);
+            }
+        } catch (const BadInput&) {
+            pauseMs(20);
+        }
+    }
+}
+
+struct Stage {
+    Stage()
+        : engine([this] { return press(folder.door()); }) { // before there is any thread
+        device.setEncoders(FalconKinematics::encoderOf(*FalconKinematics::inverse({0.0, 0.01, 0.13})));
+        device.plug();
+        REQUIRE(eventually([] { // the kernel enumerates
+            const auto files = findDeviceFiles();
+            return !files.empty() && files[0].kind == DeviceFile::Kind::Falcon && files[0].refused.empty();
+        }));
+        guard = std::make_unique<Child>([this] {
+            const std::string path = folder.door().string();
+            return ::execl(FATHOM_PROGRAM, "fathom", "guard", "falcon", "--door", path.c_str(), nullptr);
+        });
+        REQUIRE(eventually([&] { return device.motors() != kStill; }));
+    }
+    DoorFolder folder;
+    Child engine;
+    FalconDevice device;
+    std::unique_ptr<Child> guard;
+};
+
+} // namespace
+
+TEST_CASE("An engine killed by SIGKILL leaves a Falcon without force, and the next one finds it") {
+    Stage stage;
+    stage.engine.signal(SIGKILL);
+    CHECK(stage.engine.wait() == -SIGKILL);
+    const auto killed = std::chrono::steady_clock::now();
+    CHECK(eventually([&] { return stage.device.motors() == kStill; }));
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - killed;
+    MESSAGE("zero at the device " << took.count() << " ms after the engine was seen dead");
+    const uint64_t commands = stage.device.commands;
+    CHECK(eventually([&] { return stage.device.commands > commands + 20; })); // and it stays zero
+    CHECK(stage.device.motors() == kStill);
+    DoorHand next(stage.folder.door(), 4);
+    CHECK(eventually([&] {
+        next.read(0.0);
+        next.write({{0.0, 0.0, 2.0}, {}}, 0.001);
+        pauseMs(1);
+        return next.alive() && stage.device.motors() != kStill;
+    }));
+}
+
+TEST_CASE("An engine that hangs is zero force after 10 ms of silence, though its end stays open") {
+    Stage stage;
+    stage.engine.signal(SIGSTOP);
+    CHECK(eventually([&] { return stage.device.motors() == kStill; }));
+    stage.engine.signal(SIGCONT);
+    CHECK(eventually([&] { return stage.device.motors() != kStill; }));
+}
+
+TEST_CASE("Ctrl-C at the guardian with an engine pressing leaves zero force and exit code 0") {
+    Stage stage;
+    stage.guard->signal(SIGINT);
+    CHECK(stage.guard->wait() == 0);
+    CHECK(stage.device.motors() == kStill);
+    CHECK_FALSE(std::filesystem::exists(stage.folder.door()));
+}
+
+// Not a promise: it shows what the simulated device is left with, and that nothing here can know the real
+// one.
+TEST_CASE("A guardian killed by SIGKILL says nothing more to the device") {
+    Stage stage;
+    stage.guard->signal(SIGKILL);
+    CHECK(stage.guard->wait() == -SIGKILL);
+    pauseMs(50);
+    const uint64_t commands = stage.device.commands;
+    pauseMs(100);
+    CHECK(stage.device.commands == commands);
+    MESSAGE("what a real Falcon does then is not known; the last command was "
+            << std::string(stage.device.motors() == kStill ? "zero" : "a force"));
+}

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Falcon's guardian on the kernel's own USB stack, with faults, and its door to an engine.
+#include "devices/bridge/door_hand.h"
+#include "devices/usb/falcon_guard.h"
+#include "devices/usb/falcon_kinematics.h"
+#include "engine/types/error.h"
+#include "tests/devices/door_rig.h"
+#include "tests/vm/haptic/falcon_device.h"
+#include "tests/vm/vhci_port.h"
+
+#include <cstdio>
+#include <fstream>
+#include <glm/geometric.hpp>
+
+#include <fcntl.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+using fathom::vm::FalconDevice;
+
+namespace {
+
+using Motors = std::array<int16_t, 3>;
+constexpr Motors kStill{};
+const dvec3 kKnob(0.01, -0.02, 0.12);
+
+void placeAt(FalconDevice& device, const dvec3& knob) {
+    device.setEncoders(FalconKinematics::encoderOf(*FalconKinematics::inverse(knob)));
+}
+
+// Retried: the kernel takes its time to enumerate.
+std::unique_ptr<FalconGuard> openGuard(const FalconGuard::Options& options) {
+    std::unique_ptr<FalconGuard> guard;
+    std::string fault;
+    vm::waitFor([&] {
+        try {
+            guard = std::make_unique<FalconGuard>(options);
+        } catch (const BadInput& e) {
+            fault = e.what();
+        }
+        return guard != nullptr;
+    });
+    REQUIRE_MESSAGE(guard, fault);
+    return guard;
+}
+
+struct Running { // the guardian on a thread of this process
+    explicit Running(const FalconGuard::Options& options)
+        : guard(openGuard(options))
+        , thread([this] { guard->run(stop); }) {}
+    ~Running() { end(); }
+    void end() {
+        stop = true;
+        if (thread.joinable()) {
+            thread.join();
+        }
+    }
+    std::unique_ptr<FalconGuard> guard;
+    std::atomic<bool> stop{false};
+    std::thread thread;
+};
+
+// One turn of an engine that pushes along z.
+HandSample turn(DoorHand& hand, double fz = 2.0) {
+    const HandSample sample = hand.read(0.0);
+    hand.write({{0.0, 0.0, fz}, {0.0, 0.1, 0.0}}, 0.001);
+    pauseMs(1);
+    return sample;
+}
+
+bool pushes(const FalconDevice& device) {
+    const Motors m = device.motors();
+    return m != kStill && std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) > 200;
+}
+
+std::string faultOf(const FalconGuard::Options& options) {
+    std::string fault;
+    vm::waitFor([&] { // not "not found": it has not been enumerated yet
+        try {
+            FalconGuard guard(options);
+            fault = "none";
+        } catch (const Error& e) {
+            fault = e.what();
+        }
+        return fault.find("not found") == std::string::npos;
+    });
+    return fault;
+}
+
+} // namespace
+
+TEST_CASE("The knob's place reaches the engine, its force the motors, and at the end they are still") {
+    DoorFolder folder;
+    FalconDevice device;
+    placeAt(device, kKnob);
+    device.plug();
+    Running running({folder.door(), {}});
+    {
+        DoorHand hand(folder.door(), 4);
+        CHECK(hand.preset() == "falcon");
+        CHECK(eventually([&] { return glm::distance(turn(hand).deviceThandle.position, kKnob) < 1e-4; }));
+        CHECK(eventually([&] {
+            turn(hand);
+            return pushes(device);
+        }));
+        const auto torques =
+            FalconKinematics::torques(kKnob, *FalconKinematics::inverse(kKnob), {0.0, 0.0, 2.0});
+        CHECK(eventually([&] { // the whole force, once it has risen
+            turn(hand);
+            const Motors m = device.motors();
+            return std::abs(m[0] + 10000.0 * (*torques)[0]) < 10.0 &&
+                   std::abs(m[2] + 10000.0 * (*torques)[2]) < 10.0;
+        }));
+        const auto before = std::chrono::steady_clock::now();
+        const uint64_t commands = device.commands;
+        for (int i = 0; i < 1000; ++i) {
+            turn(hand);
+        }
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
+        MESSAGE("exchanges " << static_cast<double>(device.commands - commands) / took.count()
+                             << " Hz; worst age of a sample in a turn " << hand.figures().worstAge * 1e3
+                             << " ms");
+        CHECK(hand.alive());
+        CHECK(pushes(device));
+        running.end(); // as Ctrl-C does, with the engine still pushing
+        CHECK(device.motors() == kStill);
+        turn(hand);
+    }
+    CHECK(running.guard->figures().faults == 0);
+}
+
+TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leave the exchange going") {
+    DoorFolder folder;
+    FalconDevice device;
+    placeAt(device, kKnob);
+    device.plug();
+    Running running({folder.door(), {}});
+    DoorHand hand(folder.door(), 4);
+    REQUIRE(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    std::atomic<int>* fault = nullptr;
+    SUBCASE("half a packet") {
+        fault = &device.faults.half;
+    }
+    SUBCASE("two packets in one transfer") {
+        fault = &device.faults.twofold;
+    }
+    SUBCASE("late by 15 ms") {
+        fault = &device.faults.late;
+    }
+    SUBCASE("late by 45 ms, after it was given up") {
+        device.faults.lateMs = 45;
+        fault = &device.faults.late;
+    }
+    SUBCASE("modem status alone") {
+        fault = &device.faults.dropped;
+    }
+    SUBCASE("a wrong character") {
+        fault = &device.faults.wrong;
+    }
+    const bool late = fault == &device.faults.late, twofold = fault == &device.faults.twofold;
+    *fault = 3;
+    CHECK(eventually([&] {
+        turn(hand);
+        return fault->load() == 0;
+    }));
+    const uint64_t commands = device.commands;
+    const dvec3 next(-0.02, 0.01, 0.14);
+    placeAt(device, next);
+    CHECK(eventually([&] { return glm::distance(turn(hand).deviceThandle.position, next) < 1e-4; }));
+    CHECK(eventually([&] {
+        turn(hand);
+        return hand.alive() && pushes(device);
+    }));
+    CHECK(device.commands > commands);
+    running.end();
+    CHECK(device.motors() == kStill);
+    const FalconFigures f = running.guard->figures();
+    CHECK(f.surplus >= (twofold ? 3u : 0u));
+    CHECK((f.late + f.faults + f.surplus > 0 || late));
+    CHECK(f.faults <= 3);
+}
+
+TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged in again it goes on") {
+    DoorFolder folder;
+    FalconDevice device;
+    placeAt(device, kKnob);
+    device.plug();
+    Running running({folder.door(), {}});
+    DoorHand hand(folder.door(), 4);
+    REQUIRE(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    device.unplug();
+    CHECK(eventually([&] { return turn(hand).buttons == 6; }));
+    CHECK_FALSE(hand.alive());
+    CHECK(glm::distance(turn(hand).deviceThandle.position, kKnob) < 1e-4); // the last place, held
+    device.homed = false;                                                  // it lost that with its power
+    device.plug();
+    const uint64_t commands = device.commands;
+    CHECK(eventually([&] {
+        turn(hand);
+        return device.commands > commands + 50;
+    }));
+    CHECK(turn(hand).buttons == 6);
+    CHECK(device.motors() == kStill); // no place, no force
+    device.homed = true;
+    CHECK(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    CHECK(running.guard->losses() == 1);
+}
+
+TEST_CASE("A Falcon that is not homed gives neither a place nor a force") {
+    DoorFolder folder;
+    FalconDevice device;
+    device.homed = false;
+    device.plug();
+    Running running({folder.door(), {}});
+    DoorHand hand(folder.door(), 4);
+    for (int i = 0; i < 300; ++i) {
+        CHECK(turn(hand).buttons == 6);
+    }
+    const auto history = device.history();
+    CHECK(std::all_of(history.begin(), history.end(), [](const Motors& m) { return m == kStill; }));
+    CHECK(history.size() > 50);
+}
+
+TEST_CASE(
+    "A device without firmware gets the user's file; without one, or with a wrong answer, it is refused") {
+    DoorFolder folder;
+    const auto file = folder.path() / "firmware.bin";
+    vm::Bytes blob;
+    for (int i = 0; i < FalconDevice::kFirmwareSize; ++i) {
+        blob.push_back(static_cast<uint8_t>(i * 7));
+    }
+    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(blob.data()), std::ssize(blob));
+    FalconDevice device(false);
+    device.plug();
+    const auto says = [](const std::string& fault, const std::string& part) {
+        CHECK_MESSAGE(fault.find(part) != std::string::npos, fault);
+    };
+    SUBCASE("no file") {
+        says(faultOf({folder.door(), {}}), "after power-on it needs its firmware: --firmware");
+    }
+    SUBCASE("a wrong echo") {
+        device.wrongEchoAt = 200;
+        says(faultOf({folder.door(), file}), "echo at byte 186: answer");
+    }
+    SUBCASE("modem status alone") {
+        FalconDevice other;
+        device.unplug();
+        other.statusOnly = true;
+        other.plug();
+        says(faultOf({folder.door(), {}}), "no answer");
+        CHECK(other.statusPackets > 5);
+    }
+    SUBCASE("well") {
+        placeAt(device, kKnob);
+        Running running({folder.door(), file});
+        CHECK(device.firmware() == blob);
+        DoorHand hand(folder.door(), 4);
+        CHECK(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    }
+}
+
+TEST_CASE("A Falcon that somebody may not open is refused with the name of the udev rule") {
+    FalconDevice device;
+    device.plug();
+    DoorFolder folder;
+    faultOf({folder.door(), {}}); // until it is there
+    Child other([&] {
+        if (::setgid(65534) != 0 || ::setuid(65534) != 0) {
+            return 98;
+        }
+        try {
+            UsbFtdi port(FalconGuard::kVendor, FalconGuard::kProduct);
+        } catch (const BadInput& e) {
+            const std::string text = e.what();
+            return text.find("no permission") != std::string::npos &&
+                           text.find("devices/70-fathom.rules") != std::string::npos
+                       ? 1
+                       : 97;
+        }
+        return 0;
+    });
+    CHECK(other.wait() == 1);
+}
