@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// A SpaceNavigator made of code on the real USB stack: an HID device whose reports a test sets.
+#pragma once
+
+#include "tests/vm/usb_device.h"
+
+#include <array>
+#include <mutex>
+
+namespace fathom::vm {
+
+class SpaceMouseDevice final : public UsbDevice {
+public:
+    SpaceMouseDevice();
+    ~SpaceMouseDevice() override { unplug(); }
+
+    // Reported every 8 ms from now on; after zeros once, nothing, as the device does.
+    void deflect(const std::array<int16_t, 3>& shift, const std::array<int16_t, 3>& turn);
+    void press(uint8_t buttons);
+    std::atomic<bool> silent{false}; // no report at all, though deflected
+    std::atomic<bool> halves{false}; // motion reports break off after four bytes
+
+private:
+    UsbReply control(const UsbSetup& setup, const Bytes& out) override;
+    std::optional<UsbReply> in(uint8_t endpoint, size_t room) override;
+    Clock::time_point due() override { return due_; }
+    Bytes motion(uint8_t id, const std::array<int16_t, 3>& axes) const;
+
+    Bytes reportDescriptor_;
+    std::mutex mutex_;
+    std::array<int16_t, 3> shift_{}, turn_{};
+    bool zeroTold_ = true;
+    std::deque<Bytes> queue_;
+    Clock::time_point due_ = Clock::now();
+};
+
+} // namespace fathom::vm
