@@ -104,6 +104,7 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , shapes_(shapesOf(session.scene))
     , haptics_(makeHapticOptions(session.scene, session.tool))
     , audit_(session.tool)
+    , view_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
     , feed_(std::make_unique<Feed>(session))
     , answers_(session.plan.query != Plan::Query::None ? std::make_unique<Answers>(session) : nullptr)
     , run_(std::make_unique<RealtimeRun>(*feed_, answers_.get(), runOptions(trace))) {
@@ -203,6 +204,9 @@ void RealtimeReplay::rethrowFailure() const {
 
 void RealtimeReplay::frame(const PublishedFrame& frame, const Fixtures& set) {
     recorder_.frame(frame.report, frame.t, set);
+    if (view_) {
+        view_->frame(set);
+    }
 }
 
 void RealtimeReplay::query(const QueryNote& note) {
@@ -213,6 +217,9 @@ void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool
                           std::span<const uint32_t> behind) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
     recorder_.tick(tickOf(row.record, row.micros, row.late));
+    if (view_) {
+        view_->turn(row);
+    }
     audit(row, obeyed, obeyedKnown, behind);
     if (obeyed != nullptr && recorder_.wantsMoment()) {
         recorder_.moment(obeyed->fixtures, obeyed->colour);

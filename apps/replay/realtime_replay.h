@@ -5,6 +5,7 @@
 
 #include "apps/binding/realtime_run.h"
 #include "apps/binding/stop_signals.h"
+#include "apps/binding/view_publisher.h"
 #include "apps/replay/percentiles.h"
 #include "apps/replay/progress.h"
 #include "apps/replay/replay_recorder.h"
@@ -75,7 +76,8 @@ private:
     std::vector<Shape> shapes_;
     HapticOptions haptics_;
     PenetrationAudit audit_;
-    bool audited_ = true; // every turn so far could be
+    bool audited_ = true;                 // every turn so far could be
+    std::unique_ptr<ViewPublisher> view_; // null = nobody may watch
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<Answers> answers_;
     std::unique_ptr<RealtimeRun> run_;

@@ -123,6 +123,9 @@ int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
     if (!options.handDevice.empty() && !options.realtime) {
         throw BadInput("replay", "--hand-device", options.handDevice, "together with --realtime");
     }
+    if (!options.viewDoor.empty() && !options.realtime) {
+        throw BadInput("replay", "--view-door", options.viewDoor, "together with --realtime");
+    }
     const ReplaySummary summary =
         options.realtime ? runRealtime(options, global) : runLockstep(options, global);
     if (summary.haptic.maxPenetration.value_or(0.0) > kPenetrationLimit) {
@@ -146,6 +149,8 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
         ->add_option("--hand-device", options->handDevice,
                      "a live hand: falcon, spacemouse[:/dev/hidrawN], or the socket of a bridge's door")
         ->excludes("--operator", "--hand");
+    command->add_option("--view-door", options->viewDoor,
+                        "a socket where observers get every turn and fixture set (devices/bridge)");
     command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
         ->check(CLI::NonNegativeNumber);
     command->add_option("--query", options->query, "where contacts are found")

@@ -17,6 +17,7 @@ struct ReplayOptions {
     std::string query;       // cpu, gpu; empty = the scene's
     bool hand = false;       // close the loop with the simulated hand
     std::string handDevice;  // live device (apps/binding/open_hand.h); empty = none
+    std::string viewDoor;    // socket for observers (devices/bridge); empty = none
     double seconds = 0.0;    // that a run with a live device lasts at least
     bool realtime = false;
     bool saveFixtures = false;

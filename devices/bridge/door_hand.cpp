@@ -98,7 +98,7 @@ void DoorHand::take(const fathom_door_hand& packet) noexcept {
         last_.deviceThandle = pose;
     }
     last_.buttons = packet.buttons;
-    lastTime_ = doorClock();
+    lastTime_ = std::min(packet.header.time_ns, doorClock()); // what waited in the queue may be old
     lastSequence_ = packet.header.sequence;
     ++figures_.samples;
 }

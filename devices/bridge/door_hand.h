@@ -40,7 +40,7 @@ private:
     std::string preset_, name_;
     DoorSocket bridge_;
     HandSample last_;
-    uint64_t lastTime_ = 0; // [ns] when the newest sample arrived
+    uint64_t lastTime_ = 0; // [ns] stamp of the newest sample
     uint64_t lastSequence_ = 0, sent_ = 0;
     uint32_t status_ = 0;
     bool alive_ = false;

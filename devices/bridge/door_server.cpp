@@ -76,7 +76,9 @@ void DoorServer::takeWrenches() {
         if ((packet.flags & FATHOM_DOOR_LAST) != 0) {
             gate_.close();
         } else {
-            gate_.accept({vectorOf(packet.force), vectorOf(packet.torque)}, doorClock());
+            // By its stamp: after we were held up, what waits here may be old.
+            gate_.accept({vectorOf(packet.force), vectorOf(packet.torque)},
+                         std::min(packet.header.time_ns, doorClock()));
         }
     }
 }

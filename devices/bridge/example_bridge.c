@@ -67,8 +67,9 @@ static void exchange(int engine) {
                 !isfinite(wrench.force[0] + wrench.force[1] + wrench.force[2])) {
                 return;
             }
-            since = now() - heard > FATHOM_DOOR_SILENCE_NS ? now() : since;
-            heard = now();
+            const uint64_t stamp = wrench.header.time_ns; /* what waited for us may be old */
+            since = stamp - heard > FATHOM_DOOR_SILENCE_NS ? stamp : since;
+            heard = stamp;
             hand.wrench_sequence = wrench.header.sequence;
             memcpy(force, wrench.force, sizeof force);
         }

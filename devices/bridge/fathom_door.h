@@ -7,9 +7,9 @@
  *   permission (0600 unless its owner opens it), nothing else.
  * - HAND DOOR: the bridge listens, the engine connects. The bridge sends fathom_door_hand whenever the device
  *   has a new sample, at least every 5 ms; the engine sends fathom_door_wrench once a tick.
- * - Zero force without being told: when the engine's end closes, when its newest packet is older than
- *   FATHOM_DOOR_SILENCE_NS by the bridge's own clock, and until the first one. After a silence forces should
- *   come back over some 0.1 s, not at once.
+ * - Zero force without being told: when the engine's end closes, when nothing came for FATHOM_DOOR_SILENCE_NS
+ *   or its newest packet is older than that by its stamp, and until the first one. After a silence forces
+ * should come back over some 0.1 s, not at once.
  * - The engine does likewise: a bridge that is silent or gone is an open dead-man switch, then a clutch: the
  *   tool stays where it is.
  * - A packet of another size, magic, version or kind ends the connection; nothing in it is used.

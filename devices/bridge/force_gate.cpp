@@ -16,18 +16,21 @@ dvec3 shortened(const dvec3& v, double limit) noexcept {
 
 } // namespace
 
-void ForceGate::accept(const Wrench& wrench, uint64_t now) noexcept {
+void ForceGate::accept(const Wrench& wrench, uint64_t stamp) noexcept {
     if (!isFinite(wrench.force) || !isFinite(wrench.torque)) {
         ++notFinite_;
         close();
         return;
     }
-    if (silent(now)) {
+    if (open_ && stamp < newest_) {
+        return;
+    }
+    if (silent(stamp)) {
         silences_ += open_ ? 1 : 0;
-        since_ = now;
+        since_ = stamp;
     }
     wrench_ = wrench;
-    newest_ = now;
+    newest_ = stamp;
     open_ = true;
 }
 

@@ -17,13 +17,14 @@ public:
         : forceLimit_(forceLimit)
         , torqueLimit_(torqueLimit) {}
 
-    // A wrench that arrived now. One that is not finite closes the gate and is counted.
-    void accept(const Wrench& wrench, uint64_t now) noexcept;
+    // A wrench that was computed at `stamp`, not later than now; an older one than the newest is left out.
+    // One that is not finite closes the gate and is counted.
+    void accept(const Wrench& wrench, uint64_t stamp) noexcept;
     // The engine's end is closed or says that it is about to.
     void close() noexcept;
 
-    // What the device may render now: zero when closed or when nothing arrived for 10 ms; coming back from
-    // that it rises over kRamp.
+    // What the device may render now: zero when closed or when the newest is older than 10 ms; coming back
+    // from that it rises over kRamp.
     Wrench at(uint64_t now) const noexcept;
     bool silent(uint64_t now) const noexcept { return !open_ || now - newest_ > kSilence; }
     uint64_t silences() const noexcept { return silences_; } // gaps over 10 ms between two wrenches
@@ -36,7 +37,7 @@ private:
     double forceLimit_, torqueLimit_;
     Wrench wrench_;
     bool open_ = false;
-    uint64_t newest_ = 0, since_ = 0; // last arrival; first one after the last silence
+    uint64_t newest_ = 0, since_ = 0; // stamps: of the newest, of the first one after the last silence
     uint64_t silences_ = 0, notFinite_ = 0;
 };
 

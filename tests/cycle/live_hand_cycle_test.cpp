@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a live device asks of the haptic cycle: a start of its own, a way back after a loss, axes without
+// motors.
+#include "tests/cycle/haptic_rig.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// A bar, so that a wall under one end turns it.
+Tool barTool() {
+    std::vector<Sphere> leaves;
+    for (int i = -4; i <= 4; ++i) {
+        leaves.push_back({{0.01 * i, 0.0, 0.0}, 0.01});
+    }
+    return Tool(buildSphereTree(leaves));
+}
+
+} // namespace
+
+TEST_CASE(
+    "A tool that starts at a given pose stays there, wherever the hand is, and follows the hand's motion") {
+    Scene scene = plainScene();
+    scene.hand.scale = 2.0;
+    HapticRig rig(scene, at(0.3, -0.2, 0.135));
+    const Pose start{{0.01, 0.0, 0.2}, rotationExp({0.0, 0.3, 0.0})};
+    rig.cycle =
+        std::make_unique<HapticCycle>(rig.tool, std::span<const Shape>{}, rig.options, rig.hand, &start);
+    CHECK(rig.cycle->pose().position == start.position);
+    rig.show(wallSet());
+    rig.age = false;
+    TurnRecord record = rig.turns(50);
+    CHECK(glm::distance(record.tool.position, start.position) < 1e-12);
+    CHECK(glm::length(record.wrench.force) < 1e-9);
+    rig.hand.position.x += 0.005;
+    record = rig.turns(50);
+    CHECK(record.tool.position.x == doctest::Approx(start.position.x + 0.01)); // twice the hand's way
+    CHECK(record.tool.rotation.y == doctest::Approx(start.rotation.y));
+}
+
+TEST_CASE("A device that goes away and comes back elsewhere, with dead-man and clutch, moves no tool") {
+    HapticRig rig(plainScene("falcon"), at(0.0, 0.0, 0.05));
+    rig.show(wallSet());
+    rig.age = false;
+    rig.turns(300);
+    rig.hand = at(0.0, 0.0, 0.008);
+    CHECK(rig.turns(300).wrench.force.z > 1.0); // pressed
+    rig.buttons = 6;
+    const TurnRecord gone = rig.turns(500);
+    CHECK(glm::length(gone.deviceWrench.force) == 0.0);
+    rig.hand = at(0.05, 0.03, -0.06); // unplugged, homed anew
+    rig.buttons = 0;
+    const TurnRecord back = rig.turns(1);
+    CHECK(glm::distance(back.tool.position, gone.tool.position) < 1e-6);
+    CHECK(glm::distance(rig.turns(500).tool.position, gone.tool.position) < 1e-6);
+}
+
+TEST_CASE("A device of three axes gets force and no torque, however it is mounted; the torque is left over") {
+    for (const double angle : {0.0, 0.7, 2.5}) {
+        Scene scene = plainScene("falcon");
+        scene.hand.baseRdevice = rotationExp({angle, 0.3 * angle, 0.0});
+        HapticRig rig(scene, at(0.0, 0.0, 0.0), barTool());
+        const Pose start = at(0.065, 0.0, 0.05);
+        rig.cycle =
+            std::make_unique<HapticCycle>(rig.tool, std::span<const Shape>{}, rig.options, rig.hand, &start);
+        rig.show(wallSet()); // reaches to x = 0.06 only: one end of the bar is over it
+        rig.age = false;
+        rig.turns(300);
+        const dvec3 down = glm::conjugate(scene.hand.baseRdevice) * dvec3(0.0, 0.0, -0.043);
+        TurnRecord record;
+        for (int i = 1; i <= 400; ++i) {
+            rig.hand.position = down * (i / 400.0);
+            record = rig.turn();
+        }
+        CHECK(glm::length(record.wrench.torque) > 1e-3);
+        CHECK(glm::length(record.deviceWrench.torque) == 0.0);
+        CHECK(glm::length(record.residual.torque) == doctest::Approx(glm::length(record.wrench.torque)));
+        CHECK(glm::length(record.residual.force) < 1e-9);
+        CHECK(glm::length(record.deviceWrench.force) == doctest::Approx(glm::length(record.wrench.force)));
+        CHECK(glm::distance(scene.hand.baseRdevice * record.deviceWrench.force, record.wrench.force) < 1e-9);
+    }
+}

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// `replay --realtime` with a live hand behind a door, and an observer at the view door.
+#include "devices/bridge/door_socket.h"
+#include "tests/program/refusal.h"
+#include "tests/program/stage.h"
+
+#include <chrono>
+#include <csignal>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <map>
+#include <set>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+const PixelBox kAll{0, 0, kWidth, kHeight};
+
+class Bridge {
+public:
+    explicit Bridge(const std::filesystem::path& door)
+        : id_(::fork()) {
+        REQUIRE(id_ >= 0);
+        if (id_ == 0) {
+            ::execl(EXAMPLE_BRIDGE, "example_bridge", door.c_str(), nullptr);
+            ::_exit(99);
+        }
+        for (int i = 0; i < 5000 && !std::filesystem::exists(door); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
+    Bridge(const Bridge&) = delete;
+    Bridge& operator=(const Bridge&) = delete;
+    ~Bridge() {
+        ::kill(id_, SIGTERM);
+        ::waitpid(id_, nullptr, 0);
+    }
+
+private:
+    pid_t id_;
+};
+
+// Looks on until the engine leaves.
+struct Observer {
+    explicit Observer(std::filesystem::path path)
+        : thread([this, door = std::move(path)] { look(door); }) {}
+    void look(const std::filesystem::path& path) {
+        DoorSocket door;
+        for (int i = 0; i < 60000 && DoorSocket::tryConnect(path, door) != 0; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        union {
+            fathom_door_header header;
+            fathom_door_state state;
+            fathom_door_regions regions;
+        } packet;
+        for (;;) {
+            size_t got = 0;
+            const DoorEvent event = door.receive(packet.regions, FATHOM_DOOR_REGIONS, &got);
+            if (event == DoorEvent::Closed) {
+                return;
+            }
+            if (event == DoorEvent::Empty) {
+                std::this_thread::sleep_for(std::chrono::microseconds(200));
+            } else if (event == DoorEvent::Packet) {
+                parts[packet.regions.generation] += packet.regions.count;
+                total[packet.regions.generation] = packet.regions.total;
+                radius = packet.regions.count > 0 ? packet.regions.spheres[0].radius : radius;
+            } else if (doorFault(packet.header, got, FATHOM_DOOR_STATE, sizeof packet.state).empty()) {
+                ++states;
+                generations.insert(packet.state.generation);
+                lastTool = packet.state.base_T_tool_position[2];
+            } else {
+                ++strange;
+            }
+        }
+    }
+    std::map<uint64_t, uint32_t> parts, total;
+    std::set<uint64_t> generations;
+    uint64_t states = 0, strange = 0;
+    float radius = 0.0f;
+    double lastTool = 0.0;
+    std::thread thread;
+};
+
+} // namespace
+
+TEST_CASE(
+    "a live hand behind a door drives a realtime replay, and an observer sees poses, wrench and fixtures") {
+    Stage stage;
+    stage.recording(std::vector<Picture>(5, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
+    stage.scene({});
+    const Bridge bridge(stage / "hand.door");
+    Observer observer(stage / "view.door");
+    const ProgramRun run =
+        runFathom(stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--view-door",
+                                 (stage / "view.door").string(), "--seconds", "1"}));
+    observer.thread.join();
+    CHECK_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(run.out.find("example bridge at") != std::string::npos);
+    CHECK(run.out.find("(preset falcon): x y z sensed, x y z driven; torque is shown, not felt") !=
+          std::string::npos);
+    const Replay replay = readReplay(stage / "out", run);
+    REQUIRE(replay.ticks.size() > 100);
+    CHECK(replay.ticks.back().t > 0.9);
+    double moved = 0.0;
+    for (const Tick& tick : replay.ticks) {
+        moved = std::max(moved, glm::distance(tick.device.position, replay.ticks.front().device.position));
+    }
+    CHECK(moved > 0.005); // the example's handle goes 15 mm a second
+    CHECK(moved < 0.05);  // from where the scene's path begins, without a leap
+
+    CHECK(observer.states > 50);
+    CHECK(observer.strange == 0);
+    CHECK(observer.radius >= 0.04f);
+    REQUIRE_FALSE(observer.total.empty());
+    bool whole = false;
+    for (const auto& [generation, spheres] : observer.total) {
+        whole = whole || (spheres > 0 && observer.parts.at(generation) % spheres == 0);
+    }
+    CHECK(whole);
+    CHECK_FALSE(std::filesystem::exists(stage / "view.door"));
+}
+
+TEST_CASE("a live hand without realtime, with a path, or where nobody listens, is refused in one line") {
+    Stage stage;
+    stage.recording({Picture(kWidth, kHeight, 600).paint(kAll, kRed)});
+    stage.scene({});
+    const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
+        const ProgramRun run = runFathom(stage.command(more));
+        CHECK(run.exitCode == 2);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK_MESSAGE(run.errorLines()[0].find(part) != std::string::npos, run.errorLines()[0]);
+    };
+    refused({"--hand-device", "falcon"}, "--hand-device: falcon (allowed: together with --realtime)");
+    refused({"--view-door", "x"}, "--view-door: x (allowed: together with --realtime)");
+    refused({"--realtime", "--hand-device", (stage / "no.door").string()}, "nobody listens");
+    refused({"--realtime", "--hand-device", "spacemouse:/dev/hidraw250"}, "no SpaceMouse");
+    refused({"--realtime", "--hand", "--hand-device", "falcon"}, "--hand");
+}
