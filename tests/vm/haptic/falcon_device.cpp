@@ -141,14 +141,14 @@ void FalconDevice::command(const Bytes& packet) {
     }
 }
 
-// As an FT232R: at once when there is something to say, else modem status alone when the latency timer ends.
+// As an FT232R: when the latency timer ends, with whatever there is, or at once when a USB packet is full.
 std::optional<UsbReply> FalconDevice::in(uint8_t /*endpoint*/, size_t room) {
     const auto now = Clock::now();
     if (!later_.empty() && now >= laterAt_) {
         append(toSend_, later_);
         later_.clear();
     }
-    if (toSend_.empty() && now - lastSent_ < std::chrono::milliseconds(latencyMs.load())) {
+    if (toSend_.size() < kUsbPacket - 2 && now - lastSent_ < std::chrono::milliseconds(latencyMs.load())) {
         return std::nullopt;
     }
     statusPackets += toSend_.empty() ? 1 : 0;
