@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `replay --realtime` with a live hand behind a door, and an observer at the view door.
-#include "devices/bridge/door_socket.h"
+#include "devices/bridge/door_server.h"
 #include "tests/program/refusal.h"
 #include "tests/program/stage.h"
 
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <doctest/doctest.h>
@@ -87,6 +88,47 @@ struct Observer {
     std::thread thread;
 };
 
+// A device that a test plays: its handle is where `z` says, and what it feels is in `fz`.
+struct PlayedDevice {
+    explicit PlayedDevice(const std::filesystem::path& door)
+        : server({door, "falcon", "played device", 8.0, 0.0})
+        , thread([this] {
+            while (!stop) {
+                server.poll();
+                HandSample sample;
+                sample.deviceThandle.position.z = z;
+                server.send(sample, FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED);
+                fz = server.wrench().force.z;
+                silent = server.gate().silent(doorClock());
+                std::this_thread::sleep_for(std::chrono::microseconds(500));
+            }
+        }) {}
+    ~PlayedDevice() {
+        stop = true;
+        thread.join();
+    }
+    // Over half a second.
+    void push(double to) {
+        for (int i = 1; i <= 50; ++i) {
+            z = to * i / 50.0;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    bool feels(double least, double most) const {
+        for (int i = 0; i < 20000; ++i) {
+            if (const double f = fz; f >= least && f <= most) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    }
+    std::atomic<double> z{0.0}, fz{0.0};
+    std::atomic<bool> stop{false}, silent{true};
+    DoorServer server;
+    std::thread thread;
+};
+
 } // namespace
 
 TEST_CASE(
@@ -124,6 +166,66 @@ TEST_CASE(
     }
     CHECK(whole);
     CHECK_FALSE(std::filesystem::exists(stage / "view.door"));
+}
+
+TEST_CASE("a device pressed into a region feels at most its limit, and nothing once the program is ended or "
+          "killed") {
+    Stage stage;
+    stage.recording(std::vector<Picture>(3, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
+    SceneText scene;
+    scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
+    stage.scene(scene);
+    stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
+    PlayedDevice device(stage / "hand.door");
+    std::vector<std::string> words{FATHOM_PROGRAM};
+    const auto command =
+        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"});
+    words.insert(words.end(), command.begin(), command.end());
+    const pid_t engine = ::fork();
+    REQUIRE(engine >= 0);
+    if (engine == 0) {
+        std::vector<char*> argv;
+        for (std::string& word : words) {
+            argv.push_back(word.data());
+        }
+        argv.push_back(nullptr);
+        ::execv(FATHOM_PROGRAM, argv.data());
+        ::_exit(99);
+    }
+    for (int i = 0; i < 60000 && device.silent; ++i) { // until the first wrench: turns run
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    CHECK(std::abs(device.fz) < 1e-9);
+    device.push(0.035);
+    CHECK(device.feels(-8.0 - 1e-9, -7.9)); // 15 mm at 3000 N/m, cut to the preset's 8 N
+    device.push(0.0);
+    CHECK(device.feels(-1e-3, 1e-3));
+    device.push(0.035);
+    CHECK(device.feels(-8.0 - 1e-9, -4.0));
+    int signal = 0;
+    SUBCASE("Ctrl-C") {
+        signal = SIGINT;
+    }
+    SUBCASE("killed") {
+        signal = SIGKILL;
+    }
+    SUBCASE("crashed") {
+        signal = SIGSEGV;
+    }
+    ::kill(engine, signal);
+    int status = 0;
+    ::waitpid(engine, &status, 0);
+    CHECK(device.feels(0.0, 0.0));
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    CHECK(device.fz == 0.0);
+    if (signal == SIGINT) {
+        CHECK(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 0);
+        const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));
+        CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
+    } else {
+        CHECK(WIFSIGNALED(status));
+    }
 }
 
 TEST_CASE("a live hand without realtime, with a path, or where nobody listens, is refused in one line") {

@@ -148,7 +148,7 @@ std::optional<UsbReply> FalconDevice::in(uint8_t /*endpoint*/, size_t room) {
         append(toSend_, later_);
         later_.clear();
     }
-    if (toSend_.size() < kUsbPacket - 2 && now - lastSent_ < std::chrono::milliseconds(latencyMs.load())) {
+    if (toSend_.size() < kUsbPacket - 2 && now - lastSent_ < timer()) {
         return std::nullopt;
     }
     statusPackets += toSend_.empty() ? 1 : 0;
@@ -173,7 +173,7 @@ UsbReply FalconDevice::packed(size_t room) {
 }
 
 Clock::time_point FalconDevice::due() {
-    const auto status = lastSent_ + std::chrono::milliseconds(latencyMs.load());
+    const auto status = lastSent_ + timer();
     return later_.empty() ? status : std::min(status, laterAt_);
 }
 

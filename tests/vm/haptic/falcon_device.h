@@ -5,6 +5,7 @@
 
 #include "tests/vm/usb_device.h"
 
+#include <algorithm>
 #include <array>
 #include <mutex>
 
@@ -29,6 +30,7 @@ public:
     std::atomic<bool> homed{true};
     std::atomic<int> wrongEchoAt{-1}; // byte of the firmware
     std::atomic<int> latencyMs{16};
+    std::atomic<int> leastMs{0}; // between two answers, whatever the latency timer says
 
     void setEncoders(const std::array<int16_t, 3>& encoders);
     std::array<int16_t, 3> motors() const;               // newest command
@@ -46,6 +48,9 @@ private:
     void boot(const Bytes& data);
     void command(const Bytes& packet);
     UsbReply packed(size_t room);
+    std::chrono::milliseconds timer() const {
+        return std::chrono::milliseconds(std::max(latencyMs.load(), leastMs.load()));
+    }
 
     mutable std::mutex mutex_; // of what follows, between test and device
     std::array<int16_t, 3> encoders_{}, motors_{};
