@@ -12,8 +12,8 @@ std::span<const uint8_t> bytesOf(const std::string& text) {
     return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
 }
 
-// Encoders 1, -1, 4660 (0x1234); buttons 4 and 1; all homed.
-const std::string kReply = std::string("<BAAAPPPPEDCB") + static_cast<char>(0x41 + 0x75) + "A>";
+// Encoders 1, -1, 4660 (0x1234); buttons 8, 4 and 1; all homed.
+const std::string kReply = std::string("<BAAAPPPPEDCB") + static_cast<char>(0x41 + 0x7d) + "A>";
 
 } // namespace
 
@@ -46,7 +46,7 @@ TEST_CASE("A reply gives encoders, buttons and which legs are homed") {
     stream.feed(bytesOf(kReply));
     REQUIRE(stream.packets() == 1);
     CHECK(stream.newest().encoder == std::array<int16_t, 3>{1, -1, 0x1234});
-    CHECK(stream.newest().buttons == 5);
+    CHECK(stream.newest().buttons == 13);
     CHECK(stream.newest().allHomed());
     CHECK(stream.faults() == 0);
 }
