@@ -7,6 +7,7 @@
 #include "apps/plan/plan_command.h"
 #include "apps/record/record_command.h"
 #include "apps/register/register_command.h"
+#include "apps/profile/profile_command.h"
 #include "apps/replay/replay_command.h"
 #include "apps/stability/stability_command.h"
 #include "engine/types/error.h"
@@ -61,6 +62,7 @@ int run(int argc, char** argv) {
     fathom::addRegisterCommand(app, global);
     fathom::addGuardCommand(app);
     fathom::addDevicesCommand(app);
+    fathom::addProfileCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
     fathom::addStabilityCommand(app, global, result);

@@ -26,6 +26,7 @@ TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& l
     , pipeline_(device, {"tree_query", tree_query_spv, 7, true, 0, std::array{kGroup}})
     , timeline_(device)
     , commands_(device)
+    , watch_(device, 2)
     , params_(device, sizeof(shared::QueryParams), gpu::MemoryKind::Upload, "query params")
     , toolTree_(device, tool.tree().nodes.size() * 16, gpu::MemoryKind::Upload, "tool tree")
     , count_(device, 16, gpu::MemoryKind::Readback, "query count")
@@ -74,10 +75,22 @@ void TreeQuery::poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const
 
 void TreeQuery::record(size_t setIndex) {
     commands_.begin();
+    if (timed_) {
+        watch_.resetIn(commands_.handle());
+        watch_.mark(commands_.handle());
+    }
     commands_.fill(count_, 0);
     commands_.barrier();
     commands_.dispatch(pipeline_, bindings_[setIndex], (layout_.patches() * 16 + kGroup - 1) / kGroup);
+    if (timed_) {
+        watch_.mark(commands_.handle());
+    }
     commands_.end();
+}
+
+double TreeQuery::gpuMs() const {
+    const std::vector<double> intervals = watch_.intervalsMs();
+    return intervals.empty() ? 0.0 : intervals.front();
 }
 
 bool TreeQuery::cull(const FixtureSet& set, const PosedLeaves& leaves, const Pose& baseTtool, float reach,

@@ -6,6 +6,7 @@
 #include "engine/cloud/fixture_set.h"
 #include "engine/contact/tool.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/stopwatch.h"
 
 #include <optional>
 
@@ -29,6 +30,11 @@ public:
     void grow();
     uint32_t capacity() const { return capacity_; }
 
+    // Timestamps are written only when asked for: each costs the device a little. gpuMs(): of the last cull;
+    // 0 when not asked or when the device has none.
+    void askForTime() { timed_ = true; }
+    double gpuMs() const;
+
 private:
     void makeAnswer();
     void poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const dvec3& origin);
@@ -43,6 +49,8 @@ private:
     gpu::Pipeline pipeline_;
     gpu::Timeline timeline_;
     gpu::Commands commands_;
+    gpu::Stopwatch watch_;
+    bool timed_ = false;
     gpu::Buffer params_, toolTree_, count_, found_, unused_;
     std::vector<gpu::Bindings> bindings_; // a set
     uint64_t ticket_ = 0;

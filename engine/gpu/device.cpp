@@ -2,41 +2,22 @@
 #include "engine/gpu/device.h"
 
 #include "engine/gpu/physical_device.h"
+#include "engine/gpu/query_crossover.h"
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <spdlog/spdlog.h>
 
 namespace fathom::gpu {
 
-namespace {
-
-// Pipelines of earlier runs, one file a device and driver, in the user's cache folder; empty = do not keep.
-std::string cacheFileFor(VkPhysicalDevice device) {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    const char* home = std::getenv("HOME");
-    if (cache == nullptr && home == nullptr) {
-        return {};
-    }
-    VkPhysicalDeviceProperties p;
-    vkGetPhysicalDeviceProperties(device, &p);
-    const std::filesystem::path folder =
-        (cache ? std::filesystem::path(cache) : std::filesystem::path(home) / ".cache") / "fathom";
-    return (folder / (std::to_string(p.vendorID) + "-" + std::to_string(p.deviceID) + "-" +
-                      std::to_string(p.driverVersion) + ".pipelines"))
-        .string();
-}
-
-} // namespace
-
 Device::Device(const Instance& instance, const std::string& selector)
     : physical_(choosePhysicalDevice(instance, selector))
     , family_(*computeFamily(physical_))
     , facts_(readFacts(physical_))
-    , cacheFile_(cacheFileFor(physical_)) {
+    , cacheFile_(cacheFileOf(physical_, ".pipelines")) {
+    facts_.gpuQueryLeaves = storedQueryCrossover(physical_, facts_.gpuQueryLeaves);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     createLogicalDevice(instance.validation().gpuAssisted);
     vkGetDeviceQueue(handle_, family_, 0, &queue_);

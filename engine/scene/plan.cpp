@@ -39,7 +39,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
                          (scene.contact.where == Scene::Contact::Where::Auto &&
-                          device.kind != DeviceKind::Cpu && toolLeaves >= kGpuQueryLeaves);
+                          device.kind != DeviceKind::Cpu && toolLeaves >= device.gpuQueryLeaves);
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
     return plan;

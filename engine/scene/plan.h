@@ -68,9 +68,8 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
            u % 4;
 }
 
-// toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from `kGpuQueryLeaves`
-// leaves on, and only on a device that is not a CPU (`fathom profile` measures the crossover).
-inline constexpr uint32_t kGpuQueryLeaves = 1024;
+// toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from
+// DeviceFacts::gpuQueryLeaves on, and only on a device that is not a CPU. The answers are equal to the last bit.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/drag.h"
+
+#include "apps/profile/shot_source.h"
+#include "engine/contact/behind.h"
+#include "engine/contact/cull_cpu.h"
+#include "engine/reference/contact_oracle.h"
+
+#include <algorithm>
+#include <deque>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kWall = 0.2, kRadius = 0.04, kCircle = 0.08; // [m]
+
+// 40 x 40 cm of a noisy, bulging wall whose spheres have a radius of 4 cm.
+Fixtures wall(double spacing) {
+    Fixtures f;
+    f.frame = 0;
+    f.generation = 1;
+    RegionSpheres& s = f.spheres;
+    const int n = static_cast<int>(kWall / spacing);
+    for (int j = -n; j <= n; ++j) {
+        for (int i = -n; i <= n; ++i) {
+            const double x = i * spacing, y = j * spacing;
+            const double noise =
+                3e-4 * (std::fmod(std::abs(std::sin(i * 12.9898 + j * 78.233) * 43758.5453), 1.0) - 0.5);
+            s.x.push_back(static_cast<float>(x));
+            s.y.push_back(static_cast<float>(y));
+            s.z.push_back(static_cast<float>(0.01 * std::sin(20.0 * x) * std::cos(17.0 * y) + noise));
+            s.radius.push_back(static_cast<float>(kRadius));
+            s.source.push_back(static_cast<uint32_t>(s.source.size()));
+            s.fixture.push_back(0);
+        }
+    }
+    return f;
+}
+
+struct Clock {
+    std::chrono::steady_clock::time_point end;
+    static bool passed(const void* clock) {
+        return std::chrono::steady_clock::now() >= static_cast<const Clock*>(clock)->end;
+    }
+};
+
+// One run; a class so that its steps share what they work on.
+class Dragger {
+public:
+    explicit Dragger(const DragSetting& setting)
+        : setting_(setting)
+        , own_(ballTool(setting.leaves))
+        , tool_(setting.tool != nullptr ? *setting.tool : own_)
+        , wall_(wall(setting.spacing))
+        , proxy_(tool_, {}, setting.proxy, {dvec3(kCircle, 0, 0.5), dquat(1, 0, 0, 0)}) {
+        grid_.build(wall_.spheres);
+        land();
+        answer();
+        std::swap(inForce_, *pending_.back().set);
+        pending_.clear();
+    }
+
+    DragResult run() {
+        for (uint32_t k = 0; k < setting_.ticks; ++k) {
+            tick(k);
+        }
+        result_.query = spreadOf(queries_);
+        result_.turn = spreadOf(turns_);
+        result_.lagRms = std::sqrt(lag_ / setting_.ticks);
+        result_.spheres = wall_.spheres.size();
+        return std::move(result_);
+    }
+
+private:
+    struct Pending {
+        uint32_t due;
+        std::unique_ptr<ContactSet> set;
+    };
+
+    // Height at which the tool just touches, over the middle of its circle.
+    void land() {
+        double low = 0.0, high = 0.5;
+        for (int i = 0; i < 14; ++i) {
+            height_ = 0.5 * (low + high);
+            (oracleSmallestGap(tool_, handAt(0, height_), wall_) < 0.0 ? low : high) = height_;
+        }
+        height_ = high;
+        proxy_.setPose(handAt(0, height_));
+    }
+
+    Pose handAt(uint32_t tick, double height) const {
+        const double angle = setting_.speed / kCircle * 0.001 * tick;
+        return {dvec3(kCircle * std::cos(angle), kCircle * std::sin(angle), height), dquat(1, 0, 0, 0)};
+    }
+
+    void answer() {
+        pending_.push_back({now_ + setting_.delay, std::make_unique<ContactSet>()});
+        const Clocks clocks;
+        cull_.query(tool_, proxy_.pose(), setting_.reach, wall_, grid_, *pending_.back().set);
+        queries_.push_back(clocks.wallMs());
+    }
+
+    void tick(uint32_t k) {
+        now_ = k;
+        answer();
+        while (!pending_.empty() && pending_.front().due <= now_) {
+            if (proxy_.covers(*pending_.front().set)) {
+                std::swap(inForce_, *pending_.front().set);
+            }
+            pending_.pop_front();
+        }
+        const Pose hand = handAt(k, height_ - setting_.press);
+        Clock clock{std::chrono::steady_clock::now() +
+                    std::chrono::nanoseconds(static_cast<int64_t>(setting_.deadlineMicros * 1e3))};
+        const Deadline deadline{setting_.deadlineMicros > 0.0 ? &Clock::passed : nullptr, &clock};
+        const Clocks clocks;
+        const ProxyTurn turn = proxy_.turn({hand, 0.05, &inForce_, deadline});
+        turns_.push_back(clocks.wallMs());
+        note(k, hand, turn);
+    }
+
+    void note(uint32_t k, const Pose& hand, const ProxyTurn& turn) {
+        result_.stalled += turn.stalled ? 1 : 0;
+        result_.solves += turn.solves;
+        result_.contacts += turn.contact ? 1 : 0;
+        dvec3 behind = hand.position - proxy_.pose().position;
+        behind.z = 0.0; // the wall holds the tool off: that is no lag
+        lag_ += glm::dot(behind, behind);
+        result_.poses.push_back(proxy_.pose());
+        if (k % 64 == 0 || k + 1 == setting_.ticks) {
+            result_.deepest = std::max(result_.deepest, -oracleSmallestGap(tool_, proxy_.pose(), wall_));
+        }
+    }
+
+    DragSetting setting_;
+    Tool own_;
+    const Tool& tool_;
+    Fixtures wall_;
+    RegionGrid grid_;
+    CullCpu cull_;
+    Proxy proxy_;
+    ContactSet inForce_;
+    std::deque<Pending> pending_;
+    uint32_t now_ = 0;
+    double height_ = 0.0, lag_ = 0.0;
+    std::vector<double> queries_, turns_;
+    DragResult result_;
+};
+
+} // namespace
+
+DragResult drag(const DragSetting& setting) {
+    return Dragger(setting).run();
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// Depth error against time over the filter's window, sigma, tiles and skipped patches: against exact truth on
+// analytic scenes, as scatter between repeats on recordings.
+#include "apps/profile/shot_source.h"
+#include "apps/profile/studies.h"
+
+#include <algorithm>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kEdgeJump = 0.02; // relative depth jump of the truth that makes an edge
+constexpr int kEdgeReach = 3;      // [pixels] from the jump that still count as edge
+
+struct Setting {
+    uint32_t radius;
+    double sigma;
+    bool tiled, everyPatch;
+};
+
+std::string nameOf(const Setting& s, bool tiledByDefault) {
+    std::string name = std::to_string(2 * s.radius + 1) + "x" + std::to_string(2 * s.radius + 1);
+    name = s.radius == 0 ? "none" : name + " s" + digits(s.sigma * 1e3) + "mm";
+    name += s.tiled == tiledByDefault || s.radius == 0 ? "" : s.tiled ? " tiles" : " direct";
+    return name + (s.everyPatch ? " all patches" : "");
+}
+
+std::vector<Setting> settingsOf(const Scene& scene, bool quick, bool tiled) {
+    std::vector<Setting> list;
+    const double sigma = scene.filter.sigma;
+    for (uint32_t radius : quick ? std::vector<uint32_t>{0, 2} : std::vector<uint32_t>{0, 1, 2, 3, 5, 8}) {
+        list.push_back({radius, sigma, tiled && radius >= 2, false});
+    }
+    for (double s : quick ? std::vector<double>{0.003} : std::vector<double>{0.003, 0.005, 0.02, 0.05}) {
+        for (uint32_t radius : quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 5}) {
+            list.push_back({radius, s, tiled, false});
+        }
+    }
+    list.push_back({2, sigma, !tiled, false});
+    list.push_back({2, sigma, tiled, true});
+    const auto same = [&](const Setting& s) { return s.radius == scene.filter.radius && s.sigma == sigma; };
+    if (std::none_of(list.begin(), list.end(), same)) {
+        list.push_back({scene.filter.radius, sigma, tiled && scene.filter.radius >= 2, false});
+    }
+    return list;
+}
+
+// Pixels near a jump of the true depth.
+std::vector<uint8_t> edgesOf(const ShotSource& source) {
+    const int w = static_cast<int>(source.camera.depth.width),
+              h = static_cast<int>(source.camera.depth.height);
+    const std::vector<double>& truth = source.shots.front().truth;
+    std::vector<uint8_t> edges(truth.size(), 0);
+    const auto at = [&](int u, int v) { return truth[static_cast<size_t>(v) * w + u]; };
+    for (int v = 0; v < h; ++v) {
+        for (int u = 0; u + 1 < w; ++u) {
+            for (const auto& [nu, nv] : {std::pair{u + 1, v}, std::pair{u, std::min(v + 1, h - 1)}}) {
+                if (std::abs(at(u, v) - at(nu, nv)) <= kEdgeJump * at(u, v)) {
+                    continue;
+                }
+                for (int y = std::max(0, v - kEdgeReach); y <= std::min(h - 1, v + kEdgeReach); ++y) {
+                    for (int x = std::max(0, u - kEdgeReach); x <= std::min(w - 1, u + kEdgeReach); ++x) {
+                        edges[static_cast<size_t>(y) * w + x] = 1;
+                    }
+                }
+            }
+        }
+    }
+    return edges;
+}
+
+// Errors of the depths that the passes gave [mm].
+struct DepthErrors {
+    double squares = 0.0;
+    size_t count = 0;
+    std::vector<double> edge;
+
+    void add(const ShotSource& source, const reference::PointPicture& points, std::span<const uint32_t> masks,
+             const std::vector<uint8_t>& edges) {
+        for (size_t i = 0; i < points.z.size(); ++i) {
+            const double truth = source.shots.front().truth[i];
+            if (points.z[i] == 0.0 || masks[i] == 0 || truth == 0.0) {
+                continue;
+            }
+            const double e = (points.z[i] - truth) * 1e3;
+            if (edges[i] != 0) {
+                edge.push_back(std::abs(e));
+            } else {
+                squares += e * e;
+                ++count;
+            }
+        }
+    }
+    double rms() const { return count > 0 ? std::sqrt(squares / static_cast<double>(count)) : NAN; }
+    double edgeP90() { return edge.empty() ? NAN : spreadOf(edge).p90; }
+};
+
+// Typical change of a pixel between one frame and the next, over sqrt(2) [mm]: the scatter of one frame where
+// the scene is static. By the median (x 1.4826), so that pixels that do move hardly count.
+double scatterOf(const std::vector<reference::PointPicture>& frames) {
+    std::vector<double> changes;
+    for (size_t f = 1; f < frames.size(); ++f) {
+        for (size_t i = 0; i < frames[f].z.size(); ++i) {
+            if (frames[f].z[i] != 0.0 && frames[f - 1].z[i] != 0.0) {
+                changes.push_back(std::abs(frames[f].z[i] - frames[f - 1].z[i]) * 1e3);
+            }
+        }
+    }
+    return changes.empty() ? NAN : spreadOf(std::move(changes)).p50 * 1.4826 / std::sqrt(2.0);
+}
+
+Scene sceneFor(const Settings& settings, const Setting& s) {
+    Scene scene = studyScene(settings);
+    scene.filter.radius = s.radius;
+    scene.filter.sigma = s.sigma;
+    if (s.everyPatch) { // a class that takes every point puts every patch on the list
+        FixtureClass all;
+        all.name = "all";
+        all.role = Role::Guidance;
+        scene.fixtures.push_back(all);
+    }
+    return scene;
+}
+
+StudyRow rowOf(const StudyContext& context, const ShotSource& source, const Setting& s, bool tiled) {
+    FrameBench bench(context.device, sceneFor(context.settings, s), source.camera,
+                     [&](Plan& plan) { plan.tiled = s.tiled && s.radius >= 1; });
+    StudyRow row;
+    row.source = source.name;
+    row.setting = nameOf(s, tiled);
+    const bool exact = !source.shots.front().truth.empty();
+    const std::vector<uint8_t> edges = exact ? edgesOf(source) : std::vector<uint8_t>{};
+    const uint32_t own =
+        (1u << studyScene(context.settings).fixtures.size()) - 1; // not the class of everyPatch
+    DepthErrors errors;
+    std::vector<reference::PointPicture> frames;
+    for (const Shot& shot : source.shots) {
+        bench.run(shot);
+        if (&shot == &source.shots.front()) {
+            const std::string wrong = bench.differsFromTwins(shot);
+            verify(wrong.empty(), "filter", row.setting, wrong + " differs from the float64 twin");
+        }
+        frames.push_back(bench.points());
+        if (exact) {
+            std::vector<uint32_t> masks = bench.masks();
+            std::for_each(masks.begin(), masks.end(), [&](uint32_t& m) { m &= own; });
+            errors.add(source, frames.back(), masks, edges);
+        }
+    }
+    const FrameCost cost = bench.measure(source.shots, context.settings.effort());
+    row.error = exact ? errors.rms() : scatterOf(frames);
+    const auto surface = cost.passes.find("surface");
+    row.cost = cost.frame;
+    row.cost.gpu = surface != cost.passes.end() ? surface->second : Spread{};
+    row.more = {errors.edgeP90(), cost.frame.gpu.p50, cost.total.p50};
+    return row;
+}
+
+} // namespace
+
+Study filterStudy(const StudyContext& context) {
+    Study study;
+    study.name = "filter";
+    study.title = "Filter: depth error against time of the surface pass";
+    study.verified = "class bits and points of a frame against the float64 twins, 20 um";
+    const bool recorded = !context.settings.source.empty();
+    study.errorName = recorded ? "scatter between repeats" : "depth error RMS away from edges";
+    study.errorUnit = "mm";
+    study.time = TimeKind::Gpu;
+    study.timeName = "surface pass, GPU time p50";
+    study.moreNames = {"edge_error_p90_mm", "all_passes_p50_ms", "upload_to_published_p50_ms"};
+    study.defaultReason =
+        "a wider window or sigma smooths away what is thinner than it (see edge_error_p90_mm)";
+    const uint32_t frames = context.settings.quick ? 2 : 6;
+    for (const ShotSource& source : studySources(context.settings, {"torus", "corner", "tank"}, frames)) {
+        const Scene scene = studyScene(context.settings);
+        const bool tiled = makePlan(scene, source.camera, 1, context.device.facts()).tiled;
+        for (const Setting& s : settingsOf(scene, context.settings.quick, tiled)) {
+            StudyRow row = rowOf(context, source, s, tiled);
+            row.isDefault = s.radius == scene.filter.radius && s.sigma == scene.filter.sigma &&
+                            (s.tiled == tiled || s.radius == 0) && !s.everyPatch;
+            study.rows.push_back(std::move(row));
+        }
+    }
+    markFront(study);
+    study.panels.push_back(frontPanel(study, study.errorName));
+    if (!recorded) {
+        PlotPanel edges = frontPanel(study, "error within 3 pixels of an edge", {},
+                                     [](const StudyRow& row) { return row.more[0]; });
+        edges.yLabel = "90th percentile of |depth error| at edges [mm]";
+        study.panels.push_back(std::move(edges));
+    }
+    return study;
+}
+
+} // namespace fathom::profile

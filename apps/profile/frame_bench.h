@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame cycle under measurement: pictures go through it, its buffers can be read back, its steps are
+// timed apart.
+#pragma once
+
+#include "apps/profile/study.h"
+#include "devices/simulated/simulated_camera.h"
+#include "engine/cycle/frame_cycle.h"
+#include "engine/reference/frame_view.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+
+namespace fathom::profile {
+
+// A picture and, where the scene is analytic, the exact depth behind each pixel [m] (0 = no surface).
+struct Shot {
+    std::vector<uint16_t> depth;
+    std::vector<uint32_t> colour;
+    Pose baseTcamera;
+    std::vector<double> truth;
+};
+
+// Some pictures of one camera.
+struct ShotSource {
+    std::string name;
+    CameraInfo camera;
+    std::vector<Shot> shots;
+};
+
+struct FrameCost {
+    Cost frame;   // gpu = sum of the passes, submit = submission until landed, cpu = of the calling thread
+    Spread total; // upload to published [ms]
+    Spread upload, publish;
+    std::map<std::string, Spread> passes; // device time [ms]
+};
+
+// Samples of each step, gathered frame by frame [ms].
+struct FrameSamples {
+    std::vector<double> gpu, submit, cpu, total, upload, publish;
+    std::vector<std::vector<double>> passes;
+
+    void add(const FrameReport& report, const Clocks& clocks);
+};
+
+// Owns what it needs of scene and camera; the device must outlive it. One thread.
+class FrameBench {
+public:
+    using Change = std::function<void(Plan&)>;
+    FrameBench(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
+               uint32_t toolLeaves = 1);
+
+    FrameReport run(const Shot& shot);
+    // Every shot in turn, as often as the effort says.
+    FrameCost measure(const std::vector<Shot>& shots, const Effort& effort);
+    // The same in parts, to take turns with another bench.
+    void sample(const std::vector<Shot>& shots, const Effort& effort, FrameSamples& samples);
+    FrameCost costOf(const FrameSamples& samples) const;
+
+    const Scene& scene() const { return scene_; }
+    const Plan& plan() const { return plan_; }
+    FrameCycle& cycle() const { return *cycle_; }
+    const cloud::FixtureSet& set() const { return *lease_; } // of the last run()
+
+    // Of the last frame, row-major: class bits, filtered depth along the optical axis [m] (0 = no point),
+    // base points.
+    std::vector<uint32_t> masks() const;
+    reference::PointPicture points() const;
+
+    // Compares class bits and points of the last frame with the float64 twins. Empty when they agree (points
+    // to 20 um; what the twins call unsure is left out), else what differs.
+    std::string differsFromTwins(const Shot& shot) const;
+
+private:
+    gpu::Device& device_;
+    Scene scene_;
+    CameraInfo camera_;
+    Plan plan_;
+    std::unique_ptr<FrameCycle> cycle_;
+    cloud::FixturePool::Lease lease_;
+    uint32_t frames_ = 0;
+};
+
+uint64_t bytesOf(const Plan& plan); // of all buffers that the plan has in
+
+} // namespace fathom::profile

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/profile_command.h"
+
+#include "apps/profile/profile_trace.h"
+#include "apps/profile/report.h"
+#include "apps/profile/studies.h"
+#include "apps/profile/study_plot.h"
+#include "apps/replay/output_file.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+
+namespace fathom {
+
+namespace {
+
+using namespace profile;
+
+std::string studyNames() {
+    std::string names;
+    for (const StudyEntry& entry : allStudies()) {
+        names += (names.empty() ? "" : ", ") + std::string(entry.name);
+    }
+    return names;
+}
+
+void checkNames(const Settings& settings) {
+    for (const std::string& name : settings.studies) {
+        const auto named = [&](const StudyEntry& entry) { return name == entry.name; };
+        if (std::none_of(allStudies().begin(), allStudies().end(), named)) {
+            throw BadInput("profile", "STUDY", "'" + name + "'", studyNames());
+        }
+    }
+}
+
+bool wanted(const Settings& settings, const std::string& name) {
+    return settings.studies.empty() ||
+           std::find(settings.studies.begin(), settings.studies.end(), name) != settings.studies.end();
+}
+
+// The command that made the files, so that a table can be made again. Folders by their last name.
+std::string commandOf(const Settings& settings, const GlobalOptions& global) {
+    std::string command = "fathom";
+    command += global.device.empty() ? "" : " --device " + global.device;
+    command += " profile";
+    for (const std::string& name : settings.studies) {
+        command += " " + name;
+    }
+    command += settings.source.empty() ? "" : " --source " + settings.source.filename().string();
+    command += settings.scene.empty() ? "" : " --scene " + settings.scene.filename().string();
+    return command + (settings.quick ? " --quick" : "") + " --out DIR";
+}
+
+std::string subtitleOf(const Facts& facts) {
+    std::string text;
+    for (const auto& [name, value] : facts) {
+        if (name == "device" || name == "driver" || name == "host_cpu") {
+            text += (text.empty() ? "" : " · ") + value;
+        }
+    }
+    return text;
+}
+
+void writeStudy(const Study& study, const Facts& facts, const std::filesystem::path& folder) {
+    writeStudyCsv(study, folder / (study.name + ".csv"));
+    writeStudyPlot(study, subtitleOf(facts), folder / (study.name + ".png"));
+    std::cout << study.name << ": " << study.rows.size() << " settings, verified: " << study.verified << "\n";
+    for (const std::string& finding : study.findings) {
+        std::cout << "  " << finding << "\n";
+    }
+    std::cout.flush();
+}
+
+void runProfile(const Settings& settings, const GlobalOptions& global) {
+    checkNames(settings);
+    prepareOutputFolder(settings.out, false);
+    const gpu::Instance instance;
+    gpu::Device device(instance, global.device);
+    const StudyContext context{device, settings};
+    const Facts facts = runFacts(device, settings, commandOf(settings, global));
+    std::vector<Study> studies;
+    for (const StudyEntry& entry : allStudies()) {
+        if (wanted(settings, entry.name)) {
+            studies.push_back(entry.run(context));
+            writeStudy(studies.back(), facts, settings.out);
+        }
+    }
+    if (!global.trace.empty()) {
+        writeTimeLine(context, global.trace);
+    }
+    writeProfileJson(facts, studies, settings.out / "profile.json");
+    writeReportHtml(facts, studies, settings.out);
+    std::cout << "written to " << settings.out.string() << "\n";
+}
+
+} // namespace
+
+void addProfileCommand(CLI::App& app, const GlobalOptions& global) {
+    auto settings = std::make_shared<Settings>();
+    CLI::App* command = app.add_subcommand("profile", "measure error against run time");
+    command->add_option("STUDY", settings->studies, "studies to run (" + studyNames() + "); none = all");
+    command->add_option("--source", settings->source, "recording folder in place of the analytic scenes");
+    command->add_option("--scene", settings->scene,
+                        "scene file in place of the built-in classes and settings");
+    command->add_flag("--quick", settings->quick,
+                      "few settings, small pictures, few repeats: under two minutes");
+    command->add_option("--out", settings->out, "output folder; its files are replaced")->required();
+    command->callback([settings, &global] { runProfile(*settings, global); });
+}
+
+} // namespace fathom

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/report.h"
+
+#include "apps/replay/csv.h"
+#include "apps/replay/output_file.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace fathom::profile {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string firstMatch(const std::string& file, const std::string& key) {
+    std::ifstream in(file);
+    for (std::string line; std::getline(in, line);) {
+        if (line.rfind(key, 0) == 0) {
+            const size_t at = line.find_first_not_of(" \t:", key.size());
+            return at == std::string::npos ? "" : line.substr(at);
+        }
+    }
+    return "unknown";
+}
+
+std::string word(std::string text) { // CSV words hold no comma, quote or line break
+    for (char& c : text) {
+        c = c == ',' ? ';' : c == '"' || c == '\n' ? ' ' : c;
+    }
+    return text;
+}
+
+std::vector<std::pair<std::string, double>> timesOf(const Cost& cost) {
+    std::vector<std::pair<std::string, double>> out;
+    const auto add = [&](const std::string& name, const Spread& s) {
+        const double none = std::numeric_limits<double>::quiet_NaN();
+        out.push_back({name + "_p50_ms", s ? s.p50 : none});
+        out.push_back({name + "_p90_ms", s ? s.p90 : none});
+        out.push_back({name + "_p99_ms", s ? s.p99 : none});
+    };
+    add("gpu", cost.gpu);
+    add("submit_to_result", cost.submit);
+    add("cpu", cost.cpu);
+    return out;
+}
+
+int64_t repeatsOf(const Cost& cost) {
+    return static_cast<int64_t>(std::max({cost.gpu.count, cost.submit.count, cost.cpu.count}));
+}
+
+Json number(double value) {
+    return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+Json rowJson(const Study& study, const StudyRow& row) {
+    Json out;
+    out["source"] = row.source;
+    out["setting"] = row.setting;
+    out["default"] = row.isDefault;
+    out["on_front"] = row.onFront;
+    out["error"] = number(row.error);
+    for (const auto& [name, value] : timesOf(row.cost)) {
+        out[name] = number(value);
+    }
+    out["repeats"] = repeatsOf(row.cost);
+    for (size_t i = 0; i < study.moreNames.size(); ++i) {
+        out[study.moreNames[i]] = i < row.more.size() ? number(row.more[i]) : Json(nullptr);
+    }
+    return out;
+}
+
+} // namespace
+
+Facts runFacts(const gpu::Device& device, const Settings& settings, const std::string& command) {
+    const DeviceFacts& f = device.facts();
+    const char* kinds[] = {"discrete", "integrated", "cpu", "other"};
+    return {{"command", command},
+            {"device", f.name},
+            {"driver", f.driver},
+            {"device_kind", kinds[static_cast<size_t>(f.kind)]},
+            {"subgroup", std::to_string(f.subgroupSize)},
+            {"timestamps", f.timestampPeriodNs > 0.0 ? "yes" : "no"},
+            {"host_cpu", firstMatch("/proc/cpuinfo", "model name")},
+            {"host_cpus", std::to_string(std::thread::hardware_concurrency())},
+            {"load_average", firstMatch("/proc/loadavg", "")},
+            {"source", settings.source.empty() ? "analytic scenes" : settings.source.filename().string()},
+            {"scene", settings.scene.empty() ? "built in" : settings.scene.filename().string()},
+            {"quick", settings.quick ? "yes" : "no"},
+#ifdef FATHOM_SANITIZED
+            {"build", "sanitized: no time below means anything"}};
+#elif defined(NDEBUG)
+            {"build", "release"}};
+#else
+            {"build", "not optimised: no time below means anything"}};
+#endif
+}
+
+void writeStudyCsv(const Study& study, const std::filesystem::path& file) {
+    OutputFile out(file);
+    CsvRow row;
+    for (const char* name : {"source", "setting", "default", "on_front"}) {
+        row.add(std::string_view(name));
+    }
+    row.add(
+        std::string_view(word(study.errorName.empty() ? "error" : study.errorName + "_" + study.errorUnit)));
+    for (const auto& [name, value] : timesOf({})) {
+        row.add(std::string_view(name));
+    }
+    row.add(std::string_view("repeats"));
+    for (const std::string& name : study.moreNames) {
+        row.add(std::string_view(word(name)));
+    }
+    out.write(row.end());
+    for (const StudyRow& r : study.rows) {
+        row.add(std::string_view(word(r.source)));
+        row.add(std::string_view(word(r.setting)));
+        row.add(int64_t{r.isDefault});
+        row.add(int64_t{r.onFront});
+        row.add(r.error);
+        for (const auto& [name, value] : timesOf(r.cost)) {
+            row.add(value);
+        }
+        row.add(repeatsOf(r.cost));
+        for (double value : r.more) {
+            row.add(value);
+        }
+        out.write(row.end());
+    }
+    out.commit();
+}
+
+void writeProfileJson(const Facts& facts, const std::vector<Study>& studies,
+                      const std::filesystem::path& file) {
+    Json all;
+    for (const auto& [name, value] : facts) {
+        all["facts"][name] = value;
+    }
+    all["studies"] = Json::array();
+    for (const Study& study : studies) {
+        Json s;
+        s["name"] = study.name;
+        s["title"] = study.title;
+        s["verified"] = study.verified;
+        s["error"] = study.errorName;
+        s["error_unit"] = study.errorUnit;
+        s["time"] = study.timeName;
+        s["findings"] = study.findings;
+        s["rows"] = Json::array();
+        for (const StudyRow& row : study.rows) {
+            s["rows"].push_back(rowJson(study, row));
+        }
+        all["studies"].push_back(std::move(s));
+    }
+    OutputFile out(file);
+    out.write(all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    out.commit();
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the cost of a frame grows and how: picture size, share of selected pixels, number of classes.
+#include "apps/profile/shot_source.h"
+#include "apps/profile/studies.h"
+
+#include <algorithm>
+
+namespace fathom::profile {
+
+namespace {
+
+struct Measured {
+    double x = 0.0;
+    FrameCost cost;
+};
+
+using Curve = std::vector<Measured>;
+
+Scene sceneWith(const Settings& settings, uint32_t classes) {
+    Settings plain = settings;
+    plain.source.clear();
+    Scene scene = studyScene(plain);
+    for (uint32_t c = 2; c < classes; ++c) { // more hues that the picture does not show
+        FixtureClass f = scene.fixtures.front();
+        f.name = "class " + std::to_string(c + 1);
+        f.role = c % 2 == 0 ? Role::Forbidden : Role::Guidance;
+        f.hue = Band{80.0 + 30.0 * c, 100.0 + 30.0 * c};
+        scene.fixtures.push_back(f);
+    }
+    scene.fixtures.resize(std::min<size_t>(scene.fixtures.size(), classes));
+    return scene;
+}
+
+class ScalingRun {
+public:
+    ScalingRun(const StudyContext& context, Study& study)
+        : context_(context)
+        , study_(study) {}
+
+    Measured take(const std::string& source, const std::string& setting, double x, const ShotSource& shots,
+                  uint32_t classes) {
+        FrameBench bench(context_.device, sceneWith(context_.settings, classes), shots.camera);
+        bench.run(shots.shots.front());
+        if (shots.camera.depth.pixels() <=
+            320u * 240u) { // the twins take seconds for more; the sizes share the code
+            const std::string wrong = bench.differsFromTwins(shots.shots.front());
+            verify(wrong.empty(), "scaling", setting, wrong + " differs from the float64 twin");
+        }
+        const auto report = bench.run(shots.shots.front());
+        verify(report.counts.valid == shots.camera.depth.pixels(), "scaling", setting,
+               "valid pixels are missing");
+        Measured m{x, bench.measure(shots.shots, context_.settings.effort())};
+        StudyRow row;
+        row.source = source;
+        row.setting = setting;
+        row.isDefault = false;
+        row.cost = m.cost.frame;
+        row.more = {x, m.cost.total.p50, m.cost.upload.p50, m.cost.publish.p50};
+        for (const char* pass : {"classify", "surface", "thin", "spheres", "tree", "moments"}) {
+            const auto it = m.cost.passes.find(pass);
+            row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
+        }
+        study_.rows.push_back(std::move(row));
+        return m;
+    }
+
+    // A line a step of the frame, and the exponent of each.
+    void draw(const Curve& curve, const std::string& title, const std::string& xLabel, bool fit) {
+        PlotPanel panel;
+        panel.title = title;
+        panel.xLabel = xLabel;
+        panel.yLabel = "time p50 [ms]";
+        panel.logX = fit, panel.logY = fit;
+        const auto add = [&](const std::string& name, auto&& value) {
+            PlotSeries series{name, {}, true};
+            for (const Measured& m : curve) {
+                series.points.push_back({m.x, value(m), "", false, false});
+            }
+            const auto law = fit ? fitPower(series.points) : std::nullopt;
+            if (law) {
+                series.name += " ~ x^" + digits(law->exponent, 2);
+                study_.findings.push_back(title + ": " + name + " grows as x^" + digits(law->exponent, 3));
+            }
+            panel.series.push_back(std::move(series));
+        };
+        add("upload to published", [](const Measured& m) { return m.cost.total.p50; });
+        add("upload (host)", [](const Measured& m) { return m.cost.upload.p50; });
+        add("publish (host)", [](const Measured& m) { return m.cost.publish.p50; });
+        for (const auto& [name, spread] : curve.front().cost.passes) {
+            add(name, [pass = name](const Measured& m) { // one class alone has no moments
+                const auto it = m.cost.passes.find(pass);
+                return it != m.cost.passes.end() ? it->second.p50 : 0.0;
+            });
+        }
+        study_.panels.push_back(std::move(panel));
+    }
+
+private:
+    const StudyContext& context_;
+    Study& study_;
+};
+
+} // namespace
+
+Study scalingStudy(const StudyContext& context) {
+    Study study;
+    study.name = "scaling";
+    study.title = "Scaling: picture size, selected pixels, classes";
+    study.verified =
+        "class bits and points against the float64 twins up to 320x240; every pixel counted at every size";
+    study.errorName = "error", study.errorUnit = "none";
+    study.timeName = "upload to published p50";
+    study.moreNames = {"x",
+                       "upload_to_published_p50_ms",
+                       "upload_p50_ms",
+                       "publish_p50_ms",
+                       "classify_p50_ms",
+                       "surface_p50_ms",
+                       "thin_p50_ms",
+                       "spheres_p50_ms",
+                       "tree_p50_ms",
+                       "moments_p50_ms"};
+    const bool quick = context.settings.quick;
+    ScalingRun run(context, study);
+    Curve sizes, shares, classes;
+    using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
+    for (const auto& [w, h] :
+         quick ? Sizes{{80, 60}, {160, 120}, {320, 240}}
+               : Sizes{{160, 120}, {320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
+        const ShotSource shots = wallShot(w, h, 1.0);
+        sizes.push_back(
+            run.take("size, every point forbidden", shots.name, w * static_cast<double>(h), shots, 2));
+    }
+    const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
+    for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+        const std::string setting = digits(share * 100.0) + " %";
+        shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
+                                  setting, share * 100.0, wallShot(w, h, share), 2));
+    }
+    for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
+        classes.push_back(
+            run.take("classes, 10 % forbidden", std::to_string(c) + " classes", c, wallShot(w, h, 0.1), c));
+    }
+    run.draw(sizes, "every point forbidden", "pixels", true);
+    run.draw(shares, std::to_string(w) + "x" + std::to_string(h) + ", forbidden share",
+             "forbidden pixels [%]", false);
+    run.draw(Curve(classes.rbegin(), classes.rend()),
+             std::to_string(w) + "x" + std::to_string(h) + ", 10 % forbidden, by classes",
+             "classes of points", false);
+    return study;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/shot_source.h"
+
+#include "apps/binding/open_source.h"
+#include "devices/recorded/recorded_camera.h"
+#include "devices/simulated/analytic_scene.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr uint32_t kRed = 0xff2020c0u, kYellow = 0xff20b0c0u, kGrey = 0xff808080u; // 0xAABBGGRR
+
+void take(Camera& camera, uint32_t frames, ShotSource& source) {
+    for (uint32_t i = 0; i < frames; ++i) {
+        const std::optional<Frame> frame = camera.next();
+        if (!frame) {
+            break;
+        }
+        Shot& shot = source.shots.emplace_back();
+        shot.depth.assign((*frame)->depth.begin(), (*frame)->depth.end());
+        shot.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
+        shot.baseTcamera = (*frame)->baseTcamera.value_or(Pose{});
+    }
+}
+
+FixtureClass coloured(const std::string& name, Role role, Band hue) {
+    FixtureClass f;
+    f.name = name;
+    f.role = role;
+    f.hue = hue;
+    f.saturation = Band{0.4, 1.0};
+    f.lightness = Band{0.08, 0.9};
+    return f;
+}
+
+} // namespace
+
+ShotSource analyticShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
+    const auto solids = analyticScene(scene);
+    if (!solids) {
+        throw Error("no analytic scene '" + scene + "'");
+    }
+    SimulatedCameraOptions options;
+    options.width = width, options.height = height;
+    options.motion = false;
+    options.metresPerUnit = 0.0001;
+    SimulatedCamera camera(*solids, options);
+    ShotSource source{scene, camera.info(), {}};
+    take(camera, frames, source);
+    const auto exact = camera.exactView(0); // nothing moves
+    for (Shot& shot : source.shots) {
+        shot.truth = exact.depth;
+    }
+    return source;
+}
+
+ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames) {
+    RecordedCamera camera(folder);
+    const std::filesystem::path clean = folder.lexically_normal();
+    ShotSource source{
+        (clean.has_filename() ? clean : clean.parent_path()).filename().string(), camera.info(), {}};
+    take(camera, frames, source);
+    return source;
+}
+
+ShotSource wallShot(uint32_t width, uint32_t height, double share) {
+    ShotSource source{std::to_string(width) + "x" + std::to_string(height), {}, {}};
+    Intrinsics& lens = source.camera.depth;
+    lens.width = width, lens.height = height;
+    lens.fx = lens.fy = 0.9 * width;
+    lens.cx = 0.5 * (width - 1.0), lens.cy = 0.5 * (height - 1.0);
+    source.camera.colour = lens;
+    source.camera.metresPerUnit = 0.0001;
+    Shot& shot = source.shots.emplace_back();
+    const auto redRows = static_cast<uint32_t>(std::lround(share * height));
+    const auto yellowRows = std::max(1u, height / 50);
+    for (uint32_t v = 0; v < height; ++v) {
+        for (uint32_t u = 0; u < width; ++u) {
+            const double x = u / static_cast<double>(width), y = v / static_cast<double>(height);
+            const double z = 0.8 + 0.03 * std::sin(9.0 * x) * std::cos(7.0 * y);
+            shot.depth.push_back(static_cast<uint16_t>(std::lround(z / source.camera.metresPerUnit)));
+            shot.colour.push_back(v < redRows ? kRed : v < redRows + yellowRows ? kYellow : kGrey);
+        }
+    }
+    return source;
+}
+
+std::vector<ShotSource> studySources(const Settings& settings, const std::vector<std::string>& analytic,
+                                     uint32_t frames) {
+    std::vector<ShotSource> sources;
+    if (!settings.source.empty()) {
+        sources.push_back(recordedShots(settings.source, frames));
+        return sources;
+    }
+    for (const std::string& name : analytic) {
+        sources.push_back(settings.quick ? analyticShots(name, 320, 240, frames)
+                                         : analyticShots(name, 640, 480, frames));
+    }
+    return sources;
+}
+
+Scene studyScene(const Settings& settings) {
+    if (!settings.scene.empty()) {
+        return openScene(settings.scene);
+    }
+    Scene scene;
+    if (!settings.source.empty()) {
+        FixtureClass all;
+        all.name = "all";
+        scene.fixtures = {all};
+        return scene;
+    }
+    scene.fixtures = {coloured("red", Role::Forbidden, {345.0, 20.0}),
+                      coloured("yellow", Role::Guidance, {40.0, 70.0})};
+    return scene;
+}
+
+Tool ballTool(uint32_t leaves) {
+    constexpr double kBall = 0.06; // [m]
+    const double radius = 0.9 * kBall / std::cbrt(static_cast<double>(leaves));
+    std::vector<Sphere> spheres;
+    for (uint32_t i = 0; i < leaves; ++i) { // Fibonacci shells: even, and the same on every machine
+        const double t = (i + 0.5) / leaves, z = 1.0 - 2.0 * std::fmod(i * 0.7548776662466927, 1.0);
+        const double angle = 2.0 * M_PI * std::fmod(i * 0.5698402909980532, 1.0);
+        const double ring = std::sqrt(std::max(0.0, 1.0 - z * z)), r = (kBall - radius) * std::cbrt(t);
+        spheres.push_back({dvec3(r * ring * std::cos(angle), r * ring * std::sin(angle), r * z), radius});
+    }
+    return Tool(buildSphereTree(spheres));
+}
+
+Pose touchingPose(const Tool& tool, const Fixtures& fixtures, const Pose& baseTcamera) {
+    const RegionSpheres& s = fixtures.spheres;
+    dvec3 mean(0.0);
+    for (size_t i = 0; i < s.size(); ++i) {
+        mean += dvec3(s.x[i], s.y[i], s.z[i]) / static_cast<double>(s.size());
+    }
+    mean += fixtures.origin;
+    const dvec3 back = glm::normalize(baseTcamera.position - mean);
+    const auto gapAt = [&](double away) {
+        const dvec3 at = mean + away * back - fixtures.origin;
+        double least = HUGE_VAL;
+        for (size_t i = 0; i < s.size();
+             i += 1 + s.size() / 4000) { // a few thousand place the tool well enough
+            for (size_t l = 0; l < tool.leafCount(); l += 1 + tool.leafCount() / 128) {
+                const Sphere& leaf = tool.leaves()[l];
+                least = std::min(least, glm::length(dvec3(s.x[i], s.y[i], s.z[i]) - at - leaf.centre) -
+                                            static_cast<double>(s.radius[i]) - leaf.radius);
+            }
+        }
+        return least;
+    };
+    double near = 0.0, far = 0.5;
+    for (int i = 0; i < 16; ++i) {
+        const double middle = 0.5 * (near + far);
+        (gapAt(middle) < -0.001 ? near : far) = middle;
+    }
+    return {mean + far * back, dquat(1.0, 0.0, 0.0, 0.0)};
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the pictures of a study come from: analytic scenes with sensor noise, recordings, pictures made to
+// measure.
+#pragma once
+
+#include "apps/profile/frame_bench.h"
+#include "engine/contact/tool.h"
+
+namespace fathom::profile {
+
+// `frames` pictures of a built-in scene with sensor noise and their truth. Throws Error for an unknown name.
+ShotSource analyticShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames);
+
+// The first `frames` good pictures of a recording. Throws BadInput.
+ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames);
+
+// A gently waved wall 0.8 m away, noise-free. Of the picture, `share` (0..1, whole rows from the top) shows
+// red, the next 2 % yellow, the rest grey.
+ShotSource wallShot(uint32_t width, uint32_t height, double share);
+
+// What a study runs on: the recording when one was given, else these analytic scenes.
+std::vector<ShotSource> studySources(const Settings& settings, const std::vector<std::string>& analytic,
+                                     uint32_t frames);
+
+// The scene file when one was given; else the default settings with one forbidden class (red, or every point
+// of a recording) and one of guidance (yellow).
+Scene studyScene(const Settings& settings);
+
+// A tool of `leaves` equal spheres that fill a ball of 6 cm.
+Tool ballTool(uint32_t leaves);
+
+// base_T_tool just in touch (1 mm deep) with the middle of the set's spheres, seen from the camera.
+Pose touchingPose(const Tool& tool, const Fixtures& fixtures, const Pose& baseTcamera);
+
+} // namespace fathom::profile

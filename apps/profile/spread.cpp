@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/spread.h"
+
+#include <algorithm>
+#include <ctime>
+
+namespace fathom::profile {
+
+namespace {
+
+double threadSeconds() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+} // namespace
+
+Spread spreadOf(std::vector<double> values) {
+    if (values.empty()) {
+        return {};
+    }
+    std::sort(values.begin(), values.end());
+    const auto rank = [&](size_t percent) {
+        return values[std::max<size_t>(1, (percent * values.size() + 99) / 100) - 1];
+    };
+    return {rank(50), rank(90), rank(99), values.size()};
+}
+
+Clocks::Clocks()
+    : wall_(std::chrono::steady_clock::now())
+    , cpu_(threadSeconds()) {}
+
+double Clocks::wallMs() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall_).count();
+}
+
+double Clocks::cpuMs() const {
+    return (threadSeconds() - cpu_) * 1e3;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Repeated measurements of one thing: p50, p90, p99, and the clocks that they are taken with.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <vector>
+
+namespace fathom::profile {
+
+// Nearest-rank percentiles of `count` values, in the unit of the values; all zero when count is 0. With fewer
+// than 100 values p99 is the largest.
+struct Spread {
+    double p50 = 0.0, p90 = 0.0, p99 = 0.0;
+    size_t count = 0;
+
+    explicit operator bool() const { return count > 0; }
+};
+Spread spreadOf(std::vector<double> values);
+
+// What one piece of work costs, in ms. The three overlap and none is subtracted from another: device time by
+// timestamps, from the submission until its result is known to the host, and CPU time of the calling thread.
+struct Cost {
+    Spread gpu, submit, cpu;
+};
+
+// How often a measurement is repeated: at least `least` times, then until `seconds` are over or `most` is
+// reached.
+struct Effort {
+    size_t least = 10, most = 200;
+    double seconds = 0.5;
+};
+
+// Wall time and CPU time of the calling thread since construction [ms].
+class Clocks {
+public:
+    Clocks();
+    double wallMs() const;
+    double cpuMs() const;
+
+private:
+    std::chrono::steady_clock::time_point wall_;
+    double cpu_;
+};
+
+// Calls work() as `effort` says, after one call that warms up, and hands each call's clocks to take(clocks).
+template <class Work, class Take>
+void repeat(const Effort& effort, Work&& work, Take&& take) {
+    work();
+    const Clocks whole;
+    for (size_t i = 0; i < effort.most && (i < effort.least || whole.wallMs() < effort.seconds * 1e3); ++i) {
+        const Clocks clocks;
+        work();
+        take(clocks);
+    }
+}
+
+// CPU work that waits for nobody: wall and CPU time of each call.
+template <class Work>
+Cost timeCpu(const Effort& effort, Work&& work) {
+    std::vector<double> wall, cpu;
+    repeat(effort, work, [&](const Clocks& c) {
+        wall.push_back(c.wallMs());
+        cpu.push_back(c.cpuMs());
+    });
+    return {{}, spreadOf(std::move(wall)), spreadOf(std::move(cpu))};
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/studies.h"
+
+namespace fathom::profile {
+
+const std::vector<StudyEntry>& allStudies() {
+    static const std::vector<StudyEntry> studies{{"filter", filterStudy},
+                                                 {"fixture", fixtureStudy},
+                                                 {"query", queryStudy},
+                                                 {"scaling", scalingStudy},
+                                                 {"leave_out", leaveOutStudy}};
+    return studies;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// The studies by name. Each verifies what it times and throws Error where a result is wrong.
+#pragma once
+
+#include "apps/profile/study.h"
+
+#include <vector>
+
+namespace fathom::profile {
+
+Study filterStudy(const StudyContext& context);
+Study fixtureStudy(const StudyContext& context);
+Study queryStudy(const StudyContext& context);
+Study scalingStudy(const StudyContext& context);
+Study leaveOutStudy(const StudyContext& context);
+
+struct StudyEntry {
+    const char* name;
+    Study (*run)(const StudyContext&);
+};
+const std::vector<StudyEntry>& allStudies(); // in the order in which they run
+
+} // namespace fathom::profile

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/study.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kSame = 0.95; // less than 5 % apart: repeats differ by as much
+
+std::vector<std::string> sourcesOf(const Study& study) {
+    std::vector<std::string> names;
+    for (const StudyRow& row : study.rows) {
+        if (std::find(names.begin(), names.end(), row.source) == names.end()) {
+            names.push_back(row.source);
+        }
+    }
+    return names;
+}
+
+bool counts(const Study& study, const StudyRow& row) {
+    return std::isfinite(row.error) && timeOf(study, row) > 0.0;
+}
+
+bool dominates(const Study& study, const StudyRow& a, const StudyRow& b, double margin) {
+    const double ta = timeOf(study, a), tb = timeOf(study, b);
+    return ta <= tb && a.error <= b.error && (ta < margin * tb || a.error < margin * b.error);
+}
+
+// The front of a cloud of points.
+void markPoints(std::vector<PlotPoint>& points) {
+    for (PlotPoint& p : points) {
+        p.isFront = std::none_of(points.begin(), points.end(), [&](const PlotPoint& o) {
+            return o.x <= p.x && o.y <= p.y && (o.x < p.x || o.y < p.y);
+        });
+    }
+}
+
+void judgeDefault(Study& study, const StudyRow& chosen) {
+    const StudyRow* best = nullptr;
+    for (const StudyRow& row : study.rows) {
+        if (row.source == chosen.source && counts(study, row) && dominates(study, row, chosen, kSame) &&
+            (best == nullptr || timeOf(study, row) < timeOf(study, *best))) {
+            best = &row;
+        }
+    }
+    const std::string name = "default '" + chosen.setting + "' on " + chosen.source;
+    if (best == nullptr) {
+        study.findings.push_back(name + " lies on the Pareto front");
+        return;
+    }
+    study.findings.push_back(
+        name + " is off the front: '" + best->setting + "' has " + digits(best->error) + " against " +
+        digits(chosen.error) + " " + study.errorUnit + " at " + digits(timeOf(study, *best)) + " against " +
+        digits(timeOf(study, chosen)) + " ms" +
+        (study.defaultReason.empty() ? "" : "; it stays the default: " + study.defaultReason));
+}
+
+} // namespace
+
+double timeOf(const Study& study, const StudyRow& row) {
+    switch (study.time) {
+    case TimeKind::Gpu:
+        return row.cost.gpu ? row.cost.gpu.p50 : row.cost.submit.p50;
+    case TimeKind::Submit:
+        return row.cost.submit.p50;
+    case TimeKind::Cpu:
+        return row.cost.cpu.p50;
+    }
+    return 0.0;
+}
+
+void markFront(Study& study) {
+    for (StudyRow& row : study.rows) {
+        row.onFront = counts(study, row) &&
+                      std::none_of(study.rows.begin(), study.rows.end(), [&](const StudyRow& other) {
+                          return &other != &row && other.source == row.source && counts(study, other) &&
+                                 dominates(study, other, row, 1.0);
+                      });
+    }
+    for (const StudyRow& row : study.rows) {
+        if (row.isDefault && counts(study, row)) {
+            judgeDefault(study, row);
+        }
+    }
+}
+
+PlotPanel frontPanel(const Study& study, const std::string& title, const RowValue& x, const RowValue& y) {
+    PlotPanel panel;
+    panel.title = title;
+    panel.xLabel = study.timeName + " [ms]";
+    panel.yLabel = study.errorName + " [" + study.errorUnit + "]";
+    for (const std::string& source : sourcesOf(study)) {
+        PlotSeries series{source, {}, false};
+        for (const StudyRow& row : study.rows) {
+            const double time = x ? x(row) : timeOf(study, row), error = y ? y(row) : row.error;
+            if (row.source == source && time > 0.0 && std::isfinite(error)) {
+                series.points.push_back({time, error, row.setting, row.isDefault, false});
+            }
+        }
+        markPoints(series.points);
+        panel.series.push_back(std::move(series));
+    }
+    return panel;
+}
+
+std::optional<PowerLaw> fitPower(const std::vector<PlotPoint>& points) {
+    double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
+    for (const PlotPoint& p : points) {
+        if (p.x > 0.0 && p.y > 0.0) {
+            const double x = std::log(p.x), y = std::log(p.y);
+            n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
+        }
+    }
+    const double spread = n * sxx - sx * sx;
+    if (n < 2 || !(spread > 1e-9)) {
+        return std::nullopt;
+    }
+    const double exponent = (n * sxy - sx * sy) / spread;
+    return PowerLaw{exponent, std::exp((sy - exponent * sx) / n)};
+}
+
+void verify(bool holds, const std::string& study, const std::string& setting, const std::string& what) {
+    if (!holds) {
+        throw Error("profile " + study + ": '" + setting + "' is wrong and was not timed: " + what);
+    }
+}
+
+std::string digits(double value, int significant) {
+    char text[40];
+    std::snprintf(text, sizeof text, "%.*g", significant, value);
+    return text;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a study found: rows of error against time, the pictures of them, and what they say in words.
+#pragma once
+
+#include "apps/profile/spread.h"
+#include "engine/gpu/device.h"
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace fathom::profile {
+
+// What the command line asked for.
+struct Settings {
+    std::vector<std::string> studies; // empty = all
+    std::filesystem::path source;     // recording; empty = analytic scenes
+    std::filesystem::path scene;      // scene file; empty = the built-in one
+    std::filesystem::path out;
+    bool quick = false;
+
+    Effort effort() const { return quick ? Effort{5, 12, 0.08} : Effort{20, 200, 0.6}; }
+};
+
+struct StudyContext {
+    gpu::Device& device;
+    const Settings& settings;
+};
+
+// The time that a study plots and ranks by.
+enum class TimeKind { Gpu, Submit, Cpu };
+
+// One measured setting. Values that do not apply are not a number.
+struct StudyRow {
+    std::string source;  // scene or recording
+    std::string setting; // short: it labels a point
+    bool isDefault = false;
+    double error = std::numeric_limits<double>::quiet_NaN(); // in Study::errorUnit
+    Cost cost;                                               // [ms]
+    std::vector<double> more;                                // one a name of Study::moreNames
+    bool onFront = false;                                    // set by finishStudy()
+};
+
+struct PlotPoint {
+    double x = 0.0, y = 0.0;
+    std::string label;
+    bool isDefault = false;
+    bool isFront = false; // the front is drawn through these
+};
+
+struct PlotSeries {
+    std::string name;
+    std::vector<PlotPoint> points;
+    bool connect = false; // a line through the points in their order
+};
+
+struct PlotPanel {
+    std::string title, xLabel, yLabel; // with units
+    bool logX = true, logY = true;     // values <= 0 stand at the low end, marked 0
+    bool bars = false;                 // labels at the left, bars of x to the right; y is not used
+    std::vector<PlotSeries> series;
+};
+
+struct Study {
+    std::string name;     // of its files
+    std::string title;    // what it shows, for people
+    std::string verified; // what was checked before anything was timed
+    std::string errorName, errorUnit;
+    TimeKind time = TimeKind::Submit;
+    std::string timeName; // what the plotted time is
+    std::vector<std::string> moreNames;
+    std::vector<StudyRow> rows;
+    std::vector<PlotPanel> panels;
+    std::vector<std::string> findings;
+    std::string defaultReason; // why the default may lie off the front
+};
+
+// p50 of the time that the study ranks by [ms].
+double timeOf(const Study& study, const StudyRow& row);
+
+// Marks the Pareto front of each source and says of each default whether it lies on it (within 5 % of time
+// and error, what repeats differ by) or which setting beats it.
+void markFront(Study& study);
+
+// One panel with a series a source and the front of what it shows. x and y of a row; empty = the study's own
+// time and error. Rows without a finite y or a positive x are left out.
+using RowValue = std::function<double(const StudyRow&)>;
+PlotPanel frontPanel(const Study& study, const std::string& title, const RowValue& x = {},
+                     const RowValue& y = {});
+
+// Exponent and factor of y = factor x^exponent by least squares of the logarithms; points <= 0 are left out.
+struct PowerLaw {
+    double exponent = 0.0, factor = 0.0;
+};
+std::optional<PowerLaw> fitPower(const std::vector<PlotPoint>& points);
+
+// Throws Error that names study and setting when a result is wrong: nothing wrong is timed.
+void verify(bool holds, const std::string& study, const std::string& setting, const std::string& what);
+
+// A number with a few digits, for labels and sentences.
+std::string digits(double value, int significant = 3);
+
+} // namespace fathom::profile

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/study_plot.h"
+
+#include <algorithm>
+#include <array>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr int kPanelWidth = 780, kPanelHeight = 560, kHead = 84;
+constexpr Colour kPaper{0.992, 0.992, 0.988}, kInk{0.13, 0.15, 0.18}, kFaint{0.45, 0.48, 0.52},
+    kGrid{0.88, 0.89, 0.9};
+// Distinguishable without red against green (Okabe and Ito).
+constexpr std::array<Colour, 9> kSeries{{{0.0, 0.45, 0.70},
+                                         {0.84, 0.37, 0.0},
+                                         {0.0, 0.62, 0.45},
+                                         {0.80, 0.47, 0.65},
+                                         {0.90, 0.62, 0.0},
+                                         {0.34, 0.71, 0.91},
+                                         {0.35, 0.35, 0.35},
+                                         {0.55, 0.34, 0.16},
+                                         {0.0, 0.0, 0.0}}};
+
+struct Box4 {
+    double x0, y0, x1, y1;
+    bool meets(const Box4& o) const { return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1; }
+};
+
+// One panel in its rectangle of the picture.
+class PanelPainter {
+public:
+    PanelPainter(const Picture& picture, const PlotPanel& panel, double left)
+        : p_(picture)
+        , panel_(panel)
+        , x0_(left + (panel.bars ? 250.0 : 86.0))
+        , x1_(left + kPanelWidth - 24.0 - legendRoom(picture, panel))
+        , y0_(kHead + 40.0)
+        , y1_(kHead + kPanelHeight - 62.0) {
+        std::vector<double> xs, ys;
+        for (const PlotSeries& s : panel.series) {
+            for (const PlotPoint& q : s.points) {
+                xs.push_back(q.x);
+                ys.push_back(q.y);
+            }
+        }
+        x_ = panelAxis(xs, panel.logX, x0_, x1_);
+        y_ = panelAxis(ys, panel.logY, y1_, y0_);
+    }
+
+    void paint() {
+        p_.text(x0_, kHead + 24.0, panel_.title, 16, kInk, Align::Left, true);
+        if (panel_.bars) {
+            paintBars();
+            return;
+        }
+        paintAxes();
+        for (size_t i = 0; i < panel_.series.size(); ++i) {
+            paintLine(panel_.series[i], colourOf(i));
+        }
+        for (size_t i = 0; i < panel_.series.size(); ++i) {
+            paintPoints(panel_.series[i], colourOf(i));
+        }
+        paintLegend();
+        paintLabels();
+    }
+
+private:
+    // The legend stands beside the plot, never over data.
+    static double legendRoom(const Picture& picture, const PlotPanel& panel) {
+        double widest = 0.0;
+        for (const PlotSeries& s : panel.series) {
+            widest = std::max(widest, picture.textWidth(s.name, 13));
+        }
+        return panel.bars ? 0.0 : widest + 34.0;
+    }
+
+    static Colour colourOf(size_t i) { return kSeries[i % kSeries.size()]; }
+
+    void line(double x0, double y0, double x1, double y1, Colour colour, double width) const {
+        p_.setColour(colour);
+        cairo_set_line_width(p_.cr(), width);
+        cairo_move_to(p_.cr(), x0, y0);
+        cairo_line_to(p_.cr(), x1, y1);
+        cairo_stroke(p_.cr());
+    }
+
+    void dot(double x, double y, double radius, Colour colour, bool filled) const {
+        p_.setColour(colour);
+        cairo_arc(p_.cr(), x, y, radius, 0, 6.2831853);
+        cairo_set_line_width(p_.cr(), 2.0);
+        filled ? cairo_fill(p_.cr()) : cairo_stroke(p_.cr());
+    }
+
+    void paintXAxis() const {
+        for (const PanelAxis::Tick& t : x_.ticks()) {
+            const double x = x_.at(t.value);
+            line(x, y0_, x, y1_, kGrid, 1.0);
+            p_.text(x, y1_ + 20.0, t.label, 13, kInk, Align::Centre);
+        }
+        line(x0_, y1_, x1_, y1_, kInk, 1.2);
+        p_.text(0.5 * (x0_ + x1_), y1_ + 44.0, panel_.xLabel, 14, kInk, Align::Centre);
+    }
+
+    void paintAxes() const {
+        for (const PanelAxis::Tick& t : y_.ticks()) {
+            const double y = y_.at(t.value);
+            line(x0_, y, x1_, y, kGrid, 1.0);
+            p_.text(x0_ - 8.0, y + 5.0, t.label, 13, kInk, Align::Right);
+        }
+        paintXAxis();
+        line(x0_, y0_, x0_, y1_, kInk, 1.2);
+        cairo_save(p_.cr());
+        cairo_translate(p_.cr(), x0_ - 64.0, 0.5 * (y0_ + y1_));
+        cairo_rotate(p_.cr(), -1.5707963);
+        p_.text(0.0, 0.0, panel_.yLabel, 14, kInk, Align::Centre);
+        cairo_restore(p_.cr());
+    }
+
+    // A line in the points' order, or the front: steps, because nothing between two settings was measured.
+    void paintLine(const PlotSeries& series, Colour colour) const {
+        std::vector<PlotPoint> points = series.points;
+        if (!series.connect) {
+            std::erase_if(points, [](const PlotPoint& q) { return !q.isFront; });
+            std::sort(points.begin(), points.end(),
+                      [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+        }
+        p_.setColour(colour.alpha(series.connect ? 0.9 : 0.55));
+        cairo_set_line_width(p_.cr(), series.connect ? 2.2 : 3.0);
+        for (size_t i = 0; i < points.size(); ++i) {
+            const double x = x_.at(points[i].x), y = y_.at(points[i].y);
+            if (i == 0) {
+                cairo_move_to(p_.cr(), x, y);
+                continue;
+            }
+            if (!series.connect) {
+                cairo_line_to(p_.cr(), x, y_.at(points[i - 1].y));
+            }
+            cairo_line_to(p_.cr(), x, y);
+        }
+        cairo_stroke(p_.cr());
+    }
+
+    void paintPoints(const PlotSeries& series, Colour colour) const {
+        for (const PlotPoint& q : series.points) {
+            const double x = x_.at(q.x), y = y_.at(q.y);
+            dot(x, y, series.connect ? 4.0 : 5.0, q.isFront || series.connect ? colour : colour.alpha(0.45),
+                true);
+            if (q.isDefault) {
+                dot(x, y, 10.0, kInk, false);
+            }
+        }
+    }
+
+    bool free(const Box4& box) const {
+        const auto meets = [&](const Box4& b) { return b.meets(box); };
+        return box.x1 < x1_ + 14.0 && box.y0 > y0_ - 12.0 && box.y1 < y1_ &&
+               std::none_of(taken_.begin(), taken_.end(), meets);
+    }
+
+    // Points of the front and defaults first; a label that finds no room is left out (the table has all).
+    void paintLabels() {
+        for (const PlotSeries& s : panel_.series) {
+            for (const PlotPoint& q : s.points) {
+                const double r = q.isDefault ? 10.0 : 4.0;
+                taken_.push_back({x_.at(q.x) - r, y_.at(q.y) - r, x_.at(q.x) + r, y_.at(q.y) + r});
+            }
+        }
+        for (int pass = 0; pass < 3; ++pass) {
+            for (const PlotSeries& s : panel_.series) {
+                for (const PlotPoint& q : s.points) {
+                    if (!q.label.empty() && pass == (q.isDefault ? 0 : q.isFront ? 1 : 2)) {
+                        place(q);
+                    }
+                }
+            }
+        }
+    }
+
+    void place(const PlotPoint& q) {
+        const std::string words = q.isDefault ? q.label + " (default)" : q.label;
+        const double width = p_.textWidth(words, 12, q.isDefault), x = x_.at(q.x), y = y_.at(q.y);
+        const std::array<std::array<double, 2>, 6> offsets{{{11.0, -7.0},
+                                                            {11.0, 4.0},
+                                                            {11.0, 18.0},
+                                                            {-11.0 - width, -7.0},
+                                                            {-11.0 - width, 4.0},
+                                                            {-11.0 - width, 18.0}}};
+        for (const auto& [dx, dy] : offsets) {
+            const Box4 box{x + dx, y + dy - 11.0, x + dx + width, y + dy + 3.0};
+            if (free(box) && box.x0 > x0_) {
+                p_.text(x + dx, y + dy, words, 12, q.isFront || q.isDefault ? kInk : kFaint, Align::Left,
+                        q.isDefault);
+                taken_.push_back(box);
+                return;
+            }
+        }
+    }
+
+    void paintLegend() const {
+        double y = y0_ + 10.0;
+        for (size_t i = 0; i < panel_.series.size(); ++i, y += 20.0) {
+            dot(x1_ + 20.0, y - 4.0, 5.0, colourOf(i), true);
+            p_.text(x1_ + 31.0, y, panel_.series[i].name, 13, kInk);
+        }
+    }
+
+    void paintBars() const {
+        paintXAxis();
+        size_t count = 0, k = 0;
+        for (const PlotSeries& s : panel_.series) {
+            count += s.points.size();
+        }
+        const double step = (y1_ - y0_ - 8.0) / static_cast<double>(std::max<size_t>(1, count));
+        for (size_t i = 0; i < panel_.series.size(); ++i) {
+            for (const PlotPoint& q : panel_.series[i].points) {
+                const double y = y0_ + 4.0 + step * static_cast<double>(k++), zero = x_.at(0.0),
+                             end = x_.at(q.x);
+                p_.setColour(colourOf(i));
+                cairo_rectangle(p_.cr(), std::min(zero, end), y, std::abs(end - zero),
+                                std::min(0.72 * step, 30.0));
+                cairo_fill(p_.cr());
+                const double base = y + 0.5 * std::min(0.72 * step, 30.0) + 5.0;
+                p_.text(x0_ - 8.0, base, q.label, 13, kInk, Align::Right, q.isDefault);
+                const bool inside = end > x1_ - 60.0;
+                p_.text(inside ? end - 5.0 : std::max(zero, end) + 5.0, base, digits(q.x), 12,
+                        inside ? kPaper : kInk, inside ? Align::Right : Align::Left);
+            }
+        }
+    }
+
+    const Picture& p_;
+    const PlotPanel& panel_;
+    double x0_, x1_, y0_, y1_;
+    PanelAxis x_, y_;
+    std::vector<Box4> taken_;
+};
+
+} // namespace
+
+void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file) {
+    const int panels = std::max<int>(1, static_cast<int>(study.panels.size()));
+    const Picture picture(panels * kPanelWidth + 8, kHead + kPanelHeight, kPaper);
+    picture.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
+    picture.text(24.0, 60.0, subtitle, 13, kFaint);
+    for (size_t i = 0; i < study.panels.size(); ++i) {
+        PanelPainter(picture, study.panels[i], static_cast<double>(i) * kPanelWidth).paint();
+    }
+    picture.writePng(file);
+}
+
+} // namespace fathom::profile

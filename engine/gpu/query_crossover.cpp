@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/gpu/query_crossover.h"
+
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+
+namespace fathom::gpu {
+
+std::string cacheFileOf(VkPhysicalDevice device, const std::string& extension) {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    if (cache == nullptr && home == nullptr) {
+        return {};
+    }
+    VkPhysicalDeviceProperties p;
+    vkGetPhysicalDeviceProperties(device, &p);
+    const std::filesystem::path folder =
+        (cache ? std::filesystem::path(cache) : std::filesystem::path(home) / ".cache") / "fathom";
+    return (folder / (std::to_string(p.vendorID) + "-" + std::to_string(p.deviceID) + "-" +
+                      std::to_string(p.driverVersion) + extension))
+        .string();
+}
+
+uint32_t storedQueryCrossover(VkPhysicalDevice device, uint32_t fallback) noexcept {
+    try {
+        std::ifstream file(cacheFileOf(device, ".crossover"));
+        uint32_t leaves = 0;
+        return file >> leaves && leaves > 0 ? leaves : fallback;
+    } catch (const std::exception&) {
+        return fallback;
+    }
+}
+
+bool storeQueryCrossover(VkPhysicalDevice device, uint32_t leaves) noexcept {
+    try {
+        const std::filesystem::path target(cacheFileOf(device, ".crossover"));
+        if (target.empty()) {
+            return false;
+        }
+        std::filesystem::create_directories(target.parent_path());
+        const std::filesystem::path fresh = target.string() + "." + std::to_string(leaves) + ".new";
+        {
+            std::ofstream out(fresh);
+            out << leaves << "\n";
+            if (!out.flush()) {
+                return false;
+            }
+        }
+        std::filesystem::rename(fresh, target);
+        return true;
+    } catch (const std::exception&) {
+        return false;
+    }
+}
+
+} // namespace fathom::gpu

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// The arithmetic that studies rest on: percentiles, the front, the fit, the distance between boundaries.
+#include "apps/profile/region_boundary.h"
+#include "apps/profile/study_plot.h"
+#include "engine/types/error.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::profile;
+
+namespace {
+
+StudyRow row(const char* setting, double error, double time, bool isDefault = false) {
+    StudyRow r;
+    r.source = "s";
+    r.setting = setting;
+    r.error = error;
+    r.isDefault = isDefault;
+    r.cost.submit = {time, time, time, 5};
+    return r;
+}
+
+RegionSpheres grid(int n, double spacing, double radius, int stride, double grown) {
+    RegionSpheres s;
+    for (int j = 0; j <= n; j += stride) {
+        for (int i = 0; i <= n; i += stride) {
+            s.x.push_back(static_cast<float>(i * spacing));
+            s.y.push_back(static_cast<float>(j * spacing));
+            s.z.push_back(0.0f);
+            s.radius.push_back(static_cast<float>(radius + grown));
+            s.source.push_back(static_cast<uint32_t>(j * (n + 1) + i));
+            s.fixture.push_back(0);
+        }
+    }
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("Percentiles are values that occurred, by nearest rank, whatever the order") {
+    CHECK(spreadOf({}).count == 0);
+    CHECK(!spreadOf({}));
+    const Spread one = spreadOf({3.0});
+    CHECK(one.p50 == 3.0);
+    CHECK(one.p99 == 3.0);
+    std::vector<double> values;
+    for (int i = 200; i >= 1; --i) {
+        values.push_back(i);
+    }
+    const Spread many = spreadOf(values);
+    CHECK(many.p50 == 100.0);
+    CHECK(many.p90 == 180.0);
+    CHECK(many.p99 == 198.0);
+    CHECK(many.count == 200);
+}
+
+TEST_CASE("The front holds exactly the settings that no other beats in both error and time") {
+    Study study;
+    study.rows = {row("quick", 3.0, 1.0), row("good", 1.0, 2.0), row("bad", 2.0, 3.0), row("best", 0.5, 9.0),
+                  row("unmeasured", NAN, 0.1)};
+    markFront(study);
+    CHECK(study.rows[0].onFront);
+    CHECK(study.rows[1].onFront);
+    CHECK(!study.rows[2].onFront);
+    CHECK(study.rows[3].onFront);
+    CHECK(!study.rows[4].onFront);
+}
+
+TEST_CASE(
+    "A default off the front is named with the setting that beats it and the reason; one within 5 % is not") {
+    Study study;
+    study.errorUnit = "mm";
+    study.defaultReason = "because";
+    study.rows = {row("good", 1.0, 2.0), row("mine", 2.0, 3.0, true)};
+    markFront(study);
+    REQUIRE(study.findings.size() == 1);
+    CHECK(study.findings[0] == "default 'mine' on s is off the front: 'good' has 1 against 2 mm at 2 against "
+                               "3 ms; it stays the default: because");
+    study.findings.clear();
+    study.rows = {row("good", 1.0, 2.0), row("mine", 1.0, 2.05, true)};
+    markFront(study);
+    CHECK(study.findings[0] == "default 'mine' on s lies on the Pareto front");
+}
+
+TEST_CASE("A power law is found again from its points, and one point or none gives no law") {
+    std::vector<PlotPoint> points;
+    for (double x : {1.0, 3.0, 10.0, 70.0}) {
+        points.push_back({x, 0.2 * std::pow(x, 1.5), "", false, false});
+    }
+    points.push_back({5.0, 0.0, "", false, false}); // no logarithm: left out
+    const auto law = fitPower(points);
+    REQUIRE(law);
+    CHECK(law->exponent == doctest::Approx(1.5));
+    CHECK(law->factor == doctest::Approx(0.2));
+    CHECK(!fitPower({}));
+    CHECK(!fitPower({{1.0, 1.0, "", false, false}}));
+    CHECK(!fitPower({{2.0, 1.0, "", false, false}, {2.0, 3.0, "", false, false}}));
+}
+
+TEST_CASE("A wrong result is refused by study and setting") {
+    CHECK_NOTHROW(verify(true, "query", "x", "y"));
+    CHECK_THROWS_WITH_AS(verify(false, "query", "GPU 4", "overflow"),
+                         "profile query: 'GPU 4' is wrong and was not timed: overflow", Error);
+}
+
+TEST_CASE("Equal regions have no boundary error and a region that shrank is seen") {
+    const RegionSpheres all = grid(20, 0.004, 0.02, 1, 0.0);
+    const BoundaryError same = boundaryError(all, all, 200, 3);
+    CHECK(same.max < 1e-6);
+    CHECK(same.worstInside < 1e-6);
+    CHECK(same.samples == 200);
+    const BoundaryError shrunk = boundaryError(all, grid(20, 0.004, 0.02, 4, 0.0), 400, 3);
+    CHECK(shrunk.worstInside > 5e-4);
+}
+
+TEST_CASE("Thinned spheres that grew enough cover all, and the error is the growth at most") {
+    const double radius = 0.02, spacing = 0.004,
+                 grown = std::sqrt(radius * radius + 2 * 0.008 * 0.008) - radius;
+    const BoundaryError error =
+        boundaryError(grid(20, spacing, radius, 1, 0.0), grid(20, spacing, radius, 4, grown), 400, 5);
+    CHECK(error.worstInside <= 1e-7);
+    CHECK(error.max > 0.5 * grown);
+    CHECK(error.max <= grown + 1e-7);
+    CHECK(error.rms < error.max);
+}
+
+TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart at the low end") {
+    const PanelAxis axis = panelAxis({0.0, 0.01, 0.5, 20.0}, true, 100.0, 500.0);
+    CHECK(axis.at(0.0) > 100.0);
+    CHECK(axis.at(0.0) < axis.at(0.01));
+    CHECK(axis.at(0.01) < axis.at(0.5));
+    CHECK(axis.at(20.0) < 500.0);
+    CHECK(axis.ticks().front().label == "0");
+    for (const PanelAxis::Tick& tick : axis.ticks()) {
+        CHECK(axis.at(tick.value) >= 100.0);
+        CHECK(axis.at(tick.value) <= 500.0);
+    }
+    CHECK(panelAxis({}, true, 0.0, 1.0).ticks().size() >= 1);
+    CHECK(panelAxis({5.0, 5.0}, true, 0.0, 1.0).at(5.0) == doctest::Approx(0.5));
+}
