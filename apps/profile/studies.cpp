@@ -4,11 +4,10 @@
 namespace fathom::profile {
 
 const std::vector<StudyEntry>& allStudies() {
-    static const std::vector<StudyEntry> studies{{"filter", filterStudy},
-                                                 {"fixture", fixtureStudy},
-                                                 {"query", queryStudy},
-                                                 {"scaling", scalingStudy},
-                                                 {"leave_out", leaveOutStudy}};
+    static const std::vector<StudyEntry> studies{
+        {"filter", filterStudy},   {"fixture", fixtureStudy},    {"query", queryStudy},
+        {"solver", solverStudy},   {"tool", toolStudy},          {"precision", precisionStudy},
+        {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy}};
     return studies;
 }
 

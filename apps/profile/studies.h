@@ -11,8 +11,12 @@ namespace fathom::profile {
 Study filterStudy(const StudyContext& context);
 Study fixtureStudy(const StudyContext& context);
 Study queryStudy(const StudyContext& context);
+Study solverStudy(const StudyContext& context);
+Study toolStudy(const StudyContext& context);
+Study precisionStudy(const StudyContext& context);
 Study scalingStudy(const StudyContext& context);
 Study leaveOutStudy(const StudyContext& context);
+Study limitStudy(const StudyContext& context);
 
 struct StudyEntry {
     const char* name;

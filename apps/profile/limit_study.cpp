@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far each step of a frame is from what the machine allows: bytes that must move and operations that must
+// be done, over the measured bandwidth and rate.
+#include "apps/profile/ceilings.h"
+#include "apps/profile/shot_source.h"
+#include "apps/profile/studies.h"
+
+#include <algorithm>
+
+namespace fathom::profile {
+
+namespace {
+
+// What one step must do at least. Operations are float32, counted in the formulas of the pass.
+struct Need {
+    double bytes = 0.0, operations = 0.0;
+    bool host = false;
+};
+
+// What a frame selects.
+struct Load {
+    double pixels, slots, selected, spheres, tapsPerPixel;
+    bool hold, colour;
+};
+
+Load loadOf(const FrameBench& bench, const FrameReport& report) {
+    const auto masks = bench.masks();
+    Load load{};
+    load.pixels = static_cast<double>(masks.size());
+    load.selected =
+        static_cast<double>(std::count_if(masks.begin(), masks.end(), [](uint32_t m) { return m != 0; }));
+    std::vector<uint8_t> listed(bench.cycle().layout().patches(), 0);
+    const uint32_t width = bench.cycle().camera().depth.width;
+    for (uint32_t i = 0; i < masks.size(); ++i) {
+        if (masks[i] != 0) {
+            listed[slotOfPixel(i % width, i / width, bench.cycle().layout().across) / 256] = 1;
+        }
+    }
+    load.slots = 256.0 * static_cast<double>(std::count(listed.begin(), listed.end(), 1));
+    load.spheres = report.counts.spheres;
+    const double edge = 2.0 * bench.plan().filterRadius + 1.0;
+    load.tapsPerPixel = bench.plan().filterRadius > 0 ? edge * edge : 0.0;
+    load.hold = bench.plan().hold;
+    load.colour = bench.plan().colour;
+    return load;
+}
+
+// Each buffer counted once, however often a pass reads it: what a perfect cache would move.
+std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
+    const double held =
+        l.hold ? 16.0 + 2.0 * (16.0 + 16.0 + 4.0) : 0.0; // held sphere; seen, kept, time: read, written
+    return {
+        {"upload", {2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0, true}},
+        {"classify", {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + 4.0), 40.0 * l.pixels, false}},
+        {"surface", {l.slots * (4.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
+        {"thin", {l.slots * (4.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
+        {"spheres", {l.slots * (4.0 + 16.0 + 1.0 + 16.0 + 4.0 + held), 60.0 * l.slots, false}},
+        {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0, false}},
+        {"moments", {l.slots * 20.0 + l.slots / 256.0 * 64.0, 40.0 * l.selected, false}},
+        {"publish", {2.0 * l.pixels + l.slots * (l.hold ? 36.0 : 20.0) + l.spheres * 3.0 * 21.0, 0.0, true}},
+    };
+}
+
+Spread spreadIn(const FrameCost& cost, const std::string& step) {
+    if (step == "upload" || step == "publish") {
+        return step == "upload" ? cost.upload : cost.publish;
+    }
+    const auto it = cost.passes.find(step);
+    return it != cost.passes.end() ? it->second : Spread{};
+}
+
+void addRows(Study& study, const std::string& source, const Load& load, const FrameCost& cost,
+             const Ceilings& ceilings) {
+    for (const auto& [step, need] : needsOf(load)) {
+        const Spread time = spreadIn(cost, step);
+        if (!time) {
+            continue;
+        }
+        StudyRow row;
+        row.source = source;
+        row.setting = step;
+        (need.host ? row.cost.cpu : row.cost.gpu) = time;
+        const double moving = need.bytes / (need.host ? ceilings.hostBytes : ceilings.deviceBytes) * 1e3;
+        const double computing = need.host ? 0.0 : need.operations / ceilings.deviceFlops * 1e3;
+        const double floor = std::max(moving, computing);
+        row.more = {need.bytes / 1e6, need.operations / 1e6, moving, computing, floor, time.p50 / floor};
+        study.rows.push_back(row);
+        study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, floor " +
+                                 digits(floor) + " ms (" + (computing > moving ? "arithmetic" : "bytes") +
+                                 "), ratio " + digits(time.p50 / floor));
+    }
+}
+
+PlotPanel panelOf(const Study& study, const std::string& source) {
+    PlotPanel panel{source + ": how many times its floor each step takes",
+                    "measured / floor (1 = cannot be faster)",
+                    "",
+                    false,
+                    false,
+                    true,
+                    {}};
+    PlotSeries device{"device", {}, false}, host{"host", {}, false};
+    for (const StudyRow& row : study.rows) {
+        if (row.source == source) {
+            (row.cost.gpu ? device : host).points.push_back({row.more[5], 0.0, row.setting, false, false});
+        }
+    }
+    panel.series = {device, host};
+    return panel;
+}
+
+} // namespace
+
+Study limitStudy(const StudyContext& context) {
+    Study study;
+    study.name = "limit";
+    study.title = "Limit: each step of a frame against what the machine allows";
+    study.verified =
+        "the ceilings' copies and sums, class bits and points of a frame against the float64 twins";
+    study.errorName = "error", study.errorUnit = "none";
+    study.timeName = "time p50";
+    study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",
+                       "computing_ms",      "floor_ms",           "ratio"};
+    const Ceilings c = measureCeilings(context.device, context.settings.effort());
+    study.findings.push_back(
+        "device: copies " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), computes " +
+        digits(c.deviceFlops * 1e-9) + " GFLOP/s, an empty submission takes " + digits(c.submitMs) +
+        " ms; host: copies " + digits(c.hostBytes * 1e-9) +
+        " GB/s on one thread; copies of 64 MiB, so a step whose data stay in a cache may take less "
+        "than its floor");
+    Settings plain = context.settings;
+    plain.source.clear();
+    const uint32_t w = plain.quick ? 320 : 640, h = plain.quick ? 240 : 480;
+    for (double share : {0.1, 1.0}) {
+        const std::string source = digits(share * 100) + " % forbidden";
+        const ShotSource shots = wallShot(w, h, share);
+        FrameBench bench(context.device, studyScene(plain), shots.camera);
+        const FrameReport report = bench.run(shots.shots.front());
+        const std::string wrong = bench.differsFromTwins(shots.shots.front());
+        verify(wrong.empty(), "limit", source, wrong + " differs from the float64 twin");
+        const Load load = loadOf(bench, report);
+        addRows(study, source, load, bench.measure(shots.shots, context.settings.effort()), c);
+        study.panels.push_back(panelOf(study, source));
+    }
+    return study;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Half, single and double precision for what is stored and scanned most: the centres of region spheres.
+#include "apps/profile/studies.h"
+#include "engine/contact/clones.h"
+#include "engine/types/pose.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace fathom::profile {
+
+namespace {
+
+template <class T>
+struct Columns {
+    std::vector<T> x, y, z;
+    void add(T px, T py, T pz) { x.push_back(px), y.push_back(py), z.push_back(pz); }
+    size_t size() const { return x.size(); }
+};
+
+// Smallest squared distance; the same loop for each kind of number.
+FATHOM_CLONES
+float nearestSingle(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                    size_t count, float cx, float cy, float cz) noexcept {
+    float least[16];
+    std::fill_n(least, 16, 1e30f);
+    for (size_t i = 0; i + 16 <= count; i += 16) {
+        for (size_t k = 0; k < 16; ++k) {
+            const float dx = x[i + k] - cx, dy = y[i + k] - cy, dz = z[i + k] - cz;
+            const float d = dx * dx + dy * dy + dz * dz;
+            least[k] = d < least[k] ? d : least[k];
+        }
+    }
+    return *std::min_element(least, least + 16);
+}
+
+FATHOM_CLONES
+double nearestDouble(const double* __restrict x, const double* __restrict y, const double* __restrict z,
+                     size_t count, double cx, double cy, double cz) noexcept {
+    double least[16];
+    std::fill_n(least, 16, 1e30);
+    for (size_t i = 0; i + 16 <= count; i += 16) {
+        for (size_t k = 0; k < 16; ++k) {
+            const double dx = x[i + k] - cx, dy = y[i + k] - cy, dz = z[i + k] - cz;
+            const double d = dx * dx + dy * dy + dz * dz;
+            least[k] = d < least[k] ? d : least[k];
+        }
+    }
+    return *std::min_element(least, least + 16);
+}
+
+// IEEE half to single by a shift and a product: numbers, zero and denormals; there is no infinity here.
+inline float widened(uint16_t half) noexcept {
+    const uint32_t bits =
+        (static_cast<uint32_t>(half & 0x8000u) << 16) | (static_cast<uint32_t>(half & 0x7fffu) << 13);
+    return std::bit_cast<float>(bits) * 0x1p112f;
+}
+
+uint16_t halved(double value) {
+    const float small = static_cast<float>(value) * 0x1p-112f;
+    const uint32_t bits = std::bit_cast<uint32_t>(small), body = bits & 0x7fffffffu;
+    return static_cast<uint16_t>((bits >> 16 & 0x8000u) | ((body + 0xfffu + (body >> 13 & 1u)) >> 13));
+}
+
+FATHOM_CLONES
+float nearestHalf(const uint16_t* __restrict x, const uint16_t* __restrict y, const uint16_t* __restrict z,
+                  size_t count, float cx, float cy, float cz) noexcept {
+    float least[16];
+    std::fill_n(least, 16, 1e30f);
+    for (size_t i = 0; i + 16 <= count; i += 16) {
+        for (size_t k = 0; k < 16; ++k) {
+            const float dx = widened(x[i + k]) - cx, dy = widened(y[i + k]) - cy, dz = widened(z[i + k]) - cz;
+            const float d = dx * dx + dy * dy + dz * dz;
+            least[k] = d < least[k] ? d : least[k];
+        }
+    }
+    return *std::min_element(least, least + 16);
+}
+
+struct Scene {
+    Columns<double> exact;
+    Columns<float> single;
+    Columns<uint16_t> half, local;
+    std::vector<dvec3> blocks; // centre of each run of 256 in `local`
+    std::vector<dvec3> leaves;
+
+    static constexpr size_t kBlock = 256; // as many as a patch has
+    Scene(size_t spheres, size_t leafCount, double away) {
+        const auto side = static_cast<size_t>(std::sqrt(static_cast<double>(spheres) / kBlock));
+        for (size_t b = 0; b < side * side; ++b) {
+            const dvec3 corner(0.027 * static_cast<double>(b % side), 0.027 * static_cast<double>(b / side),
+                               away);
+            blocks.push_back(corner + dvec3(0.0128, 0.0128, 0.0));
+            for (size_t k = 0; k < kBlock; ++k) {
+                const dvec3 p =
+                    corner + dvec3(0.0016 * static_cast<double>(k % 16), 0.0016 * static_cast<double>(k / 16),
+                                   0.01 * std::sin(37.0 * static_cast<double>(b * kBlock + k)));
+                const dvec3 d = p - blocks.back();
+                exact.add(p.x, p.y, p.z);
+                single.add(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
+                half.add(halved(p.x), halved(p.y), halved(p.z));
+                local.add(halved(d.x), halved(d.y), halved(d.z));
+            }
+        }
+        for (size_t i = 0; i < leafCount; ++i) {
+            const double t = static_cast<double>(i);
+            leaves.push_back({0.2 + 0.1 * std::sin(1.7 * t), 0.2 + 0.1 * std::cos(2.3 * t),
+                              away - 0.03 - 0.02 * std::sin(t)});
+        }
+    }
+};
+
+using Distances = std::vector<double>; // a leaf [m]
+
+Distances runDouble(const Scene& s) {
+    Distances out;
+    for (const dvec3& c : s.leaves) {
+        out.push_back(std::sqrt(nearestDouble(s.exact.x.data(), s.exact.y.data(), s.exact.z.data(),
+                                              s.exact.size(), c.x, c.y, c.z)));
+    }
+    return out;
+}
+Distances runSingle(const Scene& s) {
+    Distances out;
+    for (const dvec3& c : s.leaves) {
+        const glm::vec3 f(c);
+        out.push_back(std::sqrt(double{nearestSingle(s.single.x.data(), s.single.y.data(), s.single.z.data(),
+                                                     s.single.size(), f.x, f.y, f.z)}));
+    }
+    return out;
+}
+Distances runHalf(const Scene& s) {
+    Distances out;
+    for (const dvec3& c : s.leaves) {
+        const glm::vec3 f(c);
+        out.push_back(std::sqrt(double{
+            nearestHalf(s.half.x.data(), s.half.y.data(), s.half.z.data(), s.half.size(), f.x, f.y, f.z)}));
+    }
+    return out;
+}
+Distances runLocalHalf(const Scene& s) {
+    Distances out;
+    for (const dvec3& c : s.leaves) {
+        float least = 1e30f;
+        for (size_t b = 0; b < s.blocks.size(); ++b) {
+            const glm::vec3 f(c - s.blocks[b]);
+            const size_t at = b * Scene::kBlock;
+            least = std::min(least, nearestHalf(s.local.x.data() + at, s.local.y.data() + at,
+                                                s.local.z.data() + at, Scene::kBlock, f.x, f.y, f.z));
+        }
+        out.push_back(std::sqrt(double{least}));
+    }
+    return out;
+}
+
+} // namespace
+
+Study precisionStudy(const StudyContext& context) {
+    Study study;
+    study.name = "precision";
+    study.title = "Precision: what the centres of region spheres are stored in";
+    study.verified =
+        "single within 4 um and half within its own spacing of the double result, for every leaf";
+    study.errorName = "largest error of a leaf's distance to the nearest centre";
+    study.errorUnit = "mm";
+    study.time = TimeKind::Cpu;
+    study.timeName = "scan of all spheres for all leaves, CPU time p50";
+    study.moreNames = {"bytes_a_sphere", "spheres", "leaves"};
+    study.defaultReason = "half precision errs by more than the error budget of 0.1 mm";
+    const size_t spheres = context.settings.quick ? 10000 : 60000, leaves = context.settings.quick ? 32 : 256;
+    struct Kind {
+        const char* name;
+        Distances (*run)(const Scene&);
+        double bytes, allowed; // [m]
+    };
+    for (double away : {0.8, 8.0}) {
+        const Scene scene(spheres, leaves, away);
+        const Distances truth = runDouble(scene);
+        for (const Kind& kind :
+             {Kind{"double", runDouble, 24, 0.0}, Kind{"single", runSingle, 12, 4e-6},
+              Kind{"half about the patch", runLocalHalf, 6, 2e-5}, Kind{"half", runHalf, 6, away * 1e-3}}) {
+            StudyRow row;
+            row.source = digits(away) + " m from the origin";
+            row.setting = kind.name;
+            row.isDefault = std::string(kind.name) == "single";
+            const Distances found = kind.run(scene);
+            row.error = 0.0;
+            for (size_t i = 0; i < truth.size(); ++i) {
+                row.error = std::max(row.error, std::abs(found[i] - truth[i]) * 1e3);
+            }
+            verify(row.error <= kind.allowed * 1e3, "precision", kind.name, digits(row.error) + " mm");
+            row.cost = timeCpu(context.settings.effort(), [&] { kind.run(scene); });
+            row.more = {kind.bytes, static_cast<double>(scene.exact.size()), static_cast<double>(leaves)};
+            study.rows.push_back(std::move(row));
+        }
+    }
+    markFront(study);
+    study.panels.push_back(
+        frontPanel(study, "nearest centre of " + std::to_string(leaves) + " leaves, every sphere scanned"));
+    study.panels.back().yLabel = "largest distance error [mm]";
+    return study;
+}
+
+} // namespace fathom::profile

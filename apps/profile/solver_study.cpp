@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pose error to the converged optimum, and lag, against the time of a turn: solves a turn, step cap,
+// deadline.
+#include "apps/profile/drag.h"
+#include "apps/profile/studies.h"
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kMetric = 0.05;    // [m] that a radian counts
+constexpr double kConverged = 1e-7; // [m] that twice the solves may still change
+
+struct Setting {
+    uint32_t solves;
+    double cap;      // [m]
+    double deadline; // [us], 0 = none
+};
+
+std::string nameOf(const Setting& s) {
+    return std::to_string(s.solves) + " solves, cap " + digits(s.cap * 1e3) + " mm" +
+           (s.deadline > 0.0 ? ", " + digits(s.deadline) + " us" : "");
+}
+
+DragSetting dragOf(const StudyContext& context, double speed, const Setting& s) {
+    DragSetting d;
+    d.speed = speed;
+    d.ticks = context.settings.quick ? 200 : 1500;
+    d.leaves = context.settings.quick ? 64 : 256;
+    d.spacing = context.settings.quick ? 0.004 : 0.00175;
+    d.proxy.solves = s.solves;
+    d.proxy.stepCap = s.cap;
+    d.deadlineMicros = s.deadline;
+    return d;
+}
+
+double apart(const Pose& a, const Pose& b) {
+    const dquat turn = b.rotation * glm::conjugate(a.rotation);
+    const double angle = 2.0 * std::atan2(glm::length(dvec3(turn.x, turn.y, turn.z)), std::abs(turn.w));
+    return std::hypot(glm::length(a.position - b.position), kMetric * angle);
+}
+
+struct Apart {
+    double rms = 0.0, max = 0.0; // [m]
+};
+Apart apartAll(const DragResult& a, const DragResult& b) {
+    Apart result;
+    for (size_t i = 0; i < a.poses.size(); ++i) {
+        const double d = apart(a.poses[i], b.poses[i]);
+        result.rms += d * d / static_cast<double>(a.poses.size());
+        result.max = std::max(result.max, d);
+    }
+    result.rms = std::sqrt(result.rms);
+    return result;
+}
+
+std::vector<Setting> settingsOf(bool quick) {
+    std::vector<Setting> list;
+    for (uint32_t solves : quick ? std::vector<uint32_t>{1, 4} : std::vector<uint32_t>{1, 2, 4, 8, 16}) {
+        for (double cap : quick ? std::vector{0.002} : std::vector{0.0005, 0.001, 0.002, 0.004}) {
+            list.push_back({solves, cap, 0.0});
+        }
+    }
+    for (double micros : quick ? std::vector{50.0} : std::vector{10.0, 20.0, 50.0, 100.0}) {
+        list.push_back({4, 0.002, micros});
+    }
+    return list;
+}
+
+void addSpeed(const StudyContext& context, Study& study, double speed) {
+    const Setting full{64, 0.002, 0.0};
+    const DragResult optimum = drag(dragOf(context, speed, full));
+    const Setting twice{128, 0.002, 0.0};
+    const Apart change = apartAll(optimum, drag(dragOf(context, speed, twice)));
+    verify(change.max <= kConverged, "solver", "64 solves",
+           "not converged: twice as many move the tool by " + digits(change.max * 1e6) + " um");
+    for (const Setting& s : settingsOf(context.settings.quick)) {
+        const DragResult run = drag(dragOf(context, speed, s));
+        StudyRow row;
+        row.source = "hand at " + digits(speed) + " m/s";
+        row.setting = nameOf(s);
+        row.isDefault = s.solves == 4 && s.cap == 0.002 && s.deadline == 0.0;
+        verify(run.deepest <= 1e-9, "solver", row.setting,
+               "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
+        const Apart error = apartAll(run, optimum);
+        row.error = error.rms * 1e3;
+        row.cost.submit = row.cost.cpu = run.turn;
+        row.more = {error.max * 1e3, run.lagRms * 1e3,
+                    static_cast<double>(run.solves) / static_cast<double>(run.poses.size()),
+                    static_cast<double>(run.stalled),
+                    static_cast<double>(run.contacts) / static_cast<double>(run.poses.size())};
+        study.rows.push_back(std::move(row));
+    }
+}
+
+} // namespace
+
+Study solverStudy(const StudyContext& context) {
+    Study study;
+    study.name = "solver";
+    study.title = "Solver: pose error to the converged optimum against the time of a turn";
+    study.verified =
+        "64 solves a turn are converged (128 change nothing beyond 0.1 um); no leaf in a sphere in any run";
+    study.errorName = "pose error RMS to the converged optimum, a radian as 50 mm";
+    study.errorUnit = "mm";
+    study.time = TimeKind::Cpu;
+    study.timeName = "turn, CPU time p50";
+    study.moreNames = {"error_max_mm", "lag_rms_mm", "solves_a_turn", "stalled_turns", "share_in_contact"};
+    study.defaultReason =
+        "the cap of 2 mm and 4 solves let the hand move at 8 m/s; slower hands need less and then take less";
+    for (double speed : context.settings.quick ? std::vector{2.0} : std::vector{0.3, 2.0, 6.0}) {
+        addSpeed(context, study, speed);
+    }
+    markFront(study);
+    study.panels.push_back(frontPanel(study, "pose error"));
+    study.panels.back().yLabel = "pose error RMS [mm], a radian as 50 mm";
+    study.panels.push_back(
+        frontPanel(study, "lag along the wall", {}, [](const StudyRow& row) { return row.more[1]; }));
+    study.panels.back().yLabel = "lag of the tool behind the hand RMS [mm]";
+    return study;
+}
+
+} // namespace fathom::profile
