@@ -13,7 +13,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kOnSurface = 1e-8; // [m]
-constexpr int kMostSteps = 200;
+constexpr int kMostSteps = 400;
 
 class Region {
 public:
@@ -41,7 +41,8 @@ private:
     RegionGrid grid_;
 };
 
-// A point of the region's boundary, seen from outside; false when the ray starts inside.
+// A point of the region's boundary, seen from outside; false when the ray starts inside, or grazes so long
+// that it never arrives.
 bool boundaryPoint(const Region& region, std::mt19937_64& random, dvec3& point) {
     std::uniform_int_distribution<size_t> any(0, region.size() - 1);
     std::normal_distribution<double> n;
@@ -61,7 +62,7 @@ bool boundaryPoint(const Region& region, std::mt19937_64& random, dvec3& point) 
         point -= d * out;
         left = std::max(0.0, left - d);
     }
-    return true; // grazing: within micrometres of the surface
+    return false;
 }
 
 } // namespace

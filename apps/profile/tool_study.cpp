@@ -34,9 +34,9 @@ double distanceTo(const std::vector<Solid>& shape, const dvec3& p) {
 std::vector<Sphere> cover(const std::vector<Solid>& shape, double cell, double share) {
     std::vector<Sphere> spheres;
     const double radius = share * cell;
-    for (double z = -0.08; z <= 0.13; z += cell) {
-        for (double y = -0.03 + 0.5 * std::fmod(0.06, cell); y <= 0.03; y += cell) {
-            for (double x = -0.06 + 0.5 * std::fmod(0.12, cell); x <= 0.06; x += cell) {
+    for (double z = -0.07 - 0.5 * cell; z <= 0.12 + cell; z += cell) {
+        for (double y = -cell * std::floor(0.022 / cell + 0.5); y <= 0.022 + cell; y += cell) {
+            for (double x = -cell * std::floor(0.048 / cell + 0.5); x <= 0.048 + cell; x += cell) {
                 if (distanceTo(shape, {x, y, z}) < 0.866 * cell) {
                     spheres.push_back({{x, y, z}, radius});
                 }
