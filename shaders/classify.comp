@@ -1,8 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels can matter: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation a
-// pixel. The first pixel with a class puts its patch on the list of work; no result depends on the list's order.
+// Which pixels can matter: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation
+// four pixels of a row. The first pixel with a class puts its patch on the list of work; no result depends on the list's order.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in;
@@ -12,6 +13,8 @@ layout(constant_id = 3) const uint kHold = 0;    // 1: patches that hold points 
 layout(constant_id = 4) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the loop over them unrolls
 layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
+layout(constant_id = 7) const uint kEven = 0;       // 1: the picture's width is even: two neighbours are one word
+layout(constant_id = 8) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
@@ -79,28 +82,79 @@ uint classBits(uvec2 at, uint pixel, float z) {
     for (uint c = 0; c < kClasses; ++c) {
         if (inClass(params.classes[c], colourHere, seen, base)) {
             mask |= 1u << c;
-            atomicAdd(counters.classPixels[c], 1u);
         }
     }
     return mask;
 }
 
-void main() {
-    // Groups are laid out as the patches are: no division finds the pixel.
-    uint patchIndex = gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x;
-    uint inside = gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
-    uint slot = patchIndex * 256u + inside;
-    uvec2 at = gl_WorkGroupID.xy * 16u + pixelInPatch(inside);
-    uint mask = 0;
-    if (all(lessThan(at, params.size.xy))) {
-        uint pixel = at.y * params.size.x + at.x;
-        float z = depthAt(pixel);
-        if (z != 0.0) {
-            mask = classBits(at, pixel, z);
+shared uint found[kMaxClasses];
+
+// Depths of four pixels of a row [m]; 0 outside the picture and where there is no measurement.
+vec4 depthsAt(uvec2 at) {
+    vec4 z = vec4(0.0);
+    if (at.y >= params.size.y) {
+        return z;
+    }
+    uint pixel = at.y * params.size.x + at.x;
+    if (kEven != 0) {
+        [[unroll]] for (uint k = 0; k < 4u; k += 2u) {
+            uint word = at.x + k < params.size.x ? depthWords[(pixel + k) >> 1] : 0u;
+            z[k] = metresOf(word & 0xffffu);
+            z[k + 1u] = metresOf(word >> 16);
+        }
+    } else {
+        [[unroll]] for (uint k = 0; k < 4u; ++k) {
+            z[k] = at.x + k < params.size.x ? depthAt(pixel + k) : 0.0;
         }
     }
-    masks[slot] = mask;
-    if (mask != 0 || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
+    return z;
+}
+
+void countPixels(uvec4 mask) {
+    for (uint c = 0; c < kClasses; ++c) {
+        uvec4 bits = mask >> c & 1u;
+        uint pixels = bits.x + bits.y + bits.z + bits.w;
+        if (pixels == 0) {
+            continue;
+        }
+        if (kGather != 0) {
+            atomicAdd(found[c], pixels);
+        } else {
+            atomicAdd(counters.classPixels[c], pixels);
+        }
+    }
+}
+
+void main() {
+    if (kGather != 0) {
+        for (uint c = gl_LocalInvocationID.x; c < kMaxClasses; c += gl_WorkGroupSize.x) {
+            found[c] = 0;
+        }
+        barrier();
+    }
+    // Groups are laid out as the patches are: no division finds the pixel.
+    uint patchIndex = gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x;
+    uint inside = (gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x) * 4u;
+    uint slot = patchIndex * 256u + inside;
+    uvec2 at = gl_WorkGroupID.xy * 16u + pixelInPatch(inside);
+    vec4 z = depthsAt(at);
+    uvec4 mask = uvec4(0);
+    [[unroll]] for (uint k = 0; k < 4u; ++k) {
+        if (z[k] != 0.0) {
+            mask[k] = classBits(at + uvec2(k, 0), at.y * params.size.x + at.x + k, z[k]);
+        }
+        masks[slot + k] = mask[k];
+    }
+    countPixels(mask);
+    if (any(notEqual(mask, uvec4(0))) || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
         putOnList(patchIndex);
+    }
+    if (kGather != 0) {
+        barrier();
+        for (uint c = gl_LocalInvocationID.x; c < kClasses; c += gl_WorkGroupSize.x) {
+            if (found[c] != 0) {
+                atomicAdd(counters.classPixels[c], found[c]);
+            }
+        }
     }
 }

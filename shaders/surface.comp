@@ -1,8 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Points of the listed patches: flying and isolated pixels rejected, the paper's Cartesian bilateral filter (eq. 1-2),
-// base frame. One group a patch, one invocation a pixel.
+// base frame. One group a patch, one invocation a pixel, or (kRow) four pixels of a row that share their window in registers.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in;                  // 256
@@ -10,6 +11,9 @@ layout(constant_id = 1) const uint kRays = 0;
 layout(constant_id = 2) const uint kRadius = 2;  // filter window (2 r + 1)^2; 0 compiles the filter out
 layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejected
 layout(constant_id = 4) const uint kTiled = 0;   // 1: the window comes from shared memory (the paper); 0: direct reads
+
+layout(constant_id = 5) const uint kRow = 0;     // 1: four pixels of a row an invocation, radius at most 2
+layout(constant_id = 6) const uint kEven = 0;    // 1: the picture's width is even: two neighbours are one word
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
@@ -109,8 +113,87 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
     return p.z + sum / weights; // weights >= 1: the centre itself
 }
 
+// The window of four pixels of a row: points of the camera frame, z = 0 where there is no depth.
+const int kReach = 2;
+const int kWide = 4 + 2 * kReach, kHigh = 1 + 2 * kReach;
+
+void loadRow(ivec2 at, out vec3 window[kHigh * kWide]) {
+    [[unroll]] for (int y = 0; y < kHigh; ++y) {
+        [[unroll]] for (int x = 0; x < kWide; x += 2) {
+            ivec2 q = at + ivec2(x - kReach, y - kReach);
+            float z0 = 0.0, z1 = 0.0;
+            if (kEven != 0) { // both inside or both outside, and in one word
+                if (all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, ivec2(params.size.xy)))) {
+                    uint word = depthWords[(uint(q.y) * params.size.x + uint(q.x)) >> 1];
+                    z0 = metresOf(word & 0xffffu);
+                    z1 = metresOf(word >> 16);
+                }
+            } else {
+                z0 = depthOfPixel(q);
+                z1 = depthOfPixel(q + ivec2(1, 0));
+            }
+            vec3 p0 = vec3(0.0), p1 = vec3(0.0);
+            if (kRays == 0 || z0 != 0.0) {
+                p0 = pointAt(q, z0);
+            }
+            if (kRays == 0 || z1 != 0.0) {
+                p1 = pointAt(q + ivec2(1, 0), z1);
+            }
+            window[y * kWide + x] = p0;
+            window[y * kWide + x + 1] = p1;
+        }
+    }
+}
+
+// The same decisions and sums as below, pixel by pixel, in the same order.
+vec4 surfaceInRow(vec3 window[kHigh * kWide], int k, uint mask) {
+    float n[9];
+    int near = 0;
+    vec3 p = window[kReach * kWide + kReach + k];
+    float limit = max(params.filterParams.z, params.filterParams.w * p.z);
+    [[unroll]] for (int i = 0; i < 9; ++i) {
+        vec3 q = window[(kReach + i / 3 - 1) * kWide + kReach + k + i % 3 - 1];
+        n[i] = q.z;
+        near += i != 4 && q.z != 0.0 && distance(q, p) <= limit ? 1 : 0;
+    }
+    bool rejected = (kEdge != 0 && isFlying(n)) || near < 2 || mask == 0;
+    float sum = 0.0, weights = 0.0;
+    [[unroll]] for (int dy = -int(min(kRadius, 2u)); dy <= int(min(kRadius, 2u)); ++dy) {
+        [[unroll]] for (int dx = -int(min(kRadius, 2u)); dx <= int(min(kRadius, 2u)); ++dx) {
+            vec3 q = window[(kReach + dy) * kWide + kReach + k + dx];
+            vec3 apart = q - p;
+            float weight = q.z != 0.0 ? exp(-dot(apart, apart) * params.filterParams.x) : 0.0;
+            sum += (q.z - p.z) * weight;
+            weights += weight;
+        }
+    }
+    float z = kRadius != 0 ? p.z + sum / weights : p.z;
+    return rejected ? vec4(0.0) : vec4(0.0, 0.0, 0.0, z);
+}
+
+void filterRow(uint patchIndex, uint row) {
+    uint slot = patchIndex * 256u + row * 4u;
+    uvec4 mask = uvec4(masks[slot], masks[slot + 1u], masks[slot + 2u], masks[slot + 3u]);
+    ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+    vec3 window[kHigh * kWide];
+    loadRow(at, window);
+    [[unroll]] for (int k = 0; k < 4; ++k) {
+        vec4 result = surfaceInRow(window, k, mask[k]);
+        if (result.w != 0.0) {
+            result.xyz = transformPoint(params.baseTcamera, pointAt(at + ivec2(k, 0), result.w));
+        }
+        points[slot + uint(k)] = result;
+    }
+}
+
 void main() {
     uint patchIndex = list[gl_WorkGroupID.x];
+    if (kRow != 0) {
+        for (uint row = gl_LocalInvocationID.x; row < 64u; row += gl_WorkGroupSize.x) {
+            filterRow(patchIndex, row);
+        }
+        return;
+    }
     ivec2 patchOrigin = ivec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16;
     if (kTiled != 0) {
         fillTile(patchOrigin);

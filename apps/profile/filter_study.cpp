@@ -13,35 +13,53 @@ namespace {
 constexpr double kEdgeJump = 0.02; // relative depth jump of the truth that makes an edge
 constexpr int kEdgeReach = 3;      // [pixels] from the jump that still count as edge
 
+enum class Window { Direct, Tiles, Rows }; // how a pixel's window is read
+
 struct Setting {
     uint32_t radius;
     double sigma;
-    bool tiled, everyPatch;
+    Window window;
+    bool everyPatch;
 };
 
-std::string nameOf(const Setting& s, bool tiledByDefault) {
+Window windowOf(const Plan& plan) {
+    return plan.filterRow ? Window::Rows : plan.tiled ? Window::Tiles : Window::Direct;
+}
+
+// Rows in registers are there up to 5x5.
+Window windowFor(uint32_t radius, Window wanted) {
+    return wanted == Window::Rows && radius > 2 ? Window::Direct : wanted;
+}
+
+std::string nameOf(const Setting& s, Window usual) {
+    const char* windows[] = {" direct", " tiles", " rows"};
     std::string name = std::to_string(2 * s.radius + 1) + "x" + std::to_string(2 * s.radius + 1);
     name = s.radius == 0 ? "none" : name + " s" + digits(s.sigma * 1e3) + "mm";
-    name += s.tiled == tiledByDefault || s.radius == 0 ? "" : s.tiled ? " tiles" : " direct";
+    name +=
+        s.window == windowFor(s.radius, usual) || s.radius == 0 ? "" : windows[static_cast<size_t>(s.window)];
     return name + (s.everyPatch ? " all patches" : "");
 }
 
-std::vector<Setting> settingsOf(const Scene& scene, bool quick, bool tiled) {
+std::vector<Setting> settingsOf(const Scene& scene, bool quick, Window usual) {
     std::vector<Setting> list;
     const double sigma = scene.filter.sigma;
     for (uint32_t radius : quick ? std::vector<uint32_t>{0, 2} : std::vector<uint32_t>{0, 1, 2, 3, 5, 8}) {
-        list.push_back({radius, sigma, tiled && radius >= 2, false});
+        list.push_back({radius, sigma, windowFor(radius, usual), false});
     }
     for (double s : quick ? std::vector<double>{0.003} : std::vector<double>{0.003, 0.005, 0.02, 0.05}) {
         for (uint32_t radius : quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 5}) {
-            list.push_back({radius, s, tiled, false});
+            list.push_back({radius, s, windowFor(radius, usual), false});
         }
     }
-    list.push_back({2, sigma, !tiled, false});
-    list.push_back({2, sigma, tiled, true});
+    for (Window window : {Window::Direct, Window::Tiles, Window::Rows}) {
+        if (window != usual) {
+            list.push_back({2, sigma, window, false});
+        }
+    }
+    list.push_back({2, sigma, usual, true});
     const auto same = [&](const Setting& s) { return s.radius == scene.filter.radius && s.sigma == sigma; };
     if (std::none_of(list.begin(), list.end(), same)) {
-        list.push_back({scene.filter.radius, sigma, tiled && scene.filter.radius >= 2, false});
+        list.push_back({scene.filter.radius, sigma, windowFor(scene.filter.radius, usual), false});
     }
     return list;
 }
@@ -123,12 +141,14 @@ Scene sceneFor(const Settings& settings, const Setting& s) {
     return scene;
 }
 
-StudyRow rowOf(const StudyContext& context, const ShotSource& source, const Setting& s, bool tiled) {
-    FrameBench bench(context.device, sceneFor(context.settings, s), source.camera,
-                     [&](Plan& plan) { plan.tiled = s.tiled && s.radius >= 1; });
+StudyRow rowOf(const StudyContext& context, const ShotSource& source, const Setting& s, Window usual) {
+    FrameBench bench(context.device, sceneFor(context.settings, s), source.camera, [&](Plan& plan) {
+        plan.tiled = s.window == Window::Tiles;
+        plan.filterRow = s.window == Window::Rows;
+    });
     StudyRow row;
     row.source = source.name;
-    row.setting = nameOf(s, tiled);
+    row.setting = nameOf(s, usual);
     const bool exact = !source.shots.front().truth.empty();
     const std::vector<uint8_t> edges = exact ? edgesOf(source) : std::vector<uint8_t>{};
     const uint32_t own =
@@ -175,11 +195,11 @@ Study filterStudy(const StudyContext& context) {
     const uint32_t frames = context.settings.quick ? 2 : 6;
     for (const ShotSource& source : studySources(context.settings, {"torus", "corner", "tank"}, frames)) {
         const Scene scene = studyScene(context.settings);
-        const bool tiled = makePlan(scene, source.camera, 1, context.device.facts()).tiled;
-        for (const Setting& s : settingsOf(scene, context.settings.quick, tiled)) {
-            StudyRow row = rowOf(context, source, s, tiled);
+        const Window usual = windowOf(makePlan(scene, source.camera, 1, context.device.facts()));
+        for (const Setting& s : settingsOf(scene, context.settings.quick, usual)) {
+            StudyRow row = rowOf(context, source, s, usual);
             row.isDefault = s.radius == scene.filter.radius && s.sigma == scene.filter.sigma &&
-                            (s.tiled == tiled || s.radius == 0) && !s.everyPatch;
+                            s.window == windowFor(s.radius, usual) && !s.everyPatch;
             study.rows.push_back(std::move(row));
         }
     }

@@ -4,6 +4,8 @@
 #include "shaders/classify.h"
 #include "shaders/shared/frame_params.h"
 
+#include <algorithm>
+
 namespace fathom::cloud {
 
 namespace {
@@ -12,15 +14,21 @@ uint32_t colourMode(const Plan& plan) {
     return !plan.colour ? 0 : (plan.occlusion ? 2 : 1);
 }
 
+// Four pixels an invocation: 64 do a patch.
+uint32_t groupOf(const Plan& plan) {
+    return std::min(64u, plan.pixelGroup);
+}
+
 } // namespace
 
 ClassifyPass::ClassifyPass(const CloudContext& c)
     : pipeline_(c.device,
                 {"classify", classify_spv, 10, true, 0,
-                 std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, colourMode(c.plan),
-                            uint32_t{c.plan.hold}, c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box}}})
+                 std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
+                            c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
+                            1 - c.camera.depth.width % 2, uint32_t{c.plan.groupCounts}}})
     , work_(c.work)
-    , groups_{c.layout.across, c.layout.down, 256 / c.plan.pixelGroup} {
+    , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {
     for (uint32_t u = 0; u < kUploads; ++u) {
         const UploadBuffers& up = c.uploads[u];
         bindings_[u] =

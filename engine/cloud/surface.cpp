@@ -4,14 +4,25 @@
 #include "shaders/shared/frame_params.h"
 #include "shaders/surface.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace fathom::cloud {
 
+namespace {
+
+// A row of four pixels an invocation: 64 do a patch.
+uint32_t groupOf(const Plan& plan) {
+    return plan.filterRow ? std::min(64u, plan.pixelGroup) : plan.pixelGroup;
+}
+
+} // namespace
+
 SurfacePass::SurfacePass(const CloudContext& c)
     : pipeline_(c.device, {"surface", surface_spv, 6, true, 0,
-                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}, c.plan.filterRadius,
-                                      uint32_t{c.plan.edge}, uint32_t{c.plan.tiled}}})
+                           std::array{groupOf(c.plan), uint32_t{c.plan.rays}, c.plan.filterRadius,
+                                      uint32_t{c.plan.edge}, uint32_t{c.plan.tiled && !c.plan.filterRow},
+                                      uint32_t{c.plan.filterRow}, 1 - c.camera.depth.width % 2}})
     , counters_(c.work.counters) {
     for (uint32_t u = 0; u < kUploads; ++u) {
         bindings_[u] = gpu::Bindings(c.device, pipeline_,

@@ -36,6 +36,9 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.edge = scene.filter.edge > 0.0;
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
     plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2;
+    // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
+    plan.groupCounts = device.kind != DeviceKind::Cpu; // there a barrier costs more than the counts
+    plan.filterRow = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
                          (scene.contact.where == Scene::Contact::Where::Auto &&
@@ -56,7 +59,9 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.tiled ? ", shared-memory tiles" : ", direct reads")
+                                      (plan.filterRow ? ", rows of four from registers"
+                                       : plan.tiled   ? ", shared-memory tiles"
+                                                      : ", direct reads")
                                 : "no filter: points as measured",
          "the scene has no class of points");
     pass("thin", plan.thin, "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm",

@@ -32,14 +32,16 @@ struct Plan {
     bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
     // Variants.
-    bool rays = false;           // distorted lens
-    bool colour = false;         // some class asks for colour: it is uploaded
-    bool tiled = false;          // the filter's window from shared memory
-    uint32_t classes = 0;        // classes of points
-    bool box = false;            // some class has a box
+    bool rays = false;      // distorted lens
+    bool colour = false;    // some class asks for colour: it is uploaded
+    bool tiled = false;     // the filter's window from shared memory
+    bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
+    uint32_t classes = 0;   // classes of points
+    bool box = false;       // some class has a box
     uint32_t treeDispatches = 2; // 1 when the picture is a single patch
     uint32_t filterRadius = 0;
     bool edge = false;
+    bool groupCounts = false;  // classify counts in shared memory before it counts for all
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
     // Contact query.
@@ -69,7 +71,8 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
 }
 
 // toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from
-// DeviceFacts::gpuQueryLeaves on, and only on a device that is not a CPU. The answers are equal to the last bit.
+// DeviceFacts::gpuQueryLeaves on, and only on a device that is not a CPU. The answers are equal to the last
+// bit.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

@@ -6,9 +6,12 @@ uint rawDepth(uint pixel) {
 }
 
 // Metres along the optical axis; 0 when there is no measurement in near..far.
-float depthAt(uint pixel) {
-    uint raw = rawDepth(pixel);
+float metresOf(uint raw) {
     return raw >= params.depthBand.x && raw <= params.depthBand.y ? float(raw) * params.more.z : 0.0;
+}
+
+float depthAt(uint pixel) {
+    return metresOf(rawDepth(pixel));
 }
 
 // (x / z, y / z) of the ray through a pixel's centre.

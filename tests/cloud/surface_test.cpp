@@ -68,18 +68,22 @@ TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixe
             all.rejected, " pixels rejected, ", all.unsure, " on a threshold");
 }
 
-TEST_CASE("Windows from shared memory and direct reads give the same points") {
+TEST_CASE("Windows from shared memory, direct reads and rows in registers give the same points") {
     for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
         for (const double edge : {0.0, 0.03}) {
             CAPTURE(radius);
             CAPTURE(edge);
-            const CameraInfo camera = radius % 2 == 0 ? pinholeCamera(67, 41) : freiburgCamera(67, 41);
+            const CameraInfo camera = radius % 2 == 0 ? pinholeCamera(edge > 0.0 ? 67 : 66, 41)
+                                                      : freiburgCamera(edge > 0.0 ? 66 : 67, 41);
             Scene scene = edgeScene(edge);
             scene.filter.radius = radius;
             const Picture picture = stressPicture(camera, radius + 20);
-            CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = false; });
-            CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true; });
-            direct.run(picture), tiled.run(picture);
+            CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterRow = false; });
+            CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterRow = false; });
+            CloudRig rows(scene, camera, [&](Plan& plan) { plan.filterRow = radius <= 2; });
+            direct.run(picture), tiled.run(picture), rows.run(picture);
+            CHECK(rows.points().z == direct.points().z);
+            CHECK(rows.points().at == direct.points().at);
             const reference::PointPicture a = direct.points(), b = tiled.points();
             CHECK(a.z == b.z);
             CHECK(a.at == b.at);

@@ -126,15 +126,20 @@ TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter an
     const CameraInfo camera = cameraOf(640, 480);
     CHECK(planOf(scene, camera, DeviceKind::Discrete).tiled);
     CHECK_FALSE(planOf(scene, camera, DeviceKind::Cpu).tiled);
+    CHECK(planOf(scene, camera, DeviceKind::Cpu).filterRow);
+    CHECK_FALSE(planOf(scene, camera, DeviceKind::Discrete).filterRow);
     scene.filter.radius = 1;
     CHECK_FALSE(planOf(scene, camera, DeviceKind::Discrete).tiled);
-    CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves - 1).query == Plan::Query::Cpu);
-    CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves).query == Plan::Query::Gpu);
+    CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves - 1).query ==
+          Plan::Query::Cpu);
+    CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves).query ==
+          Plan::Query::Gpu);
     CHECK(planOf(scene, camera, DeviceKind::Cpu, DeviceFacts{}.gpuQueryLeaves).query == Plan::Query::Cpu);
     scene.contact.where = Scene::Contact::Where::Gpu;
     CHECK(planOf(scene, camera, DeviceKind::Cpu).query == Plan::Query::Gpu);
     scene.contact.where = Scene::Contact::Where::Cpu;
-    CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves).query == Plan::Query::Cpu);
+    CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves).query ==
+          Plan::Query::Cpu);
     DeviceFacts small = deviceOf(DeviceKind::Integrated);
     small.maxInvocations = 128;
     CHECK(makePlan(scene, camera, 1, small).pixelGroup == 128);
