@@ -10,10 +10,12 @@ namespace fathom::cloud {
 
 SpheresPass::SpheresPass(const CloudContext& c)
     : pipeline_(c.device, {"spheres", spheres_spv, 20, true, 0,
-                           std::array{c.plan.subGroup, uint32_t{c.plan.thin}, uint32_t{c.plan.hold},
-                                      uint32_t{c.plan.query == Plan::Query::Gpu}}})
+                           std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup,
+                                      uint32_t{c.plan.thin}, uint32_t{c.plan.hold},
+                                      uint32_t{c.plan.query == Plan::Query::Gpu}, uint32_t{c.plan.byPixel}}})
     , work_(c.work)
-    , hold_(c.plan.hold) {
+    , hold_(c.plan.hold)
+    , byPixel_(c.plan.byPixel) {
     const WorkBuffers& w = c.work;
     for (const SetBuffers* s : c.sets) {
         auto& perUpload = bindings_.emplace_back();
@@ -50,7 +52,8 @@ void SpheresPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set)
         commands.barrier();
     }
     commands.dispatchIndirect(pipeline_, bindings_[set][upload], work_.counters,
-                              offsetof(shared::FrameCounters, subGroups));
+                              byPixel_ ? offsetof(shared::FrameCounters, patchGroups)
+                                       : offsetof(shared::FrameCounters, subGroups));
 }
 
 } // namespace fathom::cloud

@@ -16,7 +16,7 @@ private:
     gpu::Pipeline pipeline_;
     std::vector<std::array<gpu::Bindings, kUploads>> bindings_; // a set
     const WorkBuffers& work_;
-    bool hold_;
+    bool hold_, byPixel_;
 };
 
 } // namespace fathom::cloud

@@ -38,6 +38,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2;
     // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
     plan.groupCounts = device.kind != DeviceKind::Cpu; // there a barrier costs more than the counts
+    plan.byPixel = device.kind != DeviceKind::Cpu;     // there shared memory made it twice as slow
     plan.filterRow = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||

@@ -42,6 +42,7 @@ struct Plan {
     uint32_t filterRadius = 0;
     bool edge = false;
     bool groupCounts = false;  // classify counts in shared memory before it counts for all
+    bool byPixel = false;      // spheres: an invocation a pixel, bounds from shared memory; else a sub-patch
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
     // Contact query.

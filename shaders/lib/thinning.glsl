@@ -15,28 +15,32 @@ bool isWhole(vec4 cell) {
     return cell.x < 0.0;
 }
 
-// Growth asked for by the 2x2 cell at a pixel; 0 when it is kept whole or belongs to a thinned 4x4 cell.
-float pairGrowth(ivec2 at) {
-    vec4 cell = cellAt(at);
-    return isWhole(cell) ? 0.0 : cell[(at.y & 2) + ((at.x & 2) >> 1)];
+// The four cells that decide about a pixel: its own, and those left, above and across the corner.
+struct CellsAround {
+    vec4 own, left, up, corner;
+};
+
+// Growth asked for by the 2x2 cell q (0..3, row-major) of a 4x4 cell; 0 when it is kept whole or the 4x4 cell was thinned.
+float quarterGrowth(vec4 cell, uint q) {
+    return isWhole(cell) ? 0.0 : (q < 2u ? (q == 0u ? cell.x : cell.y) : (q == 2u ? cell.z : cell.w));
 }
 
 // What a point's sphere grows by, -1 when the point is left out. Corners of 4x4 cells always stay; corners of 2x2 cells stay
 // unless every 4x4 cell that they touch was thinned as one; the rest stays unless its own cell was thinned.
-float keptGrowth(uvec2 pixel) {
-    ivec2 at = ivec2(pixel);
-    vec4 own = cellAt(at);
-    if ((at.x & 1) != 0 || (at.y & 1) != 0) {
-        return isWhole(own) || pairGrowth(at & ~1) > 0.0 ? -1.0 : 0.0;
+float keptGrowth(uvec2 pixel, CellsAround c) {
+    bool right = (pixel.x & 2u) != 0, low = (pixel.y & 2u) != 0; // half of the 4x4 cell
+    uint q = (low ? 2u : 0u) + (right ? 1u : 0u);
+    float own = quarterGrowth(c.own, q);
+    if ((pixel.x & 1u) != 0 || (pixel.y & 1u) != 0) {
+        return isWhole(c.own) || own > 0.0 ? -1.0 : 0.0;
     }
-    float grown = max(max(pairGrowth(at), pairGrowth(at - ivec2(2, 0))),
-                      max(pairGrowth(at - ivec2(0, 2)), pairGrowth(at - ivec2(2, 2))));
-    vec4 left = (at.x & 3) == 0 ? cellAt(at - ivec2(4, 0)) : own;
-    vec4 up = (at.y & 3) == 0 ? cellAt(at - ivec2(0, 4)) : own;
-    if ((at.x & 3) != 0 || (at.y & 3) != 0) {
-        return isWhole(own) && isWhole(left) && isWhole(up) ? -1.0 : grown;
+    // The 2x2 cells left, above and across, in whichever 4x4 cell they lie.
+    vec4 leftCell = right ? c.own : c.left, upCell = low ? c.own : c.up;
+    vec4 acrossCell = right ? (low ? c.own : c.up) : (low ? c.left : c.corner);
+    float grown = max(max(own, quarterGrowth(leftCell, q ^ 1u)), max(quarterGrowth(upCell, q ^ 2u), quarterGrowth(acrossCell, q ^ 3u)));
+    if (right || low) {
+        return isWhole(c.own) && isWhole(leftCell) && isWhole(upCell) ? -1.0 : grown;
     }
-    vec4 corner = cellAt(at - ivec2(4, 4));
-    float whole = max(max(-1.0 - own.x, -1.0 - left.x), max(-1.0 - up.x, -1.0 - corner.x));
+    float whole = max(max(-1.0 - c.own.x, -1.0 - c.left.x), max(-1.0 - c.up.x, -1.0 - c.corner.x));
     return max(grown, whole);
 }
