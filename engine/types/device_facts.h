@@ -20,7 +20,8 @@ struct DeviceFacts {
     uint64_t hostPointerAlignment = 0; // of imported host memory; 0 = cannot import
     double timestampPeriodNs = 1.0;    // 0 = no timestamps
     // From so many tool leaves on `contact.where: auto` asks this device, when it is not a CPU. Never, unless
-    // `fathom profile query` measured it here: on an NVIDIA H200 the CPU was faster at every tool (docs/h200).
+    // `fathom profile query` measured it here: on an NVIDIA H200 the CPU was faster at every tool
+    // (docs/h200).
     uint32_t gpuQueryLeaves = 0xffffffffu;
 };
 
