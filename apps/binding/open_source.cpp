@@ -7,6 +7,7 @@
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
 #include "devices/v4l2/v4l2_camera.h"
+#include "devices/water/water_camera.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/model/sph_file.h"
 #include "engine/types/error.h"
@@ -44,22 +45,8 @@ std::unique_ptr<Camera> openNamed(const std::string& source, Pictures pictures) 
     return std::make_unique<RecordedCamera>(source);
 }
 
-} // namespace
-
-Scene openScene(const std::filesystem::path& file) {
-    Scene scene = loadScene(file);
-    std::string names;
-    for (const DevicePreset& preset : devicePresets()) {
-        if (preset.name == scene.haptics.device) {
-            return scene;
-        }
-        names += (names.empty() ? "" : ", ") + preset.name;
-    }
-    throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
-}
-
-std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                   Pictures pictures) {
+std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::filesystem::path>& source,
+                                Pictures pictures) {
     if (source) {
         return openNamed(source->string(), pictures);
     }
@@ -76,6 +63,30 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         request.intrinsics = scene.file.parent_path() / request.intrinsics;
     }
     return openLive(request, pictures);
+}
+
+} // namespace
+
+Scene openScene(const std::filesystem::path& file) {
+    Scene scene = loadScene(file);
+    std::string names;
+    for (const DevicePreset& preset : devicePresets()) {
+        if (preset.name == scene.haptics.device) {
+            return scene;
+        }
+        names += (names.empty() ? "" : ", ") + preset.name;
+    }
+    throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
+}
+
+std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
+                                   Pictures pictures) {
+    std::unique_ptr<Camera> camera = openDry(scene, source, pictures);
+    if (!scene.port || pictures == Pictures::Every) { // a recording keeps what the camera saw
+        return camera;
+    }
+    const FlatPort port{scene.port->distance, scene.port->index};
+    return std::make_unique<WaterCamera>(std::move(camera), port, scene.nearZ, scene.farZ);
 }
 
 Tool openTool(const Scene& scene) {

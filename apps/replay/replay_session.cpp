@@ -9,6 +9,8 @@
 #include "engine/types/error.h"
 #include "engine/haptics/hand_map.h"
 
+#include <cmath>
+
 namespace fathom {
 
 namespace {
@@ -33,13 +35,15 @@ std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scen
     return waypoints;
 }
 
-// Lockstep has a clock of its own: a picture that comes when it comes has no place on it.
-std::unique_ptr<Camera> openReplayCamera(const Scene& scene, const ReplayOptions& options) {
+// Lockstep has a clock of its own: a picture that comes when it comes has no place on it. What the camera's
+// own corrections leave uncertain makes the scene's regions grow as a registration does.
+std::unique_ptr<Camera> openReplayCamera(Scene& scene, const ReplayOptions& options) {
     auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     if (camera->live() && !options.realtime) {
         throw BadInput("replay", "--source", camera->description(), "--realtime with a live camera");
     }
+    scene.registrationSigma = std::hypot(scene.registrationSigma, camera->info().sigma);
     return camera;
 }
 

@@ -42,10 +42,26 @@ void loadDepthRange(const YamlNode& camera, Scene& scene) {
     farZ->refuse("a number above camera.near = " + std::to_string(scene.nearZ));
 }
 
+void loadPort(const YamlNode& node, Scene& scene) {
+    node.checkKeys({"distance", "index"});
+    Scene::Port port;
+    port.distance = node.at("distance").number(Range::notNegative());
+    if (!(port.distance < scene.nearZ)) {
+        node.at("distance").refuse("a number below camera.near = " + std::to_string(scene.nearZ));
+    }
+    if (const auto index = node.find("index")) {
+        port.index = index->number(Range::positive());
+        if (port.index < 1.0 || port.index > 2.0) {
+            index->refuse("1 to 2");
+        }
+    }
+    scene.port = port;
+}
+
 } // namespace
 
 void loadCamera(const YamlNode& camera, Scene& scene) {
-    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma"});
+    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port"});
     if (const auto source = camera.find("source")) {
         scene.source = loadSource(*source, scene);
     }
@@ -55,6 +71,9 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
     }
     if (const auto sigma = camera.find("registration_sigma")) {
         scene.registrationSigma = sigma->number(Range::notNegative());
+    }
+    if (const auto port = camera.find("port")) {
+        loadPort(*port, scene);
     }
 }
 

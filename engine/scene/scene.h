@@ -71,6 +71,11 @@ struct Scene {
     double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
     Pose baseTcamera;
     double registrationSigma = 0.0; // [m]; regions grow by 3 of them
+    struct Port {
+        double distance = 0.0; // [m] from the lens to the water
+        double index = 1.34;   // sea water
+    };
+    std::optional<Port> port; // the camera looks through a flat port, calibrated in air
 
     struct Filter {
         uint32_t radius = 2; // [pixels] 0..16; 0 = none

@@ -32,6 +32,7 @@ struct CameraInfo {
     Pose colourTdepth;            // maps depth-camera points to the colour camera; identity when registered
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
+    double sigma = 0.0; // [m] of its points beyond noise: what a correction leaves; regions grow by 3 of them
 };
 
 // Standard deviation of a depth reading at range z [m], [m]: the model of structured-light and stereo cameras

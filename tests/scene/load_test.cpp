@@ -176,3 +176,17 @@ TEST_CASE("a quaternion of huge or tiny length is normalised without overflow") 
         CHECK(std::abs(q.z - std::sqrt(0.5)) < 1e-15);
     }
 }
+
+TEST_CASE("A flat port under water is read, and one that cannot be is refused") {
+    CHECK(loadScene(SceneFile(kMinimal + "camera: {port: {distance: 0.03}}\n").path()).port->index == 1.34);
+    CHECK(loadScene(SceneFile(kMinimal + "camera: {port: {distance: 0, index: 1.33}}\n").path())
+              .port->distance == 0.0);
+    CHECK_FALSE(loadScene(SceneFile(kMinimal).path()).port);
+    CHECK(refusal(kMinimal + "camera: {port: {index: 1.33}}\n").find("distance") != std::string::npos);
+    CHECK(refusal(kMinimal + "camera: {near: 0.2, port: {distance: 0.2}}\n").find("below camera.near") !=
+          std::string::npos);
+    CHECK(refusal(kMinimal + "camera: {port: {distance: 0.02, index: 0.9}}\n").find("1 to 2") !=
+          std::string::npos);
+    CHECK(refusal(kMinimal + "camera: {port: {distance: 0.02, glass: 1}}\n").find("glass") !=
+          std::string::npos);
+}

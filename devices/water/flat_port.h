@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera behind a flat window under water: what refraction does to its rays and its stereo depth. The
+// window is parallel to the picture; the glass's own thickness counts as air.
+#pragma once
+
+#include "engine/types/camera_info.h"
+
+#include <vector>
+
+namespace fathom {
+
+struct FlatPort {
+    double distance = 0.0; // [m] from the lens's centre of projection to the water
+    double index = 1.33;   // of the water; air = 1. Sea water 1.34
+};
+
+// Slope (tangent of the angle to the axis) in water of the ray that has slope `air` before the window
+// (Snell).
+double waterSlope(const FlatPort& port, double air) noexcept;
+
+// How the camera sees in water, from how it sees in air. All figures are for points between nearZ and farZ.
+struct WaterLens {
+    Intrinsics lens; // rays in water, from the centre of projection, nearest to the true ones
+    std::vector<float>
+        factor;         // per pixel: true z = distance + factor x (told z - distance), for stereo along x
+    double worst = 0.0; // [m] largest error that is left, sideways and in depth together
+};
+
+// A ray in water does not pass through the lens's centre: one slope a pixel is right at one z alone (taken so
+// that near and far are off alike). Stereo tells z by the angle between two rays: it is too near by about the
+// index, and by more off the axis. The lens has its own distortion removed first. Throws Error for a lens
+// that sees flatter rays than the fit holds (a field of view of more than 120 degrees in air).
+WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, double farZ);
+
+} // namespace fathom

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// A camera calibrated in air, used under water behind a flat port: corrects its lenses and its depth.
+#pragma once
+
+#include "devices/camera.h"
+#include "devices/frame_slots.h"
+#include "devices/water/flat_port.h"
+
+#include <memory>
+
+namespace fathom {
+
+// For stereo and structured light along the picture's rows; not for time of flight. Depth is written anew, in
+// the source's unit (65535 units are the farthest); colour is the source's own. A lens's own distortion is
+// taken as in air and straightened only in the model of the rays, so the source must tell pictures without
+// distortion. What the model leaves wrong between nearZ and farZ is info().sigma, a third of its largest.
+class WaterCamera final : public Camera {
+public:
+    // Throws BadInput for lenses with distortion or too wide a view.
+    WaterCamera(std::unique_ptr<Camera> source, const FlatPort& port, double nearZ, double farZ);
+
+    const CameraInfo& info() const override { return info_; }
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return source_->skipped(); }
+    std::string description() const override { return source_->description() + " behind a flat port"; }
+    bool live() const override { return source_->live(); }
+    uint64_t lost() const override { return source_->lost(); }
+    std::optional<double> framePeriod() const override { return source_->framePeriod(); }
+
+private:
+    std::unique_ptr<Camera> source_;
+    CameraInfo info_;
+    std::vector<float> factor_;
+    float distance_ = 0.0f; // [units]
+    FrameSlots slots_;
+};
+
+} // namespace fathom

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: Apache-2.0
+// Refraction at a flat port against exact rays: points in water, seen by two simulated eyes through the
+// window.
+#include "devices/water/water_camera.h"
+
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+constexpr double kBaseline = 0.005; // [m] short: the model is that of stereo in the limit
+const Intrinsics kAir{.width = 161, .height = 121, .fx = 150, .fy = 150, .cx = 80, .cy = 60};
+
+// Slope in air of the ray that reaches a point `across` from the axis at depth z: by bisection on Snell's law
+// itself.
+double slopeInAir(const FlatPort& port, double across, double z) {
+    double low = 0.0, high = 10.0;
+    for (int i = 0; i < 80; ++i) {
+        const double slope = 0.5 * (low + high);
+        const double angle = std::asin(std::sin(std::atan(slope)) / port.index);
+        const double reaches = port.distance * slope + (z - port.distance) * std::tan(angle);
+        (reaches < across ? low : high) = slope;
+    }
+    return 0.5 * (low + high);
+}
+
+// Slopes in x and y at which an eye at x = eye sees the point.
+glm::dvec2 seen(const FlatPort& port, const dvec3& p, double eye) {
+    const glm::dvec2 sideways(p.x - eye, p.y);
+    const double across = glm::length(sideways);
+    return across > 0.0 ? sideways * (slopeInAir(port, across, p.z) / across) : glm::dvec2(0.0);
+}
+
+// z that stereo tells: baseline over difference of slopes, the eyes left and right of the camera.
+double told(const FlatPort& port, const dvec3& p) {
+    return kBaseline / (seen(port, p, -0.5 * kBaseline).x - seen(port, p, 0.5 * kBaseline).x);
+}
+
+class OneFrame final : public Camera {
+public:
+    OneFrame(const CameraInfo& info, std::vector<uint16_t> depth)
+        : info_(info)
+        , depth_(std::move(depth)) {}
+    const CameraInfo& info() const override { return info_; }
+    std::optional<Frame> next() override {
+        if (done_) {
+            return std::nullopt;
+        }
+        done_ = true;
+        Frame::Content content;
+        content.depth = depth_;
+        return Frame(content, [this] { ++returned; });
+    }
+    uint32_t skipped() const override { return 0; }
+    std::string description() const override { return "test"; }
+    int returned = 0;
+
+private:
+    CameraInfo info_;
+    std::vector<uint16_t> depth_;
+    bool done_ = false;
+};
+
+} // namespace
+
+TEST_CASE("Slopes in water obey Snell's law") {
+    const FlatPort port{0.05, 1.34};
+    for (const double air : {0.0, 0.1, 0.5, 1.0, 1.7}) {
+        const double water = waterSlope(port, air);
+        CHECK(std::sin(std::atan(air)) == doctest::Approx(1.34 * std::sin(std::atan(water))).epsilon(1e-12));
+    }
+}
+
+TEST_CASE(
+    "Points seen by stereo through a flat port come back within the error that the model tells of itself") {
+    for (const double distance : {0.0, 0.02, 0.06}) {
+        const FlatPort port{distance, 1.34};
+        const WaterLens water = inWater(kAir, port, 0.4, 1.6);
+        double worst = 0.0, uncorrected = 0.0;
+        for (double z = 0.4; z <= 1.61; z += 0.3) {
+            for (double v = 0; v < 121; v += 10) {
+                for (double u = 0; u < 161; u += 10) { // the point that this very pixel sees
+                    const glm::dvec2 air = kAir.ray(u, v);
+                    const double slope = glm::length(air);
+                    const double across = distance * slope + (z - distance) * waterSlope(port, slope);
+                    const dvec3 p(slope > 0.0 ? glm::dvec2(air * (across / slope)) : glm::dvec2(0.0), z);
+                    const double tellsZ = told(port, p);
+                    const float factor = water.factor[static_cast<size_t>(v) * 161 + static_cast<size_t>(u)];
+                    const double found = distance + factor * (tellsZ - distance);
+                    const glm::dvec2 ray = water.lens.ray(u, v);
+                    worst = std::max(worst, glm::length(dvec3(ray * found, found) - p));
+                    uncorrected = std::max(uncorrected, glm::length(dvec3(air * tellsZ, tellsZ) - p));
+                }
+            }
+        }
+        CHECK(worst <= water.worst + 1e-4);
+        CHECK(worst > 0.3 * water.worst - 1e-4); // and not by telling of far too much
+        CHECK(water.worst < 0.02);
+        CHECK(uncorrected > 0.3);
+        MESSAGE("port " << distance << " m: off by " << 1e3 * worst << " mm of " << 1e3 * water.worst
+                        << " told, uncorrected " << 1e3 * uncorrected << " mm");
+    }
+}
+
+TEST_CASE("A camera behind a port gives true depth, keeps holes, tells its uncertainty and returns the "
+          "source's frame") {
+    CameraInfo info;
+    info.depth = info.colour = kAir;
+    info.hasColour = false;
+    const FlatPort port{0.03, 1.34};
+    std::vector<uint16_t> depth(kAir.pixels(), 0);
+    const size_t centre = 60 * 161 + 80;
+    depth[centre] = static_cast<uint16_t>(std::lround(1e3 * told(port, {0, 0, 0.9})));
+    depth[0] = 65535;
+    auto source = std::make_unique<OneFrame>(info, depth);
+    OneFrame& watched = *source;
+    WaterCamera camera(std::move(source), port, 0.4, 1.6);
+    CHECK(camera.info().sigma > 0.0);
+    CHECK(camera.info().depth.fx > 1.25 * kAir.fx);
+    {
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((*frame)->depth[centre] == doctest::Approx(900).epsilon(0.004));
+        CHECK((*frame)->depth[1] == 0);
+        CHECK((*frame)->depth[0] == 65535);
+        CHECK(watched.returned == 0);
+    }
+    CHECK(watched.returned == 1);
+    CHECK_FALSE(camera.next());
+}
+
+TEST_CASE("Lenses that a flat port cannot serve are refused") {
+    CameraInfo info;
+    info.depth = info.colour = {.width = 64, .height = 48, .fx = 12, .fy = 12, .cx = 32, .cy = 24};
+    CHECK_THROWS_AS(
+        WaterCamera(std::make_unique<OneFrame>(info, std::vector<uint16_t>(64 * 48)), {0.03, 1.33}, 0.4, 1.6),
+        BadInput);
+    info.depth.fx = info.depth.fy = 60;
+    info.depth.distortion[0] = 0.1;
+    CHECK_THROWS_AS(
+        WaterCamera(std::make_unique<OneFrame>(info, std::vector<uint16_t>(64 * 48)), {0.03, 1.33}, 0.4, 1.6),
+        BadInput);
+}
