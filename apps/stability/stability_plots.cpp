@@ -101,8 +101,9 @@ void writeCurves(const std::filesystem::path& folder, const CaseResult& r) {
             }
         }
         if (!together.empty()) {
-            const std::string tail = ++plots == 1 ? "" : "-" + std::to_string(plots);
-            writeCurvePlot(folder / (r.name + tail + ".png"), r.name, comparison(r.outcome), together);
+            std::string name = r.name;
+            name.append(++plots == 1 ? "" : "-").append(plots == 1 ? "" : std::to_string(plots));
+            writeCurvePlot(folder / name.append(".png"), r.name, comparison(r.outcome), together);
         }
     }
 }

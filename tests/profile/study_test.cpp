@@ -13,8 +13,8 @@ namespace {
 
 StudyRow row(const char* setting, double error, double time, bool isDefault = false) {
     StudyRow r;
-    r.source = "s";
-    r.setting = setting;
+    r.source = std::string("s");
+    r.setting = std::string(setting);
     r.error = error;
     r.isDefault = isDefault;
     r.cost.submit = {time, time, time, 5};
