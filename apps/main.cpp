@@ -9,6 +9,7 @@
 #include "apps/register/register_command.h"
 #include "apps/profile/profile_command.h"
 #include "apps/replay/replay_command.h"
+#include "apps/spheres/spheres_command.h"
 #include "apps/stability/stability_command.h"
 #include "engine/types/error.h"
 
@@ -65,6 +66,7 @@ int run(int argc, char** argv) {
     fathom::addProfileCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
+    fathom::addSpheresCommand(app);
     fathom::addStabilityCommand(app, global, result);
     fathom::addRecordCommand(app, global, result);
     try {

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/spheres/spheres_command.h"
+
+#include "apps/spheres/spheres_report.h"
+#include "engine/model/sph_file.h"
+#include "engine/model/sphere_cover.h"
+#include "engine/reference/cell_cover.h"
+#include "engine/types/error.h"
+
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <utility>
+
+namespace fathom {
+
+namespace {
+
+struct SpheresOptions {
+    std::filesystem::path mesh, out, plot, json;
+    CoverOptions cover;
+    MeshOptions file;
+    std::string up;
+    bool compare = false;
+};
+
+class Maker {
+public:
+    explicit Maker(const LoadedMesh& loaded)
+        : mesh_(loaded.mesh)
+        , distance_(loaded.mesh, loaded.facts.closed()) {}
+
+    Cover ours(const CoverOptions& options) {
+        const auto start = std::chrono::steady_clock::now();
+        Cover cover = coverMesh(mesh_, distance_, options);
+        add("fathom", cover.spheres, start);
+        return cover;
+    }
+    void others(size_t leaves) {
+        auto start = std::chrono::steady_clock::now();
+        add("octree", reference::octreeCover(mesh_, distance_, leaves), start);
+        start = std::chrono::steady_clock::now();
+        add("grid", reference::gridCover(mesh_, distance_, leaves), start);
+    }
+    const std::vector<CoverRow>& rows() const { return rows_; }
+    std::vector<CoverRow> takeRows() { return std::exchange(rows_, {}); }
+
+private:
+    void add(const std::string& name, const std::vector<Sphere>& spheres,
+             std::chrono::steady_clock::time_point start) {
+        const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        rows_.push_back({name, spheres.size(), measureCover(spheres, mesh_, distance_), took});
+    }
+
+    const TriangleMesh& mesh_;
+    MeshDistance distance_;
+    std::vector<CoverRow> rows_;
+};
+
+void check(const SpheresOptions& options) {
+    if (options.cover.leaves < 1 || options.cover.leaves > kMostCoverSpheres) {
+        throw BadInput("spheres", "--leaves", std::to_string(options.cover.leaves),
+                       "1 to " + std::to_string(kMostCoverSpheres));
+    }
+    if (!(options.cover.protrusion >= 0.0)) {
+        throw BadInput("spheres", "--protrusion", std::to_string(options.cover.protrusion),
+                       "a length in metres above 0");
+    }
+}
+
+void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
+    for (uint32_t n = 4; n <= std::min<size_t>(2 * leaves, 1024); n *= 2) {
+        CoverOptions at = options.cover;
+        at.leaves = n;
+        at.protrusion = 0.0;
+        maker.ours(at);
+        maker.others(n);
+    }
+    writeErrorPlot(options.plot, options.mesh.filename().string() + ": protrusion against leaf spheres",
+                   maker.rows());
+}
+
+void runSpheres(SpheresOptions options) {
+    check(options);
+    options.file.up = options.up.empty() ? '\0' : options.up[0];
+    const LoadedMesh loaded = loadMesh(options.mesh, options.file);
+    printMesh(std::cout, loaded);
+    Maker maker(loaded);
+    Cover cover;
+    try {
+        cover = maker.ours(options.cover);
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(options.mesh.string(), "--protrusion", e.what(), "a length that fits the mesh");
+    }
+    writeSph(buildSphereTree(cover.spheres), options.out);
+    if (options.compare) {
+        maker.others(cover.spheres.size());
+    }
+    printRows(std::cout, maker.rows());
+    if (!options.json.empty()) {
+        writeReportJson(options.json, loaded, maker.rows());
+    }
+    const bool contains = maker.rows()[0].measure.outside == 0;
+    if (!options.plot.empty()) {
+        maker.takeRows();
+        drawErrors(options, maker, cover.spheres.size());
+    }
+    std::cout << (contains ? "every surface sample lies in a sphere; written to "
+                           : "NOT contained; written to ")
+              << options.out.string() << std::endl;
+    if (!contains) {
+        throw Error("the spheres do not contain the mesh"); // cannot happen by construction
+    }
+}
+
+} // namespace
+
+void addSpheresCommand(CLI::App& app) {
+    auto options = std::make_shared<SpheresOptions>();
+    CLI::App* command = app.add_subcommand("spheres", "make a sphere tree that contains a mesh, for a tool");
+    command->add_option("MESH", options->mesh, "STL, OBJ or COLLADA file")->required();
+    command->add_option("--out", options->out, "sphere tree (.sph), in the mesh's frame [m]")->required();
+    command->add_option("--leaves", options->cover.leaves, "leaf spheres at most (128)");
+    command->add_option("--protrusion", options->cover.protrusion,
+                        "[m] how far spheres may stand out; as few leaves as that takes");
+    command->add_option("--scale", options->file.scale, "metres a unit of the file (1)");
+    command->add_option("--up", options->up, "the file's axis that becomes +z (none)")
+        ->check(CLI::IsMember({"x", "y", "z"}));
+    command->add_flag("--drop-stray", options->file.dropStray, "leave out pieces far from the rest");
+    command->add_flag("--compare", options->compare, "octree and grid spheres of the same number beside it");
+    command->add_option("--plot", options->plot, "picture (PNG): protrusion against number of leaves");
+    command->add_option("--json", options->json, "the report as JSON");
+    command->callback([options] { runSpheres(*options); });
+}
+
+} // namespace fathom

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `fathom spheres` says about a mesh and its spheres.
+#pragma once
+
+#include "engine/model/cover_measure.h"
+#include "engine/model/mesh_file.h"
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+struct CoverRow { // one way to put spheres round the mesh
+    std::string name;
+    size_t leaves = 0;
+    CoverMeasure measure;
+    double seconds = 0.0;
+};
+
+// What the file held and what was done about it; one line a thing, nothing for a faultless mesh but its size.
+void printMesh(std::ostream& out, const LoadedMesh& loaded);
+void printRows(std::ostream& out, const std::vector<CoverRow>& rows);
+
+// Worst and mean protrusion over leaf count, one curve a name; logarithmic axes.
+void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
+                    const std::vector<CoverRow>& rows);
+
+// {"mesh": {...}, "covers": [{...}]}; lengths in m.
+void writeReportJson(const std::filesystem::path& file, const LoadedMesh& loaded,
+                     const std::vector<CoverRow>& rows);
+
+} // namespace fathom

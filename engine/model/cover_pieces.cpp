@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/cover_pieces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+struct Corners {
+    dvec3 a, b, c;
+};
+
+CoverPiece pieceOf(const Corners& t, const dvec3& inwards) {
+    CoverPiece piece{{t.a, t.b, t.c}, (t.a + t.b + t.c) / 3.0, 0.0, 0.0, 0.0, inwards};
+    piece.reach = piece.radiusFrom(piece.middle);
+    return piece;
+}
+
+// Halves the longest edge until none is too long.
+void cut(const Corners& whole, double edge, const dvec3& inwards, std::vector<CoverPiece>& out) {
+    std::vector<Corners> left{whole};
+    while (!left.empty()) {
+        Corners t = left.back();
+        left.pop_back();
+        const double ab = glm::distance(t.a, t.b), bc = glm::distance(t.b, t.c), ca = glm::distance(t.c, t.a);
+        if (std::max({ab, bc, ca}) <= edge) {
+            out.push_back(pieceOf(t, inwards));
+            continue;
+        }
+        while (glm::distance(t.a, t.b) < std::max({ab, bc, ca})) {
+            t = {t.b, t.c, t.a};
+        }
+        const dvec3 half = 0.5 * (t.a + t.b);
+        left.push_back({t.a, half, t.c});
+        left.push_back({half, t.b, t.c});
+    }
+}
+
+// Which way the inside lies, asked a hair off the surface; zero when both or neither side is.
+dvec3 inwardsAt(const TriangleMesh& mesh, const MeshDistance& distance, size_t t, double hair) {
+    if (!distance.solid()) {
+        return dvec3(0.0);
+    }
+    const dvec3 n = mesh.normal(t),
+                middle = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3.0;
+    const bool behind = distance.isInside(middle - hair * n), before = distance.isInside(middle + hair * n);
+    return behind == before ? dvec3(0.0) : (behind ? -n : n);
+}
+
+void addCells(const TriangleMesh& mesh, const MeshDistance& distance, double cell,
+              std::vector<CoverPiece>& out) {
+    const dvec3 low = mesh.low(), high = mesh.high();
+    const double half = 0.5 * std::sqrt(3.0) * cell;
+    for (double x = low.x + 0.5 * cell; x < high.x; x += cell) {
+        for (double y = low.y + 0.5 * cell; y < high.y; y += cell) {
+            for (double z = low.z + 0.5 * cell; z < high.z; z += cell) {
+                const dvec3 p(x, y, z);
+                // Nearer to the surface the spheres that hold the surface hold the cell, too, or it sticks
+                // out.
+                const double depth = -distance.signedDistance(p);
+                if (depth >= half) {
+                    out.push_back({{p, p, p}, p, half, half, depth, dvec3(0.0)});
+                }
+            }
+        }
+    }
+}
+
+// Largest ball inside that touches the surface at p, `n` the way in.
+dvec3 largestBall(const MeshDistance& distance, const dvec3& p, const dvec3& n, double largest) {
+    double radius = largest;
+    for (int k = 0; k < 30; ++k) {
+        const dvec3 centre = p + radius * n;
+        const MeshDistance::Nearest q = distance.nearest(centre);
+        if (q.distance >= radius * (1.0 - 1e-6)) {
+            break;
+        }
+        const dvec3 way = q.point - p;
+        const double along = glm::dot(n, way);
+        const double next = along > 0.0 ? glm::dot(way, way) / (2.0 * along) : 0.0;
+        if (!(next < radius * (1.0 - 1e-9))) {
+            break;
+        }
+        radius = next;
+    }
+    return p + radius * n;
+}
+
+double golden(size_t i) {
+    return std::fmod(static_cast<double>(i) * 0.6180339887498949, 1.0);
+}
+
+} // namespace
+
+double CoverPiece::radiusFrom(const dvec3& c) const {
+    const dvec3 u = corner[0] - c, v = corner[1] - c, w = corner[2] - c;
+    return std::sqrt(std::max({glm::dot(u, u), glm::dot(v, v), glm::dot(w, w)})) + margin;
+}
+
+double countOfPieces(const TriangleMesh& mesh, double edge) {
+    // Halving ends between edge / 2 and edge; a third of edge^2 is what the smallest well-shaped ones have.
+    return static_cast<double>(mesh.triangles.size()) + mesh.area() / (0.16 * edge * edge);
+}
+
+std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance& distance, double edge,
+                                    double cell) {
+    std::vector<CoverPiece> pieces;
+    const double hair = 1e-5 * glm::distance(mesh.low(), mesh.high());
+    for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        cut({mesh.corner(t, 0), mesh.corner(t, 1), mesh.corner(t, 2)}, edge,
+            inwardsAt(mesh, distance, t, hair), pieces);
+    }
+    if (distance.solid()) {
+        addCells(mesh, distance, cell, pieces);
+    }
+    return pieces;
+}
+
+std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& distance,
+                                 const std::vector<CoverPiece>& pieces, size_t count) {
+    const dvec3 low = mesh.low(), high = mesh.high();
+    const double largest = 0.5 * glm::distance(low, high);
+    std::vector<CoverSeat> seats;
+    const auto add = [&](const dvec3& c) { seats.push_back({c, -distance.signedDistance(c)}); };
+    add(0.5 * (low + high));
+    const double stride =
+        std::max(1.0, 2.0 * static_cast<double>(pieces.size()) / static_cast<double>(count));
+    for (double at = 0.0; at < static_cast<double>(pieces.size()); at += stride) {
+        const CoverPiece& piece = pieces[static_cast<size_t>(at)];
+        if (piece.inwards == dvec3(0.0)) {
+            add(piece.middle);
+            continue;
+        }
+        const dvec3 centre = largestBall(distance, piece.middle, piece.inwards, largest);
+        add(centre);
+        add(piece.middle + (0.15 + 0.75 * golden(seats.size())) * (centre - piece.middle));
+    }
+    return seats;
+}
+
+} // namespace fathom

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Few spheres that contain a mesh and stand out of it as little as possible: greedy set cover of the surface
+// by inner spheres grown by the allowed protrusion, then each sphere fitted to its share. The surface is cut
+// into triangles small enough to lie in one sphere each; a ball is convex, so three corners inside prove a
+// triangle inside, and all of them prove the surface inside.
+#pragma once
+
+#include "engine/model/mesh_distance.h"
+#include "engine/types/sphere_tree.h"
+
+#include <vector>
+
+namespace fathom {
+
+struct CoverOptions {
+    uint32_t leaves = 128;   // at most; not looked at when protrusion > 0
+    double protrusion = 0.0; // [m] allowed; > 0: as few spheres as that takes
+    uint32_t effort = 2;     // rounds of fitting and covering anew, 0..8
+};
+
+struct Cover {
+    std::vector<Sphere> spheres;
+    // [m] proven: no point of any sphere is farther than this from the mesh (outside of a solid; from its
+    // surface on either side when the mesh has no inside). max of signed distance of the centre + radius.
+    double protrusionBound = 0.0;
+    size_t pieces = 0; // small triangles, and cells of the inside, that were covered
+};
+
+inline constexpr uint32_t kMostCoverSpheres = 4096; // as many leaves as a tool may have
+
+// A solid mesh has its inside covered too, by cells. Deterministic. Throws Error when more than
+// kMostCoverSpheres would be needed, or `protrusion` is too small for two million pieces.
+Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const CoverOptions& options);
+
+} // namespace fathom

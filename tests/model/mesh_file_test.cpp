@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/mesh_file.h"
+
+#include "engine/model/mesh_distance.h"
+#include "engine/types/error.h"
+#include "tests/model/meshes.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+const std::filesystem::path kMeshes = "../shared/data/meshes";
+
+std::string refusalOf(const std::filesystem::path& file, const MeshOptions& options = {}) {
+    try {
+        loadMesh(file, options);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+bool present(const std::filesystem::path& file) {
+    if (std::filesystem::exists(file)) {
+        return true;
+    }
+    MESSAGE("left out, no such file: " << file);
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("a closed mesh is read whole: size, volume, closed, nothing left out") {
+    const ObjFile file(boxMesh({0.1, -0.2, 0.3}, {0.2, 0.1, 0.05}));
+    const LoadedMesh loaded = loadMesh(file.path());
+    CHECK(loaded.mesh.triangles.size() == 12);
+    CHECK(loaded.facts.closed());
+    CHECK(loaded.facts.parts == 1);
+    CHECK(loaded.facts.doubled == 0);
+    CHECK(loaded.mesh.volume() == doctest::Approx(0.001).epsilon(1e-6));
+    CHECK(loaded.mesh.area() == doctest::Approx(0.07).epsilon(1e-6));
+    CHECK(glm::distance(loaded.mesh.low(), dvec3(0.0, -0.25, 0.275)) < 1e-6);
+}
+
+TEST_CASE("faces that stand twice are taken once and a mesh turned inside out is turned back") {
+    TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(0.1));
+    for (size_t t = 0; t < 12; ++t) { // once more, the other way round, as drawing programs export
+        mesh.triangles.push_back({mesh.triangles[t][0], mesh.triangles[t][2], mesh.triangles[t][1]});
+    }
+    std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
+    const LoadedMesh loaded = loadMesh(ObjFile(mesh).path());
+    CHECK(loaded.facts.doubled == 12);
+    CHECK(loaded.facts.turned == 1);
+    CHECK(loaded.facts.closed());
+    CHECK(loaded.mesh.volume() == doctest::Approx(0.001).epsilon(1e-6));
+    for (auto& t : mesh.triangles) {
+        std::swap(t[0], t[1]);
+    }
+    CHECK(loadMesh(ObjFile(mesh).path()).mesh.volume() > 0.0);
+}
+
+TEST_CASE("an open mesh is read and its open edges are counted") {
+    TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(0.1));
+    mesh.triangles.pop_back();
+    const LoadedMesh loaded = loadMesh(ObjFile(mesh).path());
+    CHECK_FALSE(loaded.facts.closed());
+    CHECK(loaded.facts.openEdges == 3);
+}
+
+TEST_CASE("stray geometry is refused with its distance, or left out when asked") {
+    TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(0.1));
+    addBox(mesh, {0.15, 0.0, 0.0}, dvec3(0.05)); // beside it: part of the thing
+    addBox(mesh, {20.0, 0.0, 0.0}, dvec3(0.02));
+    const ObjFile file(mesh);
+    CHECK(refusalOf(file.path()).find("stray geometry: 1 pieces up to 19.8") != std::string::npos);
+    MeshOptions options;
+    options.dropStray = true;
+    const LoadedMesh loaded = loadMesh(file.path(), options);
+    CHECK(loaded.facts.strayParts == 1);
+    CHECK(loaded.mesh.triangles.size() == 24);
+    CHECK(loaded.mesh.high().x == doctest::Approx(0.175));
+}
+
+TEST_CASE("a unit that nobody said is refused by its size and mended by --scale; --up turns an axis to +z") {
+    const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
+    CHECK(refusalOf(millimetres.path()).find("size: 300 m (allowed: 0.001 to 10 m") != std::string::npos);
+    MeshOptions options;
+    options.scale = 0.001;
+    CHECK(loadMesh(millimetres.path(), options).mesh.high().x == doctest::Approx(0.15));
+    options.up = 'x';
+    CHECK(loadMesh(millimetres.path(), options).mesh.high().z == doctest::Approx(0.15));
+    options.up = 'y';
+    CHECK(loadMesh(millimetres.path(), options).mesh.high().z == doctest::Approx(0.1));
+    options.scale = -1.0;
+    CHECK(refusalOf(millimetres.path(), options).find("--scale") != std::string::npos);
+    CHECK(refusalOf("no/such/mesh.stl").find("no such file") != std::string::npos);
+    CHECK(refusalOf("tests/model/meshes.h").find("mesh: ") != std::string::npos);
+}
+
+TEST_CASE("distance and winding agree with a box's formula, inside, outside and where two boxes overlap") {
+    const TriangleMesh mesh = boxMesh(dvec3(0.0), {2.0, 4.0, 6.0});
+    const MeshDistance distance(mesh, true);
+    for (const dvec3& p : {dvec3(0.0), dvec3(0.9, 0.5, -2.0), dvec3(1.5, 0.0, 0.0), dvec3(3.0, 5.0, 7.0)}) {
+        const dvec3 q = glm::abs(p) - dvec3(1.0, 2.0, 3.0);
+        const double truth = glm::length(glm::max(q, dvec3(0.0))) + std::min(0.0, std::max({q.x, q.y, q.z}));
+        CHECK(distance.signedDistance(p) == doctest::Approx(truth).epsilon(1e-12));
+    }
+    TriangleMesh two = boxMesh(dvec3(0.0), dvec3(2.0));
+    addBox(two, dvec3(1.0), dvec3(2.0));
+    const MeshDistance both(two, true);
+    CHECK(both.winding(dvec3(0.5)) == doctest::Approx(2.0).epsilon(0.02));
+    CHECK(both.isInside(dvec3(0.5)));
+    CHECK(both.isInside(dvec3(1.5)));
+    CHECK_FALSE(both.isInside(dvec3(1.5, -0.5, 0.0)));
+    CHECK_FALSE(MeshDistance(two, false).isInside(dvec3(0.5)));
+}
+
+TEST_CASE("the winding number of a ring of many faces is right by dipoles, too") {
+    const TriangleMesh ring = ringMesh(0.1, 0.03, 96, 48);
+    const MeshDistance distance(ring, true);
+    for (int i = 0; i < 500; ++i) {
+        const double a = 0.61 * i, b = 1.7 * i, s = 0.06 * (i % 50) / 50.0;
+        const dvec3 p((0.1 + s * std::cos(b)) * std::cos(a), (0.1 + s * std::cos(b)) * std::sin(a),
+                      s * std::sin(b));
+        if (std::abs(s - 0.03) > 0.0005) {
+            CHECK(distance.isInside(p) == (s < 0.03));
+        }
+    }
+}
+
+TEST_CASE("real files with traps are read in metres: inches, doubled faces, an open finger tip") {
+    if (const auto file = kMeshes / "gazebo_models_CC-BY-3.0/hand_wheel_valve.dae"; present(file)) {
+        const LoadedMesh loaded = loadMesh(file);
+        const dvec3 size = loaded.mesh.high() - loaded.mesh.low();
+        CHECK(std::max({size.x, size.y, size.z}) < 1.0); // the numbers in the file are inches
+        CHECK(std::max({size.x, size.y, size.z}) > 0.08);
+        CHECK(loaded.facts.doubled > 1000);
+    }
+    if (const auto file = kMeshes / "uuv_manipulators_Apache-2.0/FingerTip.dae"; present(file)) {
+        CHECK(loadMesh(file).facts.openEdges > 0);
+    }
+    if (const auto file = kMeshes / "uuv_manipulators_Apache-2.0/Jaw.stl"; present(file)) {
+        const LoadedMesh loaded = loadMesh(file);
+        CHECK(loaded.facts.closed());
+        CHECK((loaded.mesh.high() - loaded.mesh.low()).x == doctest::Approx(0.191).epsilon(0.01));
+    }
+}

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom spheres` from outside.
+#include "tests/model/meshes.h"
+#include "tests/program/run_fathom.h"
+
+#include <doctest/doctest.h>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+struct Folder {
+    std::filesystem::path path =
+        std::filesystem::temp_directory_path() / ("fathom_spheres_" + std::to_string(::getpid()));
+    Folder() { std::filesystem::create_directories(path); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+    ~Folder() { std::filesystem::remove_all(path); }
+};
+
+} // namespace
+
+TEST_CASE(
+    "spheres writes a tree, a report that says how it was checked, and compares it with octree and grid") {
+    const Folder folder;
+    const ObjFile mesh(boxMesh(dvec3(0.0), {0.1, 0.04, 0.03}));
+    const std::string out = (folder.path / "tool.sph").string(), json = (folder.path / "tool.json").string();
+    const ProgramRun run = runFathom(
+        {"spheres", mesh.path().string(), "--out", out, "--leaves", "12", "--compare", "--json", json});
+    CHECK(run.exitCode == 0);
+    CHECK(run.err == "");
+    CHECK(run.out.find("every surface sample lies in a sphere") != std::string::npos);
+    std::ifstream in(json);
+    const nlohmann::json report = nlohmann::json::parse(in);
+    CHECK(report["mesh"]["closed"] == true);
+    REQUIRE(report["covers"].size() == 3);
+    CHECK(report["covers"][0]["name"] == "fathom");
+    CHECK(report["covers"][0]["samples_outside"] == 0);
+    CHECK(report["covers"][0]["surface_samples"] > 90'000);
+    CHECK(report["covers"][0]["leaves"] <= 12);
+    CHECK(report["covers"][0]["protrusion_max_m"] > 0.001);
+    CHECK(std::filesystem::file_size(out) > 200);
+}
+
+TEST_CASE("spheres refuses what it cannot use in one line and with exit code 2") {
+    const Folder folder;
+    const std::string out = (folder.path / "tool.sph").string();
+    const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
+    const ObjFile good(boxMesh(dvec3(0.0), dvec3(0.1)));
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"spheres", "no/such.stl", "--out", out},
+          {"spheres", millimetres.path().string(), "--out", out},
+          {"spheres", good.path().string(), "--out", out, "--leaves", "0"},
+          {"spheres", good.path().string(), "--out", out, "--protrusion", "1e-9"},
+          {"spheres", good.path().string(), "--out", out, "--up", "w"},
+          {"spheres", good.path().string()}}) {
+        const ProgramRun run = runFathom(arguments);
+        CHECK(run.exitCode == 2);
+        CHECK(run.errorLines().size() == 1);
+        CHECK_FALSE(std::filesystem::exists(out));
+    }
+}
