@@ -9,7 +9,7 @@
 #include "devices/v4l2/v4l2_camera.h"
 #include "devices/water/water_camera.h"
 #include "engine/haptics/device_preset.h"
-#include "engine/model/sph_file.h"
+#include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 
 namespace fathom {
@@ -92,7 +92,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
 Tool openTool(const Scene& scene) {
     try {
         if (!scene.tool.file.empty()) {
-            return Tool(readSph(scene.tool.file));
+            return Tool(readSphereTree(scene.tool.file));
         }
         std::vector<Sphere> leaves;
         for (const auto& [x, y, z, r] : scene.tool.spheres) {

@@ -4,9 +4,11 @@
 #include "apps/spheres/spheres_report.h"
 #include "engine/model/sph_file.h"
 #include "engine/model/sphere_cover.h"
+#include "engine/model/sphere_sets.h"
 #include "engine/reference/cell_cover.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -20,7 +22,7 @@ struct SpheresOptions {
     std::filesystem::path mesh, out, plot, json;
     CoverOptions cover;
     MeshOptions file;
-    std::string up;
+    std::string up, link;
     bool compare = false;
 };
 
@@ -80,8 +82,28 @@ void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
                    maker.rows());
 }
 
+// A flat set that another program made becomes a tree.
+bool isSet(const std::filesystem::path& file) {
+    const std::string kind = file.extension().string();
+    return kind == ".urdf" || kind == ".yaml" || kind == ".yml" || kind == ".sph";
+}
+
+void convert(const SpheresOptions& options) {
+    const SphereTree tree = readSphereTree(options.mesh, options.link);
+    const auto leaves = tree.lastLevel();
+    const auto used =
+        std::count_if(leaves.begin(), leaves.end(), [](const Sphere& s) { return s.radius >= 0.0; });
+    writeSph(tree, options.out);
+    std::cout << used << " leaf spheres, parents recomputed; written to " << options.out.string()
+              << std::endl;
+}
+
 void runSpheres(SpheresOptions options) {
     check(options);
+    if (isSet(options.mesh)) {
+        convert(options);
+        return;
+    }
     options.file.up = options.up.empty() ? '\0' : options.up[0];
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
     printMesh(std::cout, loaded);
@@ -120,7 +142,10 @@ void runSpheres(SpheresOptions options) {
 void addSpheresCommand(CLI::App& app) {
     auto options = std::make_shared<SpheresOptions>();
     CLI::App* command = app.add_subcommand("spheres", "make a sphere tree that contains a mesh, for a tool");
-    command->add_option("MESH", options->mesh, "STL, OBJ or COLLADA file")->required();
+    command
+        ->add_option("MESH", options->mesh,
+                     "STL, OBJ or COLLADA file; or spheres: .urdf, .yaml (cuRobo), .sph")
+        ->required();
     command->add_option("--out", options->out, "sphere tree (.sph), in the mesh's frame [m]")->required();
     command->add_option("--leaves", options->cover.leaves, "leaf spheres at most (128)");
     command->add_option("--protrusion", options->cover.protrusion,
@@ -129,6 +154,7 @@ void addSpheresCommand(CLI::App& app) {
     command->add_option("--up", options->up, "the file's axis that becomes +z (none)")
         ->check(CLI::IsMember({"x", "y", "z"}));
     command->add_flag("--drop-stray", options->file.dropStray, "leave out pieces far from the rest");
+    command->add_option("--link", options->link, "which link of a .urdf or .yaml");
     command->add_flag("--compare", options->compare, "octree and grid spheres of the same number beside it");
     command->add_option("--plot", options->plot, "picture (PNG): protrusion against number of leaves");
     command->add_option("--json", options->json, "the report as JSON");

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/sphere_sets.h"
+
+#include "engine/types/error.h"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+class TextFile {
+public:
+    TextFile(const std::string& kind, const std::string& text) {
+        static int count = 0;
+        path_ = std::filesystem::temp_directory_path() /
+                ("fathom_set_" + std::to_string(::getpid()) + "_" + std::to_string(count++) + kind);
+        std::ofstream(path_) << text;
+    }
+    TextFile(const TextFile&) = delete;
+    TextFile& operator=(const TextFile&) = delete;
+    ~TextFile() { std::filesystem::remove(path_); }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+std::string refusalOf(const std::string& kind, const std::string& text, const std::string& link = "") {
+    const TextFile file(kind, text);
+    try {
+        readSphereTree(file.path(), link);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+std::string ball(const std::string& centre, const std::string& radius) {
+    return "<collision><origin xyz='" + centre + "'/><geometry><sphere radius='" + radius +
+           "'/></geometry></collision>";
+}
+
+const std::string kRobot = "<robot name='r'><link name='a/hand'>" + ball("0.1 0 0", "0.02") +
+                           ball("0 0.2 0", "0.03") +
+                           "<collision><geometry><box size='1 1 1'/></geometry></collision></link>";
+
+} // namespace
+
+TEST_CASE("a spherized URDF gives each link's spheres at their origins, other shapes left alone") {
+    const TextFile file(".urdf", kRobot + "</robot>");
+    const auto sets = readSpherizedUrdf(file.path());
+    REQUIRE(sets.size() == 1);
+    CHECK(sets[0].link == "a/hand");
+    REQUIRE(sets[0].spheres.size() == 2);
+    CHECK(sets[0].spheres[0].centre == dvec3(0.1, 0, 0));
+    CHECK(sets[0].spheres[1].radius == 0.03);
+    const SphereTree tree = readSphereTree(file.path());
+    CHECK(validate(tree) == "");
+    CHECK(tree.nodes[0].radius > 0.1);
+}
+
+TEST_CASE("cuRobo's YAML is read at the top and under its tables; spheres switched off are left out") {
+    const std::string spheres =
+        "collision_spheres:\n  hand:\n    - {center: [0, 0, 0.1], radius: 0.02}\n"
+        "    - {center: [0, 0, 0.2], radius: -10}\n  base: [{center: [1, 2, 3], radius: 0.5}]\n";
+    std::string nested = "robot_cfg:\n  kinematics:\n";
+    for (size_t at = 0, end = 0; at < spheres.size(); at = end + 1) {
+        end = spheres.find('\n', at);
+        nested += "    " + spheres.substr(at, end - at) + "\n";
+    }
+    for (const std::string& text : {spheres, nested}) {
+        const TextFile file(".yml", text);
+        const auto sets = readCuroboYaml(file.path());
+        REQUIRE(sets.size() == 2);
+        CHECK(sets[0].link == "hand");
+        CHECK(sets[0].spheres.size() == 1);
+        CHECK(sets[1].spheres[0].centre == dvec3(1, 2, 3));
+        CHECK(readSphereTree(file.path(), "base").lastLevel()[0].radius == 0.5);
+    }
+    CHECK(refusalOf(".yaml", spheres).find("link: not named (allowed: hand, base)") != std::string::npos);
+    CHECK(refusalOf(".yaml", spheres, "arm").find("link: 'arm' (allowed: hand, base)") != std::string::npos);
+}
+
+TEST_CASE("a damaged set is refused with its place") {
+    CHECK(refusalOf(".urdf", "").find("cannot be read or empty") != std::string::npos);
+    CHECK(refusalOf(".urdf", "<robot").find("robot: ") != std::string::npos);
+    CHECK(refusalOf(".urdf", "<robot name='r'><link name='x'/></robot>").find("spheres: none") !=
+          std::string::npos);
+    CHECK(refusalOf(".urdf", "<robot name='r'><link name='x'>" + ball("0 0 0", "-1") + "</link></robot>") !=
+          "");
+    CHECK(refusalOf(".yaml", "collision_spheres: {a: [{center: [0, 0], radius: 1}]}")
+              .find("line 1: not a sphere") != std::string::npos);
+    CHECK(refusalOf(".yaml", "collision_spheres:\n  a:\n    - {center: [0, 0, .nan], radius: 1}")
+              .find("line 3") != std::string::npos);
+    CHECK(refusalOf(".yaml", "other: 1").find("collision_spheres: missing") != std::string::npos);
+    CHECK(refusalOf(".yaml", "a: [").find("line") != std::string::npos);
+    CHECK(refusalOf(".txt", "x").find("kind of file: '.txt'") != std::string::npos);
+}
+
+TEST_CASE("the sphere sets that foam made of a real arm are read, every link a sound tree") {
+    const std::filesystem::path file =
+        "../shared/data/meshes/foam_spherized_MIT/smaller_panda_spherized.urdf";
+    if (!std::filesystem::exists(file)) {
+        MESSAGE("left out, no such file: " << file);
+        return;
+    }
+    size_t spheres = 0;
+    for (const LinkSpheres& set : readSpherizedUrdf(file)) {
+        CHECK(validate(readSphereTree(file, set.link)) == "");
+        spheres += set.spheres.size();
+    }
+    CHECK(spheres > 30);
+}
