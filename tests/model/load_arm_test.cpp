@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/arm_model.h"
+
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+const std::string kBall =
+    "<collision><origin xyz='0.1 0 0'/><geometry><sphere radius='0.05'/></geometry></collision>";
+const std::string kLimit = "<limit effort='1' lower='-1' upper='2' velocity='0.5'/>";
+
+std::string jointOf(const std::string& name, const std::string& type, const std::string& parent,
+                    const std::string& child, const std::string& more = kLimit) {
+    return "<joint name='" + name + "' type='" + type + "'><parent link='" + parent + "'/><child link='" +
+           child + "'/><origin xyz='0.3 0 0' rpy='0 0 1.5707963267948966'/><axis xyz='0 0 2'/>" + more +
+           "</joint>";
+}
+
+// base - fixed - arm/a - turns - arm/b - slides - tip, with a finger beside.
+const std::string kArm =
+    "<robot name='r'><link name='base'>" + kBall + "</link><link name='arm/a'>" + kBall +
+    "</link><link name='arm/b'>" + kBall + "</link><link name='tip'/><link name='finger'>" + kBall +
+    "</link>" + jointOf("f", "fixed", "base", "arm/a", "") + jointOf("turn", "revolute", "arm/a", "arm/b") +
+    jointOf("slide", "prismatic", "arm/b", "tip") + jointOf("jaw", "revolute", "arm/b", "finger");
+
+ArmModel load(const std::string& text, const ArmOptions& options = {}) {
+    const auto file =
+        std::filesystem::temp_directory_path() / ("fathom_arm_" + std::to_string(::getpid()) + ".urdf");
+    std::ofstream(file) << text;
+    return loadArm(file, options);
+}
+
+std::string refusalOf(const std::string& text, const ArmOptions& options = {}) {
+    try {
+        load(text, options);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE(
+    "a URDF gives the chain to the tip, fixed joints folded in, and every link's spheres with the joint that "
+    "carries them") {
+    ArmOptions options;
+    options.tip = "tip";
+    const ArmModel arm = load(kArm + "</robot>", options);
+    REQUIRE(arm.count() == 2);
+    CHECK(arm.joints[0].name == "turn");
+    CHECK(arm.joints[0].axis == dvec3(0, 0, 1));
+    CHECK(arm.joints[0].lower == -1.0);
+    CHECK(arm.joints[0].speed == 0.5);
+    CHECK(arm.joints[1].slides);
+    REQUIRE(arm.leaves.size() == 4);
+    CHECK(arm.links == std::vector<std::string>{"base", "arm/a", "arm/b", "finger"});
+    CHECK(arm.leaves[0].joint == 0);
+    CHECK(arm.leaves[1].joint == 0);
+    CHECK(arm.leaves[2].joint == 1);
+    CHECK(arm.leaves[3].joint == 1); // the jaw is off the chain
+
+    // By hand: x forward 0.3, a quarter turn, y forward 0.3, a quarter turn and q; then 0.3, and along z by
+    // q.
+    ArmFrames frames;
+    arm.place({0.0, 0.2}, Pose{}, frames);
+    CHECK(glm::distance(arm.centre(frames, 0), dvec3(0.1, 0, 0)) < 1e-9);
+    CHECK(glm::distance(arm.centre(frames, 1), dvec3(0.3, 0.1, 0)) < 1e-9);
+    CHECK(glm::distance(arm.centre(frames, 2), dvec3(0.2, 0.3, 0)) < 1e-9);
+    CHECK(glm::distance(arm.tip(frames).position, dvec3(0.0, 0.3, 0.2)) < 1e-9);
+    arm.place({1.5707963267948966, 0.0}, Pose{}, frames);
+    CHECK(glm::distance(arm.tip(frames).position, dvec3(0.3, 0.0, 0.0)) < 1e-9);
+}
+
+TEST_CASE("boxes and cylinders become spheres that hold their corners and rims") {
+    const std::string shapes =
+        "<robot name='r'><link name='base'><collision><geometry><box size='0.2 0.1 0.06'/>"
+        "</geometry></collision></link><link name='l'><collision><geometry>"
+        "<cylinder radius='0.05' length='0.3'/></geometry></collision></link>" +
+        jointOf("j", "continuous", "base", "l", "") + "</robot>";
+    const ArmModel arm = load(shapes);
+    CHECK(std::isinf(arm.joints[0].upper));
+    const auto held = [&](const dvec3& p, uint32_t link) {
+        for (const ArmLeaf& leaf : arm.leaves) {
+            if (leaf.link == link && glm::distance(leaf.sphere.centre, p) <= leaf.sphere.radius + 1e-9) {
+                return true;
+            }
+        }
+        return false;
+    };
+    for (int k = 0; k < 8; ++k) {
+        CHECK(held({k & 1 ? 0.1 : -0.1, k & 2 ? 0.05 : -0.05, k & 4 ? 0.03 : -0.03}, 0));
+    }
+    for (int k = 0; k < 100; ++k) {
+        CHECK(held({0.05 * std::cos(0.7 * k), 0.05 * std::sin(0.7 * k), k % 2 == 0 ? 0.15 : -0.15}, 1));
+    }
+    CHECK(arm.leaves.size() <= 48);
+}
+
+TEST_CASE("an arm that cannot be used is refused with the joint or link and the reason") {
+    ArmOptions options;
+    options.tip = "nowhere";
+    CHECK(refusalOf(kArm + "</robot>", options).find("link: 'nowhere' (allowed: ") != std::string::npos);
+    options = {};
+    options.base = "arm/b";
+    options.tip = "base";
+    CHECK(refusalOf(kArm + "</robot>", options).find("tip: 'base'") != std::string::npos);
+    const std::string two = "<robot name='r'><link name='a'>" + kBall + "</link><link name='b'/>";
+    CHECK(refusalOf(two + jointOf("j", "floating", "a", "b") + "</robot>")
+              .find("joint j: planar or floating") != std::string::npos);
+    CHECK(refusalOf(
+              two +
+              jointOf("j", "prismatic", "a", "b", "<limit effort='1' lower='2' upper='1' velocity='1'/>") +
+              "</robot>")
+              .find("joint j: limits missing or crossed") != std::string::npos);
+    std::string nine = "<robot name='r'><link name='l0'>" + kBall + "</link>";
+    for (int k = 0; k < 9; ++k) {
+        const std::string number = std::to_string(k);
+        std::string a("l"), b("l"), name("j");
+        a += number;
+        b += std::to_string(k + 1);
+        name += number;
+        nine += "<link name='" + b + "'/>" + jointOf(name, "revolute", a, b);
+    }
+    CHECK(refusalOf(nine + "</robot>").find("joint j7: one more moving joint (allowed: 7 at most") !=
+          std::string::npos);
+    CHECK(refusalOf("<robot name='r'><link name='a'/></robot>").find("collision: no shapes") !=
+          std::string::npos);
+}
+
+TEST_CASE("real arms of four joints are read, slashes in the names and all") {
+    const std::filesystem::path file = "../shared/data/urdf/oberon4/oberon4.urdf";
+    if (!std::filesystem::exists(file)) {
+        MESSAGE("left out, no such file: " << file);
+        return;
+    }
+    const ArmModel arm = loadArm(file);
+    MESSAGE("oberon4: " << arm.count() << " joints, " << arm.leaves.size() << " leaves, " << arm.links.size()
+                        << " links");
+    CHECK(arm.count() >= 4);
+    CHECK(arm.links[0] == "oberon4/base");
+    CHECK(arm.leaves.size() > 50);
+}
