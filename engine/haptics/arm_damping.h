@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Damped least squares in joint space: J^T M J + lambda^2 I and what follows from it.
+#pragma once
+
+#include "engine/model/arm_model.h"
+
+#include <span>
+
+namespace fathom {
+
+// No allocation, noexcept. Columns are M^1/2 J: [v; k omega] a unit of joint motion [m].
+class ArmNormal {
+public:
+    explicit ArmNormal(size_t joints) noexcept
+        : n_(joints) {}
+    void setColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
+        columns_[joint] = {v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
+    }
+    // Smallest singular value of the columns [m], of the first six when there are more joints than that:
+    // then of the six rows. By Jacobi rotations of the smaller Gram matrix.
+    double smallestSingular() const noexcept;
+    void damp(double lambda) noexcept; // fills metric()
+    std::span<const double> metric() const noexcept { return {metric_.data(), n_ * n_}; }
+    // (J^T M J + lambda^2 I)^-1 J^T M x for x = [a; alpha], alpha scaled by k. After damp().
+    void solve(const dvec3& a, const dvec3& scaledAlpha, JointVector& out) const noexcept;
+
+private:
+    size_t n_;
+    std::array<std::array<double, 6>, kMostJoints> columns_{};
+    std::array<double, kMostJoints * kMostJoints> metric_{};
+};
+
+// lambda: `least` where the smallest singular value is above `below`, rising to `most` at 0 (Nakamura and
+// Hanafusa 1986: lambda^2 by (1 - s / below)^2).
+double dampingFor(double smallest, double below, double least, double most) noexcept;
+
+} // namespace fathom

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/arm_proxy.h"
+
+#include "engine/haptics/arm_damping.h"
+#include "tests/haptics/allocation_count.h"
+#include "tests/haptics/arm_rig.h"
+
+#include <ctime>
+#include <doctest/doctest.h>
+#include <limits>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// Of this thread, so that other work on the machine does not count [us].
+double cpuMicros() {
+    timespec t{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return 1e6 * static_cast<double>(t.tv_sec) + 1e-3 * static_cast<double>(t.tv_nsec);
+}
+
+double worstLimit(const ArmModel& arm, const JointVector& q) {
+    double worst = 0.0;
+    for (size_t k = 0; k < arm.count(); ++k) {
+        worst = std::max({worst, arm.joints[k].lower - q[k], q[k] - arm.joints[k].upper});
+    }
+    return worst;
+}
+
+} // namespace
+
+TEST_CASE("the way that a joint moves a point is the derivative of where the point is") {
+    ArmModel arm = makeArm(5, 1);
+    arm.joints[2].slides = true;
+    const JointVector q{0.3, -0.5, 0.1, 0.7, -0.2};
+    ArmFrames frames, moved;
+    const Pose base{{1.0, 2.0, 3.0}, rotationExp({0.1, 0.2, -0.3})};
+    arm.place(q, base, frames);
+    const dvec3 tip = arm.tip(frames).position;
+    for (size_t k = 0; k < 5; ++k) {
+        JointVector next = q;
+        next[k] += 1e-7;
+        arm.place(next, base, moved);
+        const dvec3 slope = (arm.tip(moved).position - tip) / 1e-7;
+        CHECK(glm::distance(slope, arm.motionOf(frames, k, tip)) < 1e-6);
+    }
+}
+
+TEST_CASE("an arm of four to seven joints brings its tip to a place it can reach") {
+    for (size_t joints : {4u, 5u, 6u, 7u}) {
+        const ArmModel arm = makeArm(joints, 3);
+        ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
+        ArmFrames frames;
+        arm.place(JointVector{-0.3, 0.6, 0.3, 0.5, 0.4, 0.2, -0.1}, Pose{}, frames);
+        ArmTurn turn;
+        for (int i = 0; i < 4000; ++i) {
+            turn = proxy.turn(arm.tip(frames), 0.0, nullptr);
+        }
+        INFO(joints << " joints, residual " << turn.residual);
+        CHECK(turn.residual < 1e-6);
+        CHECK_FALSE(turn.trapped);
+    }
+}
+
+TEST_CASE("whatever the hand asks for, no joint leaves its limits or goes faster than it can") {
+    std::mt19937_64 random(5);
+    for (size_t joints : {1u, 4u, 7u}) {
+        const ArmModel arm = makeArm(joints, 2, 0.4);
+        ArmProxy proxy(arm, Pose{}, {}, JointVector{});
+        double worst = 0.0, fastest = 0.0;
+        size_t limited = 0;
+        Pose target;
+        for (int i = 0; i < 3000; ++i) {
+            if (i % 300 == 0) {
+                target = {randomIn(random, 2.0), randomRotation(random)};
+            }
+            const JointVector before = proxy.joints();
+            const ArmTurn turn = proxy.turn(target, 0.1, nullptr);
+            worst = std::max(worst, worstLimit(arm, turn.q));
+            limited += turn.atLimits > 0 ? 1 : 0;
+            for (size_t k = 0; k < joints; ++k) {
+                fastest = std::max(fastest, std::abs(turn.q[k] - before[k]));
+            }
+        }
+        CHECK(worst == 0.0);
+        CHECK(fastest <= 0.001 * (1.0 + 1e-12)); // 1 rad/s in 1 ms
+        CHECK(limited > 100);
+    }
+}
+
+TEST_CASE("no leaf of any link enters a sphere, among hundreds of them, with a wild hand") {
+    std::mt19937_64 random(11);
+    for (size_t joints : {4u, 6u}) {
+        const ArmModel arm = makeArm(joints, 8);
+        ArmProxy proxy(arm, Pose{}, {}, JointVector{});
+        World world;
+        scatter(world, arm, proxy.frames(), random, 600);
+        double deepest = -1.0, worst = 0.0;
+        size_t touching = 0, trapped = 0;
+        Pose target;
+        for (int i = 0; i < 2500; ++i) {
+            if (i % 250 == 0) {
+                target = {randomIn(random, 1.0), randomRotation(random)};
+            }
+            if (i % 3 == 0) {
+                world.query(arm, proxy); // answers come late, too
+            }
+            REQUIRE(proxy.covers(world.set));
+            const ArmTurn turn = proxy.turn(target, 0.05, &world.set);
+            deepest = std::max(deepest, world.depth(arm, proxy.frames()));
+            worst = std::max(worst, worstLimit(arm, turn.q));
+            touching += turn.contacts > 0 ? 1 : 0;
+            trapped += turn.trapped ? 1 : 0;
+        }
+        MESSAGE(joints << " joints: deepest " << 1e6 * deepest << " um, in contact " << touching
+                       << " of 2500 turns");
+        CHECK(deepest <= 1e-9);
+        CHECK(worst == 0.0);
+        CHECK(touching > 200);
+        CHECK(trapped == 0);
+    }
+}
+
+TEST_CASE("an elbow that would hit stops the tip although the tip itself is free") {
+    const ArmModel arm = makeArm(4, 8);
+    ArmProxy proxy(arm, Pose{}, {}, JointVector{});
+    World world;
+    addSphere(world.fixtures, {0.12, 0.2, 0.0}, 0.05); // beside the first link
+    world.grid.build(world.fixtures.spheres);
+    const Pose target{{0.1, 0.95, 0.0}, kUpright};
+    ArmTurn turn;
+    double deepest = -1.0;
+    for (int i = 0; i < 4000; ++i) {
+        world.query(arm, proxy);
+        turn = proxy.turn(target, 0.0, &world.set);
+        deepest = std::max(deepest, world.depth(arm, proxy.frames()));
+    }
+    CHECK(deepest <= 1e-9);
+    CHECK(turn.contacts >= 1);
+    CHECK(world.depth(arm, proxy.frames()) > -1e-5); // it rests on the sphere
+    CHECK(proxy.joints()[0] < 1.0);
+}
+
+TEST_CASE("new data over a link lets it out by a millimetre a turn and never deeper") {
+    const ArmModel arm = makeArm(4, 8);
+    ArmProxy proxy(arm, Pose{}, {}, JointVector{});
+    World world;
+    addSphere(world.fixtures, {0.6, 0.075, 0.0}, 0.05);
+    world.grid.build(world.fixtures.spheres);
+    double before = world.depth(arm, proxy.frames());
+    REQUIRE(before > 0.01);
+    const Pose still = proxy.tip();
+    size_t trapped = 0;
+    for (int i = 0; i < 200; ++i) {
+        world.query(arm, proxy);
+        const ArmTurn turn = proxy.turn(still, 0.0, &world.set);
+        const double now = world.depth(arm, proxy.frames());
+        CHECK(now <= before + 1e-12);
+        trapped += turn.trapped ? 1 : 0;
+        before = now;
+    }
+    CHECK(trapped == 0);
+    CHECK(before <= 1e-6);
+}
+
+TEST_CASE("a stretched arm is reported as singular, damped, and comes back") {
+    const ArmModel arm = makeArm(4, 2);
+    ArmProxy proxy(arm, Pose{}, {}, JointVector{0.1, 0.3, -0.4, 0.5});
+    ArmFrames bent;
+    arm.place({0.4, 0.5, -0.3, 0.6}, Pose{}, bent);
+    ArmTurn turn;
+    size_t singular = 0;
+    double largest = 0.0;
+    for (int i = 0; i < 3000; ++i) {
+        const JointVector before = proxy.joints();
+        turn = proxy.turn({{5.0, 0.0, 0.0}, kUpright}, 0.0, nullptr);
+        singular += turn.singular ? 1 : 0;
+        if (i > 2900) {
+            for (size_t k = 0; k < 4; ++k) {
+                largest = std::max(largest, std::abs(turn.q[k] - before[k]));
+            }
+        }
+    }
+    CHECK(singular > 100);
+    CHECK(largest < 1e-5); // at rest, not dancing
+    CHECK(turn.tip.position.x > 0.99);
+    for (int i = 0; i < 3000; ++i) {
+        turn = proxy.turn(arm.tip(bent), 0.0, nullptr);
+    }
+    CHECK(turn.residual < 1e-4);
+}
+
+TEST_CASE("a target that is not finite holds the arm, and a start outside the limits is brought inside") {
+    const ArmModel arm = makeArm(4, 2, 0.5);
+    ArmProxy proxy(arm, Pose{}, {}, JointVector{3.0, -3.0, std::numeric_limits<double>::quiet_NaN(), 0.1});
+    CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
+    const ArmTurn turn =
+        proxy.turn({dvec3(std::numeric_limits<double>::quiet_NaN()), kUpright}, 0.1, nullptr);
+    CHECK(turn.q == proxy.joints());
+    CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
+    ContactSet other; // of some other tool
+    CHECK_FALSE(proxy.covers(other));
+}
+
+TEST_CASE("the smallest singular value and the damping are those of the textbook") {
+    ArmNormal normal(3);
+    normal.setColumn(0, {3, 0, 0}, dvec3(0.0));
+    normal.setColumn(1, {0, 0.5, 0}, dvec3(0.0));
+    normal.setColumn(2, {0, 0, 0}, {0, 2, 0});
+    CHECK(normal.smallestSingular() == doctest::Approx(0.5).epsilon(1e-12));
+    normal.damp(0.0);
+    JointVector x{};
+    normal.solve({3.0, 1.0, 9.0}, {0.0, 4.0, 0.0}, x);
+    CHECK(x[0] == doctest::Approx(1.0));
+    CHECK(x[1] == doctest::Approx(2.0));
+    CHECK(x[2] == doctest::Approx(2.0));
+    CHECK(dampingFor(1.0, 0.1, 0.001, 0.05) == 0.001);
+    CHECK(dampingFor(0.0, 0.1, 0.001, 0.05) == 0.05);
+    CHECK(dampingFor(0.05, 0.1, 0.001, 0.05) == doctest::Approx(0.025));
+}
+
+TEST_CASE("a turn of a whole arm allocates nothing; what it costs, by leaf count") {
+    std::mt19937_64 random(3);
+    for (size_t leaves : {500u, 2000u}) {
+        const ArmModel arm = makeArm(5, leaves / 5);
+        ArmProxy proxy(arm, Pose{}, {}, JointVector{});
+        World world;
+        scatter(world, arm, proxy.frames(), random, 3000);
+        std::vector<double> micros;
+        micros.reserve(300);
+        uint64_t allocated = 0;
+        Pose target;
+        for (int i = 0; i < 300; ++i) {
+            if (i % 60 == 0) {
+                target = {randomIn(random, 1.0), randomRotation(random)};
+            }
+            world.query(arm, proxy);
+            const uint64_t held = allocationCount();
+            const double start = cpuMicros();
+            proxy.turn(target, 0.05, &world.set);
+            micros.push_back(cpuMicros() - start);
+            allocated += allocationCount() - held;
+        }
+        std::sort(micros.begin(), micros.end());
+        MESSAGE(leaves << " leaves: turn p50 " << micros[150] << " us, p99 " << micros[297] << " us");
+        CHECK(world.depth(arm, proxy.frames()) <= 1e-9);
+        CHECK(allocated == 0);
+    }
+}
