@@ -12,25 +12,56 @@
 
 namespace fathom::gpu {
 
-Device::Device(const Instance& instance, const std::string& selector)
+Device::Device(const Instance& instance, const std::string& selector, Drawing drawing)
     : physical_(choosePhysicalDevice(instance, selector))
     , family_(*computeFamily(physical_))
     , facts_(readFacts(physical_))
     , cacheFile_(cacheFileOf(physical_, ".pipelines")) {
     facts_.gpuQueryLeaves = storedQueryCrossover(physical_, facts_.gpuQueryLeaves);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-    createLogicalDevice(instance.validation().gpuAssisted);
+    if (drawing != Drawing::None) {
+        chooseDrawQueue();
+    }
+    createLogicalDevice(instance.validation().gpuAssisted, drawing);
     vkGetDeviceQueue(handle_, family_, 0, &queue_);
+    if (drawing != Drawing::None) {
+        vkGetDeviceQueue(handle_, drawFamily_, drawIndex_, &drawQueue_);
+    }
     loadPipelineCache();
     spdlog::info("device {} ({})", facts_.name, facts_.driver);
 }
 
-void Device::createLogicalDevice(bool gpuAssisted) {
-    const float priority = 1.0f;
-    VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
-    queue.queueFamilyIndex = family_;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
+// A queue of its own wherever there is one: of the compute family, else of the first family that draws.
+void Device::chooseDrawQueue() {
+    uint32_t count = 0;
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
+    const auto draws = [&](uint32_t f) { return (families[f].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0; };
+    drawFamily_ = family_;
+    for (uint32_t f = 0; f < count && !draws(drawFamily_); ++f) {
+        drawFamily_ = draws(f) ? f : drawFamily_;
+    }
+    if (!draws(drawFamily_)) {
+        throw BadInput("--device", "window", facts_.name, "a device that draws: this one only computes");
+    }
+    drawIndex_ = drawFamily_ == family_ && families[family_].queueCount > 1 ? 1 : 0;
+}
+
+void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
+    const float priorities[] = {1.0f, 0.5f}; // passes before pictures
+    std::vector<VkDeviceQueueCreateInfo> queues;
+    const auto add = [&](uint32_t family, uint32_t number, const float* priority) {
+        VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+        queue.queueFamilyIndex = family;
+        queue.queueCount = number;
+        queue.pQueuePriorities = priority;
+        queues.push_back(queue);
+    };
+    add(family_, 1 + drawIndex_, priorities);
+    if (drawing != Drawing::None && drawFamily_ != family_) {
+        add(drawFamily_, 1, priorities + 1);
+    }
 
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     v12.timelineSemaphore = VK_TRUE;
@@ -42,8 +73,17 @@ void Device::createLogicalDevice(bool gpuAssisted) {
 
     VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = &features;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue;
+    info.queueCreateInfoCount = static_cast<uint32_t>(queues.size());
+    info.pQueueCreateInfos = queues.data();
+    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    if (drawing == Drawing::Surface) {
+        if (!hasExtension(physical_, swapchain)) {
+            throw BadInput("--device", "window", facts_.name,
+                           "a device that shows pictures (VK_KHR_swapchain)");
+        }
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &swapchain;
+    }
     check(vkCreateDevice(physical_, &info, nullptr, &handle_), "vkCreateDevice");
 }
 
@@ -99,6 +139,16 @@ void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t wai
     submit.pSignalSemaphores = &timeline;
     const std::lock_guard lock(queueMutex_);
     check(vkQueueSubmit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit");
+}
+
+void Device::submitDrawing(const VkSubmitInfo& submit, VkFence fence) {
+    const std::lock_guard lock(sharesQueue() ? queueMutex_ : drawMutex_);
+    check(vkQueueSubmit(drawQueue_, 1, &submit, fence), "vkQueueSubmit");
+}
+
+VkResult Device::present(const VkPresentInfoKHR& info) {
+    const std::lock_guard lock(sharesQueue() ? queueMutex_ : drawMutex_);
+    return vkQueuePresentKHR(drawQueue_, &info);
 }
 
 void Device::loadPipelineCache() {

@@ -18,11 +18,18 @@ enum class MemoryKind {
     Readback, // host-cached: the CPU reads it; the GPU may write it straight
 };
 
+// What a window asks of the device besides computing.
+enum class Drawing {
+    None,
+    Offscreen, // a queue that draws
+    Surface,   // the same, and swapchains
+};
+
 class Device {
 public:
     // selector: empty = discrete, else integrated, else CPU; a number = index; otherwise part of the name.
     // Throws BadInput listing what there is, each with the reason when refused.
-    Device(const Instance& instance, const std::string& selector = {});
+    Device(const Instance& instance, const std::string& selector = {}, Drawing drawing = Drawing::None);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -40,11 +47,22 @@ public:
     // mutex of the queue is held for the call only. Never called by the haptic thread.
     void submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue);
 
+    // The queue that draws; null when Drawing::None. Where the device has one queue only it is the one that
+    // computes, and sharesQueue() is true: then whoever draws yields to passes in flight.
+    VkQueue drawQueue() const { return drawQueue_; }
+    uint32_t drawFamily() const { return drawFamily_; }
+    bool sharesQueue() const { return drawQueue_ == queue_; }
+    // vkQueueSubmit and vkQueuePresentKHR on that queue, one at a time. The result of present() is the
+    // caller's to judge.
+    void submitDrawing(const VkSubmitInfo& submit, VkFence fence);
+    VkResult present(const VkPresentInfoKHR& info);
+
     // One line for each physical device: name, kind, or the reason for refusing it.
     static std::vector<std::string> list(const Instance& instance);
 
 private:
-    void createLogicalDevice(bool gpuAssisted);
+    void createLogicalDevice(bool gpuAssisted, Drawing drawing);
+    void chooseDrawQueue();
     void loadPipelineCache();
     void savePipelineCache() const noexcept;
 
@@ -52,7 +70,9 @@ private:
     VkDevice handle_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
     uint32_t family_ = 0;
-    std::mutex queueMutex_;
+    VkQueue drawQueue_ = VK_NULL_HANDLE;
+    uint32_t drawFamily_ = 0, drawIndex_ = 0;
+    std::mutex queueMutex_, drawMutex_; // the second one only where the queues differ
     VkPipelineCache cache_ = VK_NULL_HANDLE;
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceFacts facts_;

@@ -72,7 +72,7 @@ VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<uint32_t>* counter)
 
 } // namespace
 
-Instance::Instance(Validation validation)
+Instance::Instance(Validation validation, std::span<const char* const> extensions)
     : validation_(validation) {
     if (validation.enabled && !layerPresent()) {
         throw Error("the validation layer was asked for and is not installed (vulkan-validationlayers)");
@@ -91,16 +91,17 @@ Instance::Instance(Validation validation)
     features.enabledValidationFeatureCount = static_cast<uint32_t>(enables.size());
     features.pEnabledValidationFeatures = enables.data();
 
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    std::vector<const char*> names(extensions.begin(), extensions.end());
     VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &app;
     if (validation.enabled) {
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = &kLayer;
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &extension;
+        names.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(names.size());
+    info.ppEnabledExtensionNames = names.data();
     check(vkCreateInstance(&info, nullptr, &handle_), "vkCreateInstance");
     if (validation.enabled) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(

@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 #include <vulkan/vulkan.h>
@@ -18,8 +19,10 @@ struct Validation {
 // Any thread may read messages(); the rest is used from the thread that builds the engine.
 class Instance {
 public:
-    // Throws Error when there is no Vulkan 1.2 loader or the layer that was asked for is missing.
-    explicit Instance(Validation validation = {});
+    // extensions: of the instance, for a window (what its toolkit names); the calls below need none.
+    // Throws Error when there is no Vulkan 1.2 loader or the layer or extension that was asked for is
+    // missing.
+    explicit Instance(Validation validation = {}, std::span<const char* const> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
