@@ -2,9 +2,11 @@
 // Everything that passes between the threads of a realtime run, and nothing else does. Design 2.
 #pragma once
 
+#include "devices/haptic_device.h"
 #include "engine/contact/contact_set.h"
 #include "engine/cycle/frame_cycle.h"
 #include "engine/cycle/turn_record.h"
+#include "engine/haptics/proxy.h"
 #include "engine/types/latest.h"
 #include "engine/types/lease_pool.h"
 #include "engine/types/ring.h"
@@ -29,9 +31,16 @@ struct SceneNews {
     std::array<GuidancePose, shared::kMaxClasses> guidance;
 };
 
+// Window to haptic cadence: authored shapes as the pilot has them now.
+struct ShapeList {
+    uint32_t count = 0;
+    std::array<Shape, Proxy::kSpareShapes> shapes;
+};
+
 // Haptic cadence to writer: one turn.
 struct TurnRow {
     TurnRecord record;
+    HandSample hand;         // raw, as the device gave it
     Pose start;              // base_T_tool that the turn started from
     uint64_t generation = 0; // of the fixture set obeyed; 0 = none
     uint64_t query = 0;      // whose answer was obeyed; 0 = none
@@ -72,6 +81,7 @@ struct Crossings {
 
     Latest<SceneNews> scene;             // frame -> haptic
     Latest<Pose> proxy;                  // haptic -> contact: base_T_tool
+    Latest<ShapeList> shapes;            // window -> haptic
     LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, in force and offered
     Ring<TurnRow> turns;                 // haptic -> writer
     Ring<QueryNote> queries;             // contact -> writer

@@ -79,6 +79,10 @@ TurnInput HapticLoop::inputFor(double now, const HandSample& sample, const Until
 
 double HapticLoop::turn(double due) noexcept {
     crossings_.scene.refresh();
+    if (crossings_.shapes.refresh()) {
+        const ShapeList& list = crossings_.shapes.front();
+        cycle_.setShapes({list.shapes.data(), list.count});
+    }
     offerNewest();
     const double began = clock_.now();
     const HandSample sample = hand_.read(std::max(0.0, began));
@@ -97,8 +101,8 @@ double HapticLoop::turn(double due) noexcept {
     crossings_.proxy.back() = cycle_.pose();
     crossings_.proxy.publish();
     const double over = clock_.now();
-    report(record, start, due, began, std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(),
-           over);
+    report(record, sample, start, due, began,
+           std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over);
     if (trace_ != nullptr) {
         trace_->turn(turnBegan, turnOver, began - due);
     }
@@ -107,10 +111,11 @@ double HapticLoop::turn(double due) noexcept {
     return over;
 }
 
-void HapticLoop::report(const TurnRecord& record, const Pose& start, double due, double began, double took,
-                        double over) noexcept {
+void HapticLoop::report(const TurnRecord& record, const HandSample& hand, const Pose& start, double due,
+                        double began, double took, double over) noexcept {
     TurnRow row;
     row.record = record;
+    row.hand = hand;
     row.start = start;
     row.generation = inForce_ ? inForce_->generation : 0;
     row.query = inForce_ ? inForce_->query : 0;

@@ -99,6 +99,13 @@ RealtimeRun::RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const Real
     }
 }
 
+void RealtimeRun::setShapes(std::span<const Shape> shapes) {
+    ShapeList& list = crossings_.shapes.back();
+    list.count = static_cast<uint32_t>(std::min(shapes.size(), list.shapes.size()));
+    std::copy_n(shapes.begin(), list.count, list.shapes.begin());
+    crossings_.shapes.publish();
+}
+
 void RealtimeRun::guarded(const std::function<void()>& body) noexcept {
     try {
         body();

@@ -42,6 +42,9 @@ public:
     void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
              const std::atomic<bool>& stop);
 
+    // Any one thread: other authored shapes, obeyed from the next turn on.
+    void setShapes(std::span<const Shape> shapes);
+
     uint64_t framesLost() const { return frames_.lost(); }
     uint64_t periodsMissed() const { return missed_; }
     uint64_t staleTurns() const { return staleTurns_; } // with a scene older than staleAfter

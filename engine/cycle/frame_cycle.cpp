@@ -3,6 +3,7 @@
 
 #include "engine/cloud/frame_params.h"
 #include "engine/cloud/frame_upload.h"
+#include "engine/types/error.h"
 
 #include <chrono>
 #include <spdlog/spdlog.h>
@@ -61,6 +62,17 @@ void FrameCycle::clearMemory() {
     commands.end();
     device_.submit(commands.handle(), timeline_.handle(), 0, ++ticket_);
     timeline_.wait(ticket_);
+}
+
+void FrameCycle::setScene(const Scene& scene) {
+    if (cloud::classRows(scene) != cloud::classRows(scene_)) {
+        throw Error("a scene in force keeps its classes of points: only their gates, radii and roles change");
+    }
+    scene_ = scene;
+    if (origin_) {
+        params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
+    }
+    lastSource_.reset(); // the same picture is another set now
 }
 
 // Some drivers compile a pipeline at its first use: let that be now. A frame of zero depth selects nothing.

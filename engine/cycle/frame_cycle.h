@@ -40,6 +40,9 @@ public:
 
     // One frame through, start to end.
     FrameReport process(Frame frame);
+    // Other gates, radii, roles and boxes for the frames from now on. The scene must have as many classes of
+    // points as before, and the same plan; throws Error otherwise.
+    void setScene(const Scene& scene);
     // The same in three steps: upload() may run while the device works on the frame before.
     void upload(Frame frame);
     void submit();

@@ -48,7 +48,11 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
     , device_(proxy_.pose())
     , handle_{start.position, glm::normalize(start.rotation)}
     , toolBefore_(device_)
-    , deviceBefore_(device_) {}
+    , deviceBefore_(device_) {
+    for (const Sphere& leaf : tool.leaves()) {
+        leafRadius_.push_back(leaf.radius);
+    }
+}
 
 TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     TurnRecord out;
@@ -80,6 +84,7 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     finishWrench(springWrench(), period, now, out);
 
     report(now, moved, set != nullptr, out);
+    recordTouches(set, moved, out);
     holdArm(now, moved.trapped, out);
     fillMargins(input, out);
     watch_.step(input.measuredPeriod); // in force from the next turn on
@@ -99,6 +104,31 @@ void HapticCycle::report(const Situation& now, const ProxyTurn& moved, bool hasS
     out.stalled = moved.stalled;
     out.solves = moved.solves;
     out.infeasible = moved.infeasible;
+}
+
+void HapticCycle::recordTouches(const ContactSet* set, const ProxyTurn& moved,
+                                TurnRecord& out) const noexcept {
+    for (const ActiveContact& active : moved.active) {
+        const ContactRow& row = active.row;
+        if (out.touchCount == kMostTouches) {
+            return;
+        }
+        Touch& touch = out.touches[out.touchCount++];
+        touch.kind = row.kind;
+        touch.normal = row.normal;
+        touch.point = proxy_.pose().position + row.arm - leafRadius_[row.leaf] * row.normal;
+        touch.gap = row.gap;
+        touch.multiplier = active.multiplier;
+        touch.leaf = row.leaf;
+        touch.source = row.pair;
+        if (row.kind == ContactRow::Kind::Sphere && set != nullptr) {
+            const uint32_t sphere = set->pairSphere[row.pair];
+            touch.source = set->source[sphere];
+            touch.fixture = set->fixture[sphere];
+        } else if (row.kind != ContactRow::Kind::Behind) {
+            touch.fixture = proxy_.shapes()[row.pair].fixture;
+        }
+    }
 }
 
 const ContactSet* HapticCycle::chooseSet(const TurnInput& input, TurnRecord& out) noexcept {
@@ -140,7 +170,9 @@ ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set) n
 }
 
 void HapticCycle::stepRamps(const Situation& now, bool trapped) noexcept {
-    step(ramps_.power, now.running && !now.off && !now.clutch, options_.period / kRampTime);
+    const bool on = now.running && !now.off && !now.clutch;
+    arming_ = (arming_ || now.off) && ramps_.power < 1.0;
+    step(ramps_.power, on, options_.period / (on && arming_ ? options_.armTime : kRampTime));
     step(ramps_.free, !trapped, options_.period / kRampTime);
     step(ramps_.fresh, !now.stale, options_.period / kFadeTime);
 }

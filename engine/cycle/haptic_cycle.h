@@ -33,6 +33,10 @@ public:
 
     TurnRecord turn(const TurnInput& input) noexcept;
 
+    // Other authored shapes from the next turn on; those beyond what the constructor made room for are left
+    // out. On the haptic thread, between turns.
+    void setShapes(std::span<const Shape> shapes) noexcept { proxy_.setShapes(shapes); }
+
     const Pose& pose() const { return proxy_.pose(); } // base_T_tool: what the next contact query asks about
     const Springs& springs() const {
         return watch_.springs();
@@ -71,6 +75,7 @@ private:
     void finishWrench(const Wrench& spring, double period, const Situation& now, TurnRecord& out) noexcept;
     void tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked, const Wrench& sized,
                        const Wrench& delivered) noexcept;
+    void recordTouches(const ContactSet* set, const ProxyTurn& moved, TurnRecord& out) const noexcept;
     void report(const Situation& now, const ProxyTurn& moved, bool hasSet, TurnRecord& out) const noexcept;
     TurnState stateOf(const Situation& now, const ProxyTurn& moved) const noexcept;
     void holdArm(const Situation& now, bool trapped, TurnRecord& out) noexcept;
@@ -83,6 +88,7 @@ private:
     StiffnessWatch watch_;
     PassivityController passivity_;
 
+    std::vector<double> leafRadius_; // [m]
     Pose springEnd_;                 // base_T_tool that the solver aims at: device, led by guidance
     Pose device_, handle_;           // last good sample: mapped, raw
     Pose toolBefore_, deviceBefore_; // at the end of the turn before, for the damping
@@ -92,6 +98,7 @@ private:
     double age_ = 0.0;
     bool hasAge_ = false;
     bool armHold_ = true;
+    bool arming_ = true; // forces come back after having been off, as softly as the options say
     uint64_t notFinite_ = 0;
 };
 

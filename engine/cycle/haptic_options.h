@@ -25,6 +25,7 @@ struct HapticOptions {
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     double lowPassGain = 1.0;                     // limits.h; 1 = off
     bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
+    double armTime = 0.2;      // [s] in which forces come back after forces off or an open dead-man
     double staleAfter = 0.1;   // [s] scene age from which forces fade
     // Damps what moving fixtures put into the hand (engine/haptics/passivity.h); where nothing is generated
     // no force changes.

@@ -8,6 +8,7 @@
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -53,6 +54,19 @@ struct TurnInput {
 
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
+// A condition that pushed in the last solve of the turn, for those who look on. Base frame [m].
+struct Touch {
+    ContactRow::Kind kind = ContactRow::Kind::Sphere;
+    dvec3 point{0.0};        // of the leaf's surface, nearest to the region
+    dvec3 normal{0.0};       // unit, out of the region; zero in a row of pure rotation
+    double gap = 0.0;        // [m] when the row was made
+    double multiplier = 0.0; // its weight in the answer, > 0
+    uint32_t leaf = 0;       // of the tool
+    uint32_t source = 0;  // sphere: slot in the fixture set (RegionSpheres::source); else the shape's index
+    uint32_t fixture = 0; // row of Scene::fixtures
+};
+inline constexpr size_t kMostTouches = 8;
+
 // One row of haptics.csv and what the view shows beside it.
 struct TurnRecord {
     double t = 0.0;            // [s]
@@ -77,6 +91,8 @@ struct TurnRecord {
     uint32_t infeasible = 0; // solver calls without an answer
     int guidanceClass = -1;  // index into TurnInput::guidance of the target that pulls
     Pose guidanceTarget;     // held and slewed; valid when guidanceClass >= 0
+    std::array<Touch, kMostTouches> touches; // the first touchCount of them count
+    uint32_t touchCount = 0;
 };
 
 } // namespace fathom

@@ -27,7 +27,13 @@ Proxy::Proxy(const Tool& tool, std::span<const Shape> shapes, const ProxyOptions
         radius_.push_back(leaf.radius);
     }
     pose_.rotation = glm::normalize(pose_.rotation);
+    shapes_.reserve(std::max(kSpareShapes, shapes_.size()));
     setMetric(0.1);
+}
+
+void Proxy::setShapes(std::span<const Shape> shapes) noexcept {
+    const size_t count = std::min(shapes.size(), shapes_.capacity());
+    shapes_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void Proxy::setPose(const Pose& pose) noexcept {

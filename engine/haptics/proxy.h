@@ -74,6 +74,12 @@ public:
     bool covers(const ContactSet& contacts) noexcept;
 
     const Pose& pose() const { return pose_; }
+    // Other shapes from the next turn on; as many as there were at first, or kSpareShapes if that is more. A
+    // shape that comes to lie over the tool lets it out like new data.
+    void setShapes(std::span<const Shape> shapes) noexcept;
+    std::span<const Shape> shapes() const noexcept { return shapes_; }
+    static constexpr size_t kSpareShapes = 16;
+
     // Puts the tool somewhere without any check (start of a run, arm re-indexed). A pose that is not finite
     // is ignored.
     void setPose(const Pose& pose) noexcept;
