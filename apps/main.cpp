@@ -4,6 +4,7 @@
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
 #include "apps/guard/guard_command.h"
+#include "apps/operate/operate_command.h"
 #include "apps/plan/plan_command.h"
 #include "apps/record/record_command.h"
 #include "apps/register/register_command.h"
@@ -67,6 +68,7 @@ int run(int argc, char** argv) {
     int result = 0;
     fathom::addReplayCommand(app, global, result);
     fathom::addSpheresCommand(app);
+    fathom::addOperateCommand(app, global, result);
     fathom::addStabilityCommand(app, global, result);
     fathom::addRecordCommand(app, global, result);
     try {

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/alarms.h"
+
+#include "apps/operate/hud.h"
+#include "apps/operate/theme.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+std::string print(const char* form, double value) {
+    char text[128];
+    std::snprintf(text, sizeof text, form, value);
+    return text;
+}
+
+} // namespace
+
+const char* levelName(Level level) {
+    constexpr const char* kNames[] = {"ADVISORY", "CAUTION", "WARNING"};
+    return kNames[static_cast<int>(level)];
+}
+
+const char* levelSign(Level level) {
+    constexpr const char* kSigns[] = {"i", "!", "\xe2\x9a\xa0"};
+    return kSigns[static_cast<int>(level)];
+}
+
+ImU32 levelColour(Level level) {
+    constexpr ImU32 kColours[] = {colour::kAdvisory, colour::kCaution, colour::kWarning};
+    return kColours[static_cast<int>(level)];
+}
+
+void Alarms::set(bool on, Level level, const char* key, const std::string& words, double t) {
+    const auto at =
+        std::find_if(alarms_.begin(), alarms_.end(), [&](const Alarm& a) { return a.key == key; });
+    if (at == alarms_.end()) {
+        if (on) {
+            alarms_.push_back({level, key, words, t, true, false});
+        }
+        return;
+    }
+    if (on && !at->active) { // again: latched anew
+        at->since = t;
+        at->acknowledged = false;
+    }
+    at->words = on ? words : at->words;
+    at->active = on;
+}
+
+void Alarms::raise(Level level, const std::string& key, const std::string& words, double t) {
+    set(false, level, key.c_str(), words, t);
+    set(true, level, key.c_str(), words, t);
+    set(false, level, key.c_str(), words, t); // an event: latched, not lasting
+}
+
+void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene) {
+    if (run.anyTurn()) {
+        const TurnRecord& r = run.turn().record;
+        const Rates rates = run.rates();
+        const double force = glm::length(r.wrench.force), torque = glm::length(r.wrench.torque);
+        set(!r.finite, Level::Warning, "finite", "A number was not finite: zero wrench", r.t);
+        set(r.state == TurnState::Trapped, Level::Warning, "trapped",
+            "Tool trapped: no motion obeys every region", r.t);
+        set(r.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
+            print("Camera silent: scene %.1f s old", r.sceneAge), r.t);
+        set(r.sceneAge > haptics.staleAfter, Level::Caution, "stale",
+            print("Scene stale: over %.0f ms, forces fade", haptics.staleAfter * 1e3), r.t);
+        set(force > 0.98 * haptics.forceLimit, Level::Caution, "force",
+            print("Force at its limit of %.1f N", haptics.forceLimit), r.t);
+        set(torque > 0.98 * haptics.torqueLimit, Level::Caution, "torque",
+            print("Torque at its limit of %.2f N m", haptics.torqueLimit), r.t);
+        set(rates.worstPeriodMs > 1e4 * haptics.period, Level::Caution, "overrun",
+            print("Haptic overrun: a period of %.1f ms", rates.worstPeriodMs), r.t);
+        set(r.state == TurnState::Escape, Level::Caution, "escape",
+            "New data lies over the tool: it is let out", r.t);
+        set(r.marginPassive < kMarginNoise, Level::Caution, "passive", "Springs beyond the passive bound",
+            r.t);
+        set(glm::distance(r.tool.position, r.device.position) > 0.10, Level::Advisory, "apart",
+            "Hand and tool are over 100 mm apart", r.t);
+        set(console.frozen, Level::Advisory, "frozen", "Fixtures are frozen: the camera moves nothing", r.t);
+        for (const GuidancePose& g : run.scene().set.guidance) {
+            const bool named = g.fixture < scene.fixtures.size() && !scene.fixtures[g.fixture].name.empty();
+            if (named) {
+                const std::string& name = scene.fixtures[g.fixture].name;
+                set(!g.present, Level::Advisory, ("target " + name).c_str(),
+                    "No target: too few points of '" + name + "'", r.t);
+            }
+        }
+    }
+    if (console.acknowledge) {
+        for (Alarm& alarm : alarms_) {
+            alarm.acknowledged = true;
+        }
+        console.acknowledge = false;
+    }
+    std::erase_if(alarms_, [](const Alarm& a) { return !a.active && a.acknowledged; });
+}
+
+std::vector<const Alarm*> Alarms::shown() const {
+    std::vector<const Alarm*> list;
+    for (const Alarm& alarm : alarms_) {
+        list.push_back(&alarm);
+    }
+    std::stable_sort(list.begin(), list.end(), [](const Alarm* a, const Alarm* b) {
+        return std::pair(a->level, !a->acknowledged) > std::pair(b->level, !b->acknowledged);
+    });
+    return list;
+}
+
+const Alarm* Alarms::worst() const {
+    for (const Alarm* alarm : shown()) {
+        if (!alarm->acknowledged) {
+            return alarm;
+        }
+    }
+    return nullptr;
+}
+
+std::vector<std::string> Alarms::inWords() const {
+    std::vector<std::string> words;
+    for (const Alarm* alarm : shown()) {
+        words.push_back(std::string(levelName(alarm->level)) + (alarm->active ? " active " : " latched ") +
+                        (alarm->acknowledged ? "acknowledged " : "") + alarm->key);
+    }
+    return words;
+}
+
+void drawAlarms(Console& console, const Alarms& alarms) {
+    if (ImGui::Button("Acknowledge all  (Q)")) {
+        console.acknowledge = true;
+    }
+    markPlace(console, "acknowledge");
+    const auto list = alarms.shown();
+    if (list.empty()) {
+        ImGui::TextDisabled("No alarm.");
+    }
+    for (const Alarm* alarm : list) {
+        ImGui::PushStyleColor(ImGuiCol_Text,
+                              alarm->acknowledged ? colour::kQuiet : levelColour(alarm->level));
+        ImGui::TextWrapped("%s %s  %.1f s  %s%s", levelSign(alarm->level), levelName(alarm->level),
+                           alarm->since, alarm->words.c_str(), alarm->active ? "" : " (over)");
+        ImGui::PopStyleColor();
+    }
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Alarms in three levels, in words and with a sign, latched until the pilot has acknowledged them.
+#pragma once
+
+#include "apps/operate/console.h"
+#include "apps/operate/run_view.h"
+#include "engine/cycle/haptic_options.h"
+
+#include <imgui.h>
+#include <string>
+#include <vector>
+
+namespace fathom::operate {
+
+enum class Level { Advisory, Caution, Warning };
+
+struct Alarm {
+    Level level = Level::Advisory;
+    std::string key, words;
+    double since = 0.0; // [s] of the run
+    bool active = false, acknowledged = false;
+};
+
+const char* levelName(Level level);
+const char* levelSign(Level level);
+ImU32 levelColour(Level level);
+
+class Alarms {
+public:
+    // Looks at the run; once a window frame. missingTargets: names of guidance classes without a target.
+    void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene);
+    // Raises one that no rule sees.
+    void raise(Level level, const std::string& key, const std::string& words, double t);
+
+    // Shown: active, or latched and not yet acknowledged. Highest level first.
+    std::vector<const Alarm*> shown() const;
+    const Alarm* worst() const; // of those not acknowledged; null when none
+    std::vector<std::string> inWords() const;
+
+private:
+    void set(bool on, Level level, const char* key, const std::string& words, double t);
+    std::vector<Alarm> alarms_;
+};
+
+void drawAlarms(Console& console, const Alarms& alarms);
+
+} // namespace fathom::operate

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/camera_ground.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr int kLeastWidth = 640;
+constexpr size_t kLeastOutline = 24;  // [pixels]
+constexpr int kHatch = 12, kLine = 2; // [pixels] of the regions
+constexpr int kUnknownHatch = 9;
+
+struct Tint {
+    int r, g, b;
+};
+constexpr Tint kRegion{237, 41, 36}, kUnknown{196, 202, 255}, kDark{16, 18, 34}, kPicked{40, 220, 235};
+
+// share of 256
+uint32_t blend(uint32_t below, Tint tint, int share) {
+    const auto mix = [&](uint32_t shift, int value) {
+        const int under = static_cast<int>(below >> shift & 0xffu);
+        return static_cast<uint32_t>(under + (value - under) * share / 256) << shift;
+    };
+    return 0xff000000u | mix(0, tint.r) | mix(8, tint.g) | mix(16, tint.b);
+}
+
+uint32_t greyOf(uint16_t depth, double metresPerUnit) {
+    const double z = depth * metresPerUnit;
+    const auto level = static_cast<uint32_t>(std::clamp(230.0 - 70.0 * z, 40.0, 230.0));
+    return 0xff000000u | level << 16 | level << 8 | level;
+}
+
+dvec3 centreOf(const Fixtures& set, size_t i) {
+    return set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]}, double{set.spheres.z[i]});
+}
+
+} // namespace
+
+void CameraGround::compose(const SceneSnapshot& scene, const Selection& selection) {
+    const CameraInfo& camera = scene.set.camera;
+    const bool coloured = camera.hasColour && scene.colour.size() == camera.colour.pixels();
+    view_ = pictureView(camera, scene.set.baseTcamera, !coloured, kLeastWidth);
+    pixels_.assign(static_cast<size_t>(view_.width()) * static_cast<size_t>(view_.height()), 0xff201814u);
+    paintPicture(scene, selection);
+    paintRegions(scene.set);
+}
+
+void CameraGround::paintPicture(const SceneSnapshot& scene, const Selection& selection) {
+    const CameraInfo& camera = scene.set.camera;
+    const Intrinsics& lens = view_.lens;
+    const bool coloured = scene.colour.size() == lens.pixels();
+    const bool known = scene.set.depth.size() == camera.depth.pixels();
+    size_t unknown = 0;
+    for (int v = 0; v < view_.height(); ++v) {
+        const uint32_t sv = static_cast<uint32_t>(v / view_.scale);
+        const uint32_t dv = sv * camera.depth.height / lens.height;
+        uint32_t* row = pixels_.data() + static_cast<size_t>(v) * static_cast<size_t>(view_.width());
+        for (int u = 0; u < view_.width(); ++u) {
+            const uint32_t su = static_cast<uint32_t>(u / view_.scale);
+            // With two lenses the hatch is where the depth picture has its holes, not corrected for parallax.
+            const size_t d = dv * camera.depth.width + su * camera.depth.width / lens.width;
+            const uint16_t depth = known ? scene.set.depth[d] : 0;
+            row[u] = coloured ? scene.colour[sv * lens.width + su] | 0xff000000u
+                              : greyOf(depth, camera.metresPerUnit);
+            if (depth == 0) {
+                ++unknown;
+                const bool line = (u - v + 9 * 4096) % kUnknownHatch < 3;
+                row[u] = blend(row[u], line ? kUnknown : kDark, line ? 150 : 120);
+            }
+            if (d < selection.size() && selection[d] != 0) {
+                row[u] = blend(row[u], kPicked, (u + v) % 8 < 4 ? 225 : 120);
+            }
+        }
+    }
+    unknown_ = static_cast<double>(unknown) / static_cast<double>(std::max<size_t>(1, pixels_.size()));
+}
+
+void CameraGround::paintRegions(const Fixtures& set) {
+    seen_.clear();
+    held_.clear();
+    if (set.frame < 0 || set.spheres.size() == 0) {
+        return;
+    }
+    const uint32_t pixels = set.camera.depth.pixels();
+    Silhouette seen(view_), held(view_);
+    bool anyHeld = false;
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        const bool isHeld = set.spheres.source[i] >= pixels;
+        (isHeld ? held : seen).add(centreOf(set, i), double{set.spheres.radius[i]});
+        anyHeld = anyHeld || isHeld;
+    }
+    const std::vector<uint8_t> seenMask = seen.mask();
+    std::vector<uint8_t> heldMask = anyHeld ? held.mask() : std::vector<uint8_t>();
+    for (int v = 0; v < view_.height(); ++v) {
+        const size_t first = static_cast<size_t>(v) * static_cast<size_t>(view_.width());
+        for (int u = 0; u < view_.width(); ++u) {
+            const size_t i = first + static_cast<size_t>(u);
+            if (seenMask[i] != 0) {
+                pixels_[i] = blend(pixels_[i], kRegion, (u + v) % kHatch < kLine ? 128 : 62);
+            } else if (anyHeld && heldMask[i] != 0) {
+                pixels_[i] = blend(pixels_[i], kRegion, (u - v + 4096) % kHatch < kLine ? 96 : 30);
+            }
+        }
+    }
+    for (size_t i = 0; i < set.spheres.size(); ++i) { // the points that the regions stand on
+        const auto p = view_.ofBase(centreOf(set, i));
+        if (p && p->x >= 0.0 && p->y >= 0.0 && p->x < view_.width() && p->y < view_.height()) {
+            uint32_t& target = pixels_[static_cast<size_t>(p->y) * static_cast<size_t>(view_.width()) +
+                                       static_cast<size_t>(p->x)];
+            target = blend(target, {255, 140, 122}, 170);
+        }
+    }
+    seen_ = traceOutline(seenMask, view_.width(), view_.height(), kLeastOutline);
+    if (anyHeld) {
+        for (size_t i = 0; i < heldMask.size(); ++i) {
+            heldMask[i] = static_cast<uint8_t>(heldMask[i] & ~seenMask[i] & 1);
+        }
+        held_ = traceOutline(heldMask, view_.width(), view_.height(), kLeastOutline);
+    }
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/fixture_editor.h"
+
+#include "apps/operate/operate_session.h"
+#include "engine/reference/classify.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kHueReach = 12.0;  // [degree] to each side of what was picked
+constexpr double kToneReach = 0.28; // of saturation and lightness
+constexpr uint32_t kPatch = 2;      // [pixels] about the click whose colours are averaged
+constexpr size_t kMostHistory = 64;
+
+bool inBand(const std::optional<Band>& band, double value) {
+    return !band || (band->lo <= band->hi ? value >= band->lo && value <= band->hi
+                                          : value >= band->lo || value <= band->hi);
+}
+
+bool selects(const FixtureClass& gates, uint32_t rgba) {
+    const reference::Hsl hsl = reference::hslOf(rgba);
+    return (!gates.hue || !hsl.grey) && inBand(gates.hue, hsl.hue) &&
+           inBand(gates.saturation, hsl.saturation) && inBand(gates.lightness, hsl.lightness);
+}
+
+// Index into the colour picture of a depth pixel; parallax of two lenses is left out here.
+size_t colourPixel(const CameraInfo& camera, uint32_t u, uint32_t v) {
+    return static_cast<size_t>(v * camera.colour.height / camera.depth.height) * camera.colour.width +
+           u * camera.colour.width / camera.depth.width;
+}
+
+std::string freeName(const Scene& scene, const std::string& stem) {
+    for (int i = 1;; ++i) {
+        const std::string name = stem + " " + std::to_string(i);
+        if (std::none_of(scene.fixtures.begin(), scene.fixtures.end(),
+                         [&](const auto& f) { return f.name == name; })) {
+            return name;
+        }
+    }
+}
+
+// base_q_shape with its z along n.
+dquat turnTo(const dvec3& n) {
+    const dvec3 z = glm::normalize(n);
+    const dvec3 x = glm::normalize(glm::cross(std::abs(z.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), z));
+    return glm::quat_cast(glm::dmat3(x, glm::cross(z, x), z));
+}
+
+} // namespace
+
+FixtureEditor::FixtureEditor(const Scene& scene,
+                             std::function<void(const Scene&, const std::vector<Shape>&)> onChange)
+    : scene_(scene)
+    , shapes_(shapesOf(scene))
+    , onChange_(std::move(onChange)) {}
+
+void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel) {
+    const Intrinsics& lens = snapshot.set.camera.colour;
+    if (snapshot.colour.size() != lens.pixels()) {
+        return;
+    }
+    double x = 0.0, y = 0.0, saturation = 0.0, lightness = 0.0, count = 0.0;
+    for (uint32_t v = pixel.y - std::min(pixel.y, kPatch); v <= std::min(lens.height - 1, pixel.y + kPatch);
+         ++v) {
+        for (uint32_t u = pixel.x - std::min(pixel.x, kPatch);
+             u <= std::min(lens.width - 1, pixel.x + kPatch); ++u) {
+            const reference::Hsl hsl =
+                reference::hslOf(snapshot.colour[static_cast<size_t>(v) * lens.width + u]);
+            const double weight = hsl.grey ? 0.0 : hsl.saturation;
+            x += weight * std::cos(glm::radians(hsl.hue));
+            y += weight * std::sin(glm::radians(hsl.hue));
+            saturation += hsl.saturation;
+            lightness += hsl.lightness;
+            count += 1.0;
+        }
+    }
+    const auto around = [&](double value) {
+        return Band{std::max(0.0, value / count - kToneReach), std::min(1.0, value / count + kToneReach)};
+    };
+    const double hue = std::fmod(glm::degrees(std::atan2(y, x)) + 360.0, 360.0);
+    FixtureClass& gates = console.pick.gates;
+    if (console.pick.row < 0) {
+        gates = {};
+        gates.name = freeName(scene_, "picked");
+    }
+    gates.hue = Band{std::fmod(hue - kHueReach + 360.0, 360.0), std::fmod(hue + kHueReach, 360.0)};
+    gates.saturation = around(saturation);
+    gates.saturation->lo = std::max(0.08, gates.saturation->lo); // grey pixels carry any hue
+    gates.saturation->hi = 1.0;
+    gates.lightness = around(lightness);
+    console.pick.taken = true;
+    console.pick.u = pixel.x;
+    console.pick.v = pixel.y;
+    preview(console, snapshot);
+}
+
+void FixtureEditor::preview(Console& console, const SceneSnapshot& snapshot) {
+    const CameraInfo& camera = snapshot.set.camera;
+    ++selectionNumber_;
+    selected_ = 0;
+    hues_.fill(0.0f);
+    if (!console.pick.taken || snapshot.colour.size() != camera.colour.pixels()) {
+        selection_.clear();
+        return;
+    }
+    selection_.assign(camera.depth.pixels(), 0);
+    for (uint32_t v = 0; v < camera.depth.height; ++v) {
+        for (uint32_t u = 0; u < camera.depth.width; ++u) {
+            const size_t at = static_cast<size_t>(v) * camera.depth.width + u;
+            const uint32_t rgba = snapshot.colour[colourPixel(camera, u, v)];
+            const reference::Hsl hsl = reference::hslOf(rgba);
+            if (!hsl.grey && hsl.saturation > 0.08) {
+                hues_[static_cast<size_t>(hsl.hue / 5.0) % hues_.size()] +=
+                    static_cast<float>(hsl.saturation);
+            }
+            if (snapshot.set.depth[at] != 0 && selects(console.pick.gates, rgba)) {
+                selection_[at] = 1;
+                ++selected_;
+            }
+        }
+    }
+    const float most = *std::max_element(hues_.begin(), hues_.end());
+    for (float& hue : hues_) {
+        hue /= most > 0.0f ? most : 1.0f;
+    }
+}
+
+bool FixtureEditor::addPicked(Console& console) {
+    Scene next = scene_;
+    const auto spare = std::find_if(next.fixtures.begin(), next.fixtures.end(), isSpare);
+    const bool added = console.pick.taken && spare != next.fixtures.end();
+    if (added) {
+        *spare = console.pick.gates;
+        enact(std::move(next));
+    }
+    console.pick = Pick{};
+    selection_.clear();
+    ++selectionNumber_;
+    return added;
+}
+
+bool FixtureEditor::place(ShapeKind kind, const dvec3& base, const dvec3& normal) {
+    if (shapes_.size() >= 16) {
+        return false;
+    }
+    constexpr const char* kNames[] = {"", "sphere", "box", "plane", "cylinder", "line", "axis"};
+    FixtureClass shape;
+    shape.name = freeName(scene_, kNames[static_cast<int>(kind)]);
+    shape.shape = kind;
+    shape.role = kind == ShapeKind::Line || kind == ShapeKind::Axis ? Role::Guidance : Role::Forbidden;
+    shape.baseTshape = {base, turnTo(normal)};
+    shape.size = kind == ShapeKind::Box        ? dvec3(0.1)
+                 : kind == ShapeKind::Cylinder ? dvec3(0.04, 0.1, 0)
+                                               : dvec3(0.05, 0, 0);
+    Scene next = scene_;
+    next.fixtures.push_back(shape);
+    enact(std::move(next));
+    return true;
+}
+
+bool FixtureEditor::change(size_t row, const FixtureClass& to) {
+    Scene next = scene_;
+    next.fixtures.at(row) = to;
+    enact(std::move(next));
+    return true;
+}
+
+// A class of points leaves its row as a spare one; a shape goes.
+bool FixtureEditor::remove(size_t row) {
+    Scene next = scene_;
+    FixtureClass& f = next.fixtures.at(row);
+    if (f.isPoints()) {
+        FixtureClass spare = withSpareClasses(Scene{}).fixtures.front();
+        spare.role = f.role;
+        f = spare;
+    } else {
+        next.fixtures.erase(next.fixtures.begin() + static_cast<std::ptrdiff_t>(row));
+    }
+    enact(std::move(next));
+    return true;
+}
+
+void FixtureEditor::enact(Scene next) {
+    past_.push_back(scene_.fixtures);
+    if (past_.size() > kMostHistory) {
+        past_.erase(past_.begin());
+    }
+    future_.clear();
+    scene_ = std::move(next);
+    tell();
+}
+
+bool FixtureEditor::undo() {
+    if (past_.empty()) {
+        return false;
+    }
+    future_.push_back(std::move(scene_.fixtures));
+    scene_.fixtures = std::move(past_.back());
+    past_.pop_back();
+    tell();
+    return true;
+}
+
+bool FixtureEditor::redo() {
+    if (future_.empty()) {
+        return false;
+    }
+    past_.push_back(std::move(scene_.fixtures));
+    scene_.fixtures = std::move(future_.back());
+    future_.pop_back();
+    tell();
+    return true;
+}
+
+void FixtureEditor::tell() {
+    shapes_ = shapesOf(scene_);
+    onChange_(scene_, shapes_);
+}
+
+} // namespace fathom::operate

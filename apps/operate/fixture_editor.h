@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixtures made by hand while the run goes on: picked by colour, changed, placed by a click, undone, saved.
+#pragma once
+
+#include "apps/operate/console.h"
+#include "apps/operate/snapshots.h"
+#include "engine/contact/shapes.h"
+
+#include <array>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fathom::operate {
+
+// The scene as the pilot has made it, with its history. Tells the run of every change through `onChange`.
+class FixtureEditor {
+public:
+    FixtureEditor(const Scene& scene, std::function<void(const Scene&, const std::vector<Shape>&)> onChange);
+
+    const Scene& scene() const { return scene_; }
+    const std::vector<Shape>& shapes() const { return shapes_; }
+
+    // What a click on this pixel would select: gates about its colour, histogram of hues, the points.
+    void pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel);
+    // The preview of the gates as they are now.
+    void preview(Console& console, const SceneSnapshot& snapshot);
+    // Puts the picked class into a spare row; false when there is none left.
+    bool addPicked(Console& console);
+    // An authored shape at a base point with the surface's normal.
+    bool place(ShapeKind kind, const dvec3& base, const dvec3& normal);
+    bool change(size_t row, const FixtureClass& to); // one step of history
+    bool remove(size_t row);
+    bool undo();
+    bool redo();
+    // Writes `fixtures:` of the scene file anew and leaves the rest of it; returns what happened in words.
+    std::string save() const;
+    std::string text() const; // of the scene file with the fixtures in force
+
+    const std::vector<uint8_t>& selection() const { return selection_; } // of the depth picture
+    uint64_t selectionNumber() const { return selectionNumber_; }        // changes with it
+    size_t selectedPoints() const { return selected_; }
+    const std::array<float, 72>& hues() const { return hues_; } // of the picture, 5 degrees each, largest 1
+    bool canUndo() const { return !past_.empty(); }
+    bool canRedo() const { return !future_.empty(); }
+
+private:
+    void enact(Scene next);
+    void tell();
+
+    Scene scene_;
+    std::vector<Shape> shapes_;
+    std::function<void(const Scene&, const std::vector<Shape>&)> onChange_;
+    std::vector<std::vector<FixtureClass>> past_, future_;
+    std::vector<uint8_t> selection_;
+    uint64_t selectionNumber_ = 0;
+    size_t selected_ = 0;
+    std::array<float, 72> hues_{};
+};
+
+// Keys and buttons of the editor, whatever panel is open; once a frame.
+void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);
+// The panel. Inside the tab that is open.
+void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);
+
+} // namespace fathom::operate

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// The panel of fixtures: what there is, what a picked colour would add, shapes to place.
+#include "apps/operate/fixture_editor.h"
+#include "apps/operate/operate_session.h"
+#include "apps/operate/theme.h"
+
+#include <GLFW/glfw3.h>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+bool bandSlider(const char* name, std::optional<Band>& band, float most) {
+    if (!band) {
+        return false;
+    }
+    float ends[] = {static_cast<float>(band->lo), static_cast<float>(band->hi)};
+    const bool changed = ImGui::SliderFloat2(name, ends, 0.0f, most, most > 1.0f ? "%.0f" : "%.2f");
+    if (changed) {
+        band = Band{double{ends[0]}, double{ends[1]}};
+    }
+    return changed;
+}
+
+// Hues of the picture as bars in their own colours, the gate bright.
+void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
+    const float width = ImGui::GetContentRegionAvail().x, height = 38.0f;
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(12, 16, 23, 255), 3.0f);
+    for (size_t i = 0; i < hues.size(); ++i) {
+        const double hue = 5.0 * static_cast<double>(i) + 2.5;
+        const bool in =
+            gates.hue && (gates.hue->lo <= gates.hue->hi ? hue >= gates.hue->lo && hue <= gates.hue->hi
+                                                         : hue >= gates.hue->lo || hue <= gates.hue->hi);
+        ImVec4 rgb(0, 0, 0, in ? 1.0f : 0.45f);
+        ImGui::ColorConvertHSVtoRGB(static_cast<float>(hue / 360.0), 0.85f, 0.95f, rgb.x, rgb.y, rgb.z);
+        const float x = at.x + width * static_cast<float>(i) / 72.0f;
+        const float tall = std::max(1.0f, std::sqrt(hues[i]) * (height - 8.0f));
+        list.AddRectFilled({x, at.y + height - 5.0f - tall}, {x + width / 72.0f - 1.0f, at.y + height - 5.0f},
+                           ImColor(rgb));
+        if (in) {
+            list.AddRectFilled({x, at.y + height - 4.0f}, {x + width / 72.0f, at.y + height},
+                               colour::kPicked);
+        }
+    }
+    ImGui::Dummy({width, height});
+}
+
+void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+    if (!console.pick.taken) {
+        ImGui::TextColored(ImColor(colour::kPicked), "Click on a colour in the camera view.  Esc: leave");
+        return;
+    }
+    FixtureClass& gates = console.pick.gates;
+    ImGui::TextColored(ImColor(colour::kPicked), "Would select %zu points (cyan)", editor.selectedPoints());
+    markPlace(console, "preview");
+    histogram(editor.hues(), gates);
+    bool changed = bandSlider("hue", gates.hue, 360.0f);
+    changed = bandSlider("saturation", gates.saturation, 1.0f) || changed;
+    changed = bandSlider("lightness", gates.lightness, 1.0f) || changed;
+    if (changed) {
+        editor.preview(console, snapshot);
+    }
+    int role = gates.role == Role::Forbidden ? 0 : 1;
+    ImGui::RadioButton("forbidden", &role, 0);
+    markPlace(console, "role forbidden");
+    ImGui::SameLine();
+    ImGui::RadioButton("guidance", &role, 1);
+    markPlace(console, "role guidance");
+    gates.role = role == 0 ? Role::Forbidden : Role::Guidance;
+    console.addPicked = ImGui::Button("Add  (Enter)");
+    markPlace(console, "add");
+}
+
+// One fixture: name, role, radius; a change is one step of history when the slider is let go.
+void row(Console& console, FixtureEditor& editor, size_t i) {
+    const FixtureClass before = editor.scene().fixtures[i];
+    FixtureClass now = before;
+    ImGui::PushID(static_cast<int>(i));
+    const bool guides = now.role == Role::Guidance;
+    ImGui::TextColored(ImColor(guides ? colour::kGuidance : colour::kRegionSoft), "%s", guides ? "+" : "#");
+    ImGui::SameLine();
+    ImGui::TextUnformatted(now.name.c_str());
+    ImGui::SameLine(ImGui::GetContentRegionAvail().x - 22.0f);
+    const bool gone = ImGui::SmallButton("x");
+    markPlace(console, "remove " + now.name);
+    bool done = false;
+    if (now.isPoints()) {
+        int role = guides ? 1 : 0;
+        ImGui::SetNextItemWidth(110.0f * static_cast<float>(console.textScale));
+        done = ImGui::Combo("##role", &role, "forbidden\0guidance\0");
+        now.role = role == 0 ? Role::Forbidden : Role::Guidance;
+        ImGui::SameLine();
+    }
+    if (now.isPoints() ? now.role == Role::Forbidden : now.size.x > 0.0) {
+        float millimetres = static_cast<float>(1e3 * (now.isPoints() ? now.radius : now.size.x));
+        const bool dragged = console.editedRow == static_cast<int>(i);
+        millimetres = dragged ? console.editedMillimetres : millimetres;
+        ImGui::SetNextItemWidth(-1.0f);
+        if (ImGui::SliderFloat("##radius", &millimetres, 2.0f, 150.0f,
+                               now.isPoints() ? "radius %.0f mm" : "size %.0f mm")) {
+            console.editedRow = static_cast<int>(i);
+            console.editedMillimetres = millimetres;
+        }
+        markPlace(console, "radius " + now.name);
+        if (ImGui::IsItemDeactivatedAfterEdit()) {
+            (now.isPoints() ? now.radius : now.size.x) = 1e-3 * static_cast<double>(millimetres);
+            done = true;
+        }
+        if (!ImGui::IsItemActive() && dragged) {
+            console.editedRow = -1;
+        }
+    } else {
+        ImGui::NewLine();
+    }
+    if (gone) {
+        editor.remove(i);
+    } else if (done) {
+        editor.change(i, now);
+    }
+    ImGui::PopID();
+}
+
+void placeButtons(Console& console) {
+    constexpr std::pair<const char*, ShapeKind> kKinds[] = {
+        {"sphere", ShapeKind::Sphere}, {"box", ShapeKind::Box},   {"plane", ShapeKind::Plane},
+        {"cyl.", ShapeKind::Cylinder}, {"line", ShapeKind::Line}, {"axis", ShapeKind::Axis}};
+    ImGui::TextDisabled("Place:");
+    for (const auto& [name, kind] : kKinds) {
+        ImGui::SameLine(0.0f, 5.0f);
+        if (ImGui::SmallButton(name)) {
+            console.placing = console.placing == kind ? ShapeKind::None : kind;
+        }
+        markPlace(console, std::string("place ") + name);
+    }
+    if (console.placing != ShapeKind::None) {
+        ImGui::TextColored(ImColor(colour::kPicked), "Click on a surface in the camera view.  Esc: leave");
+    }
+}
+
+} // namespace
+
+void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto control = [&](int key) { return io.KeyCtrl && ImGui::IsKeyPressed(key, false); };
+    if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) {
+        console.pick = Pick{};
+        console.placing = ShapeKind::None;
+        editor.preview(console, snapshot);
+    }
+    const bool adds = console.pick.taken && !io.WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_ENTER, false);
+    if (adds || console.addPicked) {
+        const std::string name = console.pick.gates.name;
+        console.tell(editor.addPicked(console) ? "'" + name + "' is in force"
+                                               : "no room: 8 classes of points at most");
+    }
+    if ((control(GLFW_KEY_Z) || console.undo) && editor.undo()) {
+        console.tell("undone");
+    }
+    if ((control(GLFW_KEY_Y) || console.redo) && editor.redo()) {
+        console.tell("done again");
+    }
+    if (control(GLFW_KEY_S) || console.save) {
+        console.tell(editor.save());
+    }
+    console.undo = console.redo = console.save = console.addPicked = false;
+}
+
+void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+    const auto button = [&](const char* name) {
+        const bool hit = ImGui::SmallButton(name);
+        markPlace(console, name);
+        ImGui::SameLine();
+        return hit;
+    };
+    if (button("Pick (K)")) {
+        console.pick = Pick{};
+        console.pick.active = true;
+    }
+    console.undo = button("Undo");
+    console.redo = button("Redo");
+    console.save = button("Save");
+    console.frozen = console.frozen != button(console.frozen ? "Unfreeze" : "Freeze");
+    ImGui::NewLine();
+    if (console.pick.active) {
+        pickPanel(console, editor, snapshot);
+    }
+    placeButtons(console);
+    for (size_t i = 0; i < editor.scene().fixtures.size(); ++i) {
+        if (!isSpare(editor.scene().fixtures[i])) {
+            row(console, editor, i);
+        }
+    }
+}
+
+} // namespace fathom::operate

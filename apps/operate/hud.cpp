@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/hud.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+template <class... Values>
+std::string print(const char* form, Values... values) {
+    char text[160];
+    std::snprintf(text, sizeof text, form, values...);
+    return text;
+}
+
+void words(ImFont* font, ImU32 colour, const std::string& text) {
+    ImGui::PushFont(font);
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopStyleColor();
+    ImGui::PopFont();
+}
+
+// A figure with its name below.
+void figure(const HudInput& input, const std::string& value, const char* name, ImU32 colour = colour::kText) {
+    ImGui::SameLine(0.0f, 22.0f);
+    ImGui::BeginGroup();
+    words(input.letters.bold, colour, value);
+    words(input.letters.small, colour::kQuiet, name);
+    ImGui::EndGroup();
+}
+
+// A bar from 0 to the limit, with the limit marked and told in words.
+void bar(const HudInput& input, const char* name, double value, double limit, const char* unit,
+         ImU32 colour) {
+    const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() * 0.72f;
+    const double share = limit > 0.0 ? value / limit : 0.0;
+    words(input.letters.body, colour::kText, print("%s %.2f %s", name, value, unit));
+    const std::string told = print("limit %.3g %s%s", limit, unit, share > 0.98 ? "  SATURATED" : "");
+    ImGui::SameLine(std::max(0.0f, width - ImGui::CalcTextSize(told.c_str()).x));
+    words(input.letters.small, share > 0.98 ? colour::kWarning : colour::kQuiet, told);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float limitAt = width * 0.9f; // room beyond the limit, so that its mark is seen
+    list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(34, 43, 57, 255), 3.0f);
+    list.AddRectFilled(at, {at.x + limitAt * static_cast<float>(std::clamp(share, 0.0, 1.1)), at.y + height},
+                       colour, 3.0f);
+    list.AddLine({at.x + limitAt, at.y - 2.0f}, {at.x + limitAt, at.y + height + 2.0f}, colour::kWarning,
+                 2.0f);
+    ImGui::Dummy({width, height + 2.0f});
+}
+
+std::string marginText(double margin) {
+    return std::isfinite(margin) ? print("%+.2f N s/m", margin) : std::string("not known");
+}
+
+void passes(const HudInput& input) {
+    double sum = 0.0;
+    std::string parts;
+    const std::vector<double>& ms = input.run.passMs();
+    for (size_t i = 0; i < ms.size() && i < input.passNames.size(); ++i) {
+        sum += ms[i];
+        parts += (i != 0 ? "  " : "") + input.passNames[i] + print(" %.2f", ms[i]);
+    }
+    words(input.letters.body, colour::kText, print("GPU passes %.2f ms", sum));
+    ImGui::PushTextWrapPos(0.0f);
+    words(input.letters.small, colour::kQuiet, parts.empty() ? "none yet" : parts);
+    ImGui::PopTextWrapPos();
+}
+
+} // namespace
+
+Mode modeOf(const Console& console, const RunView& run) {
+    const TurnState state = run.turn().record.state;
+    if (!console.forces) {
+        return state == TurnState::Fading ? Mode{"FORCES FADING", "~", colour::kCaution}
+                                          : Mode{"FORCES OFF", "\xe2\x96\xa0", colour::kQuiet};
+    }
+    switch (state) {
+    case TurnState::Off:
+        return {"WAITING", "\xe2\x80\xa6", colour::kQuiet};
+    case TurnState::Trapped:
+        return {"TRAPPED", "!", colour::kWarning};
+    case TurnState::Fading:
+        return {"FADING", "~", colour::kCaution};
+    case TurnState::Escape:
+        return {"ESCAPE", "!", colour::kCaution};
+    default:
+        break;
+    }
+    if (run.turn().record.guidance > 0.0) {
+        return {"GUIDANCE", "+", colour::kGuidance};
+    }
+    return state == TurnState::Contact ? Mode{"CONTACT", "\xe2\x97\x8f", colour::kTouch}
+                                       : Mode{"ARMED", "\xe2\x97\x8f", colour::kGood};
+}
+
+namespace {
+
+// The end of a long name says more than its beginning.
+std::string shortened(const std::string& text) {
+    constexpr size_t kMost = 38;
+    return text.size() <= kMost ? text : "..." + text.substr(text.size() - kMost);
+}
+
+} // namespace
+
+void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size) {
+    ImGui::SetNextWindowPos(at);
+    ImGui::SetNextWindowSize(size);
+    ImGui::Begin("head", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    const Mode mode = modeOf(console, input.run);
+    ImGui::BeginGroup();
+    words(input.letters.large, mode.colour, std::string(mode.sign) + " " + mode.word);
+    words(input.letters.small, colour::kQuiet, shortened(input.title));
+    ImGui::EndGroup();
+    markPlace(console, "mode");
+    ImGui::SameLine(280.0f * static_cast<float>(console.textScale));
+    ImGui::Dummy({0.0f, 0.0f});
+    const Rates rates = input.run.rates();
+    const TurnRecord& record = input.run.turn().record;
+    const double period = input.haptics.period;
+    const bool slow = rates.worstPeriodMs > 2.5e3 * period;
+    figure(input, print("%.0f Hz", rates.hapticHz), "haptic rate");
+    figure(input, print("%.2f ms", rates.worstPeriodMs), "worst period, 1 s",
+           slow ? colour::kCaution : colour::kText);
+    figure(input, print("%.1f Hz", rates.cameraHz), "camera rate");
+    const bool stale = record.sceneAge > input.haptics.staleAfter;
+    figure(input, std::isfinite(record.sceneAge) ? print("%.0f ms", record.sceneAge * 1e3) : "none",
+           "scene age", stale ? colour::kWarning : colour::kText);
+    figure(input, print("%u", record.contacts), "contacts",
+           record.contacts > 0 ? colour::kTouch : colour::kText);
+    figure(input, print("%.0f %%", 100.0 * input.unknownShare), "not seen");
+    figure(input, print("%.0f Hz", input.windowHz), "window");
+    figure(input, console.recording ? "\xe2\x97\x8f REC" : "\xe2\x96\xa0 idle", "recorder",
+           console.recording ? colour::kWarning : colour::kQuiet);
+    if (console.frozen) {
+        figure(input, "FROZEN", "fixtures", colour::kCaution);
+    }
+    ImGui::End();
+}
+
+void drawGauges(Console& console, const HudInput& input) {
+    const TurnRecord& record = input.run.turn().record;
+    bar(input, "Force", glm::length(record.wrench.force), input.haptics.forceLimit, "N", colour::kForce);
+    bar(input, "Torque", glm::length(record.wrench.torque), input.haptics.torqueLimit, "N m",
+        IM_COL32(186, 140, 255, 255));
+    const bool passive = !(record.marginPassive < kMarginNoise);
+    words(input.letters.body, passive ? colour::kText : colour::kWarning,
+          "Stability margin, passive " + marginText(record.marginPassive) + (passive ? "" : "  NOT PASSIVE"));
+    words(input.letters.small, colour::kQuiet,
+          "uncoupled " + marginText(record.marginUncoupled) + ", device preset " +
+              input.scene.haptics.device);
+    passes(input);
+    (void)console;
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Camera and passes as the threads of a run see them, with what the window may change meanwhile.
+#pragma once
+
+#include "apps/binding/contact_loop.h"
+#include "apps/binding/frame_loop.h"
+#include "apps/operate/operate_session.h"
+
+#include <atomic>
+#include <mutex>
+#include <optional>
+
+namespace fathom::operate {
+
+// fetch() and publish() on the frame cadence; the rest from the window.
+class LiveFeed final : public FrameFeed {
+public:
+    explicit LiveFeed(OperateSession& session)
+        : session_(session) {}
+
+    std::optional<uint32_t> fetch() override;
+    void publish(double t, PublishedFrame& out) override;
+
+    // Takes effect with the next picture. Same classes of points as before.
+    void setScene(const Scene& scene);
+    // Frozen: pictures are taken and shown but the set in force stays, for all fixtures.
+    void freeze(bool frozen) { frozen_.store(frozen); }
+    // Passes are on the device: who shares its queue waits.
+    bool busy() const { return busy_.load(std::memory_order_acquire); }
+
+private:
+    void takeScene();
+    FrameReport process();
+
+    OperateSession& session_;
+    std::optional<Frame> next_;
+    std::vector<uint32_t> colour_;
+    std::atomic<bool> busy_{false}, frozen_{false}, edited_{false};
+    std::mutex sceneMutex_; // of pending_; never taken by the haptic thread
+    Scene pending_;
+    bool published_ = false;
+};
+
+class LiveAnswers final : public ContactAnswers {
+public:
+    explicit LiveAnswers(OperateSession& session)
+        : session_(session) {}
+    bool answer(const Pose& baseTtool, ContactSet& out) override;
+
+private:
+    OperateSession& session_;
+};
+
+} // namespace fathom::operate

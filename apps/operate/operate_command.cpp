@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/operate_command.h"
+
+#include "apps/operate/operator_run.h"
+#include "engine/types/error.h"
+
+#include <iostream>
+#include <memory>
+
+namespace fathom {
+
+void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) {
+    auto options = std::make_shared<OperateOptions>();
+    CLI::App* command = app.add_subcommand("operate", "the operator's window on a live or recorded camera");
+    command->add_option("scene", options->scene, "scene file (YAML)")->required();
+    command->add_option("--source", options->source, "recording folder instead of the scene's camera");
+    command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard");
+    command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
+    command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
+        ->check(CLI::NonNegativeNumber);
+    command->add_option("--text-scale", options->textScale, "size of letters")->check(CLI::Range(0.75, 2.0));
+    command->add_option("--state", options->state,
+                        "write what the window shows to this file, a JSON object a line");
+    command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
+    command->add_flag("--validate", options->validate, "Vulkan validation; a message ends in exit code 1");
+    command->callback([options, &global, &result] {
+        operate::OperatorRun run(*options, global);
+        const uint32_t messages = run.run();
+        if (messages != 0) {
+            std::cerr << "fathom: " << messages << " validation messages\n";
+            result = 1;
+        }
+    });
+}
+
+} // namespace fathom

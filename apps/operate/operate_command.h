@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom operate SCENE`: the operator's window over a run in real time.
+#pragma once
+
+#include "apps/global_options.h"
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <string>
+
+namespace fathom {
+
+struct OperateOptions {
+    std::filesystem::path scene;
+    std::string source;     // recording folder; empty = the scene's camera
+    bool path = false;      // the scene's hand path drives, not mouse and keyboard
+    std::string offscreen;  // WxH: the same frames without a surface; empty = a window
+    double seconds = 0.0;   // ends by itself; 0 = when the window is closed
+    double textScale = 1.0; // 0.75 .. 2
+    std::string state;      // file of JSON lines: what the window shows, for who watches it from outside
+    std::string shots;      // folder of screenshots (F12), recordings and exports; empty = the working folder
+    bool validate = false;  // Vulkan validation; a message ends in exit code 1
+};
+
+void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result);
+
+} // namespace fathom

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/operate_session.h"
+
+#include "apps/binding/approach_path.h"
+#include "apps/binding/open_source.h"
+#include "apps/operate/repeating_camera.h"
+#include "devices/recorded/hand_csv.h"
+#include "shaders/shared/frame_params.h"
+
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr const char* kSpare = ""; // the name of a spare class; a scene file's names are never empty
+constexpr size_t kShuttled = 48;   // pictures of a simulated camera
+constexpr uint32_t kReaders = 3;   // contact, feed, window's start
+
+FixtureClass spareClass(Role role) {
+    FixtureClass spare;
+    spare.name = kSpare;
+    spare.role = role;
+    spare.hue = Band{0.0, 0.0};
+    spare.box = Box{dvec3(1e6), dvec3(-1e6)}; // no point is there
+    return spare;
+}
+
+std::unique_ptr<Camera> endless(const Scene& scene, const OperateOptions& options,
+                                const std::atomic<bool>& stop) {
+    const auto source =
+        options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source);
+    if (!source && scene.source.kind == CameraSource::Kind::Simulated) {
+        auto camera =
+            std::make_unique<ShuttleCamera>(openCamera(scene, source), kShuttled, stop, [](size_t taken) {
+                std::fprintf(stderr, "\rfathom: rendering the simulated camera, picture %zu of %zu", taken,
+                             kShuttled);
+            });
+        std::fprintf(stderr, "\n");
+        return camera;
+    }
+    return std::make_unique<RepeatedCamera>([scene, source] { return openCamera(scene, source); });
+}
+
+std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scene::Hand& hand) {
+    const dquat deviceRbase = glm::conjugate(hand.baseRdevice);
+    for (HandWaypoint& w : waypoints) {
+        w.deviceThandle.position = deviceRbase * w.deviceThandle.position / hand.scale;
+        w.deviceThandle.rotation = deviceRbase * w.deviceThandle.rotation;
+    }
+    return waypoints;
+}
+
+} // namespace
+
+bool isSpare(const FixtureClass& fixture) {
+    return fixture.isPoints() && fixture.name == kSpare;
+}
+
+Scene withSpareClasses(Scene scene) {
+    size_t points = 0;
+    for (const FixtureClass& f : scene.fixtures) {
+        points += f.isPoints() ? 1 : 0;
+    }
+    // One forbidden and one guiding: together they put every pass into the plan.
+    for (Role role : {Role::Forbidden, Role::Guidance}) {
+        if (points < shared::kMaxClasses) {
+            scene.fixtures.push_back(spareClass(role));
+            ++points;
+        }
+    }
+    return scene;
+}
+
+OperateSession::OperateSession(const OperateOptions& options, const GlobalOptions& global,
+                               gpu::Drawing drawing, std::span<const char* const> extensions,
+                               const std::atomic<bool>& stop)
+    : scene(withSpareClasses(openScene(options.scene)))
+    , camera(endless(scene, options, stop))
+    , tool(openTool(scene))
+    , instance(gpu::Validation{options.validate, false}, extensions)
+    , device(instance, global.device, drawing)
+    , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))
+    , frames(device, scene, camera->info(), plan, kReaders)
+    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach) {}
+
+std::string OperateSession::title() const {
+    return scene.file.stem().string() + ", " + camera->description();
+}
+
+HandPath OperateSession::path() const {
+    if (!scene.hand.builtIn) {
+        return HandPath(readHandCsv(scene.hand.path));
+    }
+    const auto first = const_cast<FrameCycle&>(frames).sets().newest();
+    return HandPath(toHand(approachPath(scene, tool, first->host, first->grid), scene.hand));
+}
+
+} // namespace fathom::operate

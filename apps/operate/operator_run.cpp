@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/operator_run.h"
+
+#include "apps/operate/why_panel.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kFramePeriod = 1.0 / 60.0; // [s] of the window, at best
+constexpr double kSoftStart = 1.5;          // [s]
+constexpr int kNiceness = 5;                // the window's thread steps back behind camera and contacts
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+HapticOptions softly(const Scene& scene, const Tool& tool) {
+    HapticOptions options = makeHapticOptions(scene, tool);
+    options.armTime = kSoftStart;
+    return options;
+}
+
+float percentile(std::vector<float> values, double share) {
+    if (values.empty()) {
+        return 0.0f;
+    }
+    const auto at =
+        values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+} // namespace
+
+struct OperatorRun::Surface {
+    Surface(const Window& window, OperateSession& session)
+        : instance(session.instance)
+        , handle(window.makeSurface(session.instance)) {
+        try {
+            swapchain = std::make_unique<Swapchain>(session.device, handle);
+        } catch (...) {
+            vkDestroySurfaceKHR(instance.handle(), handle, nullptr);
+            throw;
+        }
+    }
+    ~Surface() {
+        swapchain.reset();
+        vkDestroySurfaceKHR(instance.handle(), handle, nullptr);
+    }
+    const gpu::Instance& instance;
+    VkSurfaceKHR handle;
+    std::unique_ptr<Swapchain> swapchain;
+};
+
+OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& global)
+    : options_(options)
+    , placement_(ThreadPlacement::ofThisProcess())
+    , window_(options.offscreen, "Fathom, " + options.scene.stem().string())
+    , confined_(placement_.rest) // before the device: a software device's workers inherit it
+    , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
+               window_.extensions(), signals_.asked())
+    , surface_(window_.offscreen() ? nullptr : std::make_unique<Surface>(window_, session_))
+    , haptics_(softly(session_.scene, session_.tool))
+    , feed_(session_)
+    , answers_(session_)
+    , sink_(recorder_)
+    , view_(sink_)
+    , log_(options.state) {
+    console_.textScale = lettersScale_ = options.textScale;
+    letters_ = loadLetters(console_.textScale);
+    applyTheme(console_.textScale);
+    painter_ = std::make_unique<Painter>(session_.instance, session_.device,
+                                         surface_ ? surface_->swapchain.get() : nullptr);
+    startThreads();
+    window_.onForcesOff = [this] {
+        hand_->setForces(false); // at once, whatever the rest of this frame does
+        console_.forces = false;
+        console_.guidance = false;
+    };
+}
+
+OperatorRun::~OperatorRun() {
+    endThreads();
+    painter_.reset();
+    surface_.reset();
+}
+
+void OperatorRun::startThreads() {
+    RealtimeOptions o;
+    o.placement = placement_;
+    o.hapticPeriod = haptics_.period;
+    o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
+    engine_ = std::make_unique<RealtimeRun>(
+        feed_, session_.plan.query != Plan::Query::None ? &answers_ : nullptr, o);
+    if (!engine_->firstFrame()) {
+        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
+    }
+    const HandPath path = session_.path();
+    const Pose start = path.waypoints().front().deviceThandle;
+    pilot_ = std::make_unique<PilotHand>(start);
+    path_ = std::make_unique<PathHand>(path);
+    HapticDevice& hand = options_.path ? static_cast<HapticDevice&>(*path_) : *pilot_;
+    hand_ = std::make_unique<GatedHand>(hand);
+    steering_ = std::make_unique<Steering>(start, session_.scene.hand);
+    editor_ = std::make_unique<FixtureEditor>(session_.scene,
+                                              [this](const Scene& scene, const std::vector<Shape>& shapes) {
+                                                  feed_.setScene(scene);
+                                                  engine_->setShapes(shapes);
+                                              });
+    cycle_ = std::make_unique<HapticCycle>(session_.tool, shapesOf(session_.scene), haptics_, start);
+    thread_ = std::thread([this] {
+        try {
+            engine_->run(*cycle_, *hand_, std::numeric_limits<double>::infinity(), sink_, stop_);
+            failure_ = engine_->failure();
+        } catch (...) {
+            failure_ = std::current_exception();
+        }
+        ended_.store(true);
+    });
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)),
+                  kNiceness); // after the others began
+}
+
+void OperatorRun::endThreads() {
+    stop_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+bool OperatorRun::wantsToEnd() const {
+    return window_.closed() || console_.quit || ended_.load() || signals_.asked().load() ||
+           (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
+}
+
+HudInput OperatorRun::hudInput() const {
+    HudInput hud{view_,
+                 session_.scene,
+                 haptics_,
+                 session_.frames.passNames(),
+                 letters_,
+                 session_.title(),
+                 screen_.unknownShare(),
+                 windowHz_,
+                 !options_.path};
+    return hud;
+}
+
+uint32_t OperatorRun::run() {
+    started_ = lastFrame_ = seconds();
+    while (!wantsToEnd()) {
+        const double spent = seconds() - lastFrame_;
+        window_.beginFrame(std::clamp(kFramePeriod - spent, 0.0, kFramePeriod));
+        const double now = seconds();
+        windowHz_ += 0.05 * (1.0 / std::max(1e-3, now - lastFrame_) - windowHz_);
+        lastFrame_ = now;
+        frame();
+    }
+    log_.write(console_, view_, extras(), true);
+    endThreads();
+    recorder_.stop();
+    view_.refresh();
+    report();
+    if (failure_) {
+        std::rethrow_exception(failure_);
+    }
+    return session_.instance.messages();
+}
+
+void OperatorRun::frame() {
+    const bool fresh = view_.refresh();
+    const HudInput hud = hudInput();
+    screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh});
+    const auto& room = console_.places["traces room"];
+    traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
+    listen();
+    alarms_.step(console_, view_, haptics_, editor_->scene());
+    ImGui::Render();
+    if (!window_.minimised()) {
+        painter_->draw(window_.size(), screen_.layers(), ImGui::GetDrawData(),
+                       [this] { return feed_.busy(); });
+    }
+    if (!shotWanted_.empty()) {
+        shoot(shotWanted_);
+        shotWanted_.clear();
+    }
+    if (lettersScale_ != console_.textScale) {
+        lettersScale_ = console_.textScale;
+        letters_ = loadLetters(lettersScale_);
+        applyTheme(lettersScale_);
+        painter_->uploadFonts();
+    }
+    log_.write(console_, view_, extras());
+}
+
+StateExtras OperatorRun::extras() const {
+    StateExtras extras;
+    extras.mode = modeOf(console_, view_).word;
+    extras.windowFrames = painter_->drawn();
+    extras.yielded = painter_->yielded();
+    extras.swapchains = surface_ ? surface_->swapchain->remade() : 0;
+    const VkExtent2D size = window_.size();
+    extras.width = size.width;
+    extras.height = size.height;
+    extras.validationMessages = session_.instance.messages();
+    extras.unknownShare = screen_.unknownShare();
+    extras.alarms = alarms_.inWords();
+    extras.scene = &editor_->scene();
+    extras.shapes = editor_->shapes().size();
+    extras.selected = editor_->selectedPoints();
+    if (!view_.blocks().empty()) {
+        extras.why = whyBlocked(view_.blocks().front(), editor_->scene(), view_.scene().set);
+    }
+    return extras;
+}
+
+void OperatorRun::report() const {
+    const std::vector<float>& us = view_.turnMicros();
+    const double time = std::max(1e-3, seconds() - started_);
+    std::printf("window       %.1f frames a second, %llu left out for passes on the shared queue\n",
+                static_cast<double>(painter_->drawn()) / time,
+                static_cast<unsigned long long>(painter_->yielded()));
+    std::printf("turn         p50 %.2f p99 %.2f max %.2f us, %zu turns, %llu ended over one period late, "
+                "%llu periods without one\n",
+                static_cast<double>(percentile(us, 0.5)), static_cast<double>(percentile(us, 0.99)),
+                static_cast<double>(percentile(us, 1.0)), us.size(),
+                static_cast<unsigned long long>(view_.lateTurns()),
+                static_cast<unsigned long long>(engine_->periodsMissed()));
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// A pilot's session from start to end: the threads of a realtime run, and the window on the main thread.
+#pragma once
+
+#include "apps/binding/realtime_run.h"
+#include "apps/binding/stop_signals.h"
+#include "apps/operate/live_feed.h"
+#include "apps/operate/pilot_hand.h"
+#include "apps/operate/recorder.h"
+#include "apps/operate/screen.h"
+#include "apps/operate/state_log.h"
+#include "apps/operate/steering.h"
+#include "apps/operate/traces_panel.h"
+#include "apps/operate/window.h"
+
+#include <memory>
+#include <thread>
+
+namespace fathom::operate {
+
+// The run never waits for the window: the haptic, contact, camera and writer threads are those of `replay
+// --realtime`, the window reads what the writer left for it.
+class OperatorRun {
+public:
+    // Throws BadInput (scene, display, device), Error, DeviceLost.
+    OperatorRun(const OperateOptions& options, const GlobalOptions& global);
+    ~OperatorRun();
+
+    // Until the window is closed, the time is up, a signal or a failure, which is thrown. Returns the number
+    // of validation messages.
+    uint32_t run();
+
+private:
+    struct Surface; // surface and swapchain
+    void startThreads();
+    void endThreads();
+    void frame();
+    void listen();         // what the frame's keys and clicks asked for
+    void click(ImVec2 at); // in the large view
+    void followRecorder(); // starts or stops as the console says
+    void exportTraces();
+    void shoot(const std::string& name);
+    StateExtras extras() const;
+    HudInput hudInput() const;
+    bool wantsToEnd() const;
+    void report() const;
+
+    OperateOptions options_;
+    StopSignals signals_;
+    ThreadPlacement placement_;
+    Window window_;
+    CpuConfinement confined_;
+    OperateSession session_;
+    std::unique_ptr<Surface> surface_;
+    HapticOptions haptics_;
+    LiveFeed feed_;
+    LiveAnswers answers_;
+    Recorder recorder_;
+    SnapshotSink sink_;
+    std::unique_ptr<RealtimeRun> engine_;
+    std::unique_ptr<HapticCycle> cycle_;
+    std::unique_ptr<PilotHand> pilot_;
+    std::unique_ptr<PathHand> path_;
+    std::unique_ptr<GatedHand> hand_;
+    std::unique_ptr<Steering> steering_;
+    std::unique_ptr<FixtureEditor> editor_;
+    std::atomic<bool> stop_{false}, ended_{false};
+    std::exception_ptr failure_;
+    std::thread thread_;
+
+    Console console_;
+    Letters letters_;
+    std::unique_ptr<Painter> painter_;
+    RunView view_;
+    Screen screen_;
+    TracesPanel traces_;
+    Alarms alarms_;
+    StateLog log_;
+    double lettersScale_ = 1.0, started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
+    std::string shotWanted_;
+    uint32_t recordings_ = 0;
+};
+
+} // namespace fathom::operate

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/painter.h"
+
+#include "engine/gpu/result.h"
+
+#include <algorithm>
+#include <backends/imgui_impl_vulkan.h>
+#include <chrono>
+#include <cstring>
+#include <thread>
+
+namespace fathom::operate {
+
+using gpu::check;
+
+namespace {
+
+constexpr uint64_t kLongWait = 2'000'000'000; // [ns]
+
+VkRenderPass makePass(VkDevice device) {
+    VkAttachmentDescription colour{};
+    colour.format = kPixels;
+    colour.samples = VK_SAMPLE_COUNT_1_BIT;
+    colour.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the pictures below
+    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    colour.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    colour.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    colour.initialLayout = colour.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
+    info.attachmentCount = 1;
+    info.pAttachments = &colour;
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    VkRenderPass pass = VK_NULL_HANDLE;
+    check(vkCreateRenderPass(device, &info, nullptr, &pass), "vkCreateRenderPass");
+    return pass;
+}
+
+VkDescriptorPool makeDescriptors(VkDevice device) {
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
+    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+    info.maxSets = 4;
+    info.poolSizeCount = 1;
+    info.pPoolSizes = &size;
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    check(vkCreateDescriptorPool(device, &info, nullptr, &pool), "vkCreateDescriptorPool");
+    return pool;
+}
+
+} // namespace
+
+Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
+    : device_(device)
+    , swapchain_(swapchain)
+    , descriptors_(makeDescriptors(device.handle()))
+    , pass_(makePass(device.handle())) {
+    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
+    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    pool.queueFamilyIndex = device.drawFamily();
+    check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
+    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
+    allocate.commandPool = pool_;
+    allocate.commandBufferCount = 1;
+    check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
+    const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, VK_FENCE_CREATE_SIGNALED_BIT};
+    check(vkCreateFence(device.handle(), &fence, nullptr, &done_), "vkCreateFence");
+    const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    check(vkCreateSemaphore(device.handle(), &semaphore, nullptr, &ready_), "vkCreateSemaphore");
+    ImGui_ImplVulkan_InitInfo info{};
+    info.Instance = instance.handle();
+    info.PhysicalDevice = device.physical();
+    info.Device = device.handle();
+    info.QueueFamily = device.drawFamily();
+    info.Queue = device.drawQueue();
+    info.DescriptorPool = descriptors_;
+    info.MinImageCount = info.ImageCount = 2;
+    info.CheckVkResultFn = [](VkResult result) { check(result, "drawing of the window's panels"); };
+    ImGui_ImplVulkan_Init(&info, pass_);
+    uploadFonts();
+}
+
+Painter::~Painter() {
+    finished(kLongWait);
+    ImGui_ImplVulkan_Shutdown();
+    vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
+    vkDestroySemaphore(device_.handle(), ready_, nullptr);
+    vkDestroyFence(device_.handle(), done_, nullptr);
+    vkDestroyCommandPool(device_.handle(), pool_, nullptr);
+    vkDestroyRenderPass(device_.handle(), pass_, nullptr);
+    vkDestroyDescriptorPool(device_.handle(), descriptors_, nullptr);
+}
+
+bool Painter::finished(uint64_t patience) const {
+    return vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, patience) == VK_SUCCESS;
+}
+
+void Painter::once(const std::function<void(VkCommandBuffer)>& body) {
+    finished(kLongWait);
+    VkCommandBufferBeginInfo begin{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    body(commands_);
+    check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
+    submit(false);
+    finished(kLongWait);
+}
+
+void Painter::uploadFonts() {
+    once([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
+    ImGui_ImplVulkan_DestroyFontUploadObjects();
+}
+
+void Painter::resize(VkExtent2D size) {
+    if (target_ && target_.size().width == size.width && target_.size().height == size.height) {
+        return;
+    }
+    vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
+    target_ = PictureImage(device_, size,
+                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
+                               VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+    VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
+    const VkImageView view = target_.view();
+    info.renderPass = pass_;
+    info.attachmentCount = 1;
+    info.pAttachments = &view;
+    info.width = size.width;
+    info.height = size.height;
+    info.layers = 1;
+    check(vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer_), "vkCreateFramebuffer");
+}
+
+bool Painter::yields(const std::function<bool()>& busy) {
+    if (!device_.sharesQueue()) {
+        return false;
+    }
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kCourtesy);
+    while (busy()) {
+        if (std::chrono::steady_clock::now() >= until) {
+            ++yielded_;
+            return true;
+        }
+        std::this_thread::sleep_for(std::chrono::microseconds(300));
+    }
+    return false;
+}
+
+bool Painter::draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
+                   const std::function<bool()>& busy) {
+    constexpr uint64_t kPatience = 20'000'000; // [ns]
+    if (!finished(kPatience) || yields(busy)) {
+        return false;
+    }
+    VkImage shown = VK_NULL_HANDLE;
+    if (swapchain_ != nullptr) {
+        if (!swapchain_->fit(size)) {
+            return false;
+        }
+        shown = swapchain_->acquire(ready_);
+        if (shown == VK_NULL_HANDLE) {
+            return false;
+        }
+        size = swapchain_->size();
+    }
+    resize(size);
+    stage(layers);
+    record(layers, data, shown);
+    submit(shown != VK_NULL_HANDLE);
+    if (shown != VK_NULL_HANDLE) {
+        swapchain_->show();
+    }
+    ++drawn_;
+    return true;
+}
+
+void Painter::stage(std::span<const Layer> layers) {
+    fresh_.fill(false);
+    for (size_t i = 0; i < std::min(layers.size(), kMostLayers); ++i) {
+        const Layer& layer = layers[i];
+        if (layer.pixels.empty()) {
+            continue;
+        }
+        Staged& staged = staged_[i];
+        if (!staged.image || staged.image.size().width != layer.width ||
+            staged.image.size().height != layer.height) {
+            staged.image = PictureImage(device_, {layer.width, layer.height},
+                                        VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+            staged.staging = gpu::Buffer(device_, layer.pixels.size_bytes(), gpu::MemoryKind::Upload, "view");
+        }
+        std::memcpy(staged.staging.as<uint32_t>().data(), layer.pixels.data(), layer.pixels.size_bytes());
+        fresh_[i] = true;
+    }
+}
+
+void Painter::submit(bool onSurface) {
+    check(vkResetFences(device_.handle(), 1, &done_), "vkResetFences");
+    VkSubmitInfo info{VK_STRUCTURE_TYPE_SUBMIT_INFO};
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    const VkSemaphore filled = onSurface ? swapchain_->filled() : VK_NULL_HANDLE;
+    if (onSurface) {
+        info.waitSemaphoreCount = info.signalSemaphoreCount = 1;
+        info.pWaitSemaphores = &ready_;
+        info.pWaitDstStageMask = &stage;
+        info.pSignalSemaphores = &filled;
+    }
+    info.commandBufferCount = 1;
+    info.pCommandBuffers = &commands_;
+    device_.submitDrawing(info, done_);
+}
+
+} // namespace fathom::operate

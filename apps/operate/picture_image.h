@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image on the device with its own memory: what the window draws into, and pictures that come from the
+// CPU.
+#pragma once
+
+#include "engine/gpu/buffer.h"
+
+namespace fathom::operate {
+
+constexpr VkFormat kPixels = VK_FORMAT_R8G8B8A8_UNORM; // sRGB-encoded values, passed through as they are
+
+// One colour image, R8 G8 B8 A8. Move-only. Whoever records keeps track of the layout.
+class PictureImage {
+public:
+    PictureImage() = default;
+    PictureImage(const gpu::Device& device, VkExtent2D size, VkImageUsageFlags usage);
+    ~PictureImage();
+    PictureImage(PictureImage&& other) noexcept { swap(other); }
+    PictureImage& operator=(PictureImage&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+
+    VkImage handle() const { return image_; }
+    VkImageView view() const { return view_; }
+    VkExtent2D size() const { return size_; }
+    explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
+
+private:
+    void swap(PictureImage& other) noexcept;
+
+    const gpu::Device* device_ = nullptr;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    VkExtent2D size_{};
+};
+
+// Layout change of a whole image, everything before visible to everything after.
+void changeLayout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
+
+} // namespace fathom::operate

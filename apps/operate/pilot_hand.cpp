@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/pilot_hand.h"
+
+#include "engine/haptics/limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kPull = 35.0;         // [1/s] of the critically damped way to the wish
+constexpr double kLongest = 0.02;      // [s] a turn that was later counts as this late
+constexpr uint32_t kDeadMan = 2;       // HandSample::buttons
+constexpr double kClosedWithin = 1e-3; // [m]
+
+} // namespace
+
+PilotHand::PilotHand(const Pose& start)
+    : wishes_(HandSample{start, 0})
+    , now_(start) {}
+
+void PilotHand::ask(const HandSample& wish) noexcept {
+    wishes_.back() = wish;
+    wishes_.publish();
+}
+
+HandSample PilotHand::read(double t) noexcept {
+    wishes_.refresh();
+    const HandSample& wish = wishes_.front();
+    const double dt = std::clamp(t - before_, 0.0, kLongest);
+    before_ = t;
+    const dvec3 gap = wish.deviceThandle.position - now_.position;
+    velocity_ += dt * (kPull * kPull * gap - 2.0 * kPull * velocity_);
+    velocity_ = clampLength(velocity_, kSpeed);
+    now_.position += dt * velocity_;
+    const dvec3 turn = rotationLog(wish.deviceThandle.rotation * glm::conjugate(now_.rotation));
+    const dvec3 share = clampLength(turn * std::min(1.0, kPull * dt), kTurnSpeed * dt);
+    now_.rotation = glm::normalize(rotationExp(share) * now_.rotation);
+    return {now_, wish.buttons};
+}
+
+PathHand::PathHand(HandPath path)
+    : path_(std::move(path))
+    , closed_(path_.duration() > 0.0 &&
+              glm::distance(path_.waypoints().front().deviceThandle.position,
+                            path_.waypoints().back().deviceThandle.position) < kClosedWithin) {}
+
+HandSample PathHand::read(double t) noexcept {
+    HandSample sample = path_.at(closed_ ? std::fmod(std::max(0.0, t), path_.duration()) : t);
+    sample.buttons |= extra_.load(std::memory_order_relaxed);
+    return sample;
+}
+
+HandSample GatedHand::read(double t) noexcept {
+    HandSample sample = hand_.read(t);
+    if (off_.load(std::memory_order_acquire)) {
+        sample.buttons |= kDeadMan;
+    }
+    return sample;
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Hands for the operator's window: mouse and keyboard in place of a device, a path that repeats, and the gate
+// that turns forces off whatever the device says.
+#pragma once
+
+#include "devices/haptic_device.h"
+#include "devices/simulated/hand_path.h"
+#include "engine/types/latest.h"
+
+#include <atomic>
+
+namespace fathom::operate {
+
+// The tool goes where the window asks, smoothly: at most kSpeed and kTurnSpeed, without overshoot. ask() from
+// one thread, read() and write() from the haptic one; neither ever waits.
+class PilotHand final : public HapticDevice {
+public:
+    explicit PilotHand(const Pose& start); // raw, device frame
+
+    void ask(const HandSample& wish) noexcept;
+    HandSample read(double t) noexcept override;
+    void write(const Wrench&, double) noexcept override {}
+
+    static constexpr double kSpeed = 0.35;    // [m/s]
+    static constexpr double kTurnSpeed = 2.0; // [rad/s]
+
+private:
+    Latest<HandSample> wishes_;
+    Pose now_;
+    dvec3 velocity_{0.0};
+    double before_ = 0.0;
+};
+
+// Follows a path again and again when it ends where it began, else once. Buttons of `extra` are added.
+class PathHand final : public HapticDevice {
+public:
+    explicit PathHand(HandPath path);
+
+    void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
+    HandSample read(double t) noexcept override;
+    void write(const Wrench&, double) noexcept override {}
+
+private:
+    HandPath path_;
+    bool closed_;
+    std::atomic<uint32_t> extra_{0};
+};
+
+// Opens the dead-man of any device while forces are off. They are off at first.
+class GatedHand final : public HapticDevice {
+public:
+    explicit GatedHand(HapticDevice& hand)
+        : hand_(hand) {}
+
+    void setForces(bool on) noexcept { off_.store(!on, std::memory_order_release); } // any thread
+    HandSample read(double t) noexcept override;
+    void write(const Wrench& wrench, double dt) noexcept override { hand_.write(wrench, dt); }
+
+private:
+    HapticDevice& hand_;
+    std::atomic<bool> off_{true};
+};
+
+} // namespace fathom::operate

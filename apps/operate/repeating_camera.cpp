@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/repeating_camera.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+
+namespace fathom::operate {
+
+RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
+    : open_(std::move(open))
+    , source_(open_()) {}
+
+std::optional<Frame> RepeatedCamera::next() {
+    std::optional<Frame> frame = source_->next();
+    if (!frame) {
+        skipped_ += source_->skipped();
+        if (ended_.size() > 1) {
+            ended_.erase(ended_.begin()); // its leases ended a whole round ago
+        }
+        ended_.push_back(std::move(source_));
+        source_ = open_();
+        offset_ = next_;
+        frame = source_->next();
+    }
+    if (!frame) {
+        return frame;
+    }
+    Frame::Content content = **frame;
+    content.index += offset_;
+    content.sourceNumber += offset_;
+    next_ = content.index + 1;
+    // The lease moves into the new frame's end.
+    auto* lease = new Frame(std::move(*frame));
+    return Frame(content, [lease] { delete lease; });
+}
+
+ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const std::atomic<bool>& stop,
+                             const std::function<void(size_t)>& progress)
+    : info_(source->info())
+    , description_(source->description()) {
+    while (pictures_.size() < count && !(stop.load() && !pictures_.empty())) {
+        const std::optional<Frame> frame = source->next();
+        if (!frame) {
+            break;
+        }
+        const Frame::Content& c = **frame;
+        pictures_.push_back(
+            {{c.depth.begin(), c.depth.end()}, {c.colour.begin(), c.colour.end()}, c.baseTcamera});
+        progress(pictures_.size());
+    }
+    if (pictures_.empty()) {
+        throw Error(description_ + ": no picture");
+    }
+    slots_ = std::make_unique<FrameSlots>(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
+}
+
+std::optional<Frame> ShuttleCamera::next() {
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error(description_ + ": more pictures in flight than there is memory for");
+    }
+    const size_t turns = std::max<size_t>(1, 2 * (pictures_.size() - 1));
+    const size_t place = shown_ % turns;
+    const Picture& picture = pictures_[place < pictures_.size() ? place : turns - place];
+    std::copy(picture.depth.begin(), picture.depth.end(), slot->depth().begin());
+    std::copy_n(picture.colour.begin(), std::min(picture.colour.size(), slot->colour().size()),
+                slot->colour().begin());
+    Frame::Content content;
+    content.index = shown_;
+    content.sourceNumber = shown_++;
+    content.depth = slot->depth();
+    content.colour = slot->colour();
+    content.baseTcamera = picture.baseTcamera;
+    return Frame(content, slot->giveBack());
+}
+
+} // namespace fathom::operate

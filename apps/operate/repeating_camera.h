@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cameras that never end, from sources that do: a pilot's session lasts longer than any recording.
+#pragma once
+
+#include "devices/camera.h"
+#include "devices/frame_slots.h"
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace fathom::operate {
+
+// Opens the source again when it has ended. Index and source number go on counting.
+class RepeatedCamera final : public Camera {
+public:
+    // Throws what open() throws.
+    explicit RepeatedCamera(std::function<std::unique_ptr<Camera>()> open);
+
+    const CameraInfo& info() const override { return source_->info(); }
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return skipped_ + source_->skipped(); }
+    std::string description() const override { return source_->description(); }
+
+private:
+    std::function<std::unique_ptr<Camera>()> open_;
+    std::unique_ptr<Camera> source_;
+    std::vector<std::unique_ptr<Camera>> ended_; // kept while a lease may live
+    uint32_t skipped_ = 0, offset_ = 0, next_ = 0;
+};
+
+// Takes `count` pictures beforehand and shows them to and fro: for a camera that is simulated, so slower than
+// the clock. Memory: 6 bytes a pixel and picture.
+class ShuttleCamera final : public Camera {
+public:
+    // Fewer pictures when the source ends or `stop`. progress(taken) after each. Throws Error when there is
+    // none.
+    ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const std::atomic<bool>& stop,
+                  const std::function<void(size_t)>& progress);
+
+    const CameraInfo& info() const override { return info_; }
+    std::optional<Frame> next() override;
+    uint32_t skipped() const override { return 0; }
+    std::string description() const override { return description_; }
+
+private:
+    struct Picture {
+        std::vector<uint16_t> depth;
+        std::vector<uint32_t> colour;
+        std::optional<Pose> baseTcamera;
+    };
+    CameraInfo info_;
+    std::string description_;
+    std::vector<Picture> pictures_;
+    std::unique_ptr<FrameSlots> slots_;
+    uint32_t shown_ = 0;
+};
+
+} // namespace fathom::operate

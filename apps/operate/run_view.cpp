@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/run_view.h"
+
+#include <algorithm>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kSameBlock = 0.25; // [s] without a touch that end a block
+constexpr size_t kMostBlocks = 12;
+
+} // namespace
+
+bool RunView::refresh() {
+    TurnRow row;
+    while (sink_.turns().pop(row)) {
+        take(row);
+    }
+    const bool fresh = sink_.scene().refresh();
+    if (fresh) {
+        pictures_.push_back(scene().t);
+        while (scene().t - pictures_.front() > 1.0) {
+            pictures_.pop_front();
+        }
+        if (!scene().report.unchanged) {
+            passMs_ = scene().report.passMs;
+        }
+    }
+    return fresh;
+}
+
+void RunView::take(const TurnRow& row) {
+    turn_ = row;
+    ++turns_;
+    late_ += row.late ? 1 : 0;
+    micros_.push_back(static_cast<float>(row.micros));
+    const TurnRecord& r = row.record;
+    trace_.push_back({r.t, glm::vec3(r.wrench.force), glm::vec3(r.wrench.torque), r.frame, r.state,
+                      r.guidance > 0.0, row.late});
+    while (r.t - trace_.front().t > kSpan) {
+        trace_.pop_front();
+    }
+    noteBlocks(row);
+}
+
+void RunView::noteBlocks(const TurnRow& row) {
+    const TurnRecord& r = row.record;
+    for (uint32_t i = 0; i < r.touchCount; ++i) {
+        const Touch& touch = r.touches[i];
+        auto same = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
+            return b.touch.kind == touch.kind && b.touch.fixture == touch.fixture &&
+                   b.touch.leaf == touch.leaf && r.t - b.last < kSameBlock;
+        });
+        if (same == blocks_.end()) {
+            blocks_.push_front({touch, r.frame, r.t, r.t});
+            same = blocks_.begin();
+        }
+        same->touch = touch;
+        same->last = r.t;
+        same->beyond = std::max(0.0, glm::dot(r.tool.position - r.device.position, touch.normal));
+        same->deepest = std::max(same->deepest, same->beyond);
+        same->force = glm::length(r.wrench.force);
+    }
+    while (blocks_.size() > kMostBlocks) {
+        blocks_.pop_back();
+    }
+}
+
+Rates RunView::rates() const {
+    Rates rates;
+    if (trace_.size() < 2) {
+        return rates;
+    }
+    const double now = trace_.back().t;
+    size_t count = 0;
+    double worst = 0.0, later = now;
+    for (auto it = trace_.rbegin(); it != trace_.rend() && now - it->t <= 1.0; ++it) {
+        worst = std::max(worst, later - it->t);
+        later = it->t;
+        ++count;
+    }
+    rates.hapticHz = now > later ? static_cast<double>(count - 1) / (now - later) : 0.0;
+    rates.worstPeriodMs = worst * 1e3;
+    if (pictures_.size() > 1) {
+        rates.cameraHz = static_cast<double>(pictures_.size() - 1) / (pictures_.back() - pictures_.front());
+    }
+    return rates;
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// The window's end of the run: the newest picture and turn, ten seconds of trace, rates.
+#pragma once
+
+#include "apps/operate/snapshots.h"
+
+#include <cstddef>
+#include <deque>
+#include <vector>
+
+namespace fathom::operate {
+
+// One turn in the traces.
+struct TraceSample {
+    double t = 0.0;         // [s]
+    glm::vec3 force{0.0f};  // [N] base axes
+    glm::vec3 torque{0.0f}; // [N m]
+    int64_t frame = -1;     // obeyed
+    TurnState state = TurnState::Off;
+    bool guided = false, late = false;
+};
+
+struct Rates { // of the last second
+    double hapticHz = 0.0, worstPeriodMs = 0.0, cameraHz = 0.0;
+};
+
+// A block: something has kept the tool from following the hand, turn after turn.
+struct Block {
+    Touch touch;                    // the newest one
+    int64_t sinceFrame = 0;         // obeyed when it began
+    double since = 0.0, last = 0.0; // [s]
+    double deepest = 0.0;           // [m] that the hand went beyond
+    double beyond = 0.0;            // [m] now
+    double force = 0.0;             // [N] now, of the whole hand
+};
+
+class RunView {
+public:
+    static constexpr double kSpan = 10.0; // [s] of trace
+
+    explicit RunView(SnapshotSink& sink)
+        : sink_(sink) {}
+
+    // Takes over all that has come; true when there is a new picture.
+    bool refresh();
+
+    const SceneSnapshot& scene() const { return sink_.scene().front(); }
+    const TurnRow& turn() const { return turn_; }
+    bool anyTurn() const { return turns_ > 0; }
+    uint64_t turns() const { return turns_; }
+    const std::deque<TraceSample>& trace() const { return trace_; }
+    const std::deque<Block>& blocks() const { return blocks_; } // newest first; one a kind, fixture and leaf
+    Rates rates() const;
+    const std::vector<float>& turnMicros() const { return micros_; } // of the whole run
+    uint64_t lateTurns() const { return late_; }
+    const std::vector<double>& passMs() const { return passMs_; } // of the last frame that had passes
+
+private:
+    void take(const TurnRow& row);
+    void noteBlocks(const TurnRow& row);
+
+    SnapshotSink& sink_;
+    TurnRow turn_;
+    uint64_t turns_ = 0, late_ = 0;
+    std::deque<TraceSample> trace_;
+    std::deque<double> pictures_; // [s] capture times of the last second
+    std::deque<Block> blocks_;
+    std::vector<float> micros_;
+    std::vector<double> passMs_;
+};
+
+} // namespace fathom::operate

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// The fixtures back into the scene file: their block is written anew, every other line stays as it is.
+#include "apps/operate/fixture_editor.h"
+#include "apps/operate/operate_session.h"
+#include "engine/types/error.h"
+
+#include <fstream>
+#include <iomanip>
+#include <sstream>
+
+namespace fathom::operate {
+
+namespace {
+
+void put(std::ostream& out, const char* key, const std::optional<Band>& band) {
+    if (band) {
+        out << ", " << key << ": [" << band->lo << ", " << band->hi << "]";
+    }
+}
+
+void putVec(std::ostream& out, const dvec3& v) {
+    out << "[" << v.x << ", " << v.y << ", " << v.z << "]";
+}
+
+void putQuat(std::ostream& out, const dquat& q) {
+    out << "[" << q.x << ", " << q.y << ", " << q.z << ", " << q.w << "]";
+}
+
+void putPoints(std::ostream& out, const FixtureClass& f) {
+    const FixtureClass plain;
+    put(out, "hue", f.hue);
+    put(out, "saturation", f.saturation);
+    put(out, "lightness", f.lightness);
+    if (f.box) {
+        out << ", box: {min: ";
+        putVec(out, f.box->min);
+        out << ", max: ";
+        putVec(out, f.box->max);
+        out << "}";
+    }
+    out << ", radius: " << f.radius;
+    if (f.standoff != plain.standoff) {
+        out << ", standoff: " << f.standoff;
+    }
+    if (f.orientation != plain.orientation) {
+        out << ", quat_xyzw: ";
+        putQuat(out, f.orientation);
+    }
+    if (f.minCount != plain.minCount) {
+        out << ", min_count: " << f.minCount;
+    }
+    if (f.largestPart) {
+        out << ", largest_part: true";
+    }
+    if (f.trim != 0.0) {
+        out << ", trim: " << f.trim;
+    }
+}
+
+void putRow(std::ostream& out, const FixtureClass& f) {
+    constexpr const char* kShapes[] = {"", "sphere", "box", "plane", "cylinder", "line", "axis"};
+    out << "  - { name: \"" << f.name << "\", role: "
+        << (f.role == Role::Guidance ? "guidance"
+            : f.keepIn               ? "keep_in"
+                                     : "forbidden");
+    if (f.isPoints()) {
+        putPoints(out, f);
+    } else {
+        out << ", shape: " << kShapes[static_cast<int>(f.shape)] << ", base_T_shape: {xyz: ";
+        putVec(out, f.baseTshape.position);
+        out << ", quat_xyzw: ";
+        putQuat(out, f.baseTshape.rotation);
+        out << "}, size: ";
+        putVec(out, f.size);
+    }
+    out << " }\n";
+}
+
+// The file with the block of `fixtures:` in place of the old one; at its end when there was none.
+std::string withFixtures(const std::string& old, const std::string& block) {
+    std::istringstream in(old);
+    std::string result, line;
+    bool inside = false, done = false;
+    while (std::getline(in, line)) {
+        const bool topLevel = !line.empty() && line[0] != ' ' && line[0] != '#' && line[0] != '-';
+        if (line.rfind("fixtures:", 0) == 0) {
+            inside = done = true;
+            result += block;
+            continue;
+        }
+        inside = inside && !topLevel;
+        result += inside ? "" : line + "\n";
+    }
+    return done ? result : result + block;
+}
+
+} // namespace
+
+std::string FixtureEditor::text() const {
+    std::ifstream in(scene_.file);
+    std::stringstream old;
+    old << in.rdbuf();
+    std::ostringstream block;
+    block << std::setprecision(10) << "fixtures:\n";
+    size_t rows = 0;
+    for (const FixtureClass& f : scene_.fixtures) {
+        if (!isSpare(f)) {
+            putRow(block, f);
+            ++rows;
+        }
+    }
+    return withFixtures(old.str(), rows == 0 ? "fixtures: []\n" : block.str());
+}
+
+std::string FixtureEditor::save() const {
+    const std::filesystem::path fresh = scene_.file.string() + ".new";
+    std::ofstream(fresh) << text();
+    try {
+        const Scene read = loadScene(fresh); // what cannot be read again takes no other file's place
+        std::filesystem::rename(fresh, scene_.file);
+        return std::to_string(read.fixtures.size()) + " fixtures saved to " + scene_.file.string();
+    } catch (const std::exception& e) {
+        std::error_code ignored;
+        std::filesystem::remove(fresh, ignored);
+        return std::string("not saved: ") + e.what();
+    }
+}
+
+} // namespace fathom::operate

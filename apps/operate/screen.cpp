@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/screen.h"
+
+#include "apps/operate/steering.h"
+#include "apps/operate/why_panel.h"
+
+#include <algorithm>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr ImGuiWindowFlags kFixed = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+ImVec2 cornerOf(const PixelRect& r) {
+    return {static_cast<float>(r.x), static_cast<float>(r.y)};
+}
+
+ImVec2 sizeOf(const PixelRect& r) {
+    return {static_cast<float>(r.width), static_cast<float>(r.height)};
+}
+
+bool sameOrbit(const Orbit& a, const Orbit& b) {
+    return a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.centre == b.centre;
+}
+
+// Middle of what the camera sees.
+dvec3 middleOf(const Fixtures& set) {
+    std::vector<uint16_t> near;
+    for (size_t i = 0; i < set.depth.size(); i += 37) {
+        if (set.depth[i] != 0) {
+            near.push_back(set.depth[i]);
+        }
+    }
+    if (near.empty()) {
+        return {0.0, 0.0, 1.0};
+    }
+    std::nth_element(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(near.size() / 2), near.end());
+    return set.baseTcamera.apply({0.0, 0.0, near[near.size() / 2] * set.camera.metresPerUnit});
+}
+
+} // namespace
+
+Screen::Rooms Screen::arrange(ImVec2 size, double scale) {
+    constexpr int kGap = 6;
+    const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
+    const int head = static_cast<int>(58 * scale), right = std::min(static_cast<int>(376 * scale), width / 2);
+    const int traces = std::min(static_cast<int>(172 * scale), height / 3);
+    const int gauges = std::min(static_cast<int>(168 * scale), height / 3);
+    const int left = width - right - kGap, inset = std::max(60, std::min(right * 9 / 16, height / 3));
+    Rooms rooms;
+    rooms.head = {0, 0, width, head};
+    rooms.large = {0, head + kGap, left, height - head - traces - 2 * kGap};
+    rooms.traces = {0, height - traces, left, traces};
+    rooms.inset = {left + kGap, head + kGap, right, inset};
+    rooms.gauges = {left + kGap, head + inset + 2 * kGap, right, gauges};
+    const int top = rooms.gauges.y + gauges + kGap;
+    rooms.tabs = {left + kGap, top, right, std::max(40, height - top)};
+    return rooms;
+}
+
+void Screen::makePictures(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
+                          const Rooms& rooms) {
+    const SceneSnapshot& scene = input.run.scene();
+    const bool newSelection = selectionDrawn_ != editor.selectionNumber();
+    const bool first = !cameraPort_;
+    if (!centred_ && scene.any) {
+        drawnOrbit_.centre = middleOf(scene.set);
+        centred_ = true;
+    }
+    const bool fresh = input.freshPicture || newSelection || first;
+    if (fresh) {
+        camera_.compose(scene, editor.selection());
+        selectionDrawn_ = editor.selectionNumber();
+    }
+    const PixelRect& spaceRoom = console.spaceIsLarge ? rooms.large : rooms.inset;
+    Orbit orbit = console.orbit;
+    orbit.centre = drawnOrbit_.centre;
+    const bool moved = !sameOrbit(orbit, drawnOrbit_) || drawnLevel_ != console.treeLevel ||
+                       drawnLarge_ != console.spaceIsLarge;
+    // Half of the window's pixels are enough for a cloud.
+    const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / 3, 64, 1200));
+    const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / 3, 48, 900));
+    const bool space = first || moved || width != space_.view().lens.width ||
+                       height != space_.view().lens.height ||
+                       (input.freshPicture && (console.spaceIsLarge || scene.number % 3 == 0));
+    if (space) {
+        space_.compose(scene, orbit, width, height, console.treeLevel);
+        drawnOrbit_ = orbit;
+        drawnLevel_ = console.treeLevel;
+        drawnLarge_ = console.spaceIsLarge;
+    }
+    const PixelRect& cameraRoom = console.spaceIsLarge ? rooms.inset : rooms.large;
+    cameraPort_ =
+        ViewPort{camera_.view(), fitted(cameraRoom, camera_.view().width(), camera_.view().height())};
+    spacePort_ = ViewPort{space_.view(), fitted(spaceRoom, width, height)};
+    large_ = console.spaceIsLarge ? &*spacePort_ : &*cameraPort_;
+    const auto none = std::span<const uint32_t>();
+    layers_[0] = {fresh ? std::span<const uint32_t>(camera_.pixels()) : none,
+                  static_cast<uint32_t>(camera_.view().width()),
+                  static_cast<uint32_t>(camera_.view().height()), cameraPort_->where};
+    layers_[1] = {space ? std::span<const uint32_t>(space_.pixels()) : none, width, height,
+                  spacePort_->where};
+}
+
+void Screen::drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input,
+                       const Rooms& rooms) {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    for (const ViewPort* port : {&*cameraPort_, &*spacePort_}) {
+        const PixelRect& w = port->where;
+        const bool large = port == large_;
+        list.PushClipRect({static_cast<float>(w.x), static_cast<float>(w.y)},
+                          {static_cast<float>(w.x + w.width), static_cast<float>(w.y + w.height)});
+        if (port == &*cameraPort_) {
+            drawRegionOutlines(list, *port, camera_);
+        } else {
+            drawCameraFrustum(list, *port, input.run.scene().set);
+            drawBounds(list, *port, space_.bounds());
+        }
+        drawMarks(list, {*port, input.run, input.tool, editor.scene(), editor.shapes(), large});
+        const char* name = port == &*cameraPort_    ? "camera"
+                           : console.treeLevel >= 0 ? "3D, tree bounds"
+                                                    : "3D";
+        drawWords(list, {static_cast<float>(w.x) + 8.0f, static_cast<float>(w.y) + 6.0f},
+                  large ? name : std::string(name) + "   Tab: swap", colour::kQuiet);
+        list.PopClipRect();
+        console.places[port == &*cameraPort_ ? "camera" : "space"] = {
+            static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.width),
+            static_cast<float>(w.height)};
+    }
+    (void)rooms;
+}
+
+// Below the large view's upper edge: the worst alarm; at its lower edge: what to do next.
+void Screen::drawHint(Console& console, const ScreenInput& input) const {
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const PixelRect& w = large_->where;
+    const auto x = static_cast<float>(w.x) + 10.0f, bottom = static_cast<float>(w.y + w.height);
+    const float line = ImGui::GetTextLineHeight() + 6.0f;
+    std::string hint = console.forces
+                           ? "Space: forces off   G: guidance   drag, wheel, arrows: tool   F1: all keys"
+                           : "A: arm the forces   drag, wheel, arrows: tool   Tab: 3D   F1: all keys";
+    if (input.hud.noDevice) {
+        hint = "No haptic device: mouse and keyboard drive.   " + hint;
+    }
+    drawWords(list, {x, bottom - line}, hint, colour::kText);
+    if (ImGui::GetTime() < console.noticeUntil) {
+        drawWords(list, {x, bottom - 2.2f * line}, console.notice, colour::kPicked);
+    }
+}
+
+void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input,
+                      const PixelRect& room) {
+    ImGui::SetNextWindowPos(cornerOf(room));
+    ImGui::SetNextWindowSize(sizeOf(room));
+    ImGui::Begin("panels", nullptr, kFixed);
+    constexpr const char* kNames[] = {"Fixtures", "Why?", "Alarms", "Keys"};
+    if (ImGui::BeginTabBar("tabs")) {
+        for (Tab tab : {Tab::Fixtures, Tab::Why, Tab::Alarms, Tab::Help}) {
+            const bool wanted = console.tab == tab && console.shownTab != tab;
+            const Alarm* worst = alarms.worst();
+            const bool calls = tab == Tab::Alarms && worst != nullptr;
+            const std::string name = std::string(kNames[static_cast<int>(tab)]) +
+                                     (calls ? std::string(" ") + levelSign(worst->level) : "") + "###" +
+                                     kNames[static_cast<int>(tab)];
+            if (calls) {
+                ImGui::PushStyleColor(ImGuiCol_Text, levelColour(worst->level));
+            }
+            const bool open =
+                ImGui::BeginTabItem(name.c_str(), nullptr, wanted ? ImGuiTabItemFlags_SetSelected : 0);
+            markPlace(console, std::string("tab ") + kNames[static_cast<int>(tab)]);
+            if (calls) {
+                ImGui::PopStyleColor();
+            }
+            if (!open) {
+                continue;
+            }
+            console.tab = wanted || console.tab == console.shownTab ? tab : console.tab;
+            console.shownTab = tab;
+            ImGui::BeginChild("inside");
+            if (tab == Tab::Fixtures) {
+                drawFixtures(console, editor, input.run.scene());
+            } else if (tab == Tab::Why) {
+                drawWhy(console, input.run, editor.scene());
+            } else if (tab == Tab::Alarms) {
+                drawAlarms(console, alarms);
+            } else {
+                for (const KeyHelp& help : keyHelp()) {
+                    ImGui::TextColored(ImColor(colour::kGuidance), "%s", help.keys);
+                    ImGui::SameLine(150.0f * static_cast<float>(console.textScale));
+                    ImGui::TextUnformatted(help.what);
+                }
+            }
+            ImGui::EndChild();
+            ImGui::EndTabItem();
+        }
+        ImGui::EndTabBar();
+    }
+    ImGui::End();
+}
+
+void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
+    const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale);
+    makePictures(console, editor, input, rooms);
+    drawViews(console, editor, input, rooms);
+    drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
+    ImGui::SetNextWindowPos(cornerOf(rooms.gauges));
+    ImGui::SetNextWindowSize(sizeOf(rooms.gauges));
+    ImGui::Begin("gauges", nullptr, kFixed);
+    drawGauges(console, input.hud);
+    ImGui::End();
+    if (console.pick.active && console.shownTab != Tab::Fixtures) {
+        console.tab = Tab::Fixtures;
+    }
+    drawTabs(console, editor, alarms, input, rooms.tabs);
+    listenForFixtures(console, editor, input.run.scene());
+    drawHint(console, input);
+    console.places["traces room"] = {static_cast<float>(rooms.traces.x), static_cast<float>(rooms.traces.y),
+                                     static_cast<float>(rooms.traces.width),
+                                     static_cast<float>(rooms.traces.height)};
+}
+
+std::optional<glm::uvec2> Screen::colourPixelAt(ImVec2 at) const {
+    if (!cameraPort_ || !cameraPort_->holds(at)) {
+        return std::nullopt;
+    }
+    const glm::dvec2 p = cameraPort_->toPicture(at) / static_cast<double>(camera_.view().scale);
+    const Intrinsics& lens = camera_.view().lens;
+    return glm::uvec2(std::min(lens.width - 1, static_cast<uint32_t>(p.x)),
+                      std::min(lens.height - 1, static_cast<uint32_t>(p.y)));
+}
+
+} // namespace fathom::operate

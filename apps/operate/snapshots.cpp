@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/snapshots.h"
+
+namespace fathom::operate {
+
+void SnapshotSink::frame(const PublishedFrame& frame, const Fixtures& set) {
+    SceneSnapshot& out = scene_.back();
+    out.any = true;
+    out.report = frame.report;
+    out.t = frame.t;
+    out.set = set;
+    out.colour = frame.colour;
+    out.number = ++pictures_;
+    scene_.publish();
+    also_.frame(frame, set);
+}
+
+void SnapshotSink::turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+                        std::span<const uint32_t> behind) {
+    turns_.push(row);
+    also_.turn(row, obeyed, known, behind);
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window knows of the run: copies that the writer thread leaves for it. The window reads them when
+// it likes and nobody waits for it.
+#pragma once
+
+#include "apps/binding/record_drain.h"
+#include "engine/types/latest.h"
+#include "engine/types/ring.h"
+
+#include <vector>
+
+namespace fathom::operate {
+
+// One picture and the fixture set that was in force with it.
+struct SceneSnapshot {
+    bool any = false;
+    FrameReport report; // passMs empty: the same picture again, or frozen
+    double t = 0.0;     // [s] capture time in the run
+    Fixtures set;
+    std::vector<uint32_t> colour;
+    uint64_t number = 0; // counts pictures
+};
+
+// Called on the writer thread. A window that falls behind loses the oldest of neither: pictures are
+// overwritten, turns that do not fit are counted in turns().dropped().
+class SnapshotSink final : public RunSink {
+public:
+    // also: gets everything too; outlives this.
+    explicit SnapshotSink(RunSink& also)
+        : also_(also)
+        , turns_(8192) {}
+
+    void frame(const PublishedFrame& frame, const Fixtures& set) override;
+    void query(const QueryNote&) override {}
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+              std::span<const uint32_t> behind) override;
+
+    Latest<SceneSnapshot>& scene() { return scene_; } // the window reads
+    Ring<TurnRow>& turns() { return turns_; }
+
+private:
+    RunSink& also_;
+    Latest<SceneSnapshot> scene_;
+    Ring<TurnRow> turns_;
+    uint64_t pictures_ = 0;
+};
+
+} // namespace fathom::operate

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/space_ground.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/mat3x3.hpp>
+#include <map>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kMostPixels = 2.5e6; // of all spheres of a picture
+constexpr double kNearest = 0.02;     // [m]
+
+uint32_t dimmed(uint32_t colour) {
+    const auto channel = [&](uint32_t shift) {
+        return ((colour >> shift & 0xffu) * 215 / 256 + 12) << shift;
+    };
+    return 0xff000000u | channel(0) | channel(8) | channel(16);
+}
+
+dvec3 centreOf(const Fixtures& set, size_t i) {
+    return set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]}, double{set.spheres.z[i]});
+}
+
+} // namespace
+
+void SpaceGround::compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,
+                          int treeLevel) {
+    view_.lens = {};
+    view_.lens.width = width;
+    view_.lens.height = height;
+    view_.lens.fx = view_.lens.fy = 0.9 * width;
+    view_.lens.cx = 0.5 * width - 0.5;
+    view_.lens.cy = 0.5 * height - 0.5;
+    view_.cameraTbase = inverse(orbit.pose());
+    view_.scale = 1;
+    const size_t count = static_cast<size_t>(width) * height;
+    pixels_.resize(count);
+    for (uint32_t v = 0; v < height; ++v) { // a calm ground, a little lighter below
+        const uint32_t level = 16 + 14 * v / height;
+        std::fill_n(pixels_.begin() + static_cast<std::ptrdiff_t>(v) * width, width,
+                    0xff000000u | (level + 10) << 16 | (level + 4) << 8 | level);
+    }
+    depth_.assign(count, 1e9f);
+    front_.assign(count, 1e9f);
+    shade_.assign(count, 0);
+    bounds_.clear();
+    splatPoints(scene);
+    splatRegions(scene.set);
+    shadeRegions();
+    if (treeLevel >= 0) {
+        boundBlocks(scene.set, treeLevel);
+    }
+}
+
+void SpaceGround::splatPoints(const SceneSnapshot& scene) {
+    const Fixtures& set = scene.set;
+    const Intrinsics& lens = set.camera.depth;
+    if (set.depth.size() != lens.pixels()) {
+        return;
+    }
+    const bool coloured = set.camera.registered && scene.colour.size() == lens.pixels();
+    const Pose eyeTcamera = view_.cameraTbase * set.baseTcamera;
+    const glm::mat3 turn = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
+    const glm::vec3 shift(eyeTcamera.position);
+    const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
+    for (uint32_t v = 0; v < lens.height; ++v) {
+        for (uint32_t u = 0; u < lens.width; ++u) {
+            const size_t i = v * lens.width + u;
+            if (set.depth[i] == 0) {
+                continue;
+            }
+            const auto z = static_cast<float>(set.depth[i] * set.camera.metresPerUnit);
+            const glm::vec3 p = turn * glm::vec3(z * static_cast<float>((u - lens.cx) / lens.fx),
+                                                 z * static_cast<float>((v - lens.cy) / lens.fy), z) +
+                                shift;
+            if (p.z < static_cast<float>(kNearest)) {
+                continue;
+            }
+            const int x = static_cast<int>(view_.lens.cx + view_.lens.fx * p.x / p.z + 0.5);
+            const int y = static_cast<int>(view_.lens.cy + view_.lens.fy * p.y / p.z + 0.5);
+            if (x < 0 || y < 0 || x + 1 >= width || y + 1 >= height) {
+                continue;
+            }
+            const bool forbidden = set.forbiddenAt(u, v);
+            const uint32_t colour = forbidden  ? 0xff3c4af0u
+                                    : coloured ? dimmed(scene.colour[i])
+                                               : 0xffa09890u;
+            for (int k = 0; k < 4; ++k) { // two by two, so that near surfaces have no holes
+                const size_t at = static_cast<size_t>(y + k / 2) * static_cast<size_t>(width) +
+                                  static_cast<size_t>(x + k % 2);
+                if (p.z < depth_[at]) {
+                    depth_[at] = p.z;
+                    pixels_[at] = colour;
+                }
+            }
+        }
+    }
+}
+
+void SpaceGround::splatRegions(const Fixtures& set) {
+    const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
+    double cost = 0.0;
+    for (size_t i = 0; i < set.spheres.size(); i += 8) {
+        const double z = std::max(kNearest, view_.cameraTbase.apply(centreOf(set, i)).z);
+        const double r = view_.lens.fx * double{set.spheres.radius[i]} / z;
+        cost += 8.0 * 3.14 * r * r;
+    }
+    const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / kMostPixels)));
+    for (size_t i = 0; i < set.spheres.size(); i += step) {
+        const dvec3 c = view_.cameraTbase.apply(centreOf(set, i));
+        const double radius = double{set.spheres.radius[i]};
+        if (c.z < radius + kNearest) {
+            continue;
+        }
+        const double r = view_.lens.fx * radius / c.z;
+        const double x0 = view_.lens.cx + view_.lens.fx * c.x / c.z,
+                     y0 = view_.lens.cy + view_.lens.fy * c.y / c.z;
+        const int top = std::max(0, static_cast<int>(y0 - r)),
+                  bottom = std::min(height - 1, static_cast<int>(y0 + r));
+        for (int y = top; y <= bottom; ++y) {
+            const double dy = y - y0, half = std::sqrt(std::max(0.0, r * r - dy * dy));
+            const int left = std::max(0, static_cast<int>(x0 - half)),
+                      right = std::min(width - 1, static_cast<int>(x0 + half));
+            for (int x = left; x <= right; ++x) {
+                const double dx = x - x0;
+                const double up = std::sqrt(std::max(0.0, 1.0 - (dx * dx + dy * dy) / (r * r)));
+                const auto z = static_cast<float>(c.z - radius * up);
+                const size_t at =
+                    static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+                if (z < front_[at]) {
+                    front_[at] = z;
+                    shade_[at] = static_cast<uint8_t>(60.0 + 195.0 * up);
+                }
+            }
+        }
+    }
+}
+
+void SpaceGround::shadeRegions() {
+    const size_t width = view_.lens.width;
+    for (size_t i = 0; i < pixels_.size(); ++i) {
+        if (front_[i] >= depth_[i]) {
+            continue;
+        }
+        const bool line = (i % width + i / width) % 12 < 2;
+        const int share = line ? 150 : 96;
+        const int red = 90 + 160 * shade_[i] / 255, rest = 40 * shade_[i] / 255;
+        const auto mix = [&](uint32_t shift, int value) {
+            const int under = static_cast<int>(pixels_[i] >> shift & 0xffu);
+            return static_cast<uint32_t>(under + (value - under) * share / 256) << shift;
+        };
+        pixels_[i] = 0xff000000u | mix(0, red) | mix(8, rest) | mix(16, rest);
+    }
+}
+
+// The engine's tree lies on the device; these are the same blocks of pixels, bounded about their centroid.
+void SpaceGround::boundBlocks(const Fixtures& set, int level) {
+    const uint32_t edge = 4u << (2 * level);
+    const uint32_t width = set.camera.depth.width, pixels = set.camera.depth.pixels();
+    std::map<uint32_t, std::vector<size_t>> blocks;
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        const uint32_t pixel = set.spheres.source[i] % pixels;
+        blocks[(pixel / width / edge) * 4096 + pixel % width / edge].push_back(i);
+    }
+    for (const auto& [block, members] : blocks) {
+        Sphere bound{dvec3(0.0), 0.0};
+        for (size_t i : members) {
+            bound.centre += centreOf(set, i) / static_cast<double>(members.size());
+        }
+        for (size_t i : members) {
+            bound.radius = std::max(bound.radius, glm::distance(bound.centre, centreOf(set, i)) +
+                                                      double{set.spheres.radius[i]});
+        }
+        bounds_.push_back(bound);
+    }
+}
+
+} // namespace fathom::operate

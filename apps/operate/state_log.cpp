@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/state_log.h"
+
+#include "engine/types/error.h"
+
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace fathom::operate {
+
+namespace {
+
+using nlohmann::json;
+
+json vec(const dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+json known(double value) {
+    return std::isfinite(value) ? json(value) : json(nullptr);
+}
+
+json consoleOf(const Console& c) {
+    return {{"forces", c.forces},
+            {"guidance", c.guidance},
+            {"frozen", c.frozen},
+            {"large", c.spaceIsLarge ? "space" : "camera"},
+            {"paused", c.paused},
+            {"recording", c.recording},
+            {"tree_level", c.treeLevel},
+            {"text_scale", c.textScale},
+            {"tab", static_cast<int>(c.shownTab)},
+            {"picking", c.pick.active},
+            {"picked", c.pick.taken},
+            {"notice", c.notice},
+            {"shots", c.shots},
+            {"places", c.places}};
+}
+
+json turnOf(const RunView& run) {
+    const TurnRecord& r = run.turn().record;
+    const Rates rates = run.rates();
+    return {{"t", r.t},
+            {"haptic_hz", rates.hapticHz},
+            {"worst_period_ms", rates.worstPeriodMs},
+            {"camera_hz", rates.cameraHz},
+            {"turns", run.turns()},
+            {"device", vec(r.device.position)},
+            {"tool", vec(r.tool.position)},
+            {"force_N", glm::length(r.wrench.force)},
+            {"torque_Nm", glm::length(r.wrench.torque)},
+            {"contacts", r.contacts},
+            {"touches", r.touchCount},
+            {"state", static_cast<int>(r.state)},
+            {"guidance_w", r.guidance},
+            {"frame", r.frame},
+            {"scene_age_s", known(r.sceneAge)},
+            {"pictures", run.scene().number},
+            {"spheres", run.scene().set.spheres.size()},
+            {"generation", run.scene().set.generation}};
+}
+
+json fixturesOf(const Scene* scene) {
+    json rows = json::array();
+    for (const FixtureClass& f : scene != nullptr ? scene->fixtures : std::vector<FixtureClass>()) {
+        if (!f.name.empty()) {
+            rows.push_back({{"name", f.name},
+                            {"role", f.role == Role::Forbidden ? "forbidden" : "guidance"},
+                            {"radius", f.radius}});
+        }
+    }
+    return rows;
+}
+
+} // namespace
+
+StateLog::StateLog(const std::filesystem::path& file)
+    : name_(file.string()) {
+    if (!file.empty()) {
+        out_.open(file);
+        if (!out_) {
+            throw Error(name_ + ": cannot be written");
+        }
+    }
+}
+
+void StateLog::write(const Console& console, const RunView& run, const StateExtras& extras, bool now) {
+    constexpr double kPeriod = 0.1; // [s]
+    const double t =
+        std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    if (!out_.is_open() || (!now && t < next_)) {
+        return;
+    }
+    next_ = t + kPeriod;
+    json line = {{"console", consoleOf(console)},
+                 {"run", turnOf(run)},
+                 {"mode", extras.mode},
+                 {"window",
+                  {{"frames", extras.windowFrames},
+                   {"yielded", extras.yielded},
+                   {"swapchains", extras.swapchains},
+                   {"width", extras.width},
+                   {"height", extras.height},
+                   {"validation", extras.validationMessages}}},
+                 {"unknown_share", extras.unknownShare},
+                 {"alarms", extras.alarms},
+                 {"fixtures", fixturesOf(extras.scene)},
+                 {"shapes", extras.shapes},
+                 {"selected", extras.selected},
+                 {"why", extras.why}};
+    out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;
+    if (!out_) {
+        throw Error(name_ + ": cannot be written");
+    }
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// `--state FILE`: one JSON object a line, ten a second: what the window shows and where, for who watches it
+// from outside.
+#pragma once
+
+#include "apps/operate/console.h"
+#include "apps/operate/run_view.h"
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+namespace fathom::operate {
+
+struct StateExtras {
+    std::string mode;
+    uint64_t windowFrames = 0, yielded = 0;
+    uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
+    double unknownShare = 0.0;
+    std::vector<std::string> alarms; // of those that are shown: level, word
+    const Scene* scene = nullptr;    // in force
+    size_t shapes = 0, selected = 0; // selected: points of the preview
+    std::string why;                 // of the newest block
+};
+
+class StateLog {
+public:
+    // An empty name writes nothing. Throws Error that names the file.
+    explicit StateLog(const std::filesystem::path& file);
+    // Writes when it is time, or when `now`.
+    void write(const Console& console, const RunView& run, const StateExtras& extras, bool now = false);
+
+private:
+    std::ofstream out_;
+    std::string name_;
+    double next_ = 0.0; // [s]
+};
+
+} // namespace fathom::operate

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/steering.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kSpeed = 0.12, kTurning = 0.9; // [m/s], [rad/s] of a key held down
+constexpr double kWheel = 0.008;                // [m] a notch
+constexpr double kClick = 4.0;                  // [pixels] a click may wander
+
+bool pressed(int key) {
+    return ImGui::IsKeyPressed(key, false);
+}
+
+} // namespace
+
+std::span<const KeyHelp> keyHelp() {
+    static constexpr std::array kHelp = {
+        KeyHelp{"Space", "forces off, always"},
+        KeyHelp{"A", "arm: forces come up over 1.5 s"},
+        KeyHelp{"G", "guidance on, off"},
+        KeyHelp{"C held", "clutch: the hand moves, the tool stays"},
+        KeyHelp{"left drag, wheel", "move the tool, away and back"},
+        KeyHelp{"right drag", "turn the tool; in the 3D view turn the view"},
+        KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift turn it"},
+        KeyHelp{"Tab", "swap camera and 3D view"},
+        KeyHelp{"T", "bounds of the region tree, level by level"},
+        KeyHelp{"F", "freeze the fixtures"},
+        KeyHelp{"K", "pick a colour: click, look, Enter adds"},
+        KeyHelp{"Ctrl Z, Ctrl Y", "undo, redo of fixtures"},
+        KeyHelp{"Ctrl S", "save the fixtures to the scene file"},
+        KeyHelp{"P, E", "hold the traces; write them as CSV"},
+        KeyHelp{"W", "why did it stop?"},
+        KeyHelp{"Q", "acknowledge alarms"},
+        KeyHelp{"R", "record, stop"},
+        KeyHelp{"F12", "screenshot"},
+        KeyHelp{"Ctrl +, Ctrl -", "larger, smaller letters"},
+        KeyHelp{"F1", "this list"},
+    };
+    return kHelp;
+}
+
+Steering::Steering(const Pose& start, const Scene::Hand& hand)
+    : raw_(start)
+    , baseRdevice_(hand.baseRdevice)
+    , scale_(hand.scale) {}
+
+void Steering::shift(const dvec3& base) {
+    raw_.position += glm::conjugate(baseRdevice_) * base / scale_;
+}
+
+void Steering::turn(const dvec3& base) {
+    raw_.rotation = glm::normalize(rotationExp(glm::conjugate(baseRdevice_) * base) * raw_.rotation);
+}
+
+void Steering::keys(Console& console) {
+    console.forces = console.forces || pressed(GLFW_KEY_A);
+    console.guidance = console.guidance != pressed(GLFW_KEY_G);
+    console.clutch = ImGui::IsKeyDown(GLFW_KEY_C);
+    console.spaceIsLarge = console.spaceIsLarge != pressed(GLFW_KEY_TAB);
+    console.paused = console.paused != pressed(GLFW_KEY_P);
+    console.frozen = console.frozen != pressed(GLFW_KEY_F);
+    console.recording = console.recording != pressed(GLFW_KEY_R);
+    console.exportCsv = console.exportCsv || pressed(GLFW_KEY_E);
+    console.acknowledge = console.acknowledge || pressed(GLFW_KEY_Q);
+    if (pressed(GLFW_KEY_T)) {
+        console.treeLevel = console.treeLevel >= 3 ? -1 : console.treeLevel + 1;
+    }
+    if (pressed(GLFW_KEY_K)) {
+        console.pick = Pick{};
+        console.pick.active = true;
+    }
+    if (pressed(GLFW_KEY_W)) {
+        console.tab = Tab::Why;
+    }
+}
+
+void Steering::moveByKeys(const ViewPort& large, bool text) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (text) {
+        return;
+    }
+    const auto axis = [](int plus, int minus) {
+        return (ImGui::IsKeyDown(plus) ? 1.0 : 0.0) - (ImGui::IsKeyDown(minus) ? 1.0 : 0.0);
+    };
+    const dvec3 way(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP),
+                    axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN));
+    if (way == dvec3(0.0)) {
+        return;
+    }
+    const double dt = std::min(0.1, double{io.DeltaTime});
+    const dquat baseReye = glm::conjugate(large.view.cameraTbase.rotation);
+    if (io.KeyShift) {
+        turn(baseReye * (kTurning * dt * dvec3(-way.y, way.x, way.z)));
+    } else {
+        shift(baseReye * (kSpeed * dt * way));
+    }
+}
+
+void Steering::moveByMouse(Console& console, const ViewPort& large, double toolDepth) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const dquat baseReye = glm::conjugate(large.view.cameraTbase.rotation);
+    if (dragging_ && !console.pick.active && console.placing == ShapeKind::None && toolDepth > 0.0) {
+        const double metres = large.metresPerPixel(toolDepth);
+        shift(baseReye * dvec3(metres * io.MouseDelta.x, metres * io.MouseDelta.y, 0.0));
+    }
+    if (orbiting_ && console.spaceIsLarge) {
+        console.orbit.yaw += 0.006 * io.MouseDelta.x;
+        console.orbit.pitch = std::clamp(console.orbit.pitch + 0.006 * io.MouseDelta.y, -1.5, 1.5);
+    } else if (orbiting_) {
+        turn(baseReye * (0.006 * dvec3(-io.MouseDelta.y, io.MouseDelta.x, 0.0)));
+    }
+    if (io.MouseWheel != 0.0f && large.holds(io.MousePos) && !io.WantCaptureMouse) {
+        if (io.KeyCtrl && console.spaceIsLarge) {
+            console.orbit.distance =
+                std::clamp(console.orbit.distance * std::pow(0.9, double{io.MouseWheel}), 0.15, 8.0);
+        } else {
+            shift(baseReye * dvec3(0.0, 0.0, kWheel * io.MouseWheel));
+        }
+    }
+}
+
+bool Steering::step(Console& console, const ViewPort& large, double toolDepth) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (!io.WantTextInput && !io.KeyCtrl) {
+        keys(console);
+    }
+    if (pressed(GLFW_KEY_F1)) {
+        console.tab = Tab::Help;
+    }
+    console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
+    if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {
+        console.textScale = std::min(2.0, console.textScale + 0.125);
+    }
+    if (io.KeyCtrl && (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))) {
+        console.textScale = std::max(0.75, console.textScale - 0.125);
+    }
+    moveByKeys(large, io.WantTextInput);
+    const bool inside = large.holds(io.MousePos) && !io.WantCaptureMouse;
+    for (int button : {0, 1}) {
+        bool& held = button == 0 ? dragging_ : orbiting_;
+        if (ImGui::IsMouseClicked(button) && inside) {
+            held = true;
+            travelled_ = 0.0;
+        }
+    }
+    travelled_ += std::hypot(double{io.MouseDelta.x}, double{io.MouseDelta.y});
+    const bool clicked = dragging_ && ImGui::IsMouseReleased(0) && travelled_ < kClick;
+    moveByMouse(console, large, toolDepth);
+    dragging_ = dragging_ && ImGui::IsMouseDown(0);
+    orbiting_ = orbiting_ && ImGui::IsMouseDown(1);
+    return clicked;
+}
+
+HandSample Steering::wish(const Console& console) const {
+    return {raw_, (console.guidance ? 1u : 0u) | (console.clutch ? 4u : 0u)};
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/swapchain.h"
+
+#include "engine/gpu/result.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+
+namespace fathom::operate {
+
+using gpu::check;
+
+namespace {
+
+// Values go through as they are: any 8-bit format without sRGB conversion will do.
+VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
+    uint32_t count = 0;
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "surface formats");
+    std::vector<VkSurfaceFormatKHR> formats(count);
+    check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, formats.data()), "surface formats");
+    for (const VkSurfaceFormatKHR& f : formats) {
+        VkFormatProperties can;
+        vkGetPhysicalDeviceFormatProperties(device, f.format, &can);
+        if ((f.format == VK_FORMAT_B8G8R8A8_UNORM || f.format == VK_FORMAT_R8G8B8A8_UNORM) &&
+            (can.optimalTilingFeatures & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0) {
+            return f;
+        }
+    }
+    throw Error("the window's surface offers no 8-bit format that this device can copy to");
+}
+
+// The window keeps its own time. A software device copies whole pictures: nothing tears, and its present call
+// needs no thread that waits for the display.
+VkPresentModeKHR chooseMode(const gpu::Device& device, VkSurfaceKHR surface) {
+    uint32_t count = 0;
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr),
+          "present modes");
+    std::vector<VkPresentModeKHR> modes(count);
+    check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, modes.data()),
+          "present modes");
+    const bool can = std::find(modes.begin(), modes.end(), VK_PRESENT_MODE_IMMEDIATE_KHR) != modes.end();
+    return can && device.facts().kind == DeviceKind::Cpu ? VK_PRESENT_MODE_IMMEDIATE_KHR
+                                                         : VK_PRESENT_MODE_FIFO_KHR;
+}
+
+} // namespace
+
+Swapchain::Swapchain(gpu::Device& device, VkSurfaceKHR surface)
+    : device_(device)
+    , surface_(surface) {
+    VkBool32 shows = VK_FALSE;
+    check(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.drawFamily(), surface, &shows),
+          "vkGetPhysicalDeviceSurfaceSupportKHR");
+    if (shows == VK_FALSE) {
+        throw Error("device " + device.facts().name + " cannot show pictures in this window");
+    }
+    format_ = chooseFormat(device.physical(), surface);
+}
+
+Swapchain::~Swapchain() {
+    destroyImages();
+    vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+}
+
+void Swapchain::destroyImages() {
+    for (VkSemaphore semaphore : filled_) {
+        vkDestroySemaphore(device_.handle(), semaphore, nullptr);
+    }
+    filled_.clear();
+    images_.clear();
+}
+
+bool Swapchain::fit(VkExtent2D wanted) {
+    if (wanted.width == 0 || wanted.height == 0) {
+        return false;
+    }
+    if (!lost_ && wanted.width == size_.width && wanted.height == size_.height) {
+        return true;
+    }
+    VkSurfaceCapabilitiesKHR can;
+    check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &can),
+          "surface capabilities");
+    const bool free = can.currentExtent.width == UINT32_MAX;
+    const VkExtent2D size = free ? wanted : can.currentExtent;
+    if (size.width == 0 || size.height == 0) {
+        return false;
+    }
+    if ((can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0) {
+        throw Error("the window's images cannot be copied to");
+    }
+    create(can, size);
+    return true;
+}
+
+void Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
+    VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
+    info.surface = surface_;
+    info.minImageCount = can.minImageCount + 1;
+    info.minImageCount =
+        can.maxImageCount != 0 ? std::min(info.minImageCount, can.maxImageCount) : info.minImageCount;
+    info.imageFormat = format_.format;
+    info.imageColorSpace = format_.colorSpace;
+    info.imageExtent = size;
+    info.imageArrayLayers = 1;
+    info.imageUsage = VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    info.preTransform = can.currentTransform;
+    info.compositeAlpha = VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
+    info.presentMode = chooseMode(device_, surface_);
+    info.clipped = VK_TRUE;
+    info.oldSwapchain = handle_;
+    destroyImages();
+    const VkSwapchainKHR old = handle_;
+    handle_ = VK_NULL_HANDLE;
+    const VkResult made = vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &handle_);
+    vkDestroySwapchainKHR(device_.handle(), old, nullptr);
+    check(made, "vkCreateSwapchainKHR");
+    uint32_t count = 0;
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr), "vkGetSwapchainImagesKHR");
+    images_.resize(count);
+    check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, images_.data()),
+          "vkGetSwapchainImagesKHR");
+    filled_.resize(count);
+    const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
+    for (VkSemaphore& s : filled_) {
+        check(vkCreateSemaphore(device_.handle(), &semaphore, nullptr, &s), "vkCreateSemaphore");
+    }
+    size_ = size;
+    lost_ = false;
+    ++remade_;
+}
+
+VkImage Swapchain::acquire(VkSemaphore ready) {
+    constexpr uint64_t kPatience = 5'000'000; // [ns]
+    const VkResult result =
+        vkAcquireNextImageKHR(device_.handle(), handle_, kPatience, ready, VK_NULL_HANDLE, &index_);
+    if (result == VK_NOT_READY || result == VK_TIMEOUT) {
+        return VK_NULL_HANDLE;
+    }
+    if (result == VK_ERROR_OUT_OF_DATE_KHR) {
+        lost_ = true;
+        return VK_NULL_HANDLE;
+    }
+    check(result, "vkAcquireNextImageKHR"); // suboptimal is good enough to fill
+    return images_[index_];
+}
+
+void Swapchain::show() {
+    VkPresentInfoKHR info{VK_STRUCTURE_TYPE_PRESENT_INFO_KHR};
+    info.waitSemaphoreCount = 1;
+    info.pWaitSemaphores = &filled_[index_];
+    info.swapchainCount = 1;
+    info.pSwapchains = &handle_;
+    info.pImageIndices = &index_;
+    const VkResult result = device_.present(info);
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
+        lost_ = true;
+        return;
+    }
+    check(result, "vkQueuePresentKHR");
+}
+
+} // namespace fathom::operate

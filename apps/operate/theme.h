@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colours, letters and spacing of the window. Colours mean what they mean in overlay.png and traces.png.
+#pragma once
+
+#include <imgui.h>
+
+namespace fathom::operate {
+
+namespace colour {
+constexpr ImU32 kRegion = IM_COL32(237, 41, 36, 255);
+constexpr ImU32 kRegionSoft = IM_COL32(255, 140, 122, 255);
+constexpr ImU32 kGuidance = IM_COL32(64, 153, 255, 255);
+constexpr ImU32 kTool = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kForce = IM_COL32(255, 194, 51, 255);
+constexpr ImU32 kTouch = IM_COL32(255, 236, 120, 255);
+constexpr ImU32 kShade = IM_COL32(8, 10, 15, 165);
+constexpr ImU32 kQuiet = IM_COL32(150, 162, 180, 255);
+constexpr ImU32 kText = IM_COL32(228, 234, 242, 255);
+constexpr ImU32 kGood = IM_COL32(92, 214, 150, 255);
+constexpr ImU32 kAdvisory = IM_COL32(110, 214, 235, 255);
+constexpr ImU32 kCaution = IM_COL32(255, 190, 60, 255);
+constexpr ImU32 kWarning = IM_COL32(255, 92, 84, 255);
+constexpr ImU32 kPicked = IM_COL32(40, 220, 235, 255);
+} // namespace colour
+
+struct Letters {
+    ImFont* body = nullptr;
+    ImFont* small = nullptr;
+    ImFont* bold = nullptr;
+    ImFont* large = nullptr; // figures of the head line
+};
+
+// Fills the current context's atlas at this scale; ImGui's own letters where DejaVu is not installed.
+Letters loadLetters(double scale);
+void applyTheme(double scale);
+
+} // namespace fathom::operate

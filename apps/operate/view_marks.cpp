@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/view_marks.h"
+
+#include "apps/operate/theme.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+
+void line(ImDrawList& list, const ViewPort& port, const dvec3& a, const dvec3& b, ImU32 colour, float width) {
+    const auto p = port.of(a), q = port.of(b);
+    if (p && q) {
+        list.AddLine(*p, *q, colour, width);
+    }
+}
+
+void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, float dash) {
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    for (float at = 0.0f; at < length; at += 2.0f * dash) {
+        const float s = at / length, e = std::min(1.0f, (at + dash) / length);
+        list.AddLine({a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s},
+                     {a.x + (b.x - a.x) * e, a.y + (b.y - a.y) * e}, colour, width);
+    }
+}
+
+void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,
+             float width, bool isDashed) {
+    std::vector<ImVec2> points;
+    for (const OutlineLine& l : lines) {
+        points.clear();
+        for (const glm::dvec2& p : l) {
+            points.push_back(port.ofPicture(p));
+        }
+        if (!isDashed) {
+            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour::kShade, 0, width + 2.0f);
+            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
+            continue;
+        }
+        constexpr size_t kDash = 7;
+        for (size_t i = 0; i + 1 < points.size(); i += 2 * kDash) {
+            const size_t count = std::min(kDash, points.size() - i);
+            list.AddPolyline(points.data() + i, static_cast<int>(count), colour, 0, width);
+        }
+    }
+}
+
+void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool ghost) {
+    Silhouette silhouette(input.port.view);
+    for (const Sphere& leaf : input.tool.leaves()) {
+        const dvec3 centre = pose.apply(leaf.centre);
+        silhouette.add(centre, leaf.radius);
+        const auto at = input.port.of(centre);
+        const double z = input.port.view.cameraTbase.apply(centre).z;
+        if (at && !ghost && input.tool.leafCount() <= 96) {
+            const auto r = static_cast<float>(leaf.radius / input.port.metresPerPixel(z));
+            list.AddCircleFilled(*at, r, IM_COL32(235, 240, 248, 46), 40);
+            list.AddCircle(*at, r, IM_COL32(255, 255, 255, 96), 40, 1.0f);
+        }
+    }
+    const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
+    outline(list, input.port, lines, ghost ? IM_COL32(190, 204, 224, 230) : colour::kTool,
+            ghost ? 1.6f : 2.2f, ghost);
+}
+
+void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& guidance, bool active) {
+    const auto at = input.port.of(guidance.position);
+    if (!at) {
+        return;
+    }
+    const ImU32 colour = active ? colour::kGuidance : IM_COL32(64, 153, 255, 130);
+    if (guidance.planar) {
+        const dvec3 n = guidance.normal;
+        const dvec3 a = glm::normalize(glm::cross(std::abs(n.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), n));
+        const dvec3 b = glm::cross(n, a);
+        for (int i = 0; i < 48; ++i) {
+            const auto p = input.port.of(
+                guidance.position + 0.025 * (std::cos(kTurn * i / 48) * a + std::sin(kTurn * i / 48) * b));
+            if (p) {
+                list.PathLineTo(*p);
+            }
+        }
+        list.PathStroke(colour, ImDrawFlags_Closed, active ? 2.6f : 1.6f);
+        if (const auto tip = input.port.of(guidance.position + 0.05 * n)) {
+            drawArrow(list, *at, *tip, colour, 2.2f);
+        }
+    }
+    const float arm = active ? 10.0f : 7.0f;
+    list.AddLine({at->x - arm, at->y - arm}, {at->x + arm, at->y + arm}, colour, 2.6f);
+    list.AddLine({at->x - arm, at->y + arm}, {at->x + arm, at->y - arm}, colour, 2.6f);
+    if (const auto goal = input.port.of(guidance.target.position)) {
+        dashed(list, *at, *goal, colour, 1.4f, 4.0f);
+        const ImVec2 corners[] = {{goal->x, goal->y - arm},
+                                  {goal->x + arm, goal->y},
+                                  {goal->x, goal->y + arm},
+                                  {goal->x - arm, goal->y}};
+        list.AddPolyline(corners, 4, colour, ImDrawFlags_Closed, 2.0f);
+    }
+    if (input.names && guidance.fixture < input.scene.fixtures.size()) {
+        drawWords(list, {at->x + 14.0f, at->y - 26.0f},
+                  input.scene.fixtures[guidance.fixture].name + (active ? ", guiding" : ""),
+                  IM_COL32(184, 222, 255, 255));
+    }
+}
+
+// Circles and edges of an authored shape.
+void shapeAt(ImDrawList& list, const ViewPort& port, const Shape& shape) {
+    const ImU32 colour = shape.isEquality() ? colour::kGuidance : colour::kRegionSoft;
+    const auto at = [&](double x, double y, double z) { return shape.baseTshape.apply({x, y, z}); };
+    const auto ring = [&](double r, double z, int axis) {
+        for (int i = 0; i < 40; ++i) {
+            const double a = kTurn * i / 40, b = kTurn * (i + 1) / 40;
+            const auto p = [&](double w) {
+                const double c = r * std::cos(w), s = r * std::sin(w);
+                return axis == 2 ? at(c, s, z) : axis == 1 ? at(c, z, s) : at(z, c, s);
+            };
+            line(list, port, p(a), p(b), colour, 1.6f);
+        }
+    };
+    const dvec3 h = 0.5 * shape.size;
+    switch (shape.kind) {
+    case ShapeKind::Sphere:
+        for (int axis = 0; axis < 3; ++axis) {
+            ring(shape.size.x, 0.0, axis);
+        }
+        break;
+    case ShapeKind::Box:
+        for (int i = 0; i < 8; ++i) {
+            for (int bit : {1, 2, 4}) {
+                if ((i & bit) == 0) {
+                    const auto corner = [&](int c) {
+                        return at(c & 1 ? h.x : -h.x, c & 2 ? h.y : -h.y, c & 4 ? h.z : -h.z);
+                    };
+                    line(list, port, corner(i), corner(i | bit), colour, 1.6f);
+                }
+            }
+        }
+        break;
+    case ShapeKind::Plane:
+        for (double k = -0.2; k <= 0.201; k += 0.1) {
+            line(list, port, at(k, -0.2, 0), at(k, 0.2, 0), colour, 1.2f);
+            line(list, port, at(-0.2, k, 0), at(0.2, k, 0), colour, 1.2f);
+        }
+        break;
+    case ShapeKind::Cylinder:
+        ring(shape.size.x, 0.5 * shape.size.y, 2);
+        ring(shape.size.x, -0.5 * shape.size.y, 2);
+        break;
+    case ShapeKind::Line:
+    case ShapeKind::Axis:
+        line(list, port, at(0, 0, -0.4), at(0, 0, 0.4), colour, 2.4f);
+        break;
+    case ShapeKind::None:
+        break;
+    }
+}
+
+void touches(ImDrawList& list, const MarksInput& input) {
+    const TurnRecord& record = input.run.turn().record;
+    for (uint32_t i = 0; i < record.touchCount; ++i) {
+        const Touch& touch = record.touches[i];
+        const auto at = input.port.of(touch.point), tip = input.port.of(touch.point + 0.03 * touch.normal);
+        if (at && tip && touch.normal != dvec3(0.0)) {
+            drawArrow(list, *at, *tip, colour::kTouch, 2.0f);
+            list.AddCircleFilled(*at, 4.5f, colour::kShade);
+            list.AddCircleFilled(*at, 3.2f, colour::kTouch);
+        }
+    }
+}
+
+void force(ImDrawList& list, const MarksInput& input) {
+    constexpr double kMetresPerNewton = 0.006, kLeast = 0.05;
+    const TurnRecord& record = input.run.turn().record;
+    const double size = glm::length(record.wrench.force);
+    const auto from = input.port.of(record.tool.position),
+               to = input.port.of(record.tool.position + kMetresPerNewton * record.wrench.force);
+    if (!(size > kLeast) || !from || !to) {
+        return;
+    }
+    drawArrow(list, *from, *to, colour::kForce, 3.4f);
+    if (input.names) {
+        char text[32];
+        std::snprintf(text, sizeof text, "%.2f N", size);
+        drawWords(list, {to->x + 10.0f, to->y - 8.0f}, text, colour::kForce);
+    }
+}
+
+} // namespace
+
+void drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour) {
+    const ImVec2 size = ImGui::CalcTextSize(words.c_str());
+    list.AddRectFilled({at.x - 4.0f, at.y - 2.0f}, {at.x + size.x + 4.0f, at.y + size.y + 2.0f},
+                       colour::kShade, 3.0f);
+    list.AddText(at, colour, words.c_str());
+}
+
+void drawArrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width) {
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    if (!(length >= 2.0f)) {
+        return;
+    }
+    const float head = std::min(11.0f, length), x = (b.x - a.x) / length, y = (b.y - a.y) / length;
+    for (const auto& [c, w] : {std::pair(colour::kShade, width + 2.2f), std::pair(colour, width)}) {
+        list.AddLine(a, b, c, w);
+        for (float side : {-0.5f, 0.5f}) {
+            list.AddLine(b, {b.x - head * x - side * head * y, b.y - head * y + side * head * x}, c, w);
+        }
+    }
+}
+
+void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground) {
+    outline(list, port, ground.heldOutline(), colour::kRegionSoft, 1.8f, true);
+    outline(list, port, ground.seenOutline(), colour::kRegion, 2.4f, false);
+}
+
+void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds) {
+    for (const Sphere& bound : bounds) {
+        const auto at = port.of(bound.centre);
+        const double z = port.view.cameraTbase.apply(bound.centre).z;
+        if (at) {
+            list.AddCircle(*at, static_cast<float>(bound.radius / port.metresPerPixel(z)),
+                           IM_COL32(255, 190, 60, 90), 32, 1.0f);
+        }
+    }
+}
+
+void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set) {
+    const Intrinsics& lens = set.camera.depth;
+    if (lens.width == 0) {
+        return;
+    }
+    constexpr double kDepth = 0.12; // [m]
+    std::array<dvec3, 4> corners;
+    for (size_t i = 0; i < 4; ++i) {
+        const double u = i == 1 || i == 2 ? lens.width : 0.0, v = i >= 2 ? lens.height : 0.0;
+        corners[i] =
+            set.baseTcamera.apply(kDepth * dvec3((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy, 1.0));
+    }
+    for (size_t i = 0; i < 4; ++i) {
+        line(list, port, set.baseTcamera.position, corners[i], colour::kQuiet, 1.2f);
+        line(list, port, corners[i], corners[(i + 1) % 4], colour::kQuiet, 1.2f);
+    }
+}
+
+void drawMarks(ImDrawList& list, const MarksInput& input) {
+    for (const Shape& shape : input.shapes) {
+        shapeAt(list, input.port, shape);
+    }
+    const TurnRecord& record = input.run.turn().record;
+    const auto& guidance = input.run.scene().set.guidance;
+    for (size_t i = 0; i < guidance.size(); ++i) {
+        if (guidance[i].present) {
+            guidanceAt(list, input, guidance[i],
+                       record.guidance > 0.0 && record.guidanceClass == static_cast<int>(i));
+        }
+    }
+    if (!input.run.anyTurn() || !isFinite(record.tool) || !isFinite(record.device)) {
+        return;
+    }
+    toolAt(list, input, record.device, true);
+    toolAt(list, input, record.tool, false);
+    const auto hand = input.port.of(record.device.position), tool = input.port.of(record.tool.position);
+    if (hand && tool) {
+        dashed(list, *hand, *tool, IM_COL32(190, 204, 224, 230), 1.4f, 4.0f);
+    }
+    touches(list, input);
+    force(list, input);
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies over a view: outlines of regions, guidance, the tool and its ghost, contacts, the force.
+#pragma once
+
+#include "apps/operate/camera_ground.h"
+#include "apps/operate/run_view.h"
+#include "apps/operate/view_port.h"
+#include "engine/contact/shapes.h"
+#include "engine/contact/tool.h"
+
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fathom::operate {
+
+struct MarksInput {
+    const ViewPort& port;
+    const RunView& run;
+    const Tool& tool;
+    const Scene& scene; // names
+    std::span<const Shape> shapes;
+    bool names = true; // words at guidance and force: too much in an inset
+};
+
+void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground);
+void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);
+void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set);
+// Shapes, guidance, device ghost, tool, contacts, force; lowest first.
+void drawMarks(ImDrawList& list, const MarksInput& input);
+
+// Words with a dark ground.
+void drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour);
+void drawArrow(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 colour, float width);
+
+} // namespace fathom::operate

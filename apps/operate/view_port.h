@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A view in the window: how the base frame falls onto a rectangle of it, and back.
+#pragma once
+
+#include "apps/operate/painter.h"
+#include "apps/replay/picture_view.h"
+
+#include <imgui.h>
+#include <optional>
+
+namespace fathom::operate {
+
+struct ViewPort {
+    PictureView view;
+    PixelRect where; // [pixels] of the window
+
+    double scale() const { return static_cast<double>(where.width) / std::max(1, view.width()); }
+    ImVec2 ofPicture(glm::dvec2 p) const {
+        return {static_cast<float>(where.x + p.x * scale()), static_cast<float>(where.y + p.y * scale())};
+    }
+    // Window pixel of a base point [m]; empty when it is not in front of the eye.
+    std::optional<ImVec2> of(const dvec3& base) const {
+        const auto p = view.ofBase(base);
+        return p ? std::optional(ofPicture(*p)) : std::nullopt;
+    }
+    glm::dvec2 toPicture(ImVec2 p) const {
+        return {(double{p.x} - where.x) / scale(), (double{p.y} - where.y) / scale()};
+    }
+    bool holds(ImVec2 p) const {
+        const double x = double{p.x} - where.x, y = double{p.y} - where.y;
+        return x >= 0.0 && y >= 0.0 && x < where.width && y < where.height;
+    }
+    // [m] that a window pixel is wide at this distance along the eye's axis.
+    double metresPerPixel(double z) const { return z / (view.lens.fx * view.scale * scale()); }
+};
+
+// The largest rectangle of a picture's shape in the middle of `room`.
+inline PixelRect fitted(PixelRect room, double width, double height) {
+    const double scale = std::min(room.width / width, room.height / height);
+    const int w = std::max(2, static_cast<int>(width * scale)),
+              h = std::max(2, static_cast<int>(height * scale));
+    return {room.x + (room.width - w) / 2, room.y + (room.height - h) / 2, w, h};
+}
+
+} // namespace fathom::operate

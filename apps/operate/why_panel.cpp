@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/why_panel.h"
+
+#include "apps/operate/theme.h"
+
+#include <cstdio>
+
+namespace fathom::operate {
+
+namespace {
+
+std::string whoHolds(const Block& block, const Scene& scene, const Fixtures& set) {
+    const Touch& touch = block.touch;
+    const std::string name =
+        touch.fixture < scene.fixtures.size() && !scene.fixtures[touch.fixture].name.empty()
+            ? "'" + scene.fixtures[touch.fixture].name + "'"
+            : "a fixture that is gone";
+    switch (touch.kind) {
+    case ContactRow::Kind::Sphere: {
+        const uint32_t width = std::max(1u, set.camera.depth.width),
+                       pixels = std::max(1u, set.camera.depth.pixels());
+        const uint32_t pixel = touch.source % pixels;
+        return name + ", region sphere of pixel (" + std::to_string(pixel % width) + ", " +
+               std::to_string(pixel / width) + (touch.source >= pixels ? "), held: not seen now" : ")");
+    }
+    case ContactRow::Kind::Shape:
+        return name + ", an authored shape";
+    case ContactRow::Kind::Equality:
+        return name + ", a line to slide along";
+    case ContactRow::Kind::Behind:
+        return "the surface in front of the tool: it is behind what the camera sees";
+    }
+    return name;
+}
+
+} // namespace
+
+std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& set) {
+    char rest[160];
+    std::snprintf(rest, sizeof rest,
+                  ": tool sphere %u stopped; the hand is %.1f mm beyond (at most %.1f), %.2f N, since frame "
+                  "%lld (%.2f s)",
+                  block.touch.leaf, block.beyond * 1e3, block.deepest * 1e3, block.force,
+                  static_cast<long long>(block.sinceFrame), block.since);
+    return whoHolds(block, scene, set) + rest;
+}
+
+void drawWhy(Console& console, const RunView& run, const Scene& scene) {
+    constexpr double kNow = 0.1; // [s]
+    const double now = run.turn().record.t;
+    if (run.turn().record.state == TurnState::Trapped) {
+        ImGui::TextColored(ImColor(colour::kWarning), "Trapped: no motion obeys every region at once.");
+    }
+    if (run.turn().record.stalled) {
+        ImGui::TextColored(ImColor(colour::kCaution),
+                           "Waiting for the next contact set: the tool moves fast.");
+    }
+    if (run.blocks().empty()) {
+        ImGui::TextDisabled("Nothing has stopped the tool so far.");
+    }
+    for (const Block& block : run.blocks()) {
+        const bool active = now - block.last < kNow;
+        ImGui::PushStyleColor(ImGuiCol_Text, active ? colour::kTouch : colour::kQuiet);
+        ImGui::TextWrapped("%s %s", active ? "NOW " : "over",
+                           whyBlocked(block, scene, run.scene().set).c_str());
+        ImGui::PopStyleColor();
+    }
+    (void)console;
+}
+
+} // namespace fathom::operate

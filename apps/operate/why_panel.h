@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Why did it stop? Each block in words: class, region sphere, depth, since which frame.
+#pragma once
+
+#include "apps/operate/console.h"
+#include "apps/operate/run_view.h"
+
+#include <string>
+
+namespace fathom::operate {
+
+// One block, as one sentence.
+std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& set);
+void drawWhy(Console& console, const RunView& run, const Scene& scene);
+
+} // namespace fathom::operate

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#define GLFW_INCLUDE_VULKAN
+#include "apps/operate/window.h"
+
+#include "engine/gpu/result.h"
+#include "engine/types/error.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <backends/imgui_impl_glfw.h>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <imgui.h>
+#include <thread>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr int kWidth = 1280, kHeight = 720;
+constexpr uint32_t kLeast = 320, kMost = 8192; // [pixels] offscreen
+
+VkExtent2D sizeFrom(const std::string& text) {
+    VkExtent2D size{};
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%c", &size.width, &size.height, &rest) != 2 || size.width < kLeast ||
+        size.height < kLeast || size.width > kMost || size.height > kMost) {
+        throw BadInput("operate", "--offscreen", "'" + text + "'", "WxH, each 320 to 8192 pixels");
+    }
+    return size;
+}
+
+[[noreturn]] void refuseDisplay() {
+    const char* display = std::getenv("DISPLAY");
+    const char* why = nullptr;
+    glfwGetError(&why);
+    std::string value = display != nullptr ? "DISPLAY=" + std::string(display) : "DISPLAY is not set";
+    if (why != nullptr) {
+        value += ", " + std::string(why);
+    }
+    throw BadInput("operate", "display", value, "a display that can be opened, or --offscreen WxH");
+}
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+Window::Window(const std::string& offscreen, const std::string& title) {
+    if (!offscreen.empty()) {
+        offscreen_ = sizeFrom(offscreen);
+    } else {
+        if (glfwInit() != GLFW_TRUE) {
+            refuseDisplay();
+        }
+        glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+        window_ = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
+        if (window_ == nullptr || glfwVulkanSupported() != GLFW_TRUE) {
+            refuseDisplay();
+        }
+        glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
+        glfwSetWindowUserPointer(window_, this);
+        glfwSetKeyCallback(window_, key); // before ImGui's, which calls it
+    }
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr; // what is worth keeping is in the scene file
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
+    if (window_ != nullptr) {
+        ImGui_ImplGlfw_InitForVulkan(window_, true);
+    }
+    before_ = seconds();
+}
+
+Window::~Window() {
+    if (window_ != nullptr) {
+        ImGui_ImplGlfw_Shutdown();
+    }
+    ImGui::DestroyContext();
+    if (window_ != nullptr) {
+        glfwDestroyWindow(window_);
+        glfwTerminate();
+    }
+}
+
+void Window::holdTaps() {
+    ImGuiIO& io = ImGui::GetIO();
+    for (int key : held_) {
+        io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
+    }
+    held_.clear();
+    const auto either = [&](int left, int right) {
+        return glfwGetKey(window_, left) == GLFW_PRESS || glfwGetKey(window_, right) == GLFW_PRESS;
+    };
+    io.KeyCtrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    for (const Tap& tap : taps_) {
+        if (!io.KeysDown[tap.key]) {
+            io.KeysDown[tap.key] = true;
+            held_.push_back(tap.key);
+        }
+        io.KeyCtrl = io.KeyCtrl || (tap.mods & GLFW_MOD_CONTROL) != 0;
+        io.KeyShift = io.KeyShift || (tap.mods & GLFW_MOD_SHIFT) != 0;
+    }
+    taps_.clear();
+}
+
+void Window::key(GLFWwindow* window, int key, int, int action, int mods) {
+    auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (key >= 0 && action == GLFW_PRESS) {
+        self->taps_.push_back({key, mods});
+    }
+    if (key == GLFW_KEY_SPACE && action == GLFW_PRESS && self->onForcesOff) {
+        self->onForcesOff();
+    }
+}
+
+std::span<const char* const> Window::extensions() const {
+    if (window_ == nullptr) {
+        return {};
+    }
+    uint32_t count = 0;
+    const char** names = glfwGetRequiredInstanceExtensions(&count);
+    return {names, names != nullptr ? count : 0};
+}
+
+VkSurfaceKHR Window::makeSurface(const gpu::Instance& instance) const {
+    VkSurfaceKHR surface = VK_NULL_HANDLE;
+    gpu::check(glfwCreateWindowSurface(instance.handle(), window_, nullptr, &surface),
+               "glfwCreateWindowSurface");
+    return surface;
+}
+
+void Window::beginFrame(double patience) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (window_ != nullptr) {
+        const double until = seconds() + patience;
+        glfwPollEvents();
+        while (seconds() < until) { // events are taken at once, the frame keeps its time
+            constexpr double kLook =
+                0.002; // [s] waiting on the connection itself would share it with the swapchain
+            std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, until - seconds())));
+            glfwPollEvents();
+        }
+        ImGui_ImplGlfw_NewFrame();
+        holdTaps();
+    } else {
+        std::this_thread::sleep_for(std::chrono::duration<double>(std::max(0.0, patience)));
+        io.DisplaySize = {static_cast<float>(offscreen_.width), static_cast<float>(offscreen_.height)};
+        io.DeltaTime = static_cast<float>(std::max(1e-4, seconds() - before_));
+    }
+    before_ = seconds();
+    ImGui::NewFrame();
+}
+
+bool Window::closed() const {
+    return window_ != nullptr && glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+bool Window::minimised() const {
+    return window_ != nullptr &&
+           (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || size().width == 0);
+}
+
+VkExtent2D Window::size() const {
+    if (window_ == nullptr) {
+        return offscreen_;
+    }
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(window_, &width, &height);
+    return {static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
+}
+
+} // namespace fathom::operate
