@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/run_fathom.h"
+#include "tests/window/window_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <glm/vec2.hpp>
+#include <sstream>
+#include <thread>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+bool isRed(int r, int g, int b) {
+    return r > 110 && r > 2 * g && r > 2 * b;
+}
+bool isBlue(int r, int g, int b) {
+    return b > 180 && r < 130 && g > 90 && g < 200;
+}
+bool isCyan(int r, int g, int b) {
+    return g > 150 && b > 150 && r < 120;
+}
+
+double toolZ(const json& s) {
+    return s["run"]["tool"][2];
+}
+
+// Sizes of the force in a CSV file, its three components from `column` on.
+std::vector<double> forces(const std::filesystem::path& file, size_t column) {
+    std::ifstream in(file);
+    std::vector<double> sizes;
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+        std::stringstream row(line);
+        std::string cell;
+        double sum = 0.0;
+        for (size_t i = 0; i < column + 3 && std::getline(row, cell, ','); ++i) {
+            sum += i >= column ? std::stod(cell) * std::stod(cell) : 0.0;
+        }
+        sizes.push_back(std::sqrt(sum));
+    }
+    return sizes;
+}
+
+bool silent(WindowRig& rig) {
+    const int code = rig.close();
+    INFO(rig.output());
+    CHECK(code == 0);
+    CHECK(rig.output().find("validation") == std::string::npos);
+    return code == 0;
+}
+
+// Puts the tool on the axis of the bump and pushes it at it.
+void pushIntoBump(WindowRig& rig) {
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    rig.xdo("mousemove --window $W 300 300");
+    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
+        rig.wheel(8);
+    }
+}
+
+} // namespace
+
+TEST_CASE(
+    "The window shows the camera's picture, its forbidden region red and what it has not seen hatched") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0 && s["run"]["turns"] > 200; }));
+    const Screenshot shot = rig.shoot("camera");
+    CHECK(shot.width == 1280);
+    CHECK(shot.height == 720);
+    const auto camera = rig.place("camera");
+    const auto part = [&](double u, double v, double w, double h) {
+        return std::array<double, 4>{camera[0] + u * camera[2], camera[1] + v * camera[3], w * camera[2],
+                                     h * camera[3]};
+    };
+    CHECK(shot.share(part(0.40, 0.35, 0.25, 0.3), isRed) > 0.5);   // the bump
+    CHECK(shot.share(part(0.02, 0.02, 0.12, 0.12), isRed) < 0.02); // the wall
+    // The corner without depth: dark and bright stripes, neither the wall's grey.
+    const auto bright = [](int r, int, int b) { return r > 150 && b > 170; };
+    const auto dark = [](int r, int g, int b) { return r < 90 && g < 90 && b < 100; };
+    CHECK(shot.share(part(0.85, 0.82, 0.1, 0.1), bright) > 0.15);
+    CHECK(shot.share(part(0.85, 0.82, 0.1, 0.1), dark) > 0.3);
+    const auto grey = [](int r, int g, int b) { return std::abs(r - g) < 3 && std::abs(g - b) < 3; };
+    CHECK(shot.share(part(0.85, 0.82, 0.1, 0.1), grey) < 0.05);
+    CHECK(shot.share(part(0.85, 0.05, 0.1, 0.1), grey) > 0.9);
+    CHECK(rig.state()["unknown_share"] == doctest::Approx(14.0 * 12.0 / (64.0 * 48.0)).epsilon(0.01));
+    silent(rig);
+}
+
+TEST_CASE("Forces are off at first, come with A, and go with the space bar") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "FORCES OFF" && s["run"]["turns"] > 100; }));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    rig.key("space");
+    CHECK(rig.await([](const json& s) {
+        return s["console"]["forces"] == false && s["mode"] == "FORCES OFF" && s["run"]["force_N"] == 0.0;
+    }));
+    silent(rig);
+}
+
+TEST_CASE("Keys and wheel drive the tool to the region's surface, where it stops, says why, and lets go at "
+          "the space bar") {
+    WindowRig rig;
+    pushIntoBump(rig);
+    REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.2; }));
+    const json s = rig.state();
+    const double hand = s["run"]["device"][2], tool = toolZ(s);
+    CHECK(hand > tool + 0.001); // the hand went on, the tool did not
+    CHECK(s["run"]["touches"] > 0);
+    rig.key("w");
+    REQUIRE(rig.await([](const json& now) { return now["console"]["tab"] == 1; }));
+    rig.shoot("why");
+    CHECK(rig.state()["why"].get<std::string>().find("'red'") != std::string::npos);
+    CHECK(rig.state()["why"].get<std::string>().find("since frame") != std::string::npos);
+    rig.key("space");
+    CHECK(rig.await(
+        [](const json& now) { return now["run"]["force_N"] == 0.0 && now["console"]["forces"] == false; },
+        5.0));
+    silent(rig);
+}
+
+TEST_CASE("Guidance comes with G, is drawn blue, and pulls") {
+    WindowRig rig;
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    rig.key("g");
+    REQUIRE(
+        rig.await([](const json& s) { return s["run"]["guidance_w"] > 0.95 && s["run"]["force_N"] > 0.05; }));
+    CHECK(rig.state()["mode"] == "GUIDANCE");
+    const Screenshot shot = rig.shoot("guidance");
+    CHECK(shot.share(rig.place("camera"), isBlue) > 0.0005);
+    CHECK(shot.share(rig.place("mode"), isBlue) > 0.02);
+    silent(rig);
+}
+
+TEST_CASE("A colour is picked by a click, previewed, added, obeyed, undone, done again and saved") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0; }));
+    const auto before = rig.state()["run"]["spheres"].get<size_t>();
+    rig.key("k");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["picking"] == true; }));
+    rig.click("camera", 9.0 / 64.0, 23.0 / 48.0); // the yellow square
+    REQUIRE(rig.await([](const json& s) { return s["console"]["picked"] == true; }));
+    CHECK(rig.state()["selected"] == 10 * 14);
+    CHECK(rig.state()["run"]["spheres"].get<size_t>() == before); // not yet in force
+    const Screenshot shot = rig.shoot("pick");
+    const auto camera = rig.place("camera");
+    CHECK(shot.share({camera[0] + camera[2] * 5 / 64, camera[1] + camera[3] * 17 / 48, camera[2] * 8 / 64,
+                      camera[3] * 12 / 48},
+                     isCyan) > 0.3);
+    rig.key("Return");
+    REQUIRE(
+        rig.await([&](const json& s) { return s["fixtures"].size() == 3 && s["run"]["spheres"] > before; }));
+    rig.key("ctrl+z");
+    REQUIRE(
+        rig.await([&](const json& s) { return s["fixtures"].size() == 2 && s["run"]["spheres"] == before; }));
+    rig.key("ctrl+y");
+    REQUIRE(
+        rig.await([&](const json& s) { return s["fixtures"].size() == 3 && s["run"]["spheres"] > before; }));
+    rig.key("ctrl+s");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("3 fixtures saved") == 0;
+    }));
+    CHECK(rig.sceneText().find("# a comment that saving must keep") != std::string::npos);
+    CHECK(rig.sceneText().find("picked 1") != std::string::npos);
+    silent(rig);
+}
+
+TEST_CASE("A shape is placed by a click on the cloud and stops the tool") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    rig.click("place sphere");
+    rig.click("camera", 0.2, 0.2);
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
+    CHECK(rig.state()["fixtures"].size() == 3);
+    rig.shoot("shape");
+    silent(rig);
+}
+
+TEST_CASE("Frozen fixtures keep their set while pictures go on") {
+    WindowRig rig;
+    rig.key("f");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["frozen"] == true; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    const json first = rig.state();
+    REQUIRE(rig.await(
+        [&](const json& s) { return s["run"]["pictures"] > first["run"]["pictures"].get<int>() + 5; }));
+    CHECK(rig.state()["run"]["generation"] == first["run"]["generation"]);
+    rig.key("f");
+    CHECK(rig.await(
+        [&](const json& s) { return s["run"]["generation"] > first["run"]["generation"].get<int>(); }));
+    silent(rig);
+}
+
+TEST_CASE("Tab swaps the views, P holds the traces, E writes them, Q acknowledges") {
+    WindowRig rig;
+    rig.key("Tab");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
+    CHECK(rig.place("space")[2] > rig.place("camera")[2]);
+    rig.key("t");
+    const Screenshot shot = rig.shoot("space");
+    CHECK(shot.share(rig.place("space"), isRed) > 0.005);
+    rig.key("p");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["paused"] == true; }));
+    rig.key("e");
+    REQUIRE(rig.await(
+        [](const json& s) { return s["console"]["notice"].get<std::string>().find("traces written") == 0; }));
+    std::ifstream csv(rig.folder() / "traces.csv");
+    std::string head;
+    std::getline(csv, head);
+    CHECK(head == "t_s,fx,fy,fz,tx,ty,tz,frame,state");
+    size_t rows = 0;
+    for (std::string line; std::getline(csv, line);) {
+        ++rows;
+    }
+    CHECK(rows > 100);
+    silent(rig);
+}
+
+TEST_CASE("The window can be made smaller, larger and unmapped while it runs") {
+    WindowRig rig;
+    rig.xdo("windowsize --sync $W 900 600");
+    REQUIRE(rig.await(
+        [](const json& s) { return s["window"]["width"] == 900 && s["window"]["swapchains"] >= 2; }));
+    rig.xdo("windowsize --sync $W 1600 900");
+    REQUIRE(rig.await(
+        [](const json& s) { return s["window"]["width"] == 1600 && s["window"]["swapchains"] >= 3; }));
+    const Screenshot shot = rig.shoot("large");
+    CHECK(shot.width == 1600);
+    rig.xdo("windowunmap --sync $W");
+    const auto turns = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 300; })); // the hand goes on
+    rig.xdo("windowmap --sync $W");
+    const auto frames = rig.state()["window"]["frames"].get<int>();
+    CHECK(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 5; }));
+    silent(rig);
+}
+
+TEST_CASE("A recording made with R is one that replay plays, with the force that the hand felt") {
+    WindowRig rig;
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
+    pushIntoBump(rig);
+    REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2500)); // the soft start ends
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
+    }));
+    const std::filesystem::path folder = rig.folder() / "recording-1";
+    const auto out = rig.folder() / "out";
+    const ProgramRun run =
+        runFathom({"replay", (folder / "scene.yaml").string(), "--source", folder.string(), "--operator",
+                   (folder / "hand.csv").string(), "--device", "llvmpipe", "--out", out.string()});
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    const std::vector<double> felt = forces(folder / "wrench.csv", 1),
+                              again = forces(out / "haptics.csv", 15);
+    REQUIRE(felt.size() > 1000);
+    REQUIRE(again.size() > 1000);
+    const double last = felt.back(), replayed = again[again.size() - 200];
+    MESSAGE("felt " << last << " N, replayed " << replayed << " N");
+    const auto risesAt = [](const std::vector<double>& sizes) {
+        return std::find_if(sizes.begin(), sizes.end(), [](double f) { return f > 1.0; }) - sizes.begin();
+    };
+    CHECK(std::abs(risesAt(felt) - risesAt(again)) < 400); // turns
+    CHECK(last > 1.0);
+    CHECK(replayed == doctest::Approx(last).epsilon(0.05));
+    silent(rig);
+}

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/run_fathom.h"
+
+#include <cstdlib>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+ProgramRun withDisplay(const char* display, const std::vector<std::string>& words) {
+    const char* before = std::getenv("DISPLAY");
+    const std::string kept = before != nullptr ? before : "";
+    display != nullptr ? ::setenv("DISPLAY", display, 1) : ::unsetenv("DISPLAY");
+    ProgramRun run = runFathom(words);
+    before != nullptr ? ::setenv("DISPLAY", kept.c_str(), 1) : ::unsetenv("DISPLAY");
+    return run;
+}
+
+} // namespace
+
+TEST_CASE("Without a display the window is refused in one line with exit code 2") {
+    for (const char* display : {static_cast<const char*>(nullptr), ":987"}) {
+        const ProgramRun run =
+            withDisplay(display, {"operate", "apps/scenes/demo.yaml", "--device", "llvmpipe"});
+        CHECK(run.exitCode == 2);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK(run.errorLines()[0].find("operate: display: ") != std::string::npos);
+        CHECK(run.errorLines()[0].find("--offscreen") != std::string::npos);
+    }
+}
+
+TEST_CASE("An offscreen size that is none is refused in one line with exit code 2") {
+    for (const char* size : {"wide", "100x100", "1280", "1280x720x3", "9000x9000"}) {
+        const ProgramRun run = runFathom({"operate", "apps/scenes/demo.yaml", "--offscreen", size});
+        CHECK(run.exitCode == 2);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK(run.errorLines()[0].find(size) != std::string::npos);
+    }
+}

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/window/window_rig.h"
+
+#include "devices/recorded/png_image.h"
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <fstream>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace fathom::window {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void pause(double seconds) {
+    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+
+bool installed(const std::string& program) {
+    return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
+}
+
+[[noreturn]] void become(const std::vector<std::string>& words, int out) {
+    std::vector<char*> argv;
+    for (const std::string& word : words) {
+        argv.push_back(const_cast<char*>(word.c_str()));
+    }
+    argv.push_back(nullptr);
+    ::dup2(out, 1);
+    ::dup2(out, 2);
+    ::execvp(argv[0], argv.data());
+    ::_exit(127);
+}
+
+int ended(pid_t child, double seconds) {
+    int status = 0;
+    const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+    while (::waitpid(child, &status, WNOHANG) == 0) {
+        if (Clock::now() > until) {
+            ::kill(child, SIGKILL);
+            ::waitpid(child, &status, 0);
+            return -1;
+        }
+        pause(0.02);
+    }
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+} // namespace
+
+void requireDisplay() {
+    if (!installed("Xvfb") || !installed("xdotool")) {
+        std::puts("SKIPPED ALOUD: Xvfb and xdotool are not both installed, no window was tested");
+        std::fflush(stdout);
+        std::_Exit(77);
+    }
+}
+
+double Screenshot::share(const std::array<double, 4>& place,
+                         const std::function<bool(int, int, int)>& accepts) const {
+    size_t all = 0, good = 0;
+    for (auto v = static_cast<uint32_t>(place[1]); v < std::min<double>(height, place[1] + place[3]); ++v) {
+        for (auto u = static_cast<uint32_t>(place[0]); u < std::min<double>(width, place[0] + place[2]);
+             ++u) {
+            const uint32_t p = pixels[v * width + u];
+            ++all;
+            good += accepts(p & 0xff, p >> 8 & 0xff, p >> 16 & 0xff) ? 1 : 0;
+        }
+    }
+    return all == 0 ? 0.0 : static_cast<double>(good) / static_cast<double>(all);
+}
+
+WindowRig::WindowRig(const std::vector<std::string>& extra) {
+    requireDisplay();
+    Picture picture = bumpPicture();
+    picture.set({50, 36, 64, 48}, 0); // a corner that the camera does not see
+    writeRecording(folder_.path() / "recording", std::vector<Picture>(4, picture));
+    SceneText scene;
+    scene.camera = "source: {recorded: recording}, near: 0.1, far: 3.0";
+    scene.fixtures.push_back(SceneText::kGuideYellow);
+    scene.tool = "spheres: [[0, 0, 0, 0.01], [0, 0, -0.03, 0.012]]";
+    folder_.write("scene.yaml", "# a comment that saving must keep\n" + scene.text());
+    startDisplay();
+    startProgram(extra);
+}
+
+void WindowRig::startDisplay() {
+    int ends[2];
+    REQUIRE(::pipe(ends) == 0);
+    server_ = ::fork();
+    if (server_ == 0) {
+        const int log = ::open((folder_.path() / "xvfb.log").c_str(), O_CREAT | O_WRONLY, 0644);
+        become({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1920x1080x24", "-nolisten",
+                "tcp"},
+               log);
+    }
+    ::close(ends[1]);
+    char digit = 0;
+    while (::read(ends[0], &digit, 1) == 1 && digit != '\n') {
+        display_ += digit;
+    }
+    ::close(ends[0]);
+    REQUIRE_MESSAGE(!display_.empty(), "Xvfb did not start");
+    display_ = ":" + display_;
+}
+
+void WindowRig::startProgram(const std::vector<std::string>& extra) {
+    std::vector<std::string> words{FATHOM_PROGRAM,
+                                   "operate",
+                                   (folder_.path() / "scene.yaml").string(),
+                                   "--device",
+                                   "llvmpipe",
+                                   "--validate",
+                                   "--state",
+                                   (folder_.path() / "state.jsonl").string(),
+                                   "--folder",
+                                   folder_.path().string()};
+    words.insert(words.end(), extra.begin(), extra.end());
+    program_ = ::fork();
+    if (program_ == 0) {
+        ::setenv("DISPLAY", display_.c_str(), 1);
+        const int log = ::open((folder_.path() / "program.log").c_str(), O_CREAT | O_WRONLY, 0644);
+        become(words, log);
+    }
+    const bool drawn = await([](const nlohmann::json& s) { return s["window"]["frames"] > 3; }, 90.0);
+    REQUIRE_MESSAGE(drawn, output());
+    const std::string found =
+        "DISPLAY=" + display_ + " xdotool search --name '^Fathom' > " + (folder_.path() / "window").string();
+    REQUIRE(std::system(found.c_str()) == 0);
+    window_ = folder_.read("window");
+    window_.erase(window_.find_last_not_of('\n') + 1);
+    xdo("windowfocus --sync $W mousemove --window $W 300 300");
+}
+
+WindowRig::~WindowRig() {
+    if (program_ > 0) {
+        close();
+    }
+    ::kill(server_, SIGTERM);
+    ended(server_, 5.0);
+}
+
+nlohmann::json WindowRig::state() const {
+    std::ifstream in(folder_.path() / "state.jsonl");
+    std::string line, last;
+    while (std::getline(in, line) && !in.eof()) { // the last line may not be whole yet
+        last = line;
+    }
+    return last.empty() ? nlohmann::json() : nlohmann::json::parse(last);
+}
+
+bool WindowRig::await(const std::function<bool(const nlohmann::json&)>& wanted, double seconds) const {
+    const auto until = Clock::now() + std::chrono::duration<double>(seconds);
+    nlohmann::json now;
+    do {
+        now = state();
+        if (!now.is_null() && wanted(now)) {
+            return true;
+        }
+        pause(0.05);
+    } while (Clock::now() < until && ::kill(program_, 0) == 0);
+    MESSAGE("the state never came; the last one: " << now.dump());
+    return false;
+}
+
+std::array<double, 4> WindowRig::place(const std::string& name) const {
+    const nlohmann::json places = state()["console"]["places"];
+    REQUIRE_MESSAGE(places.contains(name), "the window shows no place called " << name);
+    return places[name];
+}
+
+void WindowRig::xdo(const std::string& words) const {
+    const std::string command = "W=" + window_ + "; DISPLAY=" + display_ + " xdotool " + words + " >> " +
+                                (folder_.path() / "xdo.log").string() + " 2>&1";
+    CHECK_MESSAGE(std::system(command.c_str()) == 0, "xdotool " << words);
+    pause(0.15);
+}
+
+void WindowRig::keyDown(const std::string& name) const {
+    xdo("keydown " + name);
+}
+
+void WindowRig::keyUp(const std::string& name) const {
+    xdo("keyup " + name);
+}
+
+// Held for some frames: a window that draws slowly must see it down.
+void WindowRig::key(const std::string& name) const {
+    keyDown(name);
+    pause(0.1);
+    keyUp(name);
+}
+
+void WindowRig::click(const std::string& name, double u, double v) const {
+    const auto at = place(name);
+    xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + u * at[2])) + " " +
+        std::to_string(std::lround(at[1] + v * at[3])));
+    pause(0.25);
+    xdo("mousedown 1");
+    pause(0.15);
+    xdo("mouseup 1");
+    pause(0.15);
+}
+
+void WindowRig::drag(const std::string& name, glm::dvec2 from, glm::dvec2 to) const {
+    const auto at = place(name);
+    const auto move = [&](double s) {
+        const glm::dvec2 p = from + s * (to - from);
+        xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + p.x * at[2])) + " " +
+            std::to_string(std::lround(at[1] + p.y * at[3])));
+    };
+    move(0.0);
+    xdo("mousedown 1");
+    for (int i = 1; i <= 8; ++i) {
+        move(i / 8.0);
+    }
+    xdo("mouseup 1");
+}
+
+void WindowRig::wheel(int notches) const {
+    for (int i = 0; i < std::abs(notches); ++i) {
+        xdo(notches > 0 ? "click 4" : "click 5");
+    }
+}
+
+Screenshot WindowRig::shoot(const std::string& keep) const {
+    const auto before = state()["console"]["shots"].get<int>();
+    key("F12");
+    REQUIRE(await([&](const nlohmann::json& s) { return s["console"]["shots"] > before; }));
+    const auto file = folder_.path() / ("screenshot-" + std::to_string(before + 1) + ".png");
+    Screenshot shot;
+    for (int tries = 0; tries < 40 && !readPngSize(file); ++tries) {
+        pause(0.05);
+    }
+    const auto size = readPngSize(file);
+    REQUIRE(size);
+    shot.width = size->width;
+    shot.height = size->height;
+    shot.pixels.resize(static_cast<size_t>(size->width) * size->height);
+    REQUIRE(readColourPng(file, *size, shot.pixels) == "");
+    if (const char* kept = std::getenv("FATHOM_KEEP_SCREENSHOTS")) { // a folder: for looking at them
+        std::filesystem::copy_file(file, std::filesystem::path(kept) / (keep + ".png"),
+                                   std::filesystem::copy_options::overwrite_existing);
+    }
+    return shot;
+}
+
+int WindowRig::close() {
+    ::kill(program_, SIGTERM);
+    const int code = ended(program_, 30.0);
+    program_ = -1;
+    return code;
+}
+
+std::string WindowRig::output() const {
+    return folder_.read("program.log");
+}
+
+} // namespace fathom::window

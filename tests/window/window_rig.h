@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// The built program in a display of its own, driven by keys and mouse from outside, watched through its state
+// file and its screenshots.
+#pragma once
+
+#include "tests/program/small_recording.h"
+
+#include <functional>
+#include <glm/vec2.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <sys/types.h>
+#include <vector>
+
+namespace fathom::window {
+
+// Ends the program with 77 and says so aloud where Xvfb or xdotool is not installed.
+void requireDisplay();
+
+struct Screenshot {
+    uint32_t width = 0, height = 0;
+    std::vector<uint32_t> pixels; // 0xAABBGGRR
+
+    // Share of the pixels in a rectangle (fractions 0..1 of it count) that the test accepts.
+    double share(const std::array<double, 4>& place,
+                 const std::function<bool(int r, int g, int b)>& accepts) const;
+};
+
+// One display, one program. The scene: a wall with a red bump and a yellow square, validation layers on.
+class WindowRig {
+public:
+    // extra: further arguments of `fathom operate`.
+    explicit WindowRig(const std::vector<std::string>& extra = {});
+    ~WindowRig();
+    WindowRig(const WindowRig&) = delete;
+    WindowRig& operator=(const WindowRig&) = delete;
+
+    // Newest whole line of the state file; null before the first.
+    nlohmann::json state() const;
+    // Waits until the state satisfies `wanted`; false (and the last state in the log) when it never does.
+    bool await(const std::function<bool(const nlohmann::json&)>& wanted, double seconds = 20.0) const;
+    std::array<double, 4> place(const std::string& name) const; // x, y, width, height
+
+    void key(const std::string& name) const; // pressed and released
+    void keyDown(const std::string& name) const;
+    void keyUp(const std::string& name) const;
+    void click(const std::string& place, double u = 0.5, double v = 0.5) const; // at a share of the place
+    void drag(const std::string& place, glm::dvec2 from, glm::dvec2 to) const;
+    void wheel(int notches) const;                   // positive: away
+    void xdo(const std::string& words) const;        // xdotool; $W is the window
+    Screenshot shoot(const std::string& keep) const; // F12; `keep`: name under the kept pictures
+
+    int close(); // asks the program to end; its exit code, -1 for a crash or when it had to be killed
+    std::string output() const; // stdout and stderr so far
+    const std::filesystem::path& folder() const { return folder_.path(); }
+    std::string sceneText() const { return folder_.read("scene.yaml"); }
+
+private:
+    void startDisplay();
+    void startProgram(const std::vector<std::string>& extra);
+
+    TemporaryFolder folder_;
+    std::string display_, window_;
+    pid_t server_ = -1, program_ = -1;
+};
+
+} // namespace fathom::window
