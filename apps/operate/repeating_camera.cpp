@@ -9,7 +9,9 @@ namespace fathom::operate {
 
 RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
     : open_(std::move(open))
-    , source_(open_()) {}
+    , source_(open_())
+    , info_(source_->info())
+    , description_(source_->description()) {}
 
 std::optional<Frame> RepeatedCamera::next() {
     std::optional<Frame> frame = source_->next();

@@ -12,20 +12,23 @@
 
 namespace fathom::operate {
 
-// Opens the source again when it has ended. Index and source number go on counting.
+// Opens the source again when it has ended. Index and source number go on counting. info() and description()
+// may be asked from any thread.
 class RepeatedCamera final : public Camera {
 public:
     // Throws what open() throws.
     explicit RepeatedCamera(std::function<std::unique_ptr<Camera>()> open);
 
-    const CameraInfo& info() const override { return source_->info(); }
+    const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_ + source_->skipped(); }
-    std::string description() const override { return source_->description(); }
+    std::string description() const override { return description_; }
 
 private:
     std::function<std::unique_ptr<Camera>()> open_;
     std::unique_ptr<Camera> source_;
+    CameraInfo info_; // of the first one, for readers on other threads
+    std::string description_;
     std::vector<std::unique_ptr<Camera>> ended_; // kept while a lease may live
     uint32_t skipped_ = 0, offset_ = 0, next_ = 0;
 };
