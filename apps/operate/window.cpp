@@ -67,8 +67,8 @@ Window::Window(const std::string& offscreen, const std::string& title) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // what is worth keeping is in the scene file
-    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     if (window_ != nullptr) {
+        ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard; // offscreen there is no keyboard
         ImGui_ImplGlfw_InitForVulkan(window_, true);
     }
     before_ = seconds();

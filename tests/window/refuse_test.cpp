@@ -38,3 +38,12 @@ TEST_CASE("An offscreen size that is none is refused in one line with exit code 
         CHECK(run.errorLines()[0].find(size) != std::string::npos);
     }
 }
+
+TEST_CASE("Offscreen the same frames are drawn without a display, and validation is silent") {
+    const ProgramRun run = withDisplay(nullptr, {"operate", "apps/scenes/demo.yaml", "--device", "llvmpipe",
+                                                 "--offscreen", "800x500", "--validate", "--seconds", "2"});
+    INFO(run.err);
+    CHECK(run.exitCode == 0);
+    CHECK(run.out.find("frames a second") != std::string::npos);
+    CHECK(run.out.find("window       0.0") == std::string::npos);
+}
