@@ -63,6 +63,7 @@ Swapchain::~Swapchain() {
 }
 
 void Swapchain::destroyImages() {
+    device_.waitForDrawing(); // a picture on its way to the screen still waits for its semaphore
     for (VkSemaphore semaphore : filled_) {
         vkDestroySemaphore(device_.handle(), semaphore, nullptr);
     }

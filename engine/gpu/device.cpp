@@ -151,6 +151,11 @@ VkResult Device::present(const VkPresentInfoKHR& info) {
     return vkQueuePresentKHR(drawQueue_, &info);
 }
 
+void Device::waitForDrawing() noexcept {
+    const std::lock_guard lock(sharesQueue() ? queueMutex_ : drawMutex_);
+    vkQueueWaitIdle(drawQueue_);
+}
+
 void Device::loadPipelineCache() {
     std::vector<char> bytes;
     if (std::ifstream file(cacheFile_, std::ios::binary); file) {

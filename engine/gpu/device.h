@@ -56,6 +56,8 @@ public:
     // caller's to judge.
     void submitDrawing(const VkSubmitInfo& submit, VkFence fence);
     VkResult present(const VkPresentInfoKHR& info);
+    // Until that queue has nothing left to do, presentation included: before what it uses is destroyed.
+    void waitForDrawing() noexcept;
 
     // One line for each physical device: name, kind, or the reason for refusing it.
     static std::vector<std::string> list(const Instance& instance);
