@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/recorder.h"
 
-#include "apps/operate/recording_files.h"
+#include "devices/recorded/intrinsics_output.h"
+#include "devices/recorded/png_output.h"
 #include "engine/types/error.h"
 
+#include <cstdio>
 #include <iomanip>
 
 namespace fathom::operate {
@@ -38,7 +40,11 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     };
     open(hand_, "hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button");
     open(wrench_, "wrench.csv", "t_s,fx,fy,fz,tx,ty,tz,contacts,state");
-    open(index_, "associations.txt", "# t_rgb rgb t_depth depth");
+    if (camera.hasColour) {
+        open(index_, "associations.txt", "# t_rgb rgb t_depth depth");
+    } else {
+        open(index_, "depth.txt", "# t_depth depth");
+    }
     open(poses_, "poses.txt", "# t tx ty tz qx qy qz qw");
     waiting_.clear();
     turns_.clear();
@@ -133,13 +139,16 @@ void Recorder::writePictures() {
             picture = std::move(waiting_.front());
             waiting_.pop_front();
         }
-        const std::string name = sixDigits(number) + ".png", stamp = std::to_string(number * kFramePeriod);
-        writeDepthPng(folder_ / "depth" / name, camera_.depth.width, camera_.depth.height, picture.depth);
-        index_ << stamp << " rgb/" << name << " " << stamp << " depth/" << name << "\n";
-        if (!picture.colour.empty()) {
-            writeColourPng(folder_ / "rgb" / name, camera_.colour.width, camera_.colour.height,
+        char name[16];
+        std::snprintf(name, sizeof name, "%06u.png", number);
+        const std::string stamp = std::to_string(number * kFramePeriod);
+        writeDepthPng(folder_ / "depth" / name, {camera_.depth.width, camera_.depth.height}, picture.depth);
+        if (camera_.hasColour) {
+            writeColourPng(folder_ / "rgb" / name, {camera_.colour.width, camera_.colour.height},
                            picture.colour);
+            index_ << stamp << " rgb/" << name << " ";
         }
+        index_ << stamp << " depth/" << name << "\n";
         const Pose& p = picture.baseTcamera;
         poses_ << stamp << " " << p.position.x << " " << p.position.y << " " << p.position.z << " "
                << p.rotation.x << " " << p.rotation.y << " " << p.rotation.z << " " << p.rotation.w << "\n";

@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/recording_writer.h"
 
+#include "devices/recorded/intrinsics_output.h"
 #include "devices/recorded/png_output.h"
 #include "engine/types/error.h"
 
 #include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 namespace fathom {
 
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 std::string numbered(const char* folder, uint32_t number) {
     char name[32];
@@ -25,38 +24,6 @@ std::string text(double value) {
     char digits[40];
     std::snprintf(digits, sizeof digits, "%.9f", value);
     return digits;
-}
-
-Json lensJson(const Intrinsics& lens) {
-    return {{"width", lens.width},
-            {"height", lens.height},
-            {"fx", lens.fx},
-            {"fy", lens.fy},
-            {"cx", lens.cx},
-            {"cy", lens.cy},
-            {"distortion_model", "plumb_bob"},
-            {"distortion", lens.distortion}};
-}
-
-Json poseJson(const Pose& pose) {
-    const dvec3& t = pose.position;
-    const dquat& q = pose.rotation;
-    return {{"t", {t.x, t.y, t.z}}, {"q_xyzw", {q.x, q.y, q.z, q.w}}};
-}
-
-Json intrinsicsJson(const CameraInfo& camera) {
-    Json json = camera.registered ? lensJson(camera.depth) : Json{};
-    if (!camera.registered) {
-        json["depth"] = lensJson(camera.depth);
-        json["color"] = lensJson(camera.colour);
-        json["extrinsics_topic_tf"] = {{"Depth", poseJson(Pose{})}, {"Color", poseJson(camera.colourTdepth)}};
-    }
-    json["depth_scale_m_per_unit"] = camera.metresPerUnit;
-    json["registered_to_color"] = camera.registered;
-    if (!camera.hasColour) {
-        json["has_color"] = false;
-    }
-    return json;
 }
 
 const fs::path& freshFolder(const fs::path& folder) {
@@ -87,10 +54,7 @@ RecordingWriter::RecordingWriter(const fs::path& folder, const CameraInfo& camer
     : folder_(freshFolder(folder))
     , camera_(camera)
     , index_(folder / (camera.hasColour ? "associations.txt" : "depth.txt")) {
-    std::ofstream intrinsics(folder / "intrinsics.json");
-    intrinsics << intrinsicsJson(camera).dump(2) << "\n";
-    intrinsics.flush();
-    check(intrinsics, folder / "intrinsics.json");
+    writeIntrinsics(folder / "intrinsics.json", camera);
     check(index_, folder / "index");
     for (unsigned i = 0; i < std::max(1u, threads); ++i) {
         threads_.emplace_back([this] { encode(); });

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/recorded/intrinsics_output.h"
+
+#include "engine/types/error.h"
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+namespace fathom {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json lensJson(const Intrinsics& lens) {
+    return {{"width", lens.width},
+            {"height", lens.height},
+            {"fx", lens.fx},
+            {"fy", lens.fy},
+            {"cx", lens.cx},
+            {"cy", lens.cy},
+            {"distortion_model", "plumb_bob"},
+            {"distortion", lens.distortion}};
+}
+
+Json poseJson(const Pose& pose) {
+    const dvec3& t = pose.position;
+    const dquat& q = pose.rotation;
+    return {{"t", {t.x, t.y, t.z}}, {"q_xyzw", {q.x, q.y, q.z, q.w}}};
+}
+
+Json intrinsicsJson(const CameraInfo& camera) {
+    Json json = camera.registered ? lensJson(camera.depth) : Json{};
+    if (!camera.registered) {
+        json["depth"] = lensJson(camera.depth);
+        json["color"] = lensJson(camera.colour);
+        json["extrinsics_topic_tf"] = {{"Depth", poseJson(Pose{})}, {"Color", poseJson(camera.colourTdepth)}};
+    }
+    json["depth_scale_m_per_unit"] = camera.metresPerUnit;
+    json["registered_to_color"] = camera.registered;
+    if (!camera.hasColour) {
+        json["has_color"] = false;
+    }
+    return json;
+}
+
+} // namespace
+
+void writeIntrinsics(const std::filesystem::path& file, const CameraInfo& camera) {
+    std::ofstream out(file);
+    out << intrinsicsJson(camera).dump(2) << "\n";
+    out.flush();
+    if (!out) {
+        throw Error(file.string() + ": cannot be written");
+    }
+}
+
+} // namespace fathom
