@@ -21,7 +21,8 @@ public:
     virtual std::optional<Frame> next() = 0;
     // Frames that were there but unusable, so far.
     virtual uint32_t skipped() const = 0;
-    // Whether the pictures come when they come, stamped with CLOCK_MONOTONIC, and not when they are asked for.
+    // Whether the pictures come when they come, stamped with CLOCK_MONOTONIC, and not when they are asked
+    // for.
     virtual bool live() const { return false; }
     // Live: pictures that never came, or that a newer one overtook, so far.
     virtual uint64_t lost() const { return 0; }

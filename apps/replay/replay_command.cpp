@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/replay_command.h"
 
-#include "apps/binding/open_source.h"
 #include "apps/binding/open_hand.h"
+#include "apps/binding/open_source.h"
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"

@@ -6,8 +6,8 @@
 #include "apps/binding/open_source.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/simulated/simulated_hand.h"
-#include "engine/types/error.h"
 #include "engine/haptics/hand_map.h"
+#include "engine/types/error.h"
 
 #include <cmath>
 

@@ -102,7 +102,9 @@ void writeCurves(const std::filesystem::path& folder, const CaseResult& r) {
         }
         if (!together.empty()) {
             std::string name = r.name;
-            name.append(++plots == 1 ? "" : "-").append(plots == 1 ? "" : std::to_string(plots));
+            if (++plots > 1) {
+                name.append("-").append(std::to_string(plots));
+            }
             writeCurvePlot(folder / name.append(".png"), r.name, comparison(r.outcome), together);
         }
     }
