@@ -75,6 +75,28 @@ void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& sna
 }
 
 // One fixture: name, role, radius; a change is one step of history when the slider is let go.
+// Radius of a class of points or size of a shape; true when the pilot let go of a new one.
+bool sizeSlider(Console& console, FixtureClass& now, int row) {
+    float millimetres = static_cast<float>(1e3 * (now.isPoints() ? now.radius : now.size.x));
+    const bool dragged = console.editedRow == row;
+    millimetres = dragged ? console.editedMillimetres : millimetres;
+    ImGui::SetNextItemWidth(-1.0f);
+    if (ImGui::SliderFloat("##radius", &millimetres, 2.0f, 150.0f,
+                           now.isPoints() ? "radius %.0f mm" : "size %.0f mm")) {
+        console.editedRow = row;
+        console.editedMillimetres = millimetres;
+    }
+    markPlace(console, "radius " + now.name);
+    const bool done = ImGui::IsItemDeactivatedAfterEdit();
+    if (done) {
+        (now.isPoints() ? now.radius : now.size.x) = 1e-3 * static_cast<double>(millimetres);
+    }
+    if (!ImGui::IsItemActive() && dragged) {
+        console.editedRow = -1;
+    }
+    return done;
+}
+
 void row(Console& console, FixtureEditor& editor, size_t i) {
     const FixtureClass before = editor.scene().fixtures[i];
     FixtureClass now = before;
@@ -95,23 +117,7 @@ void row(Console& console, FixtureEditor& editor, size_t i) {
         ImGui::SameLine();
     }
     if (now.isPoints() ? now.role == Role::Forbidden : now.size.x > 0.0) {
-        float millimetres = static_cast<float>(1e3 * (now.isPoints() ? now.radius : now.size.x));
-        const bool dragged = console.editedRow == static_cast<int>(i);
-        millimetres = dragged ? console.editedMillimetres : millimetres;
-        ImGui::SetNextItemWidth(-1.0f);
-        if (ImGui::SliderFloat("##radius", &millimetres, 2.0f, 150.0f,
-                               now.isPoints() ? "radius %.0f mm" : "size %.0f mm")) {
-            console.editedRow = static_cast<int>(i);
-            console.editedMillimetres = millimetres;
-        }
-        markPlace(console, "radius " + now.name);
-        if (ImGui::IsItemDeactivatedAfterEdit()) {
-            (now.isPoints() ? now.radius : now.size.x) = 1e-3 * static_cast<double>(millimetres);
-            done = true;
-        }
-        if (!ImGui::IsItemActive() && dragged) {
-            console.editedRow = -1;
-        }
+        done = sizeSlider(console, now, static_cast<int>(i)) || done;
     } else {
         ImGui::NewLine();
     }

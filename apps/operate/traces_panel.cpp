@@ -146,6 +146,14 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoNavInputs);
     ImGui::PushFont(input.letters.small);
+    drawControls(console);
+    drawCurves(trace, input.haptics);
+    markPlace(console, "traces");
+    ImGui::PopFont();
+    ImGui::End();
+}
+
+void TracesPanel::drawControls(Console& console) {
     if (ImGui::SmallButton(console.paused ? "Go on (P)" : "Hold (P)")) {
         console.paused = !console.paused;
     }
@@ -165,16 +173,19 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
     ImGui::TextDisabled(
         "base axes, bold: size; torque about the tool's centre; ticks below: new fixture set; 10 s%s",
         console.paused ? ", HELD" : "");
+}
+
+void TracesPanel::drawCurves(const std::deque<TraceSample>& trace, const HapticOptions& limits) {
     const ImVec2 corner = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
     const double now = trace.empty() ? RunView::kSpan : trace.back().t;
     const ImVec2 half{room.x, (room.y - 4.0f) / 2.0f};
     const auto force = [](const TraceSample& s) { return s.force; };
     const auto torque = [](const TraceSample& s) { return s.torque; };
-    const double forceScale = scaleFor(largest(trace, force), input.haptics.forceLimit);
-    const double torqueScale = scaleFor(largest(trace, torque), input.haptics.torqueLimit);
+    const double forceScale = scaleFor(largest(trace, force), limits.forceLimit);
+    const double torqueScale = scaleFor(largest(trace, torque), limits.torqueLimit);
     ImDrawList& list = *ImGui::GetWindowDrawList();
     drawOne({list, corner, half, now - RunView::kSpan, now, -0.6 * forceScale, forceScale}, trace, "force",
-            input.haptics.forceLimit, "N", colour::kForce, force);
+            limits.forceLimit, "N", colour::kForce, force);
     drawOne({list,
              {corner.x, corner.y + half.y + 4.0f},
              half,
@@ -182,11 +193,8 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
              now,
              -0.6 * torqueScale,
              torqueScale},
-            trace, "torque", input.haptics.torqueLimit, "N m", IM_COL32(186, 140, 255, 255), torque);
+            trace, "torque", limits.torqueLimit, "N m", IM_COL32(186, 140, 255, 255), torque);
     ImGui::Dummy(room);
-    markPlace(console, "traces");
-    ImGui::PopFont();
-    ImGui::End();
 }
 
 void TracesPanel::exportCsv(const RunView& run, const std::filesystem::path& file) const {

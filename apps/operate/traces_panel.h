@@ -21,6 +21,9 @@ private:
     const std::deque<TraceSample>& shown(const RunView& run) const {
         return held_.empty() ? run.trace() : held_;
     }
+    static void drawControls(Console& console);
+    static void drawCurves(const std::deque<TraceSample>& trace, const HapticOptions& limits);
+
     std::deque<TraceSample> held_;
 };
 

@@ -108,6 +108,20 @@ void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& g
 }
 
 // Circles and edges of an authored shape.
+void boxAt(ImDrawList& list, const ViewPort& port, const Shape& shape, ImU32 colour) {
+    const dvec3 h = 0.5 * shape.size;
+    const auto corner = [&](int c) {
+        return shape.baseTshape.apply({c & 1 ? h.x : -h.x, c & 2 ? h.y : -h.y, c & 4 ? h.z : -h.z});
+    };
+    for (int i = 0; i < 8; ++i) {
+        for (int bit : {1, 2, 4}) {
+            if ((i & bit) == 0) {
+                line(list, port, corner(i), corner(i | bit), colour, 1.6f);
+            }
+        }
+    }
+}
+
 void shapeAt(ImDrawList& list, const ViewPort& port, const Shape& shape) {
     const ImU32 colour = shape.isEquality() ? colour::kGuidance : colour::kRegionSoft;
     const auto at = [&](double x, double y, double z) { return shape.baseTshape.apply({x, y, z}); };
@@ -121,7 +135,6 @@ void shapeAt(ImDrawList& list, const ViewPort& port, const Shape& shape) {
             line(list, port, p(a), p(b), colour, 1.6f);
         }
     };
-    const dvec3 h = 0.5 * shape.size;
     switch (shape.kind) {
     case ShapeKind::Sphere:
         for (int axis = 0; axis < 3; ++axis) {
@@ -129,16 +142,7 @@ void shapeAt(ImDrawList& list, const ViewPort& port, const Shape& shape) {
         }
         break;
     case ShapeKind::Box:
-        for (int i = 0; i < 8; ++i) {
-            for (int bit : {1, 2, 4}) {
-                if ((i & bit) == 0) {
-                    const auto corner = [&](int c) {
-                        return at(c & 1 ? h.x : -h.x, c & 2 ? h.y : -h.y, c & 4 ? h.z : -h.z);
-                    };
-                    line(list, port, corner(i), corner(i | bit), colour, 1.6f);
-                }
-            }
-        }
+        boxAt(list, port, shape, colour);
         break;
     case ShapeKind::Plane:
         for (double k = -0.2; k <= 0.201; k += 0.1) {
