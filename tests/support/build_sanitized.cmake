@@ -1,5 +1,6 @@
 # Configures and builds a sanitized copy of the tree: cmake -DSOURCE= -DBINARY= -DSANITIZE= -DTARGETS= -P this
+# -O1: compiles in two thirds of the time of -O2, and the suites run hardly slower.
 separate_arguments(TARGETS)
-execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${BINARY} -DCMAKE_BUILD_TYPE=RelWithDebInfo
+execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${BINARY} -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1
                 -DFATHOM_SANITIZE=${SANITIZE} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${BINARY} --target ${TARGETS} COMMAND_ERROR_IS_FATAL ANY)
