@@ -23,13 +23,14 @@ layout(std430, binding = 8) buffer Seen { vec4 seen[]; };          // slot -> la
 layout(std430, binding = 9) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
 layout(std430, binding = 10) buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
 layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory
-layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
+// What the host reads lies across the bus: only slots that have a sphere are written, bits tell which.
+layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
 layout(std430, binding = 14) writeonly buffer Classes { uint classes[]; };      // slot -> class of the sphere | class of the held one << 8
-layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
+layout(std430, binding = 15) writeonly buffer Bits { uvec2 bits[]; };           // sub-patch -> 16 pixels each: forbidden class | sphere << 16; held sphere
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
-layout(std430, binding = 18) writeonly buffer DeviceSpheres { vec4 deviceSpheres[]; };
+layout(std430, binding = 18) writeonly buffer DeviceSpheres { vec4 deviceSpheres[]; }; // every slot, R < 0 = none
 layout(std430, binding = 19) writeonly buffer DeviceHeld { vec4 deviceHeld[]; };
 
 const uint kRays = 0; // this pass needs no rays
@@ -58,7 +59,7 @@ void noteLeak(uvec2 at, uvec2 next, vec4 p, uint c) {
 
 const uint kLayers = kHold != 0 ? 2u : 1u;
 // By pixel, a group shares the thinning of the patch's 4x4 cells and of those left of and above it, 5 a row; spheres of the
-// patch, then held ones; and marks: 1 = a forbidden class, 2 x points remembered.
+// patch, then held ones; and notes as in PixelResult.
 shared vec4 cells[kByPixel != 0 && kThin != 0 ? 25 : 1];
 shared vec4 all[kByPixel != 0 ? 256 * kLayers : 1];
 shared uint noted[kByPixel != 0 ? 256 : 1];
@@ -86,33 +87,43 @@ vec4 seenSphere(uint slot, uvec2 at, uint c, CellsAround around) {
 
 struct PixelResult {
     vec4 sphere, held; // R < 0 = none
-    uint note;         // 1 = a forbidden class; 2 x points remembered
+    uint note;         // 1 = a forbidden class, 2 = a sphere, 4 = a held one; 8 x points remembered
 };
 
 PixelResult handlePixel(uint slot, uvec2 at, CellsAround around) {
-    uint c = forbiddenAt(slot), remembered = 0;
-    uint mark = (masks[slot] & params.depthBand.w) != 0 ? 1u : 0u;
+    uint c = forbiddenAt(slot), remembered = 0, heldClass = 0;
+    uint note = (masks[slot] & params.depthBand.w) != 0 ? 1u : 0u;
     vec4 sphere = seenSphere(slot, at, c, around), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
-    spheres[slot] = sphere;
-    uint both = c == kNone ? 0u : c;
     if (kHold != 0) {
-        uint heldClass = 0;
         heldSphere = updateMemory(slot, c, heldClass, remembered);
-        held[slot] = heldSphere;
-        both |= heldClass << 8;
-        if (kDeviceCopy != 0) {
-            deviceHeld[slot] = heldSphere;
-        }
     }
     if (kDeviceCopy != 0) {
         deviceSpheres[slot] = sphere;
+        if (kHold != 0) {
+            deviceHeld[slot] = heldSphere;
+        }
     }
-    classes[slot] = both;
-    return PixelResult(sphere, heldSphere, mark + 2u * remembered);
+    if (sphere.w >= 0.0) {
+        spheres[slot] = sphere;
+        note |= 2u;
+    }
+    if (kHold != 0 && heldSphere.w >= 0.0) {
+        held[slot] = heldSphere;
+        note |= 4u;
+    }
+    if (note > 1u) {
+        classes[slot] = (c == kNone ? 0u : c) | heldClass << 8;
+    }
+    return PixelResult(sphere, heldSphere, note | remembered << 3);
+}
+
+// Bits of pixel p (0..15), by what was noted of it.
+uvec2 marksOf(uint note, uint p) {
+    return uvec2((note & 1u) | (note & 2u) << 15, note >> 2 & 1u) << p;
 }
 
 // Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
-void putBound(uint sub, vec3 centre, float radius, uint count, uint marks, uint remembered) {
+void putBound(uint sub, vec3 centre, float radius, uint count, uvec2 marks, uint remembered) {
     bits[sub] = marks;
     nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
     nodeCounts[sub] = count;
@@ -131,13 +142,14 @@ void wholeSub(uint sub) {
     if (kThin != 0) {
         around = cellsOfSub(ivec2(corner));
     }
-    uint count = 0, marks = 0, remembered = 0;
+    uint count = 0, remembered = 0;
+    uvec2 marks = uvec2(0);
     for (uint p = 0; p < 16u; ++p) {
         PixelResult r = handlePixel(sub * 16u + p, corner + uvec2(p & 3u, p >> 2), around);
         mine[p] = r.sphere;
         mine[16u * (kLayers - 1u) + p] = kHold != 0 ? r.held : r.sphere;
-        marks |= (r.note & 1u) << p;
-        remembered += r.note >> 1;
+        marks |= marksOf(r.note, p);
+        remembered += r.note >> 3;
     }
     vec3 sum = vec3(0.0);
     for (uint k = 0; k < 16u * kLayers; ++k) {
@@ -155,7 +167,8 @@ void wholeSub(uint sub) {
 // The same from what the group shares.
 void boundOfGroup(uint patchIndex, uint s) {
     vec3 sum = vec3(0.0);
-    uint count = 0, marks = 0, remembered = 0;
+    uint count = 0, remembered = 0;
+    uvec2 marks = uvec2(0);
     for (uint k = 0; k < 16u * kLayers; ++k) {
         vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
         sum += sphere.w >= 0.0 ? sphere.xyz : vec3(0.0);
@@ -168,8 +181,8 @@ void boundOfGroup(uint patchIndex, uint s) {
         radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
     }
     for (uint p = 0; p < 16u; ++p) {
-        marks |= (noted[s * 16u + p] & 1u) << p;
-        remembered += noted[s * 16u + p] >> 1;
+        marks |= marksOf(noted[s * 16u + p], p);
+        remembered += noted[s * 16u + p] >> 3;
     }
     putBound(patchIndex * 16u + s, centre, radius, count, marks, remembered);
 }

@@ -24,26 +24,34 @@ layout(std430, binding = 6) writeonly buffer Cells { vec4 growth[]; }; // sub-pa
 #include "shaders/lib/forbidden.glsl"
 #include "shaders/lib/slots.glsl"
 
-uint classOf(uvec2 at) {
-    if (any(greaterThanEqual(at, params.size.xy)) || listed[(at.y >> 4) * params.size.z + (at.x >> 4)] == 0) {
-        return kNone;
+// Class of the pixel at `at`, and of its neighbours up to the corners of the next cells: y * 5 + x. Everything is read before
+// anything is looked at: one delay of the memory, not 25.
+void readClasses(uvec2 at, out uint classes[25]) {
+    uint marks[25];
+    float ranges[25];
+    for (uint i = 0; i < 25u; ++i) {
+        uvec2 p = at + uvec2(i % 5u, i / 5u);
+        bool inside = all(lessThan(p, params.size.xy));
+        uint slot = slotOfPixel(inside ? p : at, params.size.z);
+        uint mark = masks[slot] & params.depthBand.w, used = listed[slot >> 8];
+        marks[i] = inside && used != 0 ? mark : 0u;
+        ranges[i] = points[slot].w;
     }
-    return forbiddenAt(slotOfPixel(at, params.size.z));
+    for (uint i = 0; i < 25u; ++i) {
+        classes[i] = marks[i] != 0 && ranges[i] != 0.0 ? forbiddenClass(marks[i]) : kNone;
+    }
 }
 
 vec3 pointOf(uvec2 at) {
     return points[slotOfPixel(at, params.size.z)].xyz;
 }
 
-// Growth that lets the k x k cell at `at` drop all but its own corner; -1 when the cell is not full of one class.
-float growthOf(uvec2 at, uint k, float radius, uint c) {
+// Growth that lets the k x k cell at `at`, full of one class, drop all but its own corner.
+float growthOf(uvec2 at, uint k, float radius) {
     vec3 a = pointOf(at), b = pointOf(at + uvec2(k, 0)), d = pointOf(at + uvec2(0, k)), e = pointOf(at + uvec2(k, k));
     float worst = 0.0;
     for (uint i = 0; i < (k + 1) * (k + 1); ++i) {
         uvec2 step = uvec2(i % (k + 1), i / (k + 1));
-        if (classOf(at + step) != c) {
-            return -1.0;
-        }
         vec2 t = vec2(step) / float(k);
         vec4 l = vec4((1.0 - t.x) * (1.0 - t.y), t.x * (1.0 - t.y), (1.0 - t.x) * t.y, t.x * t.y);
         vec3 mean = l.x * a + l.y * b + l.z * d + l.w * e;
@@ -56,6 +64,20 @@ float growthOf(uvec2 at, uint k, float radius, uint c) {
     return worst * 1.0001 + 1e-8; // outward
 }
 
+// Growth within the budget that thins the k x k cell at `from` of the 4x4 cell at `at`; -1 = it is kept whole.
+float thinned(uvec2 at, uvec2 from, uint k, uint classes[25]) {
+    uint c = classes[from.y * 5u + from.x];
+    bool full = c != kNone;
+    for (uint i = 0; i < (k + 1) * (k + 1); ++i) {
+        full = full && classes[(from.y + i / (k + 1)) * 5u + from.x + i % (k + 1)] == c;
+    }
+    if (!full) {
+        return -1.0;
+    }
+    float growth = growthOf(at + from, k, params.classes[c].role.x);
+    return growth <= params.filterParams.y ? growth : -1.0;
+}
+
 void main() {
     uint index = gl_GlobalInvocationID.x;
     if (index >= counters.patchGroups.x * 16u) {
@@ -63,17 +85,13 @@ void main() {
     }
     uint sub = list[index >> 4] * 16u + (index & 15u);
     uvec2 at = pixelOfSlot(sub * 16u, params.size.z);
-    vec4 result = vec4(0.0);
-    uint c = classOf(at);
-    float whole = c == kNone ? -1.0 : growthOf(at, 4u, params.classes[c].role.x, c);
-    if (whole >= 0.0 && whole <= params.filterParams.y) {
-        result.x = -1.0 - whole;
-    } else {
+    uint classes[25];
+    readClasses(at, classes);
+    float whole = thinned(at, uvec2(0), 4u, classes);
+    vec4 result = vec4(whole >= 0.0 ? -1.0 - whole : 0.0, 0.0, 0.0, 0.0);
+    if (whole < 0.0) {
         for (uint q = 0; q < 4u; ++q) {
-            uvec2 corner = at + uvec2((q & 1u) * 2u, (q >> 1) * 2u);
-            uint own = classOf(corner);
-            float grown = own == kNone ? -1.0 : growthOf(corner, 2u, params.classes[own].role.x, own);
-            result[q] = grown >= 0.0 && grown <= params.filterParams.y ? grown : 0.0;
+            result[q] = max(0.0, thinned(at, uvec2((q & 1u) * 2u, (q >> 1) * 2u), 2u, classes));
         }
     }
     growth[sub] = result;

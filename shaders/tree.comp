@@ -23,25 +23,28 @@ uint childOf(uvec2 at, uint level, uint k, uint index) {
     return all(lessThan(child, below.xy)) ? below.z + child.y * below.x + child.x : 0xffffffffu;
 }
 
+// All children are read before any is looked at: the reads are on their way together, a node costs one of their delays, not 32.
 void buildNode(uint level, uint index) {
     uvec4 here = tree.levels[level];
     uvec2 at = uvec2(index % here.x, index / here.x);
+    vec4 child[16];
+    uint below[16];
+    for (uint k = 0; k < 16u; ++k) {
+        uint c = childOf(at, level, k, index);
+        uint safe = c != 0xffffffffu ? c : 0u;
+        child[k] = nodes[safe];
+        below[k] = c != 0xffffffffu ? nodeCounts[safe] : 0u;
+    }
     vec3 sum = vec3(0.0);
     uint count = 0;
     for (uint k = 0; k < 16u; ++k) {
-        uint child = childOf(at, level, k, index);
-        uint below = child != 0xffffffffu ? nodeCounts[child] : 0u;
-        sum += below != 0 ? nodes[child].xyz * float(below) : vec3(0.0);
-        count += below;
+        sum += below[k] != 0 ? child[k].xyz * float(below[k]) : vec3(0.0);
+        count += below[k];
     }
     vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
     float radius = -1.0;
     for (uint k = 0; k < 16u; ++k) {
-        uint child = childOf(at, level, k, index);
-        if (child != 0xffffffffu && nodeCounts[child] != 0) {
-            vec4 s = nodes[child];
-            radius = max(radius, distance(s.xyz, centre) + s.w);
-        }
+        radius = below[k] != 0 ? max(radius, distance(child[k].xyz, centre) + child[k].w) : radius;
     }
     nodes[here.z + index] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
     nodeCounts[here.z + index] = count;

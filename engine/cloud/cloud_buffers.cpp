@@ -82,7 +82,7 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     if (plan.spheres) {
         spheres = Buffer(device, slots * 16, MemoryKind::Readback, "spheres");
         classes = Buffer(device, slots * 4, MemoryKind::Readback, "classes");
-        bits = Buffer(device, patches * 16 * 4, MemoryKind::Readback, "bits");
+        bits = Buffer(device, patches * 16 * 8, MemoryKind::Readback, "bits");
         nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
         nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
         if (plan.hold) {

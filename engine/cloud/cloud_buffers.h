@@ -47,9 +47,10 @@ struct UploadBuffers {
 struct SetBuffers {
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
-    gpu::Buffer spheres, held;             // vec4 a slot, R < 0 = none
-    gpu::Buffer classes;                   // uint a slot
-    gpu::Buffer bits;                      // uint a sub-patch
+    gpu::Buffer spheres, held;             // vec4 a slot, only where bits says so
+    gpu::Buffer classes;                   // uint a slot, the same
+    gpu::Buffer bits;                      // uvec2 a sub-patch of a listed patch: 16 pixels forbidden |
+                                           // 16 spheres << 16; 16 held spheres
     gpu::Buffer nodes;                     // vec4 a node
     gpu::Buffer nodeCounts;                // uint a node
     gpu::Buffer deviceSpheres, deviceHeld; // what the GPU query reads; empty without one

@@ -5,70 +5,111 @@
 #include "engine/cloud/guidance_points.h"
 #include "engine/cloud/guidance_pose.h"
 
+#include <array>
 #include <bit>
+#include <glm/vec2.hpp>
 
 namespace fathom::cloud {
 
 namespace {
 
-// Slot within a patch of the pixel at (x, y) of the patch; the order in which spheres are collected is by
-// pixel.
-uint32_t pixelInPatch(uint32_t slot) {
-    const uint32_t sub = slot >> 4 & 15, p = slot & 15;
-    return ((sub >> 2) * 4 + (p >> 2)) * 16 + (sub & 3) * 4 + (p & 3);
+// Pixel, row-major in the picture, of each slot of the patch in the top left corner. The order in which
+// spheres are collected is by pixel.
+std::array<uint32_t, 256> pixelsOfPatch(uint32_t width) {
+    std::array<uint32_t, 256> pixels;
+    for (uint32_t slot = 0; slot < 256; ++slot) {
+        const uint32_t sub = slot >> 4, p = slot & 15;
+        pixels[slot] = ((sub >> 2) * 4 + (p >> 2)) * width + (sub & 3) * 4 + (p & 3);
+    }
+    return pixels;
 }
 
+// Of one sub-patch: 16 bits each, as the spheres pass writes them.
+uint32_t forbiddenOf(glm::uvec2 bits) {
+    return bits.x & 0xffff;
+}
+uint32_t spheresOf(glm::uvec2 bits, bool heldLayer) {
+    return heldLayer ? bits.y : bits.x >> 16;
+}
+
+// Writes columns that are large enough already.
 class SphereCollector {
 public:
     SphereCollector(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
         : set_(set)
         , rows_(rows)
         , layout_(layout)
+        , inPatch_(pixelsOfPatch(set.host.camera.depth.width))
         , width_(set.host.camera.depth.width)
         , pixels_(set.host.camera.depth.pixels()) {}
 
     // Seen or held points of one patch. Returns the classes that have a sphere there, as bits.
     uint32_t takeLayer(uint32_t patch, bool heldLayer, std::vector<uint32_t>& classSpheres) {
+        const auto bits = set_.device.bits.as<glm::uvec2>();
         const auto spheres = (heldLayer ? set_.device.held : set_.device.spheres).as<glm::vec4>();
         const auto classes = set_.device.classes.as<uint32_t>();
+        const uint32_t corner = (patch / layout_.across) * 16 * width_ + (patch % layout_.across) * 16;
         uint32_t present = 0;
-        for (uint32_t slot = patch * 256; slot < patch * 256 + 256; ++slot) {
-            if (spheres[slot].w < 0.0f) {
-                continue;
+        for (uint32_t sub = 0; sub < 16; ++sub) {
+            for (uint32_t left = spheresOf(bits[patch * 16 + sub], heldLayer); left != 0; left &= left - 1) {
+                const uint32_t inside = sub * 16 + static_cast<uint32_t>(std::countr_zero(left));
+                const uint32_t slot = patch * 256 + inside, c = classes[slot] >> (heldLayer ? 8 : 0) & 255;
+                put(spheres[slot], corner + inPatch_[inside] + (heldLayer ? pixels_ : 0), rows_[c]);
+                ++classSpheres[c];
+                present |= 1u << c;
             }
-            const uint32_t c = classes[slot] >> (heldLayer ? 8 : 0) & 255;
-            set_.keys.push_back(patch * 512 + (heldLayer ? 256 : 0) + (slot & 255));
-            add(spheres[slot], sourceOf(patch, slot) + (heldLayer ? pixels_ : 0), rows_[c]);
-            ++classSpheres[c];
-            present |= 1u << c;
         }
         return present;
     }
 
 private:
-    uint32_t sourceOf(uint32_t patch, uint32_t slot) const {
-        const uint32_t inside = pixelInPatch(slot);
-        return ((patch / layout_.across) * 16 + inside / 16) * width_ + (patch % layout_.across) * 16 +
-               inside % 16;
-    }
-
-    void add(const glm::vec4& s, uint32_t source, uint32_t row) {
+    void put(const glm::vec4& s, uint32_t source, uint32_t row) {
         RegionSpheres& out = set_.host.spheres;
-        out.x.push_back(s.x), out.y.push_back(s.y), out.z.push_back(s.z);
-        out.radius.push_back(s.w);
-        out.source.push_back(source);
-        out.fixture.push_back(static_cast<uint8_t>(row));
+        out.x[next_] = s.x, out.y[next_] = s.y, out.z[next_] = s.z;
+        out.radius[next_] = s.w;
+        out.source[next_] = source;
+        out.fixture[next_] = static_cast<uint8_t>(row);
+        ++next_;
     }
 
     FixtureSet& set_;
     const std::vector<uint32_t>& rows_;
     const PatchLayout& layout_;
+    std::array<uint32_t, 256> inPatch_;
     uint32_t width_, pixels_;
+    size_t next_ = 0;
 };
+
+size_t countSpheres(const FixtureSet& set, const PatchLayout& layout) {
+    const auto listed = set.device.listed.as<uint32_t>();
+    const auto bits = set.device.bits.as<glm::uvec2>();
+    int count = 0;
+    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
+        for (uint32_t sub = patch * 16; listed[patch] != 0 && sub < patch * 16 + 16; ++sub) {
+            count += std::popcount(spheresOf(bits[sub], false)) + std::popcount(spheresOf(bits[sub], true));
+        }
+    }
+    return static_cast<size_t>(count);
+}
+
+// What the GPU query's answers are looked up in.
+void takeKeys(FixtureSet& set, const PatchLayout& layout) {
+    const auto listed = set.device.listed.as<uint32_t>();
+    const auto bits = set.device.bits.as<glm::uvec2>();
+    for (uint32_t half = 0; half < 2 * layout.patches(); ++half) {
+        for (uint32_t sub = 0; listed[half / 2] != 0 && sub < 16; ++sub) {
+            for (uint32_t left = spheresOf(bits[half / 2 * 16 + sub], half % 2 != 0); left != 0;
+                 left &= left - 1) {
+                set.keys.push_back(half * 256 + sub * 16 + static_cast<uint32_t>(std::countr_zero(left)));
+            }
+        }
+    }
+}
 
 void takeSpheres(FixtureSet& set, const std::vector<uint32_t>& rows, const Plan& plan,
                  const PatchLayout& layout, FrameCounts& counts) {
     const auto listed = set.device.listed.as<uint32_t>();
+    set.host.spheres.resize(countSpheres(set, layout));
     SphereCollector collector(set, rows, layout);
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
         if (listed[patch] == 0) {
@@ -82,24 +123,35 @@ void takeSpheres(FixtureSet& set, const std::vector<uint32_t>& rows, const Plan&
         }
     }
     counts.spheres = static_cast<uint32_t>(set.host.spheres.size());
+    if (plan.query == Plan::Query::Gpu) {
+        takeKeys(set, layout);
+    }
 }
 
-// Sub-patch bits of listed patches to row-major bits of the picture.
+// Sub-patch bits of listed patches to row-major bits of the picture, 16 of a patch's row at a time.
 void takeForbiddenBits(FixtureSet& set, const PatchLayout& layout, FrameCounts& counts) {
     Fixtures& host = set.host;
     const uint32_t width = host.camera.depth.width, height = host.camera.depth.height;
     host.forbiddenBits.assign((static_cast<size_t>(width) * height + 31) / 32, 0);
     const auto listed = set.device.listed.as<uint32_t>();
-    const auto bits = set.device.bits.as<uint32_t>();
+    const auto bits = set.device.bits.as<glm::uvec2>();
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
-        for (uint32_t sub = 0; listed[patch] != 0 && sub < 16; ++sub) {
-            counts.forbidden += static_cast<uint32_t>(std::popcount(bits[patch * 16 + sub]));
-            for (uint32_t word = bits[patch * 16 + sub]; word != 0; word &= word - 1) {
-                const uint32_t p = static_cast<uint32_t>(std::countr_zero(word));
-                const uint32_t u = (patch % layout.across) * 16 + (sub & 3) * 4 + (p & 3);
-                const uint32_t v = (patch / layout.across) * 16 + (sub >> 2) * 4 + (p >> 2);
-                const uint32_t pixel = v * width + u;
-                host.forbiddenBits[pixel / 32] |= 1u << pixel % 32;
+        for (uint32_t row = 0; listed[patch] != 0 && row < 16; ++row) {
+            uint32_t word = 0;
+            for (uint32_t k = 0; k < 4; ++k) {
+                const uint32_t sub = forbiddenOf(bits[patch * 16 + row / 4 * 4 + k]);
+                word |= (sub >> (row % 4 * 4) & 15u) << (4 * k);
+            }
+            if (word == 0) {
+                continue; // rows below the picture are
+            }
+            counts.forbidden += static_cast<uint32_t>(std::popcount(word));
+            const uint32_t pixel =
+                ((patch / layout.across) * 16 + row) * width + (patch % layout.across) * 16;
+            const uint64_t placed = static_cast<uint64_t>(word) << pixel % 32;
+            host.forbiddenBits[pixel / 32] |= static_cast<uint32_t>(placed);
+            if (placed >> 32 != 0) {
+                host.forbiddenBits[pixel / 32 + 1] |= static_cast<uint32_t>(placed >> 32);
             }
         }
     }
@@ -137,8 +189,8 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
     }
 }
 
-// Depth readings in near..far. Counted here: a counter that 300 000 invocations share costs the device
-// milliseconds.
+} // namespace
+
 uint32_t validPixels(const Fixtures& host, const Scene& scene) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
     uint32_t count = 0;
@@ -148,19 +200,18 @@ uint32_t validPixels(const Fixtures& host, const Scene& scene) {
     return count;
 }
 
-} // namespace
-
 FrameCounts collect(FixtureSet& set, const Scene& scene, const Plan& plan, const PatchLayout& layout) {
     const std::vector<uint32_t> rows = classRows(scene);
     FrameCounts counts;
-    counts.valid = validPixels(set.host, scene);
     counts.classPixels.resize(rows.size());
     counts.classSpheres.resize(rows.size());
     counts.classPatches.resize(rows.size());
-    set.host.spheres.resize(0);
     set.keys.clear();
     set.host.guidance.clear();
     set.host.forbiddenBits.clear();
+    if (!plan.spheres) {
+        set.host.spheres.resize(0);
+    }
     if (!plan.cloud) {
         return counts;
     }

@@ -13,7 +13,8 @@ namespace fathom::cloud {
 struct FixtureSet {
     Fixtures host;
     RegionGrid grid;            // over host.spheres
-    std::vector<uint32_t> keys; // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending
+    std::vector<uint32_t> keys; // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending;
+                                // empty without a GPU query
     SetBuffers device;
 
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)

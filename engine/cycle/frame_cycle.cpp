@@ -52,7 +52,7 @@ FrameCycle::~FrameCycle() {
 }
 
 void FrameCycle::clearMemory() {
-    gpu::Commands& commands = passes_.commands(0);
+    gpu::Commands commands(device_);
     commands.begin();
     for (const gpu::Buffer* buffer : {&work_.seen, &work_.kept, &work_.keptTime, &work_.live}) {
         if (*buffer) {
@@ -90,8 +90,7 @@ void FrameCycle::warmUp() {
     content.colour = colour;
     for (uint32_t slot = 0; slot < cloud::kUploads; ++slot) {
         cloud::uploadFrame(uploads_[slot], Frame(content, nullptr), params);
-        passes_.record(passes_.commands(slot), passes_.watch(slot), slot, 0);
-        device_.submit(passes_.commands(slot).handle(), timeline_.handle(), ticket_, ticket_ + 1);
+        device_.submit(passes_.frame(slot, 0).handle(), timeline_.handle(), ticket_, ticket_ + 1);
         timeline_.wait(++ticket_);
     }
 }
@@ -135,8 +134,7 @@ void FrameCycle::submit() {
         return;
     }
     pool_.back();
-    gpu::Commands& commands = passes_.commands(submitted_->slot);
-    passes_.record(commands, passes_.watch(submitted_->slot), submitted_->slot, pool_.backIndex());
+    const gpu::Commands& commands = passes_.frame(submitted_->slot, pool_.backIndex());
     dispatches_ = commands.dispatches();
     submitted_->times.submitted = Clock::now();
     device_.submit(commands.handle(), timeline_.handle(), ticket_, ticket_ + 1);
@@ -165,6 +163,7 @@ FrameReport FrameCycle::finish() {
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
         fillHost(f); // while the device works
+        const uint32_t valid = cloud::validPixels(pool_.back().host, scene_);
         if (plan_.cloud) {
             timeline_.wait(ticket_);
             report.passMs = passes_.watch(f.slot).intervalsMs();
@@ -172,6 +171,7 @@ FrameReport FrameCycle::finish() {
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
         lastCounts_ = cloud::collect(set, scene_, plan_, layout_);
+        lastCounts_.valid = valid;
         if (plan_.spheres) {
             set.grid.build(set.host.spheres);
         }

@@ -7,7 +7,8 @@ namespace fathom {
 
 FramePasses::FramePasses(const cloud::CloudContext& c)
     : work_(c.work)
-    , sets_(c.sets) {
+    , sets_(c.sets)
+    , device_(c.device) {
     const auto add = [&](bool in, auto& pass, const char* name) {
         if (in) {
             pass.emplace(c);
@@ -22,14 +23,23 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.spheres, tree_, "tree");
     add(c.plan.moments, moments_, "moments");
     for (uint32_t u = 0; u < cloud::kUploads; ++u) {
-        commands_[u] = std::make_unique<gpu::Commands>(c.device);
+        commands_[u].resize(sets_.size());
         watches_[u] = std::make_unique<gpu::Stopwatch>(c.device, static_cast<uint32_t>(names_.size()) + 1);
     }
 }
 
+const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
+    std::unique_ptr<gpu::Commands>& commands = commands_[upload][set];
+    if (!commands) {
+        commands = std::make_unique<gpu::Commands>(device_);
+        record(*commands, *watches_[upload], upload, set);
+    }
+    return *commands;
+}
+
 void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload,
                          uint32_t set) const {
-    commands.begin();
+    commands.begin(gpu::Submissions::Many);
     watch.resetIn(commands.handle());
     watch.mark(commands.handle());
     const auto run = [&](const auto& pass, auto... arguments) {

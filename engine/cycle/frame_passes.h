@@ -23,14 +23,15 @@ class FramePasses {
 public:
     explicit FramePasses(const cloud::CloudContext& context);
 
-    // Records one frame: passes, then the copies that the host reads.
-    void record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload, uint32_t set) const;
+    // One frame, ready to submit: passes, then the copies that the host reads. Nothing in it changes from
+    // frame to frame but what buffers hold, so it is recorded at the pair's first use only. No submission of
+    // the same upload may be in flight.
+    const gpu::Commands& frame(uint32_t upload, uint32_t set);
     const std::vector<std::string>& names() const { return names_; }
-
-    gpu::Commands& commands(uint32_t upload) const { return *commands_[upload]; }
-    gpu::Stopwatch& watch(uint32_t upload) const { return *watches_[upload]; }
+    const gpu::Stopwatch& watch(uint32_t upload) const { return *watches_[upload]; } // of the pair used last
 
 private:
+    void record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload, uint32_t set) const;
     void recordCopies(gpu::Commands& commands, uint32_t set) const;
 
     const cloud::WorkBuffers& work_;
@@ -43,7 +44,8 @@ private:
     std::optional<cloud::TreePass> tree_;
     std::optional<cloud::MomentsPass> moments_;
     std::vector<std::string> names_;
-    std::array<std::unique_ptr<gpu::Commands>, cloud::kUploads> commands_;
+    const gpu::Device& device_;
+    std::array<std::vector<std::unique_ptr<gpu::Commands>>, cloud::kUploads> commands_; // null = not yet
     std::array<std::unique_ptr<gpu::Stopwatch>, cloud::kUploads> watches_;
 };
 

@@ -21,10 +21,12 @@ Commands::~Commands() {
     vkDestroyCommandPool(device_.handle(), pool_, nullptr);
 }
 
-void Commands::begin() {
+void Commands::begin(Submissions submissions) {
     check(vkResetCommandPool(device_.handle(), pool_, 0), "vkResetCommandPool");
     VkCommandBufferBeginInfo info{VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
-    info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    info.flags = submissions == Submissions::One
+                     ? VkCommandBufferUsageFlags{VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT}
+                     : 0;
     check(vkBeginCommandBuffer(handle_, &info), "vkBeginCommandBuffer");
     dispatches_ = 0;
     barrier();

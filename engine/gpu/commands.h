@@ -9,7 +9,10 @@
 
 namespace fathom::gpu {
 
-// One thread at a time. Recorded anew for each submission; the previous one must have completed.
+enum class Submissions { One, Many };
+
+// One thread at a time. Recorded anew for each submission, or once for many; the previous one must have
+// completed.
 class Commands {
 public:
     explicit Commands(const Device& device);
@@ -21,7 +24,7 @@ public:
     uint32_t dispatches() const { return dispatches_; } // recorded since begin()
 
     // Starts with a global memory barrier: hazards across submissions are ours to prevent.
-    void begin();
+    void begin(Submissions submissions = Submissions::One);
     void end();
 
     void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups,

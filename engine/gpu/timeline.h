@@ -14,10 +14,16 @@ public:
     Timeline& operator=(const Timeline&) = delete;
 
     VkSemaphore handle() const { return handle_; }
-    uint64_t value() const;          // reached so far
-    void wait(uint64_t value) const; // throws DeviceLost
+    uint64_t value() const; // reached so far
+    // Throws DeviceLost. Asks in a loop for kAsk first where the device is not this CPU: a kernel's wake-up
+    // takes as long as half a frame's passes do there.
+    void wait(uint64_t value) const;
+
+    static constexpr double kAsk = 500e-6; // [s]
 
 private:
+    bool comesSoon(uint64_t value) const;
+
     const Device& device_;
     VkSemaphore handle_ = VK_NULL_HANDLE;
 };
