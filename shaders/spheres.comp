@@ -8,8 +8,7 @@
 layout(local_size_x_id = 0) in; // divides 256
 layout(constant_id = 1) const uint kThin = 1;       // 1: the error budget leaves points out
 layout(constant_id = 2) const uint kHold = 1;       // 1: unseen points stay for a while
-layout(constant_id = 3) const uint kDeviceCopy = 0; // 1: the GPU query reads its own copy
-layout(constant_id = 4) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
+layout(constant_id = 3) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
@@ -23,15 +22,12 @@ layout(std430, binding = 8) buffer Seen { vec4 seen[]; };          // slot -> la
 layout(std430, binding = 9) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
 layout(std430, binding = 10) buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
 layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory
-// What the host reads lies across the bus: only slots that have a sphere are written, bits tell which.
-layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R
+layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
 layout(std430, binding = 14) writeonly buffer Classes { uint classes[]; };      // slot -> class of the sphere | class of the held one << 8
-layout(std430, binding = 15) writeonly buffer Bits { uvec2 bits[]; };           // sub-patch -> 16 pixels each: forbidden class | sphere << 16; held sphere
+layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
-layout(std430, binding = 18) writeonly buffer DeviceSpheres { vec4 deviceSpheres[]; }; // every slot, R < 0 = none
-layout(std430, binding = 19) writeonly buffer DeviceHeld { vec4 deviceHeld[]; };
 
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
@@ -87,7 +83,7 @@ vec4 seenSphere(uint slot, uvec2 at, uint c, CellsAround around) {
 
 struct PixelResult {
     vec4 sphere, held; // R < 0 = none
-    uint note;         // 1 = a forbidden class, 2 = a sphere, 4 = a held one; 8 x points remembered
+    uint note;         // 1 = a forbidden class; 2 x points remembered
 };
 
 PixelResult handlePixel(uint slot, uvec2 at, CellsAround around) {
@@ -97,33 +93,16 @@ PixelResult handlePixel(uint slot, uvec2 at, CellsAround around) {
     if (kHold != 0) {
         heldSphere = updateMemory(slot, c, heldClass, remembered);
     }
-    if (kDeviceCopy != 0) {
-        deviceSpheres[slot] = sphere;
-        if (kHold != 0) {
-            deviceHeld[slot] = heldSphere;
-        }
-    }
-    if (sphere.w >= 0.0) {
-        spheres[slot] = sphere;
-        note |= 2u;
-    }
-    if (kHold != 0 && heldSphere.w >= 0.0) {
+    spheres[slot] = sphere;
+    if (kHold != 0) {
         held[slot] = heldSphere;
-        note |= 4u;
     }
-    if (note > 1u) {
-        classes[slot] = (c == kNone ? 0u : c) | heldClass << 8;
-    }
-    return PixelResult(sphere, heldSphere, note | remembered << 3);
-}
-
-// Bits of pixel p (0..15), by what was noted of it.
-uvec2 marksOf(uint note, uint p) {
-    return uvec2((note & 1u) | (note & 2u) << 15, note >> 2 & 1u) << p;
+    classes[slot] = (c == kNone ? 0u : c) | heldClass << 8;
+    return PixelResult(sphere, heldSphere, note + 2u * remembered);
 }
 
 // Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
-void putBound(uint sub, vec3 centre, float radius, uint count, uvec2 marks, uint remembered) {
+void putBound(uint sub, vec3 centre, float radius, uint count, uint marks, uint remembered) {
     bits[sub] = marks;
     nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
     nodeCounts[sub] = count;
@@ -142,14 +121,13 @@ void wholeSub(uint sub) {
     if (kThin != 0) {
         around = cellsOfSub(ivec2(corner));
     }
-    uint count = 0, remembered = 0;
-    uvec2 marks = uvec2(0);
+    uint count = 0, marks = 0, remembered = 0;
     for (uint p = 0; p < 16u; ++p) {
         PixelResult r = handlePixel(sub * 16u + p, corner + uvec2(p & 3u, p >> 2), around);
         mine[p] = r.sphere;
         mine[16u * (kLayers - 1u) + p] = kHold != 0 ? r.held : r.sphere;
-        marks |= marksOf(r.note, p);
-        remembered += r.note >> 3;
+        marks |= (r.note & 1u) << p;
+        remembered += r.note >> 1;
     }
     vec3 sum = vec3(0.0);
     for (uint k = 0; k < 16u * kLayers; ++k) {
@@ -167,8 +145,7 @@ void wholeSub(uint sub) {
 // The same from what the group shares.
 void boundOfGroup(uint patchIndex, uint s) {
     vec3 sum = vec3(0.0);
-    uint count = 0, remembered = 0;
-    uvec2 marks = uvec2(0);
+    uint count = 0, marks = 0, remembered = 0;
     for (uint k = 0; k < 16u * kLayers; ++k) {
         vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
         sum += sphere.w >= 0.0 ? sphere.xyz : vec3(0.0);
@@ -181,8 +158,8 @@ void boundOfGroup(uint patchIndex, uint s) {
         radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
     }
     for (uint p = 0; p < 16u; ++p) {
-        marks |= marksOf(noted[s * 16u + p], p);
-        remembered += noted[s * 16u + p] >> 3;
+        marks |= (noted[s * 16u + p] & 1u) << p;
+        remembered += noted[s * 16u + p] >> 1;
     }
     putBound(patchIndex * 16u + s, centre, radius, count, marks, remembered);
 }

@@ -12,6 +12,7 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
+layout(std430, binding = 4) writeonly buffer Begins { uint begins[]; }; // patch -> spheres of the patches before it
 
 // Index of child k of node `at` on `level`; 0xffffffff when it lies outside.
 uint childOf(uvec2 at, uint level, uint k, uint index) {
@@ -53,7 +54,38 @@ void buildNode(uint level, uint index) {
     }
 }
 
+shared uint sums[1024]; // an invocation
+
+// Where each patch's spheres begin once they are packed. One group: an invocation a run of patches.
+void placePatches() {
+    uint patches = tree.levels[1].x * tree.levels[1].y, me = gl_LocalInvocationID.x;
+    uint each = (patches + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
+    uint first = min(me * each, patches), end = min(first + each, patches), mine = 0;
+    for (uint i = first; i < end; ++i) {
+        mine += nodeCounts[tree.levels[1].z + i];
+    }
+    sums[me] = mine;
+    barrier();
+    for (uint step = 1; step < gl_WorkGroupSize.x; step *= 2u) { // running sums, in steps of twice the width
+        uint before = me >= step ? sums[me - step] : 0u;
+        barrier();
+        sums[me] += before;
+        barrier();
+    }
+    uint next = sums[me] - mine;
+    for (uint i = first; i < end; ++i) {
+        begins[i] = next;
+        next += nodeCounts[tree.levels[1].z + i];
+    }
+    if (me == gl_WorkGroupSize.x - 1u) {
+        counters.spheres = next;
+    }
+}
+
 void main() {
+    if (tree.run.w != 0) {
+        placePatches();
+    }
     for (uint level = tree.run.x; level <= tree.run.y; ++level) {
         uint count = tree.levels[level].x * tree.levels[level].y;
         for (uint i = gl_GlobalInvocationID.x; i < count; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {

@@ -95,17 +95,16 @@ std::vector<reference::CellThinning> PrecisionRig::thinning() const {
 }
 
 std::vector<reference::RegionSphere> PrecisionRig::spheres(bool held) const {
-    const auto slots = read<glm::vec4>(held ? lease_->device.held : lease_->device.spheres);
-    const auto classes = read<uint32_t>(lease_->device.classes);
-    const auto bits = read<glm::uvec2>(lease_->device.bits);
+    const auto slots = read<glm::vec4>(held ? cloud::slotHeld(cycle_->work(), lease_->device)
+                                            : cloud::slotSpheres(cycle_->work(), lease_->device));
+    const auto classes = read<uint32_t>(cycle_->work().classes);
     const auto listed = read<uint32_t>(cycle_->work().listed);
     std::vector<reference::RegionSphere> out;
     for (int v = 0; v < height(); ++v) {
         for (int u = 0; u < width(); ++u) {
             const uint32_t s = slot(u, v);
             reference::RegionSphere& sphere = out.emplace_back();
-            const uint32_t marks = held ? bits[s / 16].y : bits[s / 16].x >> 16;
-            if (listed[s / 256] != 0 && (marks >> s % 16 & 1) != 0) {
+            if (listed[s / 256] != 0 && slots[s].w >= 0.0f) {
                 sphere = {dvec3(slots[s]) + origin(), slots[s].w,
                           static_cast<int>(classes[s] >> (held ? 8 : 0) & 255)};
             }

@@ -39,6 +39,14 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     if (plan.thin) {
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
+    if (plan.spheres) {
+        classes = Buffer(device, slots * 4, MemoryKind::Device, "classes");
+        begins = Buffer(device, patches * 4, MemoryKind::Device, "begins");
+    }
+    if (plan.query == Plan::Query::Cpu) {
+        spheres = Buffer(device, slots * 16, MemoryKind::Device, "spheres");
+        held = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "held") : Buffer();
+    }
     if (plan.hold) {
         seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
         kept = Buffer(device, slots * 16, MemoryKind::Device, "kept");
@@ -80,17 +88,15 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Readback, "set counters");
     listed = Buffer(device, patches * 4, MemoryKind::Readback, "set listed");
     if (plan.spheres) {
-        spheres = Buffer(device, slots * 16, MemoryKind::Readback, "spheres");
-        classes = Buffer(device, slots * 4, MemoryKind::Readback, "classes");
-        bits = Buffer(device, patches * 16 * 8, MemoryKind::Readback, "bits");
+        const uint64_t most = slots * (plan.hold ? 2 : 1);
+        packed = Buffer(device, most * 16, MemoryKind::Readback, "packed");
+        tags = Buffer(device, most * 4, MemoryKind::Readback, "tags");
+        bits = Buffer(device, patches * 16 * 4, MemoryKind::Readback, "bits");
         nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
         nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
-        if (plan.hold) {
-            held = Buffer(device, slots * 16, MemoryKind::Readback, "held");
-        }
         if (plan.query == Plan::Query::Gpu) {
-            deviceSpheres = Buffer(device, slots * 16, MemoryKind::Device, "device spheres");
-            deviceHeld = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "device held") : Buffer();
+            spheres = Buffer(device, slots * 16, MemoryKind::Device, "set spheres");
+            held = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "set held") : Buffer();
         }
     }
     if (plan.moments) {

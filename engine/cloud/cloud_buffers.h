@@ -29,6 +29,9 @@ struct WorkBuffers {
     gpu::Buffer live;                 // uint a patch: points in memory
     gpu::Buffer nearest;              // uint a cell of the colour picture: occlusion
     gpu::Buffer rays;                 // vec2 a pixel, row-major
+    gpu::Buffer spheres, held;        // vec4 a slot, R < 0 = none; empty with a GPU query: a set has its own
+    gpu::Buffer classes;              // uint a slot: class of the sphere | class of the held one << 8
+    gpu::Buffer begins;               // uint a patch: place of its first sphere among the packed ones
     gpu::Buffer unused;               // stands in for what the plan leaves out
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
@@ -47,18 +50,26 @@ struct UploadBuffers {
 struct SetBuffers {
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
-    gpu::Buffer spheres, held;             // vec4 a slot, only where bits says so
-    gpu::Buffer classes;                   // uint a slot, the same
-    gpu::Buffer bits;                      // uvec2 a sub-patch of a listed patch: 16 pixels forbidden |
-                                           // 16 spheres << 16; 16 held spheres
-    gpu::Buffer nodes;                     // vec4 a node
-    gpu::Buffer nodeCounts;                // uint a node
-    gpu::Buffer deviceSpheres, deviceHeld; // what the GPU query reads; empty without one
-    gpu::Buffer moments;                   // PatchMoments, kMaxClasses a patch
-    gpu::Buffer counters;                  // FrameCounters
-    gpu::Buffer listed;                    // uint a patch
-    gpu::Buffer points, masks;             // copies for guidance classes that need their points
+    gpu::Buffer packed;        // vec4 a sphere, without gaps: in the order of RegionSpheres
+    gpu::Buffer tags;          // uint a sphere: (patch * 512 + layer * 256 + slot in the patch) * 8 + class
+    gpu::Buffer bits;          // uint a sub-patch of a listed patch: pixels of a forbidden class
+    gpu::Buffer nodes;         // vec4 a node
+    gpu::Buffer nodeCounts;    // uint a node
+    gpu::Buffer spheres, held; // vec4 a slot, R < 0 = none: what the GPU query reads; empty without one
+    gpu::Buffer moments;       // PatchMoments, kMaxClasses a patch
+    gpu::Buffer counters;      // FrameCounters
+    gpu::Buffer listed;        // uint a patch
+    gpu::Buffer points, masks; // copies for guidance classes that need their points
 };
+
+// Where a frame's slots of spheres are: in the set when a GPU query reads them later, else passed from pass
+// to pass.
+inline const gpu::Buffer& slotSpheres(const WorkBuffers& work, const SetBuffers& set) {
+    return set.spheres ? set.spheres : work.spheres;
+}
+inline const gpu::Buffer& slotHeld(const WorkBuffers& work, const SetBuffers& set) {
+    return set.spheres ? set.held : work.held;
+}
 
 // Everything a pass needs to know.
 struct CloudContext {

@@ -5,9 +5,9 @@
 #include "engine/cloud/guidance_points.h"
 #include "engine/cloud/guidance_pose.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <glm/vec2.hpp>
 
 namespace fathom::cloud {
 
@@ -24,107 +24,54 @@ std::array<uint32_t, 256> pixelsOfPatch(uint32_t width) {
     return pixels;
 }
 
-// Of one sub-patch: 16 bits each, as the spheres pass writes them.
-uint32_t forbiddenOf(glm::uvec2 bits) {
-    return bits.x & 0xffff;
-}
-uint32_t spheresOf(glm::uvec2 bits, bool heldLayer) {
-    return heldLayer ? bits.y : bits.x >> 16;
-}
-
-// Writes columns that are large enough already.
-class SphereCollector {
+// Counts what one patch has of each class.
+class PatchTally {
 public:
-    SphereCollector(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
-        : set_(set)
-        , rows_(rows)
-        , layout_(layout)
-        , inPatch_(pixelsOfPatch(set.host.camera.depth.width))
-        , width_(set.host.camera.depth.width)
-        , pixels_(set.host.camera.depth.pixels()) {}
-
-    // Seen or held points of one patch. Returns the classes that have a sphere there, as bits.
-    uint32_t takeLayer(uint32_t patch, bool heldLayer, std::vector<uint32_t>& classSpheres) {
-        const auto bits = set_.device.bits.as<glm::uvec2>();
-        const auto spheres = (heldLayer ? set_.device.held : set_.device.spheres).as<glm::vec4>();
-        const auto classes = set_.device.classes.as<uint32_t>();
-        const uint32_t corner = (patch / layout_.across) * 16 * width_ + (patch % layout_.across) * 16;
-        uint32_t present = 0;
-        for (uint32_t sub = 0; sub < 16; ++sub) {
-            for (uint32_t left = spheresOf(bits[patch * 16 + sub], heldLayer); left != 0; left &= left - 1) {
-                const uint32_t inside = sub * 16 + static_cast<uint32_t>(std::countr_zero(left));
-                const uint32_t slot = patch * 256 + inside, c = classes[slot] >> (heldLayer ? 8 : 0) & 255;
-                put(spheres[slot], corner + inPatch_[inside] + (heldLayer ? pixels_ : 0), rows_[c]);
-                ++classSpheres[c];
-                present |= 1u << c;
-            }
+    explicit PatchTally(FrameCounts& counts)
+        : counts_(counts) {}
+    void add(uint32_t patch, uint32_t c) {
+        if (patch != patch_) {
+            finish();
+            patch_ = patch;
         }
-        return present;
+        ++counts_.classSpheres[c];
+        present_ |= 1u << c;
+    }
+    void finish() {
+        counts_.patches += present_ != 0;
+        for (; present_ != 0; present_ &= present_ - 1) {
+            ++counts_.classPatches[static_cast<size_t>(std::countr_zero(present_))];
+        }
     }
 
 private:
-    void put(const glm::vec4& s, uint32_t source, uint32_t row) {
-        RegionSpheres& out = set_.host.spheres;
-        out.x[next_] = s.x, out.y[next_] = s.y, out.z[next_] = s.z;
-        out.radius[next_] = s.w;
-        out.source[next_] = source;
-        out.fixture[next_] = static_cast<uint8_t>(row);
-        ++next_;
-    }
-
-    FixtureSet& set_;
-    const std::vector<uint32_t>& rows_;
-    const PatchLayout& layout_;
-    std::array<uint32_t, 256> inPatch_;
-    uint32_t width_, pixels_;
-    size_t next_ = 0;
+    FrameCounts& counts_;
+    uint32_t patch_ = ~0u, present_ = 0;
 };
-
-size_t countSpheres(const FixtureSet& set, const PatchLayout& layout) {
-    const auto listed = set.device.listed.as<uint32_t>();
-    const auto bits = set.device.bits.as<glm::uvec2>();
-    int count = 0;
-    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
-        for (uint32_t sub = patch * 16; listed[patch] != 0 && sub < patch * 16 + 16; ++sub) {
-            count += std::popcount(spheresOf(bits[sub], false)) + std::popcount(spheresOf(bits[sub], true));
-        }
-    }
-    return static_cast<size_t>(count);
-}
-
-// What the GPU query's answers are looked up in.
-void takeKeys(FixtureSet& set, const PatchLayout& layout) {
-    const auto listed = set.device.listed.as<uint32_t>();
-    const auto bits = set.device.bits.as<glm::uvec2>();
-    for (uint32_t half = 0; half < 2 * layout.patches(); ++half) {
-        for (uint32_t sub = 0; listed[half / 2] != 0 && sub < 16; ++sub) {
-            for (uint32_t left = spheresOf(bits[half / 2 * 16 + sub], half % 2 != 0); left != 0;
-                 left &= left - 1) {
-                set.keys.push_back(half * 256 + sub * 16 + static_cast<uint32_t>(std::countr_zero(left)));
-            }
-        }
-    }
-}
 
 void takeSpheres(FixtureSet& set, const std::vector<uint32_t>& rows, const Plan& plan,
                  const PatchLayout& layout, FrameCounts& counts) {
-    const auto listed = set.device.listed.as<uint32_t>();
-    set.host.spheres.resize(countSpheres(set, layout));
-    SphereCollector collector(set, rows, layout);
-    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
-        if (listed[patch] == 0) {
-            continue;
-        }
-        uint32_t present = collector.takeLayer(patch, false, counts.classSpheres);
-        present |= plan.hold ? collector.takeLayer(patch, true, counts.classSpheres) : 0;
-        counts.patches += present != 0;
-        for (uint32_t c = 0; c < rows.size(); ++c) {
-            counts.classPatches[c] += present >> c & 1;
-        }
+    const auto packed = set.device.packed.as<glm::vec4>();
+    const auto tags = set.device.tags.as<uint32_t>();
+    const uint32_t width = set.host.camera.depth.width, pixels = set.host.camera.depth.pixels();
+    const std::array<uint32_t, 256> inPatch = pixelsOfPatch(width);
+    RegionSpheres& out = set.host.spheres;
+    out.resize(counts.spheres);
+    PatchTally tally(counts);
+    for (uint32_t i = 0; i < counts.spheres; ++i) {
+        const uint32_t c = tags[i] & 7, key = tags[i] >> 3, patch = key >> 9;
+        const uint32_t corner = (patch / layout.across * width + patch % layout.across) * 16;
+        out.x[i] = packed[i].x, out.y[i] = packed[i].y, out.z[i] = packed[i].z;
+        out.radius[i] = packed[i].w;
+        out.source[i] = corner + inPatch[key & 255] + ((key & 256) != 0 ? pixels : 0);
+        out.fixture[i] = static_cast<uint8_t>(rows[c]);
+        tally.add(patch, c);
     }
-    counts.spheres = static_cast<uint32_t>(set.host.spheres.size());
-    if (plan.query == Plan::Query::Gpu) {
-        takeKeys(set, layout);
+    tally.finish();
+    if (plan.query == Plan::Query::Gpu) { // its answers are looked up in them
+        set.keys.resize(counts.spheres);
+        std::transform(tags.begin(), tags.begin() + counts.spheres, set.keys.begin(),
+                       [](uint32_t tag) { return tag >> 3; });
     }
 }
 
@@ -134,12 +81,12 @@ void takeForbiddenBits(FixtureSet& set, const PatchLayout& layout, FrameCounts& 
     const uint32_t width = host.camera.depth.width, height = host.camera.depth.height;
     host.forbiddenBits.assign((static_cast<size_t>(width) * height + 31) / 32, 0);
     const auto listed = set.device.listed.as<uint32_t>();
-    const auto bits = set.device.bits.as<glm::uvec2>();
+    const auto bits = set.device.bits.as<uint32_t>();
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
         for (uint32_t row = 0; listed[patch] != 0 && row < 16; ++row) {
             uint32_t word = 0;
             for (uint32_t k = 0; k < 4; ++k) {
-                const uint32_t sub = forbiddenOf(bits[patch * 16 + row / 4 * 4 + k]);
+                const uint32_t sub = bits[patch * 16 + row / 4 * 4 + k];
                 word |= (sub >> (row % 4 * 4) & 15u) << (4 * k);
             }
             if (word == 0) {
@@ -217,6 +164,7 @@ FrameCounts collect(FixtureSet& set, const Scene& scene, const Plan& plan, const
     }
     const shared::FrameCounters& c = set.device.counters.as<shared::FrameCounters>()[0];
     counts.nodes = c.nodes;
+    counts.spheres = plan.spheres ? c.spheres : 0;
     for (size_t i = 0; i < rows.size(); ++i) {
         counts.classPixels[i] = c.classPixels[i];
         counts.leakSpacing.push_back(std::bit_cast<float>(c.leakSpacing[i]));

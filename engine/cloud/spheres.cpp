@@ -9,10 +9,10 @@
 namespace fathom::cloud {
 
 SpheresPass::SpheresPass(const CloudContext& c)
-    : pipeline_(c.device, {"spheres", spheres_spv, 20, true, 0,
-                           std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup,
-                                      uint32_t{c.plan.thin}, uint32_t{c.plan.hold},
-                                      uint32_t{c.plan.query == Plan::Query::Gpu}, uint32_t{c.plan.byPixel}}})
+    : pipeline_(c.device,
+                {"spheres", spheres_spv, 18, true, 0,
+                 std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup, uint32_t{c.plan.thin},
+                            uint32_t{c.plan.hold}, uint32_t{c.plan.byPixel}}})
     , work_(c.work)
     , hold_(c.plan.hold)
     , byPixel_(c.plan.byPixel) {
@@ -21,26 +21,10 @@ SpheresPass::SpheresPass(const CloudContext& c)
         auto& perUpload = bindings_.emplace_back();
         for (uint32_t u = 0; u < kUploads; ++u) {
             perUpload[u] = gpu::Bindings(c.device, pipeline_,
-                                         {&c.uploads[u].params,
-                                          &c.uploads[u].depth,
-                                          &w.masks,
-                                          &w.points,
-                                          &w.listed,
-                                          &w.list,
-                                          &w.growth,
-                                          &w.counters,
-                                          &w.seen,
-                                          &w.kept,
-                                          &w.keptTime,
-                                          &w.live,
-                                          &s->spheres,
-                                          &s->held,
-                                          &s->classes,
-                                          &s->bits,
-                                          &s->nodes,
-                                          &s->nodeCounts,
-                                          &s->deviceSpheres,
-                                          &s->deviceHeld},
+                                         {&c.uploads[u].params, &c.uploads[u].depth, &w.masks, &w.points,
+                                          &w.listed, &w.list, &w.growth, &w.counters, &w.seen, &w.kept,
+                                          &w.keptTime, &w.live, &slotSpheres(w, *s), &slotHeld(w, *s),
+                                          &w.classes, &s->bits, &s->nodes, &s->nodeCounts},
                                          w.unused);
         }
     }

@@ -8,12 +8,13 @@ namespace fathom::cloud {
 
 TreePass::TreePass(const CloudContext& c)
     : pipeline_(c.device,
-                {"tree", tree_spv, 4, false, sizeof(shared::TreeParams), std::array{c.plan.subGroup}})
+                {"tree", tree_spv, 5, false, sizeof(shared::TreeParams), std::array{c.plan.subGroup}})
     , layout_(c.layout) {
     for (const SetBuffers* s : c.sets) {
         bindings_.emplace_back(c.device, pipeline_,
                                std::initializer_list<const gpu::Buffer*>{&c.work.listed, &s->nodes,
-                                                                         &s->nodeCounts, &c.work.counters},
+                                                                         &s->nodeCounts, &c.work.counters,
+                                                                         &c.work.begins},
                                c.work.unused);
     }
 }
@@ -27,11 +28,9 @@ void TreePass::record(gpu::Commands& commands, uint32_t set) const {
     params.run = {1, 1, levels, 0};
     const uint32_t group = pipeline_.groupSize();
     commands.dispatch(pipeline_, bindings_[set], (layout_.patches() + group - 1) / group, &params);
-    if (levels > 2) {
-        commands.barrier();
-        params.run = {2, levels - 1, levels, 0};
-        commands.dispatch(pipeline_, bindings_[set], 1, &params);
-    }
+    commands.barrier();
+    params.run = {2, levels - 1, levels, 1};
+    commands.dispatch(pipeline_, bindings_[set], 1, &params);
 }
 
 } // namespace fathom::cloud

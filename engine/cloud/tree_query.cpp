@@ -40,9 +40,8 @@ void TreeQuery::makeAnswer() {
     for (size_t i = 0; i < pool_.size(); ++i) {
         const SetBuffers& s = pool_.at(i).device;
         bindings_.emplace_back(device_, pipeline_,
-                               std::initializer_list<const gpu::Buffer*>{&params_, &toolTree_, &s.nodes,
-                                                                         &s.deviceSpheres, &s.deviceHeld,
-                                                                         &count_, &found_},
+                               std::initializer_list<const gpu::Buffer*>{
+                                   &params_, &toolTree_, &s.nodes, &s.spheres, &s.held, &count_, &found_},
                                unused_);
     }
 }

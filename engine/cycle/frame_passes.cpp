@@ -21,6 +21,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.thin, thin_, "thin");
     add(c.plan.spheres, spheres_, "spheres");
     add(c.plan.spheres, tree_, "tree");
+    add(c.plan.spheres, pack_, "pack");
     add(c.plan.moments, moments_, "moments");
     for (uint32_t u = 0; u < cloud::kUploads; ++u) {
         commands_[u].resize(sets_.size());
@@ -55,6 +56,7 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
     run(thin_, upload);
     run(spheres_, upload, set);
     run(tree_, set);
+    run(pack_, set);
     run(moments_, upload, set);
     recordCopies(commands, set);
     commands.end();

@@ -19,7 +19,6 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.cloud = plan.spheres || plan.moments;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
     plan.occlusion = plan.colour && !camera.registered;
-    plan.treeDispatches = patchLayout(camera.depth.width, camera.depth.height).levels.size() > 2 ? 2 : 1;
     plan.thin = plan.spheres && scene.errorBudget > 0.0;
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
     for (const FixtureClass& f : scene.fixtures) {
@@ -70,6 +69,7 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("spheres", plan.spheres, plan.hold ? "forbidden classes, unseen points held" : "forbidden classes",
          "no forbidden class of points");
     pass("tree", plan.spheres, "bounds up to one root for the query", "no forbidden class of points");
+    pass("pack", plan.spheres, "spheres in a row for the host", "no forbidden class of points");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
          plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "nothing to collide with");
@@ -90,11 +90,12 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("masks and points", plan.cloud, 20 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
-    buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u), "of one fixture set");
+    buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u),
+           plan.query == Plan::Query::Gpu ? "of one fixture set: the GPU query reads them"
+                                          : "handed from pass to pass");
+    buffer("packed spheres", plan.spheres, slots * (plan.hold ? 40u : 20u), "of one fixture set");
     buffer("tree nodes", plan.spheres, 20ull * layout.nodes(), "of one fixture set");
     buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
-    buffer("query copy", plan.query == Plan::Query::Gpu, slots * (plan.hold ? 32u : 16u),
-           "spheres where the GPU query reads them");
 }
 
 } // namespace
@@ -122,9 +123,9 @@ bool Plan::has(const std::string& name) const {
 }
 
 uint32_t Plan::dispatchesPerFrame() const {
-    // classify and surface; spheres, then the tree: patches, and all above them in one group
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) +
-           (spheres ? 1u + treeDispatches : 0u) + (moments ? 1u : 0u);
+    // classify and surface; spheres, the tree (patches, then all above them in one group), pack
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 4u : 0u) +
+           (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -38,7 +38,6 @@ struct Plan {
     bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
     uint32_t classes = 0;   // classes of points
     bool box = false;       // some class has a box
-    uint32_t treeDispatches = 2; // 1 when the picture is a single patch
     uint32_t filterRadius = 0;
     bool edge = false;
     bool groupCounts = false;  // classify counts in shared memory before it counts for all

@@ -45,7 +45,8 @@ struct FrameCounters {
     uvec4 patchGroups; // indirect arguments: one group a listed patch (x = listed patches, 1, 1)
     uvec4 subGroups;   // indirect arguments: one invocation a sub-patch of a listed patch
     uint nodes;        // used nodes of the tree
-    uint pad[3];
+    uint spheres;      // of all patches, held ones too
+    uint pad[2];
     uint classPixels[8]; // pixels that classify marks, a class
     uint leakSpacing[8]; // bits of the largest spacing between neighbours that is >= R, a class; 0 = none
     uint leakRange[8];   // bits of the largest range [m] where that happens, a class
@@ -67,7 +68,7 @@ FATHOM_SIZE(PatchMoments, 64);
 FATHOM_CONST kMaxLevels = 6;
 struct TreeParams {
     uvec4 levels[6]; // nodes across, down; index of the first node; -
-    uvec4 run;       // first level and last level of this dispatch; number of levels; -
+    uvec4 run; // first level and last level of this dispatch; number of levels; 1 = patches get their places
 };
 FATHOM_SIZE(TreeParams, 112);
 

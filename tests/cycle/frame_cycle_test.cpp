@@ -60,28 +60,35 @@ std::vector<Need> needs() {
     thinned.errorBudget = 0.001;
     CameraInfo blind = plain;
     blind.hasColour = false;
-    return {
-        {"one class of every point", plainScene(), plain, {"classify", "surface", "spheres", "tree"}, 5},
-        {"guidance alone", guidanceOnly(), plain, {"classify", "surface", "moments"}, 3},
-        {"shapes alone", shapesOnly(), plain, {}, 0},
-        {"colour, registered", coloured, plain, {"classify", "surface", "spheres", "tree"}, 5},
-        {"colour, unregistered",
-         coloured,
-         unregistered(plain),
-         {"occlusion", "classify", "surface", "spheres", "tree"},
-         6},
-        {"no colour, unregistered",
-         plainScene(),
-         unregistered(plain),
-         {"classify", "surface", "spheres", "tree"},
-         5},
-        {"colour, but the camera has none", coloured, blind, {"classify", "surface", "spheres", "tree"}, 5},
-        {"error budget", thinned, plain, {"classify", "surface", "thin", "spheres", "tree"}, 6},
-        {"all of it",
-         full,
-         unregistered(freiburgCamera(100, 60)),
-         {"occlusion", "classify", "surface", "thin", "spheres", "tree", "moments"},
-         8}};
+    return {{"one class of every point",
+             plainScene(),
+             plain,
+             {"classify", "surface", "spheres", "tree", "pack"},
+             6},
+            {"guidance alone", guidanceOnly(), plain, {"classify", "surface", "moments"}, 3},
+            {"shapes alone", shapesOnly(), plain, {}, 0},
+            {"colour, registered", coloured, plain, {"classify", "surface", "spheres", "tree", "pack"}, 6},
+            {"colour, unregistered",
+             coloured,
+             unregistered(plain),
+             {"occlusion", "classify", "surface", "spheres", "tree", "pack"},
+             7},
+            {"no colour, unregistered",
+             plainScene(),
+             unregistered(plain),
+             {"classify", "surface", "spheres", "tree", "pack"},
+             6},
+            {"colour, but the camera has none",
+             coloured,
+             blind,
+             {"classify", "surface", "spheres", "tree", "pack"},
+             6},
+            {"error budget", thinned, plain, {"classify", "surface", "thin", "spheres", "tree", "pack"}, 7},
+            {"all of it",
+             full,
+             unregistered(freiburgCamera(100, 60)),
+             {"occlusion", "classify", "surface", "thin", "spheres", "tree", "pack", "moments"},
+             9}};
 }
 
 bool built(const gpu::Buffer& buffer) {
@@ -96,19 +103,20 @@ void checkBuffers(const CloudRig& rig) {
     CHECK(built(w.growth) == plan.thin);
     CHECK(built(w.nearest) == plan.occlusion);
     CHECK(built(w.rays) == plan.rays);
-    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live, &s.held}) {
+    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live, &w.held}) {
         CHECK(built(*b) == plan.hold);
     }
     for (const gpu::Buffer* b :
          {&w.masks, &w.listed, &w.list, &w.counters, &w.points, &s.counters, &s.listed}) {
         CHECK(built(*b) == plan.cloud);
     }
-    for (const gpu::Buffer* b : {&s.spheres, &s.classes, &s.bits, &s.nodes, &s.nodeCounts}) {
+    for (const gpu::Buffer* b :
+         {&w.spheres, &w.classes, &w.begins, &s.packed, &s.tags, &s.bits, &s.nodes, &s.nodeCounts}) {
         CHECK(built(*b) == plan.spheres);
     }
     CHECK(built(s.moments) == plan.moments);
     CHECK((built(s.points) && built(s.masks)) == plan.guidancePoints);
-    CHECK_FALSE(built(s.deviceSpheres)); // the query is on the CPU here
+    CHECK_FALSE(built(s.spheres)); // the query is on the CPU here
     const auto sizeOf = [&](const char* name, uint64_t bytes) {
         const auto item = std::find_if(plan.items.begin(), plan.items.end(), [&](const Plan::Item& i) {
             return i.kind == "buffer" && i.name == name;
@@ -122,7 +130,8 @@ void checkBuffers(const CloudRig& rig) {
     sizeOf("thinning cells", w.growth.bytes());
     sizeOf("rays", w.rays.bytes());
     sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
-    sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes() + s.classes.bytes());
+    sizeOf("sphere slots", w.spheres.bytes() + w.held.bytes() + w.classes.bytes());
+    sizeOf("packed spheres", s.packed.bytes() + s.tags.bytes());
     sizeOf("moments", s.moments.bytes());
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     plan = planOf(scene);
     CHECK((plan.spheres && plan.thin && plan.hold && !plan.moments && !plan.colour && !plan.box));
     CHECK(plan.query == Plan::Query::Cpu);
-    CHECK(plan.dispatchesPerFrame() == 6);
+    CHECK(plan.dispatchesPerFrame() == 7);
     CHECK(plan.filterRadius == 2);
     CHECK(plan.edge);
 
@@ -90,7 +90,7 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     plan = planOf(scene);
     CHECK_FALSE((plan.thin || plan.hold || plan.edge || plan.tiled));
     CHECK(plan.filterRadius == 0);
-    CHECK(plan.dispatchesPerFrame() == 5);
+    CHECK(plan.dispatchesPerFrame() == 6);
 
     scene.fixtures.push_back(points(Role::Guidance));
     scene.fixtures[1].lightness = Band{0.1, 0.9};
@@ -109,7 +109,7 @@ TEST_CASE("Occlusion, colour and rays follow the camera") {
     CHECK_FALSE(planOf(scene, camera).occlusion); // no class asks for colour
     scene.fixtures[0].hue = Band{350, 10};
     CHECK(planOf(scene, camera).occlusion);
-    CHECK(planOf(scene, camera).dispatchesPerFrame() == 7);
+    CHECK(planOf(scene, camera).dispatchesPerFrame() == 8);
     camera.registered = true;
     CHECK_FALSE(planOf(scene, camera).occlusion);
     CHECK(planOf(scene, camera).colour);

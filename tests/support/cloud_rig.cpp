@@ -92,17 +92,16 @@ std::vector<reference::CellThinning> CloudRig::thinning() const {
 }
 
 std::vector<reference::RegionSphere> CloudRig::spheres(bool held) const {
-    const auto slots = read<glm::vec4>(held ? set().device.held : set().device.spheres);
-    const auto classes = read<uint32_t>(set().device.classes);
-    const auto bits = read<glm::uvec2>(set().device.bits);
+    const auto slots = read<glm::vec4>(held ? cloud::slotHeld(cycle_->work(), set().device)
+                                            : cloud::slotSpheres(cycle_->work(), set().device));
+    const auto classes = read<uint32_t>(cycle_->work().classes);
     const auto work = listed();
     std::vector<reference::RegionSphere> out;
     for (int v = 0; v < height(); ++v) {
         for (int u = 0; u < width(); ++u) {
             const uint32_t s = slot(u, v);
             reference::RegionSphere& sphere = out.emplace_back();
-            const uint32_t marks = held ? bits[s / 16].y : bits[s / 16].x >> 16;
-            if (work[s / 256] != 0 && (marks >> s % 16 & 1) != 0) {
+            if (work[s / 256] != 0 && slots[s].w >= 0.0f) {
                 sphere = {dvec3(slots[s]) + origin(), slots[s].w,
                           static_cast<int>(classes[s] >> (held ? 8 : 0) & 255)};
             }
