@@ -56,8 +56,9 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"thin", {l.slots * (4.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
         {"spheres", {l.slots * (4.0 + 16.0 + 1.0 + 16.0 + 4.0 + held), 60.0 * l.slots, false}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0, false}},
+        {"pack", {l.slots * (l.hold ? 32.0 : 16.0) + l.spheres * 24.0, 10.0 * l.slots, false}},
         {"moments", {l.slots * 20.0 + l.slots / 256.0 * 64.0, 40.0 * l.selected, false}},
-        {"publish", {2.0 * l.pixels + l.slots * (l.hold ? 36.0 : 20.0) + l.spheres * 3.0 * 21.0, 0.0, true}},
+        {"publish", {2.0 * l.pixels + l.spheres * (20.0 + 3.0 * 21.0), 0.0, true}},
     };
 }
 

@@ -56,7 +56,7 @@ public:
         row.isDefault = false;
         row.cost = m.cost.frame;
         row.more = {x, m.cost.total.p50, m.cost.upload.p50, m.cost.publish.p50};
-        for (const char* pass : {"classify", "surface", "thin", "spheres", "tree", "moments"}) {
+        for (const char* pass : {"classify", "surface", "thin", "spheres", "tree", "pack", "moments"}) {
             const auto it = m.cost.passes.find(pass);
             row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
         }
@@ -119,6 +119,7 @@ Study scalingStudy(const StudyContext& context) {
                        "thin_p50_ms",
                        "spheres_p50_ms",
                        "tree_p50_ms",
+                       "pack_p50_ms",
                        "moments_p50_ms"};
     const bool quick = context.settings.quick;
     ScalingRun run(context, study);

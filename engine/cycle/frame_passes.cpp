@@ -19,10 +19,10 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.cloud, classify_, "classify");
     add(c.plan.cloud, surface_, "surface");
     add(c.plan.thin, thin_, "thin");
+    add(c.plan.moments, moments_, "moments");
     add(c.plan.spheres, spheres_, "spheres");
     add(c.plan.spheres, tree_, "tree");
     add(c.plan.spheres, pack_, "pack");
-    add(c.plan.moments, moments_, "moments");
     for (uint32_t u = 0; u < cloud::kUploads; ++u) {
         commands_[u].resize(sets_.size());
         watches_[u] = std::make_unique<gpu::Stopwatch>(c.device, static_cast<uint32_t>(names_.size()) + 1);
@@ -53,11 +53,17 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
     run(occlusion_, upload);
     run(classify_, upload);
     run(surface_, upload);
-    run(thin_, upload);
+    if (thin_) {
+        thin_->record(commands, upload);
+        if (!moments_) { // which neither read what thinning writes nor the reverse: they overlap
+            commands.barrier();
+        }
+        watch.mark(commands.handle());
+    }
+    run(moments_, upload, set);
     run(spheres_, upload, set);
     run(tree_, set);
     run(pack_, set);
-    run(moments_, upload, set);
     recordCopies(commands, set);
     commands.end();
 }

@@ -82,8 +82,12 @@ TEST_CASE("Windows from shared memory, direct reads and rows in registers give t
             CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterRow = false; });
             CloudRig rows(scene, camera, [&](Plan& plan) { plan.filterRow = radius <= 2; });
             direct.run(picture), tiled.run(picture), rows.run(picture);
-            CHECK(rows.points().z == direct.points().z);
-            CHECK(rows.points().at == direct.points().at);
+            // Rows are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
+            const bool cpu = test::vulkan().device.facts().kind == DeviceKind::Cpu;
+            CHECK((!cpu || (rows.points().z == direct.points().z && rows.points().at == direct.points().at)));
+            const Agreement ofRows = comparePoints(rows);
+            CHECK(ofRows.wrong == 0);
+            CHECK(ofRows.worst < 1e-6);
             const reference::PointPicture a = direct.points(), b = tiled.points();
             CHECK(a.z == b.z);
             CHECK(a.at == b.at);

@@ -87,7 +87,7 @@ std::vector<Need> needs() {
             {"all of it",
              full,
              unregistered(freiburgCamera(100, 60)),
-             {"occlusion", "classify", "surface", "thin", "spheres", "tree", "pack", "moments"},
+             {"occlusion", "classify", "surface", "thin", "moments", "spheres", "tree", "pack"},
              9}};
 }
 

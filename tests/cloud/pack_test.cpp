@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// The row that the host reads against the slots it was packed from, one by one and in order.
+#include "tests/support/cloud_rig.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+struct Expected {
+    std::vector<reference::RegionSphere> spheres;
+    std::vector<uint32_t> sources;
+};
+
+// Every sphere of the slots by patch, then layer, then slot.
+Expected inOrder(const CloudRig& rig) {
+    const std::vector<reference::RegionSphere> layers[2] = {
+        rig.spheres(false), rig.plan().hold ? rig.spheres(true) : std::vector<reference::RegionSphere>()};
+    const auto width = static_cast<uint32_t>(rig.width()),
+               pixels = width * static_cast<uint32_t>(rig.height());
+    const uint32_t across = rig.cycle().layout().across;
+    std::vector<uint32_t> pixelOf(rig.cycle().layout().slots(), ~0u);
+    for (uint32_t p = 0; p < pixels; ++p) {
+        pixelOf[slotOfPixel(p % width, p / width, across)] = p;
+    }
+    Expected all;
+    for (size_t place = 0; place < 2 * pixelOf.size(); ++place) {
+        const size_t layer = place / 256 % 2, slot = place / 512 * 256 + place % 256;
+        const uint32_t pixel = pixelOf[slot];
+        if (pixel == ~0u || layers[layer].empty() || layers[layer][pixel].radius < 0.0) {
+            continue;
+        }
+        all.spheres.push_back(layers[layer][pixel]);
+        all.sources.push_back(pixel + (layer != 0 ? pixels : 0));
+    }
+    return all;
+}
+
+void checkPacked(const CloudRig& rig) {
+    const Expected all = inOrder(rig);
+    const RegionSpheres& host = rig.host().spheres;
+    REQUIRE(host.size() == all.spheres.size());
+    CHECK(rig.counters().spheres == all.spheres.size());
+    size_t wrong = 0;
+    for (size_t i = 0; i < all.spheres.size(); ++i) {
+        const reference::RegionSphere& s = all.spheres[i];
+        const dvec3 centre = dvec3(host.x[i], host.y[i], host.z[i]) + rig.origin();
+        wrong += centre != s.centre || host.radius[i] != s.radius || host.source[i] != all.sources[i] ||
+                 host.fixture[i] != static_cast<uint8_t>(s.cls);
+    }
+    CHECK(wrong == 0);
+}
+
+} // namespace
+
+TEST_CASE(
+    "The packed row has every sphere of every slot once, in order, at sizes that are not whole patches") {
+    for (const auto& [width, height] :
+         {std::pair{1u, 1u}, {16u, 16u}, {17u, 33u}, {67u, 41u}, {320u, 240u}}) {
+        CAPTURE(width);
+        CAPTURE(height);
+        const CameraInfo camera = pinholeCamera(width, height);
+        CloudRig rig(plainScene(), camera);
+        rig.run(stressPicture(camera, width));
+        checkPacked(rig);
+    }
+}
+
+TEST_CASE("Held spheres follow the seen ones of their patch, thinned ones are left out") {
+    const CameraInfo camera = pinholeCamera(130, 70);
+    Scene scene = plainScene();
+    scene.holdSeconds = 1.0;
+    scene.errorBudget = 0.001;
+    CloudRig rig(scene, camera);
+    const Picture whole = drawnPicture(camera, [](int u, int) { return 1.0 + 0.001 * u; });
+    rig.run(whole);
+    checkPacked(rig);
+    Picture holes = whole;
+    for (size_t p = 0; p < holes.depth.size(); p += 3) {
+        holes.depth[p] = 0;
+    }
+    rig.run(holes);
+    checkPacked(rig);
+    CHECK(std::any_of(rig.host().spheres.source.begin(), rig.host().spheres.source.end(),
+                      [](uint32_t source) { return source >= 130 * 70; }));
+}
+
+TEST_CASE("A picture without one point, with few over the corner of four patches, and with every point") {
+    const CameraInfo camera = pinholeCamera(66, 50);
+    for (const int points : {0, 16, 66 * 50}) {
+        CAPTURE(points);
+        CloudRig rig(plainScene(), camera);
+        rig.run(drawnPicture(camera, [&](int u, int v) {
+            return points > 16 || (points == 16 && (u + 2) / 4 == 12 && (v + 2) / 4 == 8) ? 1.0 : 0.0;
+        }));
+        CHECK(rig.host().spheres.size() == static_cast<size_t>(points));
+        checkPacked(rig);
+    }
+}
+
+TEST_CASE("Slots that a GPU query keeps for itself are packed the same") {
+    const CameraInfo camera = pinholeCamera(90, 40);
+    CloudRig rig(plainScene(), camera, [](Plan& plan) { plan.query = Plan::Query::Gpu; });
+    rig.run(stressPicture(camera, 5));
+    checkPacked(rig);
+    CHECK(rig.set().keys.size() == rig.host().spheres.size());
+    CHECK(std::is_sorted(rig.set().keys.begin(), rig.set().keys.end()));
+}
