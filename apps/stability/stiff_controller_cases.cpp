@@ -13,7 +13,6 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kDepth = 0.003, kJump = 0.002; // [m] facts: K p delta + K delta^2 / 2 = 8 mJ at 1000 N/m
-constexpr double kFramePeriod = 1.0 / 30.0;     // [s]
 
 // A hand at rest, 3 mm of penetration in a wall of spheres that then moves.
 struct Held {
