@@ -13,6 +13,10 @@ namespace {
 using gpu::Buffer;
 using gpu::MemoryKind;
 
+MemoryKind slotMemory(const Plan& plan) {
+    return plan.pack ? MemoryKind::Device : MemoryKind::Readback;
+}
+
 void fillRays(const Buffer& rays, const Intrinsics& lens) {
     const auto out = rays.as<glm::vec2>();
     for (uint32_t v = 0; v < lens.height; ++v) {
@@ -40,12 +44,12 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
     if (plan.spheres) {
-        classes = Buffer(device, slots * 4, MemoryKind::Device, "classes");
+        classes = Buffer(device, slots * 4, slotMemory(plan), "classes");
         begins = Buffer(device, patches * 4, MemoryKind::Device, "begins");
     }
     if (plan.query == Plan::Query::Cpu) {
-        spheres = Buffer(device, slots * 16, MemoryKind::Device, "spheres");
-        held = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "held") : Buffer();
+        spheres = Buffer(device, slots * 16, slotMemory(plan), "spheres");
+        held = plan.hold ? Buffer(device, slots * 16, slotMemory(plan), "held") : Buffer();
     }
     if (plan.hold) {
         seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
@@ -88,16 +92,18 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Readback, "set counters");
     listed = Buffer(device, patches * 4, MemoryKind::Readback, "set listed");
     if (plan.spheres) {
-        const uint64_t most = slots * (plan.hold ? 2 : 1);
-        packed = Buffer(device, most * 16, MemoryKind::Readback, "packed");
-        tags = Buffer(device, most * 4, MemoryKind::Readback, "tags");
         bits = Buffer(device, patches * 16 * 4, MemoryKind::Readback, "bits");
         nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
         nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
         if (plan.query == Plan::Query::Gpu) {
-            spheres = Buffer(device, slots * 16, MemoryKind::Device, "set spheres");
-            held = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "set held") : Buffer();
+            spheres = Buffer(device, slots * 16, slotMemory(plan), "set spheres");
+            held = plan.hold ? Buffer(device, slots * 16, slotMemory(plan), "set held") : Buffer();
         }
+    }
+    if (plan.pack) {
+        const uint64_t most = slots * (plan.hold ? 2 : 1);
+        packed = Buffer(device, most * 16, MemoryKind::Readback, "packed");
+        tags = Buffer(device, most * 4, MemoryKind::Readback, "tags");
     }
     if (plan.moments) {
         moments = Buffer(device, patches * shared::kMaxClasses * sizeof(shared::PatchMoments),

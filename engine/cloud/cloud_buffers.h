@@ -31,8 +31,9 @@ struct WorkBuffers {
     gpu::Buffer rays;                 // vec2 a pixel, row-major
     gpu::Buffer spheres, held;        // vec4 a slot, R < 0 = none; empty with a GPU query: a set has its own
     gpu::Buffer classes;              // uint a slot: class of the sphere | class of the held one << 8
-    gpu::Buffer begins;               // uint a patch: place of its first sphere among the packed ones
-    gpu::Buffer unused;               // stands in for what the plan leaves out
+    gpu::Buffer begins;               // uint a patch: spheres of the patches before it
+    // spheres, held and classes are what the CPU reads when the plan packs nothing.
+    gpu::Buffer unused; // stands in for what the plan leaves out
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
 };
@@ -50,11 +51,11 @@ struct UploadBuffers {
 struct SetBuffers {
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
-    gpu::Buffer packed;        // vec4 a sphere, without gaps: in the order of RegionSpheres
-    gpu::Buffer tags;          // uint a sphere: (patch * 512 + layer * 256 + slot in the patch) * 8 + class
-    gpu::Buffer bits;          // uint a sub-patch of a listed patch: pixels of a forbidden class
-    gpu::Buffer nodes;         // vec4 a node
-    gpu::Buffer nodeCounts;    // uint a node
+    gpu::Buffer packed;     // vec4 a sphere, without gaps: in the order of RegionSpheres; empty without pack
+    gpu::Buffer tags;       // uint a sphere: (patch * 512 + layer * 256 + slot in the patch) * 8 + class
+    gpu::Buffer bits;       // uint a sub-patch of a listed patch: pixels of a forbidden class
+    gpu::Buffer nodes;      // vec4 a node
+    gpu::Buffer nodeCounts; // uint a node
     gpu::Buffer spheres, held; // vec4 a slot, R < 0 = none: what the GPU query reads; empty without one
     gpu::Buffer moments;       // PatchMoments, kMaxClasses a patch
     gpu::Buffer counters;      // FrameCounters

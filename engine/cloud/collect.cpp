@@ -49,29 +49,70 @@ private:
     uint32_t patch_ = ~0u, present_ = 0;
 };
 
-void takeSpheres(FixtureSet& set, const std::vector<uint32_t>& rows, const Plan& plan,
-                 const PatchLayout& layout, FrameCounts& counts) {
+// Writes the host's columns, which are large enough already, in order.
+class SphereColumns {
+public:
+    SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
+                  FrameCounts& counts)
+        : set_(set)
+        , rows_(rows)
+        , across_(layout.across)
+        , width_(set.host.camera.depth.width)
+        , pixels_(set.host.camera.depth.pixels())
+        , inPatch_(pixelsOfPatch(width_))
+        , tally_(counts) {}
+
+    // key: patch * 512 + layer * 256 + slot in the patch.
+    void put(const glm::vec4& s, uint32_t key, uint32_t c) {
+        RegionSpheres& out = set_.host.spheres;
+        const uint32_t patch = key >> 9, corner = (patch / across_ * width_ + patch % across_) * 16;
+        out.x[next_] = s.x, out.y[next_] = s.y, out.z[next_] = s.z;
+        out.radius[next_] = s.w;
+        out.source[next_] = corner + inPatch_[key & 255] + ((key & 256) != 0 ? pixels_ : 0);
+        out.fixture[next_] = static_cast<uint8_t>(rows_[c]);
+        set_.keys[next_++] = key;
+        tally_.add(patch, c);
+    }
+    void finish() { tally_.finish(); }
+
+private:
+    FixtureSet& set_;
+    const std::vector<uint32_t>& rows_;
+    uint32_t across_, width_, pixels_;
+    std::array<uint32_t, 256> inPatch_;
+    PatchTally tally_;
+    size_t next_ = 0;
+};
+
+void makeRoom(FixtureSet& set, size_t spheres) {
+    set.host.spheres.resize(spheres);
+    set.keys.resize(spheres);
+}
+
+void takePacked(const FixtureSet& set, uint32_t count, SphereColumns& columns) {
     const auto packed = set.device.packed.as<glm::vec4>();
     const auto tags = set.device.tags.as<uint32_t>();
-    const uint32_t width = set.host.camera.depth.width, pixels = set.host.camera.depth.pixels();
-    const std::array<uint32_t, 256> inPatch = pixelsOfPatch(width);
-    RegionSpheres& out = set.host.spheres;
-    out.resize(counts.spheres);
-    PatchTally tally(counts);
-    for (uint32_t i = 0; i < counts.spheres; ++i) {
-        const uint32_t c = tags[i] & 7, key = tags[i] >> 3, patch = key >> 9;
-        const uint32_t corner = (patch / layout.across * width + patch % layout.across) * 16;
-        out.x[i] = packed[i].x, out.y[i] = packed[i].y, out.z[i] = packed[i].z;
-        out.radius[i] = packed[i].w;
-        out.source[i] = corner + inPatch[key & 255] + ((key & 256) != 0 ? pixels : 0);
-        out.fixture[i] = static_cast<uint8_t>(rows[c]);
-        tally.add(patch, c);
+    for (uint32_t i = 0; i < count; ++i) {
+        columns.put(packed[i], tags[i] >> 3, tags[i] & 7);
     }
-    tally.finish();
-    if (plan.query == Plan::Query::Gpu) { // its answers are looked up in them
-        set.keys.resize(counts.spheres);
-        std::transform(tags.begin(), tags.begin() + counts.spheres, set.keys.begin(),
-                       [](uint32_t tag) { return tag >> 3; });
+}
+
+void takeSlots(const FixtureSet& set, const WorkBuffers& work, bool hold, const PatchLayout& layout,
+               SphereColumns& columns) {
+    const auto listed = set.device.listed.as<uint32_t>();
+    const auto spheres = slotSpheres(work, set.device).as<glm::vec4>(),
+               held = slotHeld(work, set.device).as<glm::vec4>();
+    const auto classes = work.classes.as<uint32_t>();
+    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
+        for (uint32_t layer = 0; listed[patch] != 0 && layer < (hold ? 2u : 1u); ++layer) {
+            const auto from = (layer == 0 ? spheres : held).subspan(patch * 256, 256);
+            for (uint32_t slot = 0; slot < 256; ++slot) {
+                if (from[slot].w >= 0.0f) {
+                    columns.put(from[slot], patch * 512 + layer * 256 + slot,
+                                classes[patch * 256 + slot] >> (8 * layer) & 255);
+                }
+            }
+        }
     }
 }
 
@@ -147,31 +188,38 @@ uint32_t validPixels(const Fixtures& host, const Scene& scene) {
     return count;
 }
 
-FrameCounts collect(FixtureSet& set, const Scene& scene, const Plan& plan, const PatchLayout& layout) {
+FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
+                    const PatchLayout& layout) {
     const std::vector<uint32_t> rows = classRows(scene);
     FrameCounts counts;
     counts.classPixels.resize(rows.size());
     counts.classSpheres.resize(rows.size());
     counts.classPatches.resize(rows.size());
-    set.keys.clear();
     set.host.guidance.clear();
     set.host.forbiddenBits.clear();
     if (!plan.spheres) {
-        set.host.spheres.resize(0);
+        makeRoom(set, 0);
     }
     if (!plan.cloud) {
         return counts;
     }
     const shared::FrameCounters& c = set.device.counters.as<shared::FrameCounters>()[0];
     counts.nodes = c.nodes;
-    counts.spheres = plan.spheres ? c.spheres : 0;
     for (size_t i = 0; i < rows.size(); ++i) {
         counts.classPixels[i] = c.classPixels[i];
         counts.leakSpacing.push_back(std::bit_cast<float>(c.leakSpacing[i]));
         counts.leakRange.push_back(std::bit_cast<float>(c.leakRange[i]));
     }
     if (plan.spheres) {
-        takeSpheres(set, rows, plan, layout, counts);
+        counts.spheres = c.spheres;
+        makeRoom(set, c.spheres);
+        SphereColumns columns(set, rows, layout, counts);
+        if (plan.pack) {
+            takePacked(set, c.spheres, columns);
+        } else {
+            takeSlots(set, work, plan.hold, layout, columns);
+        }
+        columns.finish();
         takeForbiddenBits(set, layout, counts);
     }
     if (plan.moments) {

@@ -170,7 +170,7 @@ FrameReport FrameCycle::finish() {
         }
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
-        lastCounts_ = cloud::collect(set, scene_, plan_, layout_);
+        lastCounts_ = cloud::collect(set, work_, scene_, plan_, layout_);
         lastCounts_.valid = valid;
         if (plan_.spheres) {
             set.grid.build(set.host.spheres);

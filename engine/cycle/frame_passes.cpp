@@ -22,7 +22,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.moments, moments_, "moments");
     add(c.plan.spheres, spheres_, "spheres");
     add(c.plan.spheres, tree_, "tree");
-    add(c.plan.spheres, pack_, "pack");
+    add(c.plan.pack, pack_, "pack");
     for (uint32_t u = 0; u < cloud::kUploads; ++u) {
         commands_[u].resize(sets_.size());
         watches_[u] = std::make_unique<gpu::Stopwatch>(c.device, static_cast<uint32_t>(names_.size()) + 1);

@@ -21,6 +21,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.occlusion = plan.colour && !camera.registered;
     plan.thin = plan.spheres && scene.errorBudget > 0.0;
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
+    plan.pack =
+        plan.spheres && device.kind != DeviceKind::Cpu; // there nothing crosses a bus, and it takes 2 ms
     for (const FixtureClass& f : scene.fixtures) {
         plan.classes += f.isPoints() ? 1 : 0;
         plan.box = plan.box || (f.isPoints() && f.box);
@@ -69,7 +71,8 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("spheres", plan.spheres, plan.hold ? "forbidden classes, unseen points held" : "forbidden classes",
          "no forbidden class of points");
     pass("tree", plan.spheres, "bounds up to one root for the query", "no forbidden class of points");
-    pass("pack", plan.spheres, "spheres in a row for the host", "no forbidden class of points");
+    pass("pack", plan.pack, "spheres in a row: the host reads them across a bus",
+         plan.spheres ? "the device is the CPU: the host reads slots" : "no forbidden class of points");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
          plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "nothing to collide with");
@@ -93,7 +96,8 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u),
            plan.query == Plan::Query::Gpu ? "of one fixture set: the GPU query reads them"
                                           : "handed from pass to pass");
-    buffer("packed spheres", plan.spheres, slots * (plan.hold ? 40u : 20u), "of one fixture set");
+    buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u),
+           plan.pack ? "of one fixture set" : "the host reads slots");
     buffer("tree nodes", plan.spheres, 20ull * layout.nodes(), "of one fixture set");
     buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
 }
@@ -123,9 +127,9 @@ bool Plan::has(const std::string& name) const {
 }
 
 uint32_t Plan::dispatchesPerFrame() const {
-    // classify and surface; spheres, the tree (patches, then all above them in one group), pack
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 4u : 0u) +
-           (moments ? 1u : 0u);
+    // classify and surface; spheres and the tree (patches, then all above them in one group)
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 3u : 0u) +
+           (pack ? 1u : 0u) + (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -28,6 +28,7 @@ struct Plan {
     bool cloud = false;     // any class of points: classify and surface
     bool spheres = false;   // any forbidden class of points: spheres and tree
     bool thin = false;      // error budget
+    bool pack = false;      // the host reads spheres in a row: the device has memory of its own
     bool hold = false;
     bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)

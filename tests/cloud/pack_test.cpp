@@ -38,6 +38,11 @@ Expected inOrder(const CloudRig& rig) {
     return all;
 }
 
+// The device's own choice is one of them only.
+CloudRig::Change packing(bool pack) {
+    return [pack](Plan& plan) { plan.pack = pack; };
+}
+
 void checkPacked(const CloudRig& rig) {
     const Expected all = inOrder(rig);
     const RegionSpheres& host = rig.host().spheres;
@@ -55,16 +60,18 @@ void checkPacked(const CloudRig& rig) {
 
 } // namespace
 
-TEST_CASE(
-    "The packed row has every sphere of every slot once, in order, at sizes that are not whole patches") {
+TEST_CASE("What the host reads has every sphere of every slot once, in order, at sizes that are not whole "
+          "patches") {
     for (const auto& [width, height] :
          {std::pair{1u, 1u}, {16u, 16u}, {17u, 33u}, {67u, 41u}, {320u, 240u}}) {
         CAPTURE(width);
         CAPTURE(height);
         const CameraInfo camera = pinholeCamera(width, height);
-        CloudRig rig(plainScene(), camera);
-        rig.run(stressPicture(camera, width));
-        checkPacked(rig);
+        for (const bool pack : {false, true}) {
+            CloudRig rig(plainScene(), camera, packing(pack));
+            rig.run(stressPicture(camera, width));
+            checkPacked(rig);
+        }
     }
 }
 
@@ -73,7 +80,12 @@ TEST_CASE("Held spheres follow the seen ones of their patch, thinned ones are le
     Scene scene = plainScene();
     scene.holdSeconds = 1.0;
     scene.errorBudget = 0.001;
-    CloudRig rig(scene, camera);
+    bool pack = false;
+    SUBCASE("read from slots") {}
+    SUBCASE("packed") {
+        pack = true;
+    }
+    CloudRig rig(scene, camera, packing(pack));
     const Picture whole = drawnPicture(camera, [](int u, int) { return 1.0 + 0.001 * u; });
     rig.run(whole);
     checkPacked(rig);
@@ -91,7 +103,7 @@ TEST_CASE("A picture without one point, with few over the corner of four patches
     const CameraInfo camera = pinholeCamera(66, 50);
     for (const int points : {0, 16, 66 * 50}) {
         CAPTURE(points);
-        CloudRig rig(plainScene(), camera);
+        CloudRig rig(plainScene(), camera, packing(true));
         rig.run(drawnPicture(camera, [&](int u, int v) {
             return points > 16 || (points == 16 && (u + 2) / 4 == 12 && (v + 2) / 4 == 8) ? 1.0 : 0.0;
         }));
@@ -102,7 +114,7 @@ TEST_CASE("A picture without one point, with few over the corner of four patches
 
 TEST_CASE("Slots that a GPU query keeps for itself are packed the same") {
     const CameraInfo camera = pinholeCamera(90, 40);
-    CloudRig rig(plainScene(), camera, [](Plan& plan) { plan.query = Plan::Query::Gpu; });
+    CloudRig rig(plainScene(), camera, [](Plan& plan) { plan.query = Plan::Query::Gpu, plan.pack = true; });
     rig.run(stressPicture(camera, 5));
     checkPacked(rig);
     CHECK(rig.set().keys.size() == rig.host().spheres.size());

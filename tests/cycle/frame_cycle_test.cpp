@@ -60,21 +60,21 @@ std::vector<Need> needs() {
     thinned.errorBudget = 0.001;
     CameraInfo blind = plain;
     blind.hasColour = false;
-    const std::vector<std::string> usual{"classify", "surface", "spheres", "tree", "pack"};
-    const std::vector<std::string> parallax{"occlusion", "classify", "surface", "spheres", "tree", "pack"};
-    return {{"one class of every point", plainScene(), plain, usual, 6},
+    const std::vector<std::string> usual{"classify", "surface", "spheres", "tree"};
+    const std::vector<std::string> parallax{"occlusion", "classify", "surface", "spheres", "tree"};
+    return {{"one class of every point", plainScene(), plain, usual, 5},
             {"guidance alone", guidanceOnly(), plain, {"classify", "surface", "moments"}, 3},
             {"shapes alone", shapesOnly(), plain, {}, 0},
-            {"colour, registered", coloured, plain, usual, 6},
-            {"colour, unregistered", coloured, unregistered(plain), parallax, 7},
-            {"no colour, unregistered", plainScene(), unregistered(plain), usual, 6},
-            {"colour, but the camera has none", coloured, blind, usual, 6},
-            {"error budget", thinned, plain, {"classify", "surface", "thin", "spheres", "tree", "pack"}, 7},
+            {"colour, registered", coloured, plain, usual, 5},
+            {"colour, unregistered", coloured, unregistered(plain), parallax, 6},
+            {"no colour, unregistered", plainScene(), unregistered(plain), usual, 5},
+            {"colour, but the camera has none", coloured, blind, usual, 5},
+            {"error budget", thinned, plain, {"classify", "surface", "thin", "spheres", "tree"}, 6},
             {"all of it",
              full,
              unregistered(freiburgCamera(100, 60)),
-             {"occlusion", "classify", "surface", "thin", "moments", "spheres", "tree", "pack"},
-             9}};
+             {"occlusion", "classify", "surface", "thin", "moments", "spheres", "tree"},
+             8}};
 }
 
 bool built(const gpu::Buffer& buffer) {
@@ -96,9 +96,11 @@ void checkBuffers(const CloudRig& rig) {
          {&w.masks, &w.listed, &w.list, &w.counters, &w.points, &s.counters, &s.listed}) {
         CHECK(built(*b) == plan.cloud);
     }
-    for (const gpu::Buffer* b :
-         {&w.spheres, &w.classes, &w.begins, &s.packed, &s.tags, &s.bits, &s.nodes, &s.nodeCounts}) {
+    for (const gpu::Buffer* b : {&w.spheres, &w.classes, &w.begins, &s.bits, &s.nodes, &s.nodeCounts}) {
         CHECK(built(*b) == plan.spheres);
+    }
+    for (const gpu::Buffer* b : {&s.packed, &s.tags}) {
+        CHECK(built(*b) == plan.pack);
     }
     CHECK(built(s.moments) == plan.moments);
     CHECK((built(s.points) && built(s.masks)) == plan.guidancePoints);

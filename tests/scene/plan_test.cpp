@@ -82,7 +82,9 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     plan = planOf(scene);
     CHECK((plan.spheres && plan.thin && plan.hold && !plan.moments && !plan.colour && !plan.box));
     CHECK(plan.query == Plan::Query::Cpu);
-    CHECK(plan.dispatchesPerFrame() == 7);
+    CHECK(plan.dispatchesPerFrame() == 6);
+    const Plan behindBus = planOf(scene, cameraOf(640, 480), DeviceKind::Discrete);
+    CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 7));
     CHECK(plan.filterRadius == 2);
     CHECK(plan.edge);
 
@@ -90,7 +92,7 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     plan = planOf(scene);
     CHECK_FALSE((plan.thin || plan.hold || plan.edge || plan.tiled));
     CHECK(plan.filterRadius == 0);
-    CHECK(plan.dispatchesPerFrame() == 6);
+    CHECK(plan.dispatchesPerFrame() == 5);
 
     scene.fixtures.push_back(points(Role::Guidance));
     scene.fixtures[1].lightness = Band{0.1, 0.9};
@@ -109,7 +111,7 @@ TEST_CASE("Occlusion, colour and rays follow the camera") {
     CHECK_FALSE(planOf(scene, camera).occlusion); // no class asks for colour
     scene.fixtures[0].hue = Band{350, 10};
     CHECK(planOf(scene, camera).occlusion);
-    CHECK(planOf(scene, camera).dispatchesPerFrame() == 8);
+    CHECK(planOf(scene, camera).dispatchesPerFrame() == 7);
     camera.registered = true;
     CHECK_FALSE(planOf(scene, camera).occlusion);
     CHECK(planOf(scene, camera).colour);
@@ -153,7 +155,7 @@ TEST_CASE("Every item says why, what is left out takes no memory, what is in tak
     CameraInfo camera = cameraOf(428, 240);
     camera.depth.distortion[0] = 0.1;
     camera.registered = false;
-    const Plan everything = planOf(all, camera), nothing = planOf(sceneOf({}), camera);
+    const Plan everything = planOf(all, camera, DeviceKind::Discrete), nothing = planOf(sceneOf({}), camera);
     CHECK(everything.items.size() == nothing.items.size());
     std::set<std::string> names;
     for (const Plan* plan : {&everything, &nothing}) {
