@@ -3,11 +3,15 @@
 
 #include "engine/contact/clones.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace fathom {
 
 namespace {
+
+constexpr uint32_t kBlock = 32; // slots that one step of the kernel takes, marks being bytes
+constexpr uint32_t kFew = 5;    // up to here one by one is faster than a step
 
 FATHOM_CLONES
 void markKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
@@ -22,11 +26,19 @@ void markKernel(const float* __restrict x, const float* __restrict y, const floa
     }
 }
 
+// Runs of a grid are short, and what a step leaves over is done one by one, six times slower. So slots beyond
+// the run are tested with it, as exactly as all: whether a slot is marked does not depend on the run.
+uint32_t wholeSteps(uint32_t begin, uint32_t end, uint32_t slots) noexcept {
+    const uint32_t count = end - begin;
+    return count <= kFew ? count : std::min((count + kBlock - 1) / kBlock * kBlock, slots - begin);
+}
+
 } // namespace
 
 void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid,
                    std::vector<uint32_t>& found) {
     marks_.assign((grid.size() + 7) / 8 * 8, 0);
+    const auto slots = static_cast<uint32_t>(grid.size());
     for (size_t i = 0; i < leaves.x.size(); ++i) {
         const float limit = reach + leaves.radius[i];
         // The grid answers in float64: its box is wider than all that float32 may round inward.
@@ -34,8 +46,8 @@ void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& gri
         const dvec3 centre(leaves.x[i], leaves.y[i], leaves.z[i]);
         grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
             markKernel(grid.x().data() + begin, grid.y().data() + begin, grid.z().data() + begin,
-                       grid.radius().data() + begin, end - begin, leaves.x[i], leaves.y[i], leaves.z[i],
-                       limit, marks_.data() + begin);
+                       grid.radius().data() + begin, wholeSteps(begin, end, slots), leaves.x[i], leaves.y[i],
+                       leaves.z[i], limit, marks_.data() + begin);
         });
     }
     found.clear();

@@ -22,12 +22,14 @@ public:
     void query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                const RegionGrid& grid, ContactSet& out);
 
+    // The first step of query() alone: the index of every such sphere, each once, in the grid's order.
+    // leaves: poseLeaves() about the set's origin.
+    void cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found);
+
     const QueryStatistics& statistics() const { return loop_.statistics(); }
     const QueryCapacity& capacity() const { return loop_.capacity(); }
 
 private:
-    void cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found);
-
     QueryLoop loop_;
     std::vector<uint8_t> marks_; // by slot of the grid
 };
