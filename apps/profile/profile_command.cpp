@@ -30,6 +30,10 @@ void checkNames(const Settings& settings) {
     for (const std::string& name : settings.studies) {
         const auto named = [&](const StudyEntry& entry) { return name == entry.name; };
         if (std::none_of(allStudies().begin(), allStudies().end(), named)) {
+            if (name == "peers") {
+                throw BadInput("profile", "STUDY", "'peers' is not in this build",
+                               "a build with -DFATHOM_PEERS=ON, which './run peers' makes and runs");
+            }
             throw BadInput("profile", "STUDY", "'" + name + "'", studyNames());
         }
     }

@@ -7,7 +7,11 @@ const std::vector<StudyEntry>& allStudies() {
     static const std::vector<StudyEntry> studies{
         {"filter", filterStudy},   {"fixture", fixtureStudy},    {"query", queryStudy},
         {"solver", solverStudy},   {"tool", toolStudy},          {"precision", precisionStudy},
-        {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy}};
+        {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy},
+#ifdef FATHOM_PEERS
+        {"peers", peersStudy}
+#endif
+    };
     return studies;
 }
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which region spheres lie within reach of the tool: our grid on the CPU, our tree on the GPU, and the trees
+// of others, on the same spheres, leaves and poses.
+#include "apps/profile/peers/nearby_oracle.h"
+#include "apps/profile/peers/peers.h"
+#include "apps/profile/peers_rows.h"
+#include "apps/profile/shot_source.h"
+
+#include "engine/cloud/tree_query.h"
+#include "engine/contact/cull_cpu.h"
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kReach = 0.01;        // [m]
+constexpr double kRegionRadius = 0.02; // [m]
+constexpr size_t kPoses = 8;           // a timed sample is one query at each
+
+Scene everyPoint() {
+    Scene scene;
+    FixtureClass all;
+    all.name = "all";
+    all.radius = kRegionRadius;
+    scene.fixtures = {all};
+    scene.errorBudget = 0.0;
+    scene.holdSeconds = 0.0;
+    scene.filter.radius = 0;
+    scene.filter.edge = 0.0;
+    scene.contact.where = Scene::Contact::Where::Gpu; // the set then has what both ways need
+    return scene;
+}
+
+// One set of spheres, and the device's copy of it.
+struct Rig {
+    FrameBench bench;
+    double treeMs; // device time of the passes that make spheres and tree, p50
+
+    Rig(const StudyContext& context, const ShotSource& source)
+        : bench(context.device, everyPoint(), source.camera)
+        , treeMs(treeTime(bench.measure(source.shots, context.settings.effort()))) {}
+    static double treeTime(const FrameCost& cost) {
+        const auto spheres = cost.passes.find("spheres"), tree = cost.passes.find("tree");
+        return spheres != cost.passes.end() && tree != cost.passes.end()
+                   ? spheres->second.p50 + tree->second.p50
+                   : NAN;
+    }
+    const Fixtures& host() const { return bench.set().host; }
+};
+
+// One tool at several poses, from just in touch to 20 mm deep, and what is true there.
+struct Workload {
+    Tool tool;
+    std::vector<Pose> poses;
+    std::vector<PosedLeaves> leaves;
+    std::vector<std::vector<double>> gaps;
+    double found = 0.0; // mean
+
+    Workload(const Rig& rig, const Pose& camera, uint32_t leafCount)
+        : tool(ballTool(leafCount)) {
+        const Pose touch = touchingPose(ballTool(256), rig.host(), camera);
+        for (size_t i = 0; i < kPoses; ++i) {
+            const double across = 0.04 * (static_cast<double>(i) - 3.5);
+            const double deep = 0.02 * static_cast<double>(i * 3 % kPoses) / (kPoses - 1.0);
+            Pose& pose = poses.emplace_back(touch);
+            pose.position += camera.rotation * dvec3(across, -0.5 * across, deep);
+            poseLeaves(tool, pose, rig.host().origin, leaves.emplace_back());
+            gaps.push_back(peers::nearbyGaps(rig.host().spheres, leaves.back(), kReach));
+            for (const double gap : gaps.back()) {
+                found += gap <= 0.0 ? 1.0 / kPoses : 0.0;
+            }
+        }
+    }
+};
+
+// Answers query(pose index, found) at every pose, counts what differs from float64, then times it.
+template <class Query>
+void answerAndTime(const StudyContext& context, const Workload& work, Query&& query, StudyRow& row) {
+    std::vector<uint32_t> found;
+    row.error = row.more[kTies] = 0.0;
+    for (size_t i = 0; i < kPoses; ++i) {
+        query(i, found);
+        const peers::Disagreement d = peers::disagreement(work.gaps[i], found);
+        row.error += static_cast<double>(d.differ);
+        row.more[kTies] += static_cast<double>(d.ties);
+    }
+    row.more[kFound] = work.found;
+    row.cost = timeCpu(context.settings.effort(), [&] {
+        for (size_t i = 0; i < kPoses; ++i) {
+            query(i, found);
+        }
+    });
+    for (Spread* s : {&row.cost.submit, &row.cost.cpu}) {
+        s->p50 /= kPoses, s->p90 /= kPoses, s->p99 /= kPoses;
+    }
+}
+
+void demandRight(const StudyRow& row) {
+    verify(row.error == 0.0, "peers", row.source + ", " + row.setting,
+           digits(row.error) + " spheres differ from float64");
+}
+
+StudyRow ourGrid(const StudyContext& context, const Rig& rig, const Workload& work,
+                 const std::string& source) {
+    StudyRow row = peerRow(source, "Fathom CPU grid");
+    RegionGrid grid;
+    row.more[kBuild] = timeCpu(context.settings.effort(), [&] { grid.build(rig.host().spheres); }).submit.p50;
+    row.more[kThreads] = 1.0;
+    row.isDefault = true;
+    CullCpu cull;
+    answerAndTime(
+        context, work,
+        [&](size_t i, std::vector<uint32_t>& found) {
+            cull.cull(work.leaves[i], static_cast<float>(kReach), grid, found);
+        },
+        row);
+    demandRight(row);
+    return row;
+}
+
+// What a turn really gets: the same set sorted, with all pairs, certified. An overflow halves the reach: then
+// it is another question and its answer is not compared.
+StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workload& work,
+                        const std::string& source) {
+    StudyRow row = peerRow(source, "Fathom CPU whole answer");
+    row.more[kThreads] = 1.0;
+    CullCpu cull;
+    ContactSet set;
+    answerAndTime(
+        context, work,
+        [&](size_t i, std::vector<uint32_t>&) {
+            cull.query(work.tool, work.poses[i], kReach, rig.host(), rig.bench.set().grid, set);
+        },
+        row);
+    row.error = row.more[kTies] = NAN;
+    return row;
+}
+
+StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& work,
+                 const std::string& source) {
+    StudyRow row = peerRow(source, "Fathom GPU tree");
+    cloud::TreeQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
+                           rig.bench.cycle().sets(), work.tool, 1u << 21);
+    row.more[kBuild] = rig.treeMs;
+    row.more[kThreads] = deviceThreads(context.device);
+    answerAndTime(
+        context, work,
+        [&](size_t i, std::vector<uint32_t>& found) {
+            verify(
+                query.cull(rig.bench.set(), work.leaves[i], work.poses[i], static_cast<float>(kReach), found),
+                "peers", row.setting, "overflow");
+        },
+        row);
+    demandRight(row);
+    return row;
+}
+
+// A peer with its tree over one set.
+struct BuiltPeer {
+    peers::Way<peers::CollisionPeer> way;
+    std::unique_ptr<peers::CollisionPeer> peer;
+    double buildMs;
+};
+
+std::vector<BuiltPeer> buildPeers(const StudyContext& context, const RegionSpheres& spheres) {
+    const Effort effort = context.settings.quick ? Effort{3, 10, 0.05} : Effort{5, 50, 0.4};
+    std::vector<BuiltPeer> built;
+    for (auto& way : peers::collisionWays()) {
+        auto peer = way.make();
+        const double ms = timeCpu(effort, [&] { peer->build(spheres); }).submit.p50;
+        built.push_back({std::move(way), std::move(peer), ms});
+    }
+    return built;
+}
+
+void addSource(const StudyContext& context, const ShotSource& shots, const std::vector<uint32_t>& tools,
+               std::vector<StudyRow>& rows) {
+    const Rig rig(context, shots);
+    if (rig.host().spheres.size() == 0) {
+        return;
+    }
+    const auto built = buildPeers(context, rig.host().spheres);
+    for (const uint32_t leaves : tools) {
+        const Workload work(rig, shots.shots.front().baseTcamera, leaves);
+        const std::string source = kContactPrefix +
+                                   digits(static_cast<double>(rig.host().spheres.size()) / 1000.0, 4) +
+                                   " k spheres x " + std::to_string(leaves) + " leaves";
+        const size_t first = rows.size();
+        rows.push_back(ourGrid(context, rig, work, source));
+        rows.push_back(ourTree(context, rig, work, source));
+        rows.push_back(ourWholeAnswer(context, rig, work, source));
+        for (const BuiltPeer& b : built) {
+            StudyRow row = peerRow(source, b.way.name);
+            row.more[kBuild] = b.buildMs;
+            row.more[kThreads] = b.way.threads;
+            answerAndTime(
+                context, work,
+                [&](size_t i, std::vector<uint32_t>& found) {
+                    b.peer->query(work.leaves[i], static_cast<float>(kReach), found);
+                },
+                row);
+            rows.push_back(std::move(row));
+        }
+        fillRatios(rows, first, first, first + 1);
+    }
+}
+
+} // namespace
+
+void addPeerCollision(const StudyContext& context, std::vector<StudyRow>& rows) {
+    const bool quick = context.settings.quick;
+    const std::vector<uint32_t> tools =
+        quick ? std::vector<uint32_t>{1, 64} : std::vector<uint32_t>{1, 64, 1024};
+    if (!context.settings.source.empty()) {
+        addSource(context, recordedShots(context.settings.source, 1), tools, rows);
+        return;
+    }
+    using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
+    for (const auto& [width, height] :
+         quick ? Sizes{{40, 25}, {128, 80}} : Sizes{{40, 25}, {128, 80}, {400, 250}}) {
+        addSource(context, wallShot(width, height, 1.0), tools, rows);
+    }
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// Smoothing depth and making points: our surface pass and its float64 twin beside OpenCV and PCL.
+#include "apps/profile/peers/peers.h"
+#include "apps/profile/peers_rows.h"
+#include "apps/profile/shot_source.h"
+
+#include "engine/reference/surface.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kSamePoint = 2e-5; // [m]
+constexpr double kEdgeJump = 0.02;  // relative jump of depth that makes an edge
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+// Every measured point, nothing else to do: classify and moments are all that runs beside the pass.
+Scene everyPoint(uint32_t radius, double edge) {
+    Scene scene;
+    FixtureClass all;
+    all.name = "all";
+    all.role = Role::Guidance;
+    scene.fixtures = {all};
+    scene.holdSeconds = 0.0;
+    scene.filter.radius = radius;
+    scene.filter.edge = edge;
+    return scene;
+}
+
+// The pass by device time (all that the device did, where it has no clock), the frame by submit to result.
+Cost passCost(const FrameCost& cost) {
+    Cost out = cost.frame;
+    const auto surface = cost.passes.find("surface");
+    out.gpu = surface != cost.passes.end() ? surface->second : out.gpu;
+    return out;
+}
+
+// Measured depths [m], not a number where there is none.
+std::vector<float> measured(const reference::FrameView& view) {
+    std::vector<float> z;
+    for (int v = 0; v < view.height(); ++v) {
+        for (int u = 0; u < view.width(); ++u) {
+            const double depth = view.z(u, v);
+            z.push_back(depth > 0.0 ? static_cast<float>(depth) : kNone);
+        }
+    }
+    return z;
+}
+
+// Pixels whose whole window is measured and without a jump: there all filters are meant to do the same.
+std::vector<uint8_t> flatPixels(const reference::FrameView& view, int radius) {
+    std::vector<uint8_t> flat(view.pixels(), 0);
+    for (int v = radius; v + radius < view.height(); ++v) {
+        for (int u = radius; u + radius < view.width(); ++u) {
+            const double z0 = view.z(u, v);
+            bool ok = z0 > 0.0;
+            for (int k = 0; ok && k < (2 * radius + 1) * (2 * radius + 1); ++k) {
+                const double z = view.z(u - radius + k % (2 * radius + 1), v - radius + k / (2 * radius + 1));
+                ok = z > 0.0 && std::abs(z - z0) <= kEdgeJump * z0;
+            }
+            flat[view.index(u, v)] = ok ? 1 : 0;
+        }
+    }
+    return flat;
+}
+
+// [mm] over the flat pixels at which both have a depth; not a number where there are none.
+template <class A, class B>
+double rmsBetween(const std::vector<A>& a, const std::vector<B>& b, const std::vector<uint8_t>& flat) {
+    double squares = 0.0, count = 0.0;
+    for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+        if (flat[i] != 0 && a[i] > 0 && b[i] > 0) { // not a number is not
+            const double off = 1e3 * (static_cast<double>(a[i]) - static_cast<double>(b[i]));
+            squares += off * off;
+            count += 1.0;
+        }
+    }
+    return count > 0.0 ? std::sqrt(squares / count) : NAN;
+}
+
+double medianOf(std::vector<float> z) {
+    std::erase_if(z, [](float value) { return std::isnan(value); });
+    if (z.empty()) {
+        return 1.0;
+    }
+    std::nth_element(z.begin(), z.begin() + static_cast<std::ptrdiff_t>(z.size() / 2), z.end());
+    return z[z.size() / 2];
+}
+
+StudyRow twinRow(const StudyContext& context, const reference::FrameView& view, const std::string& source,
+                 std::vector<double>& z) {
+    StudyRow row = peerRow(source, "Fathom float64 twin");
+    const std::vector<uint32_t> masks(view.pixels(), 1);
+    reference::SurfacePicture twin;
+    const Effort few{3, 5, 0.2};
+    row.cost = timeCpu(context.settings.quick ? Effort{1, 1, 0.0} : few,
+                       [&] { twin = reference::surface(view, masks); });
+    row.more[kThreads] = 1.0;
+    z = twin.points.z;
+    return row;
+}
+
+void addFilter(const StudyContext& context, const ShotSource& shots, uint32_t radius,
+               std::vector<StudyRow>& rows) {
+    const std::string window = std::to_string(2 * radius + 1);
+    const std::string source = "filter " + shots.name + " " + window + "x" + window;
+    const Shot& shot = shots.shots.front();
+    const Scene scene = everyPoint(radius, Scene{}.filter.edge);
+    FrameBench bench(context.device, scene, shots.camera);
+    bench.run(shot);
+    const std::string wrong = bench.differsFromTwins(shot);
+    verify(wrong.empty(), "peers", source, wrong + " differs from the float64 twin");
+    const std::vector<double> ours = bench.points().z;
+    const reference::FrameView view(scene, shots.camera, shot.baseTcamera, shot.depth, shot.colour);
+    const std::vector<float> raw = measured(view);
+    const std::vector<uint8_t> flat = flatPixels(view, static_cast<int>(radius));
+    const size_t first = rows.size();
+    const auto judge = [&](StudyRow& row, const auto& z) {
+        row.more[kFromOurs] = rmsBetween(z, ours, flat);
+        row.more[kFromTruth] = rmsBetween(z, shot.truth, flat);
+        rows.push_back(row);
+    };
+    StudyRow row = peerRow(source, "Fathom surface pass");
+    row.cost = passCost(bench.measure({shot}, context.settings.effort()));
+    row.error = 0.0;
+    row.isDefault = true;
+    row.more[kThreads] = deviceThreads(context.device);
+    judge(row, ours);
+    std::vector<double> twin;
+    row = twinRow(context, view, source, twin);
+    judge(row, twin);
+    // The same Gaussian as ours for a surface square to the view at the middle depth.
+    const double pixels = scene.filter.sigma * shots.camera.depth.fx / medianOf(raw);
+    for (const auto& way : peers::filterWays(radius, pixels, scene.filter.sigma)) {
+        const auto peer = way.make();
+        peer->load({shots.camera.depth, raw});
+        row = peerRow(source, way.name);
+        row.cost = timeCpu(context.settings.effort(), [&] { peer->run(); });
+        row.more[kThreads] = way.threads;
+        judge(row, peer->depths());
+    }
+    fillRatios(rows, first, first, first);
+}
+
+// Points that are not where the pixel's ray and depth put them, or are there without a measurement, or
+// missing.
+size_t wrongPoints(const reference::FrameView& view, const std::vector<dvec3>& points,
+                   const std::function<bool(size_t)>& present) {
+    size_t wrong = 0;
+    for (int v = 0; v < view.height(); ++v) {
+        for (int u = 0; u < view.width(); ++u) {
+            const size_t i = view.index(u, v);
+            const double z = view.z(u, v);
+            wrong += present(i) != (z > 0.0) ||
+                     (z > 0.0 && !(glm::length(points[i] - view.point(u, v, z)) <= kSamePoint));
+        }
+    }
+    return wrong;
+}
+
+} // namespace
+
+double deviceThreads(const gpu::Device& device) {
+    return device.facts().kind == DeviceKind::Cpu ? static_cast<double>(std::thread::hardware_concurrency())
+                                                  : NAN;
+}
+
+void addPeerFilters(const StudyContext& context, std::vector<StudyRow>& rows) {
+    for (ShotSource& shots : studySources(context.settings, {"plane", "torus"}, 1)) {
+        if (shots.shots.empty()) {
+            continue;
+        }
+        for (const uint32_t radius :
+             context.settings.quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 5}) {
+            addFilter(context, shots, radius, rows);
+        }
+    }
+}
+
+void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
+    ShotSource shots = context.settings.quick ? wallShot(320, 240, 1.0) : wallShot(640, 480, 1.0);
+    Shot& shot = shots.shots.front();
+    for (size_t i = 0; i < shot.depth.size(); ++i) { // whole millimetres, and holes
+        shot.depth[i] = static_cast<uint16_t>(i % 97 == 0 ? 0 : shot.depth[i] / 10);
+    }
+    shots.camera.metresPerUnit = 0.001;
+    const std::string source = "points " + shots.name;
+    const Scene scene = everyPoint(0, 0.0);
+    FrameBench bench(context.device, scene, shots.camera);
+    bench.run(shot);
+    const reference::FrameView view(scene, shots.camera, shot.baseTcamera, shot.depth, shot.colour);
+    const reference::PointPicture ours = bench.points();
+    const size_t first = rows.size();
+    StudyRow row = peerRow(source, "Fathom surface pass");
+    row.error = static_cast<double>(wrongPoints(view, ours.at, [&](size_t i) { return ours.z[i] > 0.0; }));
+    verify(row.error == 0.0, "peers", source, digits(row.error) + " points differ from float64");
+    row.cost = passCost(bench.measure({shot}, context.settings.effort()));
+    row.more[kThreads] = deviceThreads(context.device);
+    row.isDefault = true;
+    rows.push_back(row);
+    for (const auto& way : peers::pointWays()) {
+        const auto peer = way.make();
+        peer->load(shots.camera.depth, shot.depth);
+        peer->run();
+        const std::vector<dvec3> points = peer->points();
+        row = peerRow(source, way.name);
+        row.error =
+            static_cast<double>(wrongPoints(view, points, [&](size_t i) { return points[i].z > 0.0; }));
+        row.cost = timeCpu(context.settings.effort(), [&] { peer->run(); });
+        row.more[kThreads] = way.threads;
+        rows.push_back(row);
+    }
+    fillRatios(rows, first, first, first);
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom profile peers` from outside: refused with the way to it where the libraries of others are not built
+// in, and where they are, that all of them answer what float64 says.
+#include "apps/profile/studies.h"
+#include "tests/apps/scratch_folder.h"
+#include "tests/program/run_fathom.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <map>
+#include <nlohmann/json.hpp>
+
+using namespace fathom;
+using fathom::testing::ScratchFolder;
+using fathom::testing::textOf;
+
+namespace {
+
+bool builtIn() {
+    const auto& all = profile::allStudies();
+    return std::any_of(all.begin(), all.end(),
+                       [](const auto& entry) { return entry.name == std::string("peers"); });
+}
+
+bool startsWith(const std::string& text, const std::string& head) {
+    return text.compare(0, head.size(), head) == 0;
+}
+
+} // namespace
+
+TEST_CASE(
+    "A program without the libraries of others refuses to measure beside them in one line that says how") {
+    if (builtIn()) {
+        MESSAGE("this build has them");
+        return;
+    }
+    const ScratchFolder folder;
+    const ProgramRun run = runFathom({"profile", "peers", "--out", (folder.path() / "out").string()});
+    CHECK(run.exitCode == 2);
+    REQUIRE(run.errorLines().size() == 1);
+    CHECK(run.errorLines().front() ==
+          "fathom: profile: STUDY: 'peers' is not in this build (allowed: a build with "
+          "-DFATHOM_PEERS=ON, which './run peers' makes and runs)");
+}
+
+TEST_CASE("Every library answers every source as float64 does, and stands beside ours with its ratio") {
+    if (!builtIn()) {
+        MESSAGE("SKIPPED ALOUD: built without -DFATHOM_PEERS=ON");
+        return;
+    }
+    const ScratchFolder folder;
+    const auto out = folder.path() / "out";
+    const ProgramRun run =
+        runFathom({"--device", "llvmpipe", "profile", "peers", "--quick", "--out", out.string()});
+    REQUIRE(run.exitCode == 0);
+    CHECK(std::filesystem::file_size(out / "peers.csv") > 1000);
+    CHECK(std::filesystem::file_size(out / "peers.png") > 1000);
+    const auto report = nlohmann::json::parse(textOf(out / "profile.json"));
+    const auto& study = report["studies"][0];
+    std::map<std::string, int> answers; // by the first word of the setting, those that were compared
+    for (const auto& row : study["rows"]) {
+        const std::string source = row["source"], setting = row["setting"];
+        CAPTURE(source);
+        CAPTURE(setting);
+        CHECK(row["ratio_to_ours"].get<double>() > 0.0);
+        CHECK((!row["default"].get<bool>() || row["ratio_to_ours"].get<double>() == 1.0));
+        if (startsWith(source, "filter ")) {
+            CHECK(row["rms_from_truth_mm"].get<double>() < 1.0);
+            CHECK(row["rms_from_ours_mm"].get<double>() < 1.0);
+        } else if (setting != "Fathom CPU whole answer") {
+            CHECK(row["error"].get<double>() == 0.0);
+            ++answers[setting.substr(0, setting.find(' '))];
+        }
+        if (startsWith(source, "contact ")) {
+            CHECK(row["found_mean"].get<double>() > 0.0);
+        }
+    }
+    for (const char* library : {"Fathom", "OpenCV", "PCL", "Embree", "FCL", "Bullet"}) {
+        CHECK_MESSAGE(answers[library] > 0, library);
+    }
+}
