@@ -188,7 +188,6 @@ void addSource(const StudyContext& context, const ShotSource& shots, const std::
         const size_t first = rows.size();
         rows.push_back(ourGrid(context, rig, work, source));
         rows.push_back(ourTree(context, rig, work, source));
-        rows.push_back(ourWholeAnswer(context, rig, work, source));
         for (const BuiltPeer& b : built) {
             StudyRow row = peerRow(source, b.way.name);
             row.more[kBuild] = b.buildMs;
@@ -201,6 +200,7 @@ void addSource(const StudyContext& context, const ShotSource& shots, const std::
                 row);
             rows.push_back(std::move(row));
         }
+        rows.push_back(ourWholeAnswer(context, rig, work, source));
         fillRatios(rows, first, first, first + 1);
     }
 }
