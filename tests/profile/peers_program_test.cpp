@@ -45,7 +45,7 @@ TEST_CASE(
 
 TEST_CASE("Every library answers every source as float64 does, and stands beside ours with its ratio") {
     if (!builtIn()) {
-        MESSAGE("SKIPPED ALOUD: built without -DFATHOM_PEERS=ON");
+        MESSAGE("built without -DFATHOM_PEERS=ON: see ./run peers --test");
         return;
     }
     const ScratchFolder folder;
