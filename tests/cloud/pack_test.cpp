@@ -62,8 +62,9 @@ void checkPacked(const CloudRig& rig) {
 
 TEST_CASE("What the host reads has every sphere of every slot once, in order, at sizes that are not whole "
           "patches") {
-    for (const auto& [width, height] :
-         {std::pair{1u, 1u}, {16u, 16u}, {17u, 33u}, {67u, 41u}, {320u, 240u}}) {
+    for (const glm::uvec2 size :
+         std::initializer_list<glm::uvec2>{{1, 1}, {16, 16}, {17, 33}, {67, 41}, {320, 240}}) {
+        const uint32_t width = size.x, height = size.y;
         CAPTURE(width);
         CAPTURE(height);
         const CameraInfo camera = pinholeCamera(width, height);
