@@ -15,6 +15,24 @@ namespace {
 
 constexpr double kWall = 0.2, kRadius = 0.04, kCircle = 0.08; // [m]
 
+double bulge(double x, double y) {
+    return 0.01 * std::sin(20.0 * x) * std::cos(17.0 * y);
+}
+
+// Height [m] over the bulging wall of a ball's centre that touches it; `radius` with the wall's own spheres.
+double ballOver(double x, double y, double radius) {
+    constexpr double kStep = 0.002; // [m]; the surface's slope is 0.2 at most, where it touches
+    constexpr int kSteps = 12;
+    double height = -HUGE_VAL;
+    for (int j = -kSteps; j <= kSteps; ++j) {
+        for (int i = -kSteps; i <= kSteps; ++i) {
+            const double dx = kStep * i, dy = kStep * j;
+            height = std::max(height, bulge(x + dx, y + dy) + std::sqrt(radius * radius - dx * dx - dy * dy));
+        }
+    }
+    return height;
+}
+
 // 40 x 40 cm of a noisy, bulging wall whose spheres have a radius of 4 cm.
 Fixtures wall(double spacing) {
     Fixtures f;
@@ -29,7 +47,7 @@ Fixtures wall(double spacing) {
                 3e-4 * (std::fmod(std::abs(std::sin(i * 12.9898 + j * 78.233) * 43758.5453), 1.0) - 0.5);
             s.x.push_back(static_cast<float>(x));
             s.y.push_back(static_cast<float>(y));
-            s.z.push_back(static_cast<float>(0.01 * std::sin(20.0 * x) * std::cos(17.0 * y) + noise));
+            s.z.push_back(static_cast<float>(bulge(x, y) + noise));
             s.radius.push_back(static_cast<float>(kRadius));
             s.source.push_back(static_cast<uint32_t>(s.source.size()));
             s.fixture.push_back(0);
@@ -53,7 +71,8 @@ public:
         , own_(ballTool(setting.leaves))
         , tool_(setting.tool != nullptr ? *setting.tool : own_)
         , wall_(wall(setting.spacing))
-        , proxy_(tool_, {}, setting.proxy, {dvec3(kCircle, 0, 0.5), dquat(1, 0, 0, 0)}) {
+        , proxy_(tool_, {}, setting.proxy, {dvec3(kCircle, 0, 0.5), dquat(1, 0, 0, 0)})
+        , reach_(tool_.boundingRadius() + kRadius) {
         grid_.build(wall_.spheres);
         land();
         answer();
@@ -91,7 +110,10 @@ private:
 
     Pose handAt(uint32_t tick, double height) const {
         const double angle = setting_.speed / kCircle * 0.001 * tick;
-        return {dvec3(kCircle * std::cos(angle), kCircle * std::sin(angle), height), dquat(1, 0, 0, 0)};
+        const double x = kCircle * std::cos(angle), y = kCircle * std::sin(angle);
+        const double up =
+            setting_.follow && tick > 0 ? ballOver(x, y, reach_) - ballOver(kCircle, 0.0, reach_) : 0.0;
+        return {dvec3(x, y, height + up), dquat(1, 0, 0, 0)};
     }
 
     void answer() {
@@ -123,6 +145,7 @@ private:
     void note(uint32_t k, const Pose& hand, const ProxyTurn& turn) {
         result_.stalled += turn.stalled ? 1 : 0;
         result_.solves += turn.solves;
+        result_.rounds += turn.rounds;
         result_.contacts += turn.contact ? 1 : 0;
         dvec3 behind = hand.position - proxy_.pose().position;
         behind.z = 0.0; // the wall holds the tool off: that is no lag
@@ -143,6 +166,7 @@ private:
     ContactSet inForce_;
     std::deque<Pending> pending_;
     uint32_t now_ = 0;
+    double reach_ = 0.0; // [m] from the tool's centre to the wall's points, in touch
     double height_ = 0.0, lag_ = 0.0;
     std::vector<double> queries_, turns_;
     DragResult result_;

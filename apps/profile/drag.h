@@ -16,6 +16,7 @@ struct DragSetting {
     double reach = 0.01;        // [m]
     double speed = 0.5;         // [m/s] of the hand along its circle
     double press = 0.002;       // [m] that the hand is deeper than the touch
+    bool follow = false;        // the hand goes up and down with the wall: pressed all the way round
     ProxyOptions proxy;         // step cap, solves
     double deadlineMicros = 0;  // of a turn; 0 = none
     double spacing = 0.00175;   // [m] of the wall's spheres
@@ -26,13 +27,13 @@ struct DragResult {
     Spread query, turn;    // [ms]
     double lagRms = 0.0;   // [m] of the tool behind the hand along the wall, over all ticks
     double deepest = -1.0; // [m] of any leaf in any sphere, over the ticks looked at; < 0 = clear
-    uint64_t stalled = 0, solves = 0, contacts = 0;
+    uint64_t stalled = 0, solves = 0, rounds = 0, contacts = 0;
     size_t spheres = 0;
     std::vector<Pose> poses; // after each tick
 };
 
-// The same hand path for equal settings of leaves, speed, press and ticks. Every 64th tick and the last are
-// judged by brute force.
+// The same hand path for equal settings of leaves, speed, press, follow and ticks. Every 64th tick and the
+// last are judged by brute force.
 DragResult drag(const DragSetting& setting);
 
 } // namespace fathom::profile

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pose error to the converged optimum, and lag, against the time of a turn: solves a turn, step cap,
-// deadline.
+// Pose error to the converged optimum, and lag, against the time of a turn: solves a turn, step cap, which
+// rows a solve gets, deadline.
 #include "apps/profile/drag.h"
 #include "apps/profile/studies.h"
 
@@ -8,17 +8,31 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kMetric = 0.05;    // [m] that a radian counts
-constexpr double kConverged = 1e-7; // [m] that twice the solves may still change
+constexpr double kMetric = 0.05;      // [m] that a radian counts
+constexpr double kConverged = 1e-7;   // [m] that twice the solves may still change
+constexpr double kSameOptimum = 1e-7; // [m] rounding, carried on from tick to tick
 
 struct Setting {
     uint32_t solves;
-    double cap;      // [m]
-    double deadline; // [us], 0 = none
+    double cap;            // [m]
+    double deadline = 0.0; // [us], 0 = none
+    RowReduction rows = {};
 };
 
+// What differs from the default, in words.
+std::string rowsOf(const RowReduction& rows) {
+    const RowReduction usual;
+    std::string text;
+    text += rows.reach != usual.reach ? ", rows to " + digits(rows.reach) + " caps" : "";
+    text += rows.cone != usual.cone ? ", cone " + digits(rows.cone * 180.0 / M_PI) + " deg" : "";
+    if (rows.first != usual.first) {
+        text += ", " + std::to_string(rows.first) + " rows" + (rows.checked ? " first" : " only");
+    }
+    return text;
+}
+
 std::string nameOf(const Setting& s) {
-    return std::to_string(s.solves) + " solves, cap " + digits(s.cap * 1e3) + " mm" +
+    return std::to_string(s.solves) + " solves, cap " + digits(s.cap * 1e3) + " mm" + rowsOf(s.rows) +
            (s.deadline > 0.0 ? ", " + digits(s.deadline) + " us" : "");
 }
 
@@ -30,7 +44,9 @@ DragSetting dragOf(const StudyContext& context, double speed, const Setting& s) 
     d.spacing = context.settings.quick ? 0.004 : 0.00175;
     d.proxy.solves = s.solves;
     d.proxy.stepCap = s.cap;
+    d.proxy.rows = s.rows;
     d.deadlineMicros = s.deadline;
+    d.follow = true;
     return d;
 }
 
@@ -54,12 +70,37 @@ Apart apartAll(const DragResult& a, const DragResult& b) {
     return result;
 }
 
+// The default's rows reduced: culled by reach, merged where they are nearly parallel, the most binding first
+// with a look at the rest, or the most binding alone.
+std::vector<RowReduction> reductionsOf(bool quick) {
+    constexpr double kDegree = M_PI / 180.0;
+    if (quick) {
+        return {{1.0},
+                {2.0, 60.0 * kDegree},
+                {2.0, NarrowPhase::kCone, 4, true},
+                {2.0, NarrowPhase::kCone, 4, false}};
+    }
+    std::vector<RowReduction> list{{1.0}, {1.5}, {4.0}};
+    for (double cone : {0.0, 10.0, 45.0, 60.0, 90.0}) {
+        list.push_back({2.0, cone * kDegree});
+    }
+    for (bool checked : {true, false}) {
+        for (uint32_t first : {2u, 4u, 8u, 16u, 32u}) {
+            list.push_back({2.0, NarrowPhase::kCone, first, checked});
+        }
+    }
+    return list;
+}
+
 std::vector<Setting> settingsOf(bool quick) {
     std::vector<Setting> list;
     for (uint32_t solves : quick ? std::vector<uint32_t>{1, 4} : std::vector<uint32_t>{1, 2, 4, 8, 16}) {
         for (double cap : quick ? std::vector{0.002} : std::vector{0.0005, 0.001, 0.002, 0.004}) {
-            list.push_back({solves, cap, 0.0});
+            list.push_back({solves, cap});
         }
+    }
+    for (const RowReduction& rows : reductionsOf(quick)) {
+        list.push_back({4, 0.002, 0.0, rows});
     }
     for (double micros : quick ? std::vector{50.0} : std::vector{10.0, 20.0, 50.0, 100.0}) {
         list.push_back({4, 0.002, micros});
@@ -67,29 +108,47 @@ std::vector<Setting> settingsOf(bool quick) {
     return list;
 }
 
+// Solving on few rows with a look at the rest must lead where solving on all does, tick by tick.
+void verifyReduction(const Setting& s, const DragResult& run, const DragResult& usual) {
+    if (s.rows.first == 0 || !s.rows.checked) {
+        return;
+    }
+    const Apart change = apartAll(run, usual);
+    verify(change.max <= kSameOptimum, "solver", nameOf(s),
+           "not the optimum over all rows: the tool is off by " + digits(change.max * 1e6) + " um");
+}
+
+StudyRow rowOf(const std::string& source, const Setting& s, const DragResult& run,
+               const DragResult& optimum) {
+    StudyRow row;
+    row.source = source;
+    row.setting = nameOf(s);
+    row.isDefault = row.setting == nameOf({4, 0.002});
+    verify(run.deepest <= 1e-9, "solver", row.setting,
+           "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
+    const Apart error = apartAll(run, optimum);
+    const double ticks = static_cast<double>(run.poses.size());
+    row.error = error.rms * 1e3;
+    row.cost.submit = row.cost.cpu = run.turn;
+    row.more = {error.max * 1e3,
+                run.lagRms * 1e3,
+                static_cast<double>(run.solves) / ticks,
+                static_cast<double>(run.rounds) / ticks,
+                static_cast<double>(run.stalled),
+                static_cast<double>(run.contacts) / ticks};
+    return row;
+}
+
 void addSpeed(const StudyContext& context, Study& study, double speed) {
-    const Setting full{64, 0.002, 0.0};
-    const DragResult optimum = drag(dragOf(context, speed, full));
-    const Setting twice{128, 0.002, 0.0};
-    const Apart change = apartAll(optimum, drag(dragOf(context, speed, twice)));
+    const DragResult optimum = drag(dragOf(context, speed, {64, 0.002}));
+    const Apart change = apartAll(optimum, drag(dragOf(context, speed, {128, 0.002})));
     verify(change.max <= kConverged, "solver", "64 solves",
            "not converged: twice as many move the tool by " + digits(change.max * 1e6) + " um");
+    const DragResult usual = drag(dragOf(context, speed, {4, 0.002}));
     for (const Setting& s : settingsOf(context.settings.quick)) {
         const DragResult run = drag(dragOf(context, speed, s));
-        StudyRow row;
-        row.source = "hand at " + digits(speed) + " m/s";
-        row.setting = nameOf(s);
-        row.isDefault = s.solves == 4 && s.cap == 0.002 && s.deadline == 0.0;
-        verify(run.deepest <= 1e-9, "solver", row.setting,
-               "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
-        const Apart error = apartAll(run, optimum);
-        row.error = error.rms * 1e3;
-        row.cost.submit = row.cost.cpu = run.turn;
-        row.more = {error.max * 1e3, run.lagRms * 1e3,
-                    static_cast<double>(run.solves) / static_cast<double>(run.poses.size()),
-                    static_cast<double>(run.stalled),
-                    static_cast<double>(run.contacts) / static_cast<double>(run.poses.size())};
-        study.rows.push_back(std::move(row));
+        verifyReduction(s, run, usual);
+        study.rows.push_back(rowOf("hand at " + digits(speed) + " m/s", s, run, optimum));
     }
 }
 
@@ -105,7 +164,8 @@ Study solverStudy(const StudyContext& context) {
     study.errorUnit = "mm";
     study.time = TimeKind::Cpu;
     study.timeName = "turn, CPU time p50";
-    study.moreNames = {"error_max_mm", "lag_rms_mm", "solves_a_turn", "stalled_turns", "share_in_contact"};
+    study.moreNames = {"error_max_mm",        "lag_rms_mm",    "solves_a_turn",
+                       "strengthened_a_turn", "stalled_turns", "share_in_contact"};
     study.defaultReason =
         "the cap of 2 mm and 4 solves let the hand move at 8 m/s; slower hands need less and then take less";
     for (double speed : context.settings.quick ? std::vector{2.0} : std::vector{0.3, 2.0, 6.0}) {

@@ -12,10 +12,9 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostRowsOfLeaf = 8;
-constexpr size_t kMostListed = 65536;            // pairs of a list
-constexpr size_t kLanes = 8;                     // runs of a list are multiples of this
-constexpr float kNowhere = 1e18f;                // [m] where padding lies; its square is far from overflow
-constexpr double kCosCone = 0.86602540378443865; // 30 degrees
+constexpr size_t kMostListed = 65536; // pairs of a list
+constexpr size_t kLanes = 8;          // runs of a list are multiples of this
+constexpr float kNowhere = 1e18f;     // [m] where padding lies; its square is far from overflow
 // Nearer than this there is no direction [m]. Above it the difference of two centres is exact, however small,
 // and only a step along it makes no pair deeper on the way.
 constexpr double kCoincident = 1e-150;
@@ -54,8 +53,9 @@ void NarrowPhase::PairList::pad(uint32_t leaf) noexcept {
     begin[leaf + 1] = count;
 }
 
-NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows)
+NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone)
     : maxRows_(maxRows)
+    , cosCone_(std::cos(cone))
     , rows_(tool.leafCount() * kMostRowsOfLeaf)
     , leaves_(tool.leafCount())
     , wideLeaves_(tool.leafCount())
@@ -192,7 +192,7 @@ void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArr
     const dvec3 centre = leaves_[leaf];
     size_t left = run.count;
     for (size_t r = firstRow; r < rowCount_; ++r) { // chosen from an earlier part of the same leaf
-        left = dropCone(run, centre, rows_[r].normal, kCosCone, rows_[r].gap, limit, gaps_.data());
+        left = dropCone(run, centre, rows_[r].normal, cosCone_, rows_[r].gap, limit, gaps_.data());
     }
     while (left > 0 && rowCount_ < firstRow + kMostRowsOfLeaf) {
         const size_t best = smallestOf(gaps_.data(), run.count);
@@ -203,7 +203,7 @@ void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArr
         const uint32_t pair = pairs != nullptr ? pairs[best] : firstPair + static_cast<uint32_t>(best);
         const ContactRow& row = rows_[rowCount_++] = rowOf(set, leaf, delta, gaps_[best], pair);
         gaps_[best] = std::numeric_limits<double>::infinity(); // even if it has no direction
-        left = dropCone(run, centre, row.normal, kCosCone, row.gap, limit, gaps_.data());
+        left = dropCone(run, centre, row.normal, cosCone_, row.gap, limit, gaps_.data());
     }
 }
 

@@ -22,11 +22,14 @@ public:
     // left.
     static constexpr double kCosHolds = 0.25;
 
-    // Rows are kept to the `maxRows` deepest.
-    NarrowPhase(const Tool& tool, size_t maxRows);
+    static constexpr double kCone = 0.52359877559829887; // [rad] 30 degrees
+
+    // Rows are kept to the `maxRows` deepest. cone [rad], 0..pi/2: how far apart the normals of a leaf's rows
+    // are at least.
+    NarrowPhase(const Tool& tool, size_t maxRows, double cone = kCone);
 
     // Leaf centres are about set.origin [m], one a leaf of the tool. Finds for each leaf, among listed pairs
-    // with gap <= rowLimit, the nearest and the nearest in each further 30 degree normal cone: rows().
+    // with gap <= rowLimit, the nearest and the nearest in each further cone of normals: rows().
     // Remembers all pairs with gap
     // <= checkLimit for check(); checkLimit <= rowLimit. anew: false when the set is the one of the last
     // call, bit by bit: pairs found then are looked at again instead of the whole set, as long as no leaf has
@@ -94,6 +97,7 @@ private:
 
     std::vector<double> radius_; // of the leaves
     size_t maxRows_;
+    double cosCone_;
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
     LeafCentres leaves_;            // of the last gather()

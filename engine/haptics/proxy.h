@@ -16,10 +16,24 @@
 
 namespace fathom {
 
+// Which conditions a solve gets. No choice lets a leaf enter a sphere: the exact check looks at every listed
+// pair before a pose is taken, and a pair that it finds violated gets a row. What a choice can cost is lag.
+struct RowReduction {
+    double reach = 2.0; // pairs farther than this many step caps get no row; below 1 counts as 1
+    // [rad] 0..pi/2: a leaf's row stands for its farther pairs within this angle.
+    double cone = NarrowPhase::kCone;
+    // Rows that lack most at the target, on which the solver starts; 0 = all. checked: every other row is
+    // looked at in the answer and taken in where it is violated, until none is, which gives the optimum over
+    // all rows.
+    uint32_t first = 0;
+    bool checked = true;
+};
+
 struct ProxyOptions {
     double stepCap = 0.002;       // [m] farthest that a leaf centre travels in one solve
     uint32_t solves = 4;          // linearisations a turn, at most
     double escapePerTurn = 0.001; // [m] depth given back in one turn where new data lies over the tool
+    RowReduction rows;
 };
 
 // True when the turn should end: asked between solves, never in one. noexcept in practice: it is called on
@@ -114,7 +128,13 @@ private:
     bool step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexcept;
     bool solveRows(const Motion& wanted, Step& step, ProxyTurn& out) noexcept;
     SolveStatus solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out) noexcept;
-    void loadSolver() noexcept;
+    // proxy_solve.cpp: the rows that the solver gets.
+    void loadSolver(const Motion& wanted) noexcept;
+    void loadRow(size_t row) noexcept;
+    double offsetOf(size_t row) const noexcept;
+    double lackAt(size_t row, const Motion& motion) const noexcept;
+    bool loadLacking(const Motion& answer) noexcept;
+    bool relax() noexcept;
     void fit(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step) noexcept;
     static double answered(const Step& step) noexcept;
     double shareToCap(const Motion& first, const Motion& rest, double firstBound) noexcept;
@@ -143,6 +163,15 @@ private:
 
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
+    struct Lack {
+        double amount; // [m]
+        uint32_t row;
+    };
+    std::vector<Lack> lacks_;       // room to choose rows in
+    std::vector<uint32_t> loaded_;  // row of the solver -> row
+    std::vector<uint8_t> isLoaded_; // a row
+    size_t loadedCount_ = 0;
+    bool relaxed_ = false;      // rows that ask for no motion ask only to stay
     bool escaping_ = false;     // some row asks for motion
     double largestAsked_ = 0.0; // [m] of those rows
     bool touching_ = false;     // some pair overlaps

@@ -50,7 +50,7 @@ void Proxy::collectRows(const ContactSet* contacts, const Budget& budget) noexce
         // Beyond the cap only by rounding: every pair that this step could reach is remembered for the check.
         const double checkLimit = options_.stepCap * (1.0 + 1e-6) + kSkin;
         narrow_.gather(*contacts, leaves_, pose_.position - contacts->origin,
-                       std::max(2.0 * options_.stepCap, checkLimit), checkLimit, firstSolve_);
+                       std::max(options_.rows.reach * options_.stepCap, checkLimit), checkLimit, firstSolve_);
         trust_.set(*contacts, narrow_.moved());
         touching_ = narrow_.smallestGap() < -proxy::kNothing;
         flagBehind(*contacts);

@@ -26,64 +26,6 @@ bool same(const Motion& m, const Motion& o) {
 
 } // namespace
 
-void Proxy::loadSolver() noexcept {
-    solver_.clearRows();
-    for (size_t i = 0; i < rowCount_; ++i) {
-        const ContactRow& row = rows_[i];
-        const dvec3 turning = glm::cross(row.arm, row.normal) + row.spin;
-        const std::array<double, 6> normal{row.normal.x, row.normal.y, row.normal.z,
-                                           turning.x,    turning.y,    turning.z};
-        solver_.addRow(normal, row.offset);
-        solver_.setKey(i, row.key);
-    }
-}
-
-SolveStatus Proxy::solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out) noexcept {
-    const std::array<double, 6> target{wanted.a.x,     wanted.a.y,     wanted.a.z,
-                                       wanted.alpha.x, wanted.alpha.y, wanted.alpha.z};
-    std::array<double, 6> x{};
-    SolveStatus status = solver_.solve(target, x);
-    if (status != SolveStatus::Optimal) {
-        // Between walls that leave no room for the skin: those that do not overlap stay where they are
-        // instead.
-        bool relaxed = false;
-        for (size_t i = 0; i < rowCount_; ++i) {
-            if (rows_[i].gap >= 0.0 && solver_.offset(i) > 0.0 && rows_[i].offset <= proxy::kAsks) {
-                solver_.setOffset(i, 0.0);
-                relaxed = true;
-            }
-        }
-        status = relaxed ? solver_.solve(target, x) : status;
-    }
-    out.infeasible += status == SolveStatus::Optimal ? 0 : 1;
-    answer = {dvec3(x[0], x[1], x[2]), dvec3(x[3], x[4], x[5])};
-    return status;
-}
-
-bool Proxy::solveRows(const Motion& wanted, Step& step, ProxyTurn& out) noexcept {
-    loadSolver();
-    Step answer;
-    if (escaping_ && solveFor(Motion{}, answer.escape, out) != SolveStatus::Optimal) {
-        return false;
-    }
-    if (solveFor(wanted, answer.full, out) != SolveStatus::Optimal) {
-        return false;
-    }
-    step = answer;
-    recordActive();
-    return true;
-}
-
-void Proxy::recordActive() noexcept {
-    activeCount_ = 0;
-    const std::span<const double> multipliers = solver_.multipliers();
-    for (size_t i = 0; i < multipliers.size() && activeCount_ < active_.size(); ++i) {
-        if (multipliers[i] > 0.0) {
-            active_[activeCount_++] = {rows_[i], multipliers[i]};
-        }
-    }
-}
-
 // Share of every row's offset that the fitted motion is sure of: `escape` and `full` both obey all rows.
 double Proxy::answered(const Step& step) noexcept {
     return step.escapeShare * (1.0 - step.towards) + step.towards;
