@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fewer rows for the solver: the same optimum where the rest is looked at, and never a leaf in a region.
+#include "tests/haptics/proxy_rig.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+struct World {
+    std::string name;
+    Fixtures fixtures;
+    dvec3 start;
+    double spread; // [m] of the hand about the start
+    double into;   // [m] downwards from there to the middle of the hand's way
+};
+
+World corner() {
+    World w{"corner", emptySet(), dvec3(0.09, 0.09, 0.09), 0.06, 0.05};
+    const dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    addWall(w.fixtures, dvec3(0.06, 0.06, 0), x, y, 0.12, 0.006, 0.03);
+    addWall(w.fixtures, dvec3(0, 0.06, 0.06), y, z, 0.12, 0.006, 0.03);
+    addWall(w.fixtures, dvec3(0.06, 0, 0.06), x, z, 0.12, 0.006, 0.03);
+    return w;
+}
+
+World groove() { // 40 degrees between the walls
+    World w{"groove", emptySet(), dvec3(0, 0, 0.2), 0.05, 0.08};
+    for (const double side : {-1.0, 1.0}) {
+        const dvec3 up(side * std::sin(0.349), 0, std::cos(0.349));
+        addWall(w.fixtures, up * 0.1, dvec3(0, 1, 0), up, 0.1, 0.005, 0.02);
+    }
+    return w;
+}
+
+World rubble() {
+    std::mt19937_64 random(7);
+    return {"rubble", randomCloud(random, 1500, 0.2, 0.004, 0.02), dvec3(0, 0, 0.3), 0.08, 0.1};
+}
+
+Tool manyLeaves() {
+    std::mt19937_64 random(3);
+    return randomTool(random, 60, 0.03, 0.006);
+}
+
+ProxyOptions optionsOf(const RowReduction& rows) {
+    ProxyOptions options;
+    options.rows = rows;
+    options.solves = 1; // further ones hang on decisions that rounding takes where a motion gains nothing
+    return options;
+}
+
+// A hand that leans into the regions, wanders and turns.
+Pose handAt(const World& w, int turn) {
+    const double t = 0.001 * turn;
+    const dvec3 about(std::sin(5.1 * t), std::sin(6.7 * t + 1.0), std::sin(4.3 * t + 2.0));
+    return {w.fixtures.origin + w.start - dvec3(0, 0, w.into * std::min(1.0, 4.0 * t)) + w.spread * about,
+            rotationExp(dvec3(0.8 * std::sin(3.1 * t), 0.7 * std::sin(2.3 * t), 0.9 * std::sin(1.7 * t)))};
+}
+
+struct Against {
+    double apart = 0.0;    // [m], a radian as 50 mm: largest difference of one turn from the same pose
+    double deepest = -1.0; // [m] of a leaf in a sphere
+    uint32_t contact = 0, several = 0; // turns; several: with more than one active row
+    uint32_t otherRounds = 0;          // turns whose exact check was passed after another number of rounds
+};
+
+// Every turn from the pose of the proxy that solves on all rows.
+Against compare(const World& w, const RowReduction& rows) {
+    const Pose start{w.fixtures.origin + w.start, dquat(1, 0, 0, 0)};
+    ProxyRig all(manyLeaves(), w.fixtures, start, optionsOf({})),
+        few(manyLeaves(), w.fixtures, start, optionsOf(rows));
+    Against result;
+    for (int k = 0; k < 1200; ++k) {
+        few.proxy().setPose(all.proxy().pose());
+        all.query(), few.query();
+        const Pose hand = handAt(w, k);
+        const ProxyTurn a = all.turnOnly(hand), b = few.turnOnly(hand);
+        const dvec3 turned = rotationLog(b.pose.rotation * glm::conjugate(a.pose.rotation));
+        const double apart =
+            std::hypot(glm::distance(a.pose.position, b.pose.position), 0.05 * glm::length(turned));
+        const bool comparable = a.rounds == b.rounds && a.bisected == b.bisected;
+        result.otherRounds += comparable ? 0 : 1;
+        result.apart = comparable ? std::max(result.apart, apart) : result.apart;
+        result.deepest = std::max(result.deepest, few.depth());
+        result.contact += a.contact ? 1 : 0;
+        result.several += a.active.size() > 1 ? 1 : 0;
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("Solving on few rows with a look at the rest gives the optimum over all rows, turn by turn") {
+    for (const World& world : {corner(), groove(), rubble()}) {
+        for (const uint32_t first : {1u, 3u, 8u, 33u}) {
+            CAPTURE(world.name);
+            CAPTURE(first);
+            const Against found = compare(world, {2.0, NarrowPhase::kCone, first, true});
+            CHECK(found.apart < 1e-9);
+            CHECK(found.otherRounds < 12); // of 1200: a gap that is 0 but for rounding
+            CHECK(found.deepest <= 0.0);
+            CHECK(found.contact > 300);
+            CHECK(found.several > 100);
+        }
+    }
+}
+
+TEST_CASE(
+    "No choice of rows lets a leaf enter a region, and rows left out unseen are told by where they lead") {
+    double farthest = 0.0;
+    for (const World& world : {corner(), groove(), rubble()}) {
+        for (const RowReduction& rows :
+             {RowReduction{2.0, NarrowPhase::kCone, 1, false},
+              RowReduction{2.0, NarrowPhase::kCone, 4, false}, RowReduction{0.0, 0.0},
+              RowReduction{1.0, 0.5 * M_PI}, RowReduction{4.0, NarrowPhase::kCone}}) {
+            CAPTURE(world.name);
+            const Against found = compare(world, rows);
+            CHECK(found.deepest <= 0.0);
+            farthest = std::max(farthest, rows.first > 0 ? found.apart : 0.0);
+        }
+    }
+    CHECK(farthest > 1e-6); // else the test above would prove nothing
+}
