@@ -22,7 +22,8 @@ SurfacePass::SurfacePass(const CloudContext& c)
     : pipeline_(c.device, {"surface", surface_spv, 6, true, 0,
                            std::array{groupOf(c.plan), uint32_t{c.plan.rays}, c.plan.filterRadius,
                                       uint32_t{c.plan.edge}, uint32_t{c.plan.tiled && !c.plan.filterRow},
-                                      uint32_t{c.plan.filterRow}, 1 - c.camera.depth.width % 2}})
+                                      uint32_t{c.plan.filterRow}, 1 - c.camera.depth.width % 2,
+                                      uint32_t{c.plan.polynomialWeights}}})
     , counters_(c.work.counters) {
     for (uint32_t u = 0; u < kUploads; ++u) {
         bindings_[u] = gpu::Bindings(c.device, pipeline_,

@@ -59,9 +59,14 @@ bool isolated(const FrameView& view, int u, int v, bool& unsure) {
     return near < 2;
 }
 
+double weightOf(const Scene::Filter& filter, double squaredDistance) {
+    const double t = squaredDistance / (2.0 * filter.sigma * filter.sigma);
+    return filter.weights == Scene::Filter::Weights::Exact ? std::exp(-t)
+                                                           : std::pow(std::max(0.0, 1.0 - t / 16.68), 16);
+}
+
 double filteredDepth(const FrameView& view, int u, int v) {
     const int r = static_cast<int>(view.scene().filter.radius);
-    const double sigma = view.scene().filter.sigma;
     const dvec3 p0 = view.point(u, v, view.z(u, v));
     double sum = 0.0, weights = 0.0;
     for (int dv = -r; dv <= r; ++dv) {
@@ -69,7 +74,7 @@ double filteredDepth(const FrameView& view, int u, int v) {
             const double d = view.z(u + du, v + dv);
             if (d != 0.0) {
                 const dvec3 apart = view.point(u + du, v + dv, d) - p0;
-                const double phi = std::exp(-glm::dot(apart, apart) / (2.0 * sigma * sigma));
+                const double phi = weightOf(view.scene().filter, glm::dot(apart, apart));
                 sum += d * phi;
                 weights += phi;
             }

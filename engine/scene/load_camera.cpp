@@ -78,7 +78,7 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
 }
 
 void loadFilter(const YamlNode& filter, Scene& scene) {
-    filter.checkKeys({"radius", "sigma", "edge"});
+    filter.checkKeys({"radius", "sigma", "edge", "weights"});
     if (const auto radius = filter.find("radius")) {
         scene.filter.radius = radius->integer(0, 16);
     }
@@ -87,6 +87,11 @@ void loadFilter(const YamlNode& filter, Scene& scene) {
     }
     if (const auto edge = filter.find("edge")) {
         scene.filter.edge = edge->number(Range::notNegative());
+    }
+    if (const auto weights = filter.find("weights")) {
+        using Weights = Scene::Filter::Weights;
+        scene.filter.weights =
+            weights->choice<Weights>({{"exact", Weights::Exact}, {"polynomial", Weights::Polynomial}});
     }
 }
 

@@ -35,6 +35,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.rays = plan.cloud && camera.depth.distorted();
     plan.filterRadius = scene.filter.radius;
     plan.edge = scene.filter.edge > 0.0;
+    plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
     plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2;
     // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
@@ -63,7 +64,8 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                                       std::to_string(2 * plan.filterRadius + 1) +
                                       (plan.filterRow ? ", rows of four from registers"
                                        : plan.tiled   ? ", shared-memory tiles"
-                                                      : ", direct reads")
+                                                      : ", direct reads") +
+                                      (plan.polynomialWeights ? ", polynomial weights" : "")
                                 : "no filter: points as measured",
          "the scene has no class of points");
     pass("thin", plan.thin, "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm",

@@ -39,6 +39,7 @@ struct Plan {
     bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
     uint32_t classes = 0;   // classes of points
     bool box = false;       // some class has a box
+    bool polynomialWeights = false; // the filter's, in place of exp
     uint32_t filterRadius = 0;
     bool edge = false;
     bool groupCounts = false;  // classify counts in shared memory before it counts for all

@@ -81,6 +81,8 @@ struct Scene {
         uint32_t radius = 2; // [pixels] 0..16; 0 = none
         double sigma = 0.01; // [m] paper eq. 2
         double edge = 0.03;  // relative depth jump of a flying pixel; 0 = off
+        // phi of paper eq. 2: exp(-t) itself, or (1 - t / 16.68)^16 down to 0, which is at most 0.008 off.
+        enum class Weights { Exact, Polynomial } weights = Weights::Exact;
     } filter;
     double errorBudget = 0.0001; // [m]; 0 keeps every point
     double holdSeconds = 0.5;    // [s]; 0 = paper

@@ -98,6 +98,39 @@ TEST_CASE("Windows from shared memory, direct reads and rows in registers give t
     }
 }
 
+TEST_CASE("Polynomial weights follow their own twin and stay within 3 % of the noise of the exact ones") {
+    const CameraInfo camera = pinholeCamera(67, 41, 0.0001);
+    const auto noise = [](int u, int v) {
+        return 0.001 * std::sin(u * 12.9898 + v * 78.233) * std::cos(u * 3.1 - v * 7.7);
+    };
+    const Picture picture =
+        drawnPicture(camera, [&](int u, int v) { return (u < 30 ? 0.6 : 0.9) + 0.001 * v + noise(u, v); });
+    for (const uint32_t radius : {1u, 2u, 5u}) {
+        CAPTURE(radius);
+        Scene scene = plainScene();
+        scene.filter.radius = radius;
+        CloudRig exact(scene, camera);
+        scene.filter.weights = Scene::Filter::Weights::Polynomial;
+        CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterRow = false; });
+        CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterRow = false; });
+        CloudRig rows(scene, camera, [&](Plan& plan) { plan.filterRow = radius <= 2; });
+        exact.run(picture), direct.run(picture), tiled.run(picture), rows.run(picture);
+        const Agreement agreement = comparePoints(rows);
+        CHECK(agreement.points == 67 * 41);
+        CHECK(agreement.wrong == 0);
+        CHECK(agreement.worst < 1e-6);
+        CHECK(rows.points().z == direct.points().z);
+        CHECK(tiled.points().z == direct.points().z);
+        const std::vector<double> a = exact.points().z, b = rows.points().z;
+        double apart = 0.0;
+        for (size_t i = 0; i < a.size(); ++i) {
+            apart = std::max(apart, std::abs(a[i] - b[i]));
+        }
+        CHECK(apart < 3e-5);
+        CHECK(apart > 1e-7); // it is another formula
+    }
+}
+
 TEST_CASE(
     "Unfiltered points of a distorted lens project back onto their pixels by Brown and Conrady's formula") {
     const CameraInfo camera = freiburgCamera(428, 240);

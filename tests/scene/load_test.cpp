@@ -16,7 +16,7 @@ camera:
   far: 2.5
   base_T_camera: {xyz: [1,2,3], quat_xyzw: [0,0,2,0]}
   registration_sigma: 0.001
-filter: { radius: 16, sigma: 0.02, edge: 0 }
+filter: { radius: 16, sigma: 0.02, edge: 0, weights: polynomial }
 error_budget: 0
 hold_s: 0.25
 fixtures:
@@ -49,6 +49,7 @@ TEST_CASE("a scene with only fixtures and a tool has the stated default everywhe
     CHECK(scene.farZ == 3.0);
     CHECK(scene.baseTcamera.rotation == dquat(1, 0, 0, 0));
     CHECK(scene.filter.radius == 2);
+    CHECK(scene.filter.weights == Scene::Filter::Weights::Exact);
     CHECK(scene.errorBudget == 0.0001);
     CHECK(scene.holdSeconds == 0.5);
     REQUIRE(scene.fixtures.size() == 1);
@@ -80,6 +81,7 @@ TEST_CASE("camera, filter and tool are taken as written, paths from the scene's 
     CHECK(scene.registrationSigma == 0.001);
     CHECK(scene.filter.radius == 16);
     CHECK(scene.filter.edge == 0.0);
+    CHECK(scene.filter.weights == Scene::Filter::Weights::Polynomial);
     CHECK(scene.errorBudget == 0.0);
     CHECK(scene.holdSeconds == 0.25);
     CHECK(scene.tool.file == file.folder() / "sub/tool.sph");
