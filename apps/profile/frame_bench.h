@@ -8,6 +8,7 @@
 #include "engine/cycle/frame_cycle.h"
 #include "engine/reference/frame_view.h"
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
@@ -70,7 +71,12 @@ public:
 
     // Compares class bits and points of the last frame with the float64 twins. Empty when they agree (points
     // to 20 um; what the twins call unsure is left out), else what differs.
-    std::string differsFromTwins(const Shot& shot) const;
+    // Class bits are compared of every pixel, points of `mostPatches` patches spread over the picture, its
+    // corners among them.
+    std::string differsFromTwins(const Shot& shot, size_t mostPatches = SIZE_MAX) const;
+    // Compares the host's spheres with the points that they came from: each stands about a forbidden point of
+    // its own, no farther than rounding, with at least its class's radius. Empty when they agree.
+    std::string spheresDiffer() const;
 
 private:
     gpu::Device& device_;

@@ -114,6 +114,8 @@ Study leaveOutStudy(const StudyContext& context) {
     study.title = "Leave out: what each optional stage costs a scene that asks for everything";
     study.verified = "class bits and points against the float64 twins where colour is registered";
     study.errorName = "error", study.errorUnit = "none";
+    study.noDefault =
+        "its rows are scenes that ask for less; what a scene does not ask for is left out by itself";
     study.timeName = "upload to published p50";
     study.moreNames = {"upload_to_published_p50_ms", "saved_ms", "share_of_frame_percent", "gpu_saved_ms",
                        "memory_saved_MiB"};

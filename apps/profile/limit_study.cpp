@@ -93,7 +93,7 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
 }
 
 PlotPanel panelOf(const Study& study, const std::string& source) {
-    PlotPanel panel{source + ": how many times its floor each step takes",
+    PlotPanel panel{source + ": measured over floor",
                     "measured / floor (1 = cannot be faster)",
                     "",
                     false,
@@ -103,7 +103,9 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
     PlotSeries device{"device", {}, false}, host{"host", {}, false};
     for (const StudyRow& row : study.rows) {
         if (row.source == source) {
-            (row.cost.gpu ? device : host).points.push_back({row.more[5], 0.0, row.setting, false, false});
+            (row.cost.gpu ? device : host)
+                .points.push_back(
+                    {row.more[5], 0.0, row.setting + (row.cost.gpu ? "" : " (host)"), false, false});
         }
     }
     panel.series = {device, host};
@@ -119,6 +121,7 @@ Study limitStudy(const StudyContext& context) {
     study.verified =
         "the ceilings' copies and sums, class bits and points of a frame against the float64 twins";
     study.errorName = "error", study.errorUnit = "none";
+    study.noDefault = "its rows are the steps of one frame at the default settings";
     study.timeName = "time p50";
     study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",
                        "computing_ms",      "floor_ms",           "ratio"};

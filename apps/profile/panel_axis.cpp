@@ -43,7 +43,7 @@ PanelAxis linearAxis(const std::vector<double>& values) {
         most = std::max(most, v);
         least = std::min(least, v);
     }
-    axis.lo = least;
+    axis.lo = least < 0.0 ? least - 0.06 * (most - least) : 0.0;
     axis.hi = most > least ? most + 0.06 * (most - least) : least + 1.0;
     return axis;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Half, single and double precision for what is stored and scanned most: the centres of region spheres.
-#include "apps/profile/studies.h"
+#include "apps/profile/half_number.h"
+#include "apps/profile/precision.h"
 #include "engine/contact/clones.h"
 #include "engine/types/pose.h"
 
 #include <algorithm>
-#include <bit>
 
 namespace fathom::profile {
 
@@ -49,19 +49,6 @@ double nearestDouble(const double* __restrict x, const double* __restrict y, con
     return *std::min_element(least, least + 16);
 }
 
-// IEEE half to single by a shift and a product: numbers, zero and denormals; there is no infinity here.
-inline float widened(uint16_t half) noexcept {
-    const uint32_t bits =
-        (static_cast<uint32_t>(half & 0x8000u) << 16) | (static_cast<uint32_t>(half & 0x7fffu) << 13);
-    return std::bit_cast<float>(bits) * 0x1p112f;
-}
-
-uint16_t halved(double value) {
-    const float small = static_cast<float>(value) * 0x1p-112f;
-    const uint32_t bits = std::bit_cast<uint32_t>(small), body = bits & 0x7fffffffu;
-    return static_cast<uint16_t>((bits >> 16 & 0x8000u) | ((body + 0xfffu + (body >> 13 & 1u)) >> 13));
-}
-
 FATHOM_CLONES
 float nearestHalf(const uint16_t* __restrict x, const uint16_t* __restrict y, const uint16_t* __restrict z,
                   size_t count, float cx, float cy, float cz) noexcept {
@@ -98,8 +85,10 @@ struct Scene {
                 const dvec3 d = p - blocks.back();
                 exact.add(p.x, p.y, p.z);
                 single.add(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z));
-                half.add(halved(p.x), halved(p.y), halved(p.z));
-                local.add(halved(d.x), halved(d.y), halved(d.z));
+                half.add(halved(static_cast<float>(p.x)), halved(static_cast<float>(p.y)),
+                         halved(static_cast<float>(p.z)));
+                local.add(halved(static_cast<float>(d.x)), halved(static_cast<float>(d.y)),
+                          halved(static_cast<float>(d.z)));
             }
         }
         for (size_t i = 0; i < leafCount; ++i) {
@@ -155,50 +144,33 @@ Distances runLocalHalf(const Scene& s) {
 
 } // namespace
 
-Study precisionStudy(const StudyContext& context) {
-    Study study;
-    study.name = "precision";
-    study.title = "Precision: what the centres of region spheres are stored in";
-    study.verified =
-        "single within 4 um and half within its own spacing of the double result, for every leaf";
-    study.errorName = "largest error of a leaf's distance to the nearest centre";
-    study.errorUnit = "mm";
-    study.time = TimeKind::Cpu;
-    study.timeName = "scan of all spheres for all leaves, CPU time p50";
-    study.moreNames = {"bytes_a_sphere", "spheres", "leaves"};
-    study.defaultReason = "half precision errs by more than the error budget of 0.1 mm";
+std::vector<StudyRow> centreRows(const StudyContext& context) {
     const size_t spheres = context.settings.quick ? 10000 : 60000, leaves = context.settings.quick ? 32 : 256;
     struct Kind {
         const char* name;
         Distances (*run)(const Scene&);
         double bytes, allowed; // [m]
     };
+    std::vector<StudyRow> rows;
     for (double away : {0.8, 8.0}) {
         const Scene scene(spheres, leaves, away);
         const Distances truth = runDouble(scene);
         for (const Kind& kind :
              {Kind{"double", runDouble, 24, 0.0}, Kind{"single", runSingle, 12, 4e-6},
               Kind{"half about the patch", runLocalHalf, 6, 2e-5}, Kind{"half", runHalf, 6, away * 1e-3}}) {
-            StudyRow row;
-            row.source = digits(away) + " m from the origin";
-            row.setting = kind.name;
-            row.isDefault = std::string(kind.name) == "single";
             const Distances found = kind.run(scene);
-            row.error = 0.0;
+            double error = 0.0; // [m]
             for (size_t i = 0; i < truth.size(); ++i) {
-                row.error = std::max(row.error, std::abs(found[i] - truth[i]) * 1e3);
+                error = std::max(error, std::abs(found[i] - truth[i]));
             }
-            verify(row.error <= kind.allowed * 1e3, "precision", kind.name, digits(row.error) + " mm");
-            row.cost = timeCpu(context.settings.effort(), [&] { kind.run(scene); });
-            row.more = {kind.bytes, static_cast<double>(scene.exact.size()), static_cast<double>(leaves)};
-            study.rows.push_back(std::move(row));
+            verify(error <= kind.allowed, "precision", kind.name, digits(error * 1e3) + " mm");
+            const Cost cost = timeCpu(context.settings.effort(), [&] { kind.run(scene); });
+            rows.push_back(precisionRow("centres " + digits(away) + " m from the origin", kind.name,
+                                        std::string(kind.name) == "single", error * 1e3, cost, kind.bytes,
+                                        static_cast<double>(scene.exact.size()), NAN));
         }
     }
-    markFront(study);
-    study.panels.push_back(
-        frontPanel(study, "nearest centre of " + std::to_string(leaves) + " leaves, every sphere scanned"));
-    study.panels.back().yLabel = "largest distance error [mm]";
-    return study;
+    return rows;
 }
 
 } // namespace fathom::profile

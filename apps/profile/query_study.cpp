@@ -116,7 +116,6 @@ StudyRow bruteRow(const StudyContext& context, const QueryRig& rig, const Tool& 
         bruteForceCull(leaves, static_cast<float>(kReach), rig.host().spheres, marks, found);
     });
     row.more = {NAN};
-    row.error = 0.0;
     return row;
 }
 
@@ -141,11 +140,10 @@ std::vector<StudyRow> rowsOf(const StudyContext& context, const QueryRig& rig, u
     rows.push_back(bruteRow(context, rig, tool, pose));
     for (StudyRow& row : rows) {
         row.source = rig.name();
-        row.error = row.cost.submit ? 0.0 : NAN;
         row.more.resize(1, NAN);
         row.more.insert(row.more.end(),
                         {static_cast<double>(leafCount), static_cast<double>(rig.host().spheres.size()),
-                         static_cast<double>(a.size()), a.reach * 1e3});
+                         static_cast<double>(a.size()), NAN, a.reach * 1e3});
     }
     return rows;
 }
@@ -168,12 +166,14 @@ uint32_t crossingOf(const std::vector<StudyRow>& rows, const std::string& source
 
 void drawTimes(Study& study, const std::vector<std::string>& sources) {
     PlotPanel panel;
-    panel.title = "contact set p50: solid CPU, GPU and brute force, by spheres";
+    panel.title = "contact set: CPU solid, GPU dashed, brute force dotted";
     panel.xLabel = "tool leaves";
     panel.yLabel = "query p50 [ms]";
+    constexpr std::pair<const char*, double> kWays[] = {{"CPU", 0.0}, {"GPU", 9.0}, {"brute", 3.0}};
+    int colour = 0;
     for (const std::string& source : sources) {
-        for (const char* way : {"CPU", "GPU", "brute"}) {
-            PlotSeries series{std::string(way) + ", " + source, {}, true};
+        for (const auto& [way, dash] : kWays) {
+            PlotSeries series{std::string(way) + ", " + source, {}, true, colour, dash};
             for (const StudyRow& row : study.rows) {
                 if (row.source == source && row.setting.rfind(way, 0) == 0 && row.cost.submit) {
                     series.points.push_back({row.more[1], row.cost.submit.p50, "", false, false});
@@ -181,6 +181,7 @@ void drawTimes(Study& study, const std::vector<std::string>& sources) {
             }
             panel.series.push_back(std::move(series));
         }
+        ++colour;
     }
     study.panels.push_back(std::move(panel));
 }
@@ -218,7 +219,11 @@ Study queryStudy(const StudyContext& context) {
     study.errorName = "lag of the tool behind the hand RMS";
     study.errorUnit = "mm";
     study.timeName = "query p50";
-    study.moreNames = {"gpu_cull_submit_to_result_p50_ms", "leaves", "spheres", "found_or_stalled",
+    study.moreNames = {"gpu_cull_submit_to_result_p50_ms",
+                       "leaves",
+                       "spheres",
+                       "found_spheres",
+                       "stalled_turns",
                        "reach_mm"};
     const bool quick = context.settings.quick;
     const std::vector<Size> sizes =

@@ -71,6 +71,47 @@ Json rowJson(const Study& study, const StudyRow& row) {
     return out;
 }
 
+// What the study says of the row as a default, - of a row that is none; of every row, when it has none.
+std::string judgementOf(const Study& study, const StudyRow& row) {
+    for (const Verdict& v : study.verdicts) {
+        if (row.isDefault && v.source == row.source && v.setting == row.setting) {
+            return v.words;
+        }
+    }
+    return study.noDefault.empty() ? "-" : study.noDefault;
+}
+
+Json defaultsJson(const Study& study) {
+    Json out = Json::array();
+    for (const Verdict& v : study.verdicts) {
+        Json one;
+        one["source"] = v.source;
+        one["setting"] = v.setting;
+        one["on_front"] = v.onFront;
+        one["words"] = v.words;
+        out.push_back(std::move(one));
+    }
+    return out;
+}
+
+Json studyJson(const Study& study) {
+    Json s;
+    s["name"] = study.name;
+    s["title"] = study.title;
+    s["verified"] = study.verified;
+    s["error"] = study.errorName;
+    s["error_unit"] = study.errorUnit;
+    s["time"] = study.timeName;
+    s["defaults"] = defaultsJson(study);
+    s["no_default"] = study.noDefault.empty() ? Json(nullptr) : Json(study.noDefault);
+    s["findings"] = study.findings;
+    s["rows"] = Json::array();
+    for (const StudyRow& row : study.rows) {
+        s["rows"].push_back(rowJson(study, row));
+    }
+    return s;
+}
+
 } // namespace
 
 Facts runFacts(const gpu::Device& device, const Settings& settings, const std::string& command) {
@@ -112,6 +153,7 @@ void writeStudyCsv(const Study& study, const std::filesystem::path& file) {
     for (const std::string& name : study.moreNames) {
         row.add(std::string_view(word(name)));
     }
+    row.add(std::string_view("default_judgement"));
     out.write(row.end());
     for (const StudyRow& r : study.rows) {
         row.add(std::string_view(word(r.source)));
@@ -126,6 +168,7 @@ void writeStudyCsv(const Study& study, const std::filesystem::path& file) {
         for (double value : r.more) {
             row.add(value);
         }
+        row.add(std::string_view(word(judgementOf(study, r))));
         out.write(row.end());
     }
     out.commit();
@@ -139,19 +182,7 @@ void writeProfileJson(const Facts& facts, const std::vector<Study>& studies,
     }
     all["studies"] = Json::array();
     for (const Study& study : studies) {
-        Json s;
-        s["name"] = study.name;
-        s["title"] = study.title;
-        s["verified"] = study.verified;
-        s["error"] = study.errorName;
-        s["error_unit"] = study.errorUnit;
-        s["time"] = study.timeName;
-        s["findings"] = study.findings;
-        s["rows"] = Json::array();
-        for (const StudyRow& row : study.rows) {
-            s["rows"].push_back(rowJson(study, row));
-        }
-        all["studies"].push_back(std::move(s));
+        all["studies"].push_back(studyJson(study));
     }
     OutputFile out(file);
     out.write(all.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");

@@ -83,6 +83,20 @@ std::string tableOf(const Study& study) {
     return html + "</table></details>\n";
 }
 
+// Where the default settings lie, or why there is nothing to say.
+std::string defaultsOf(const Study& study) {
+    if (study.verdicts.empty()) {
+        return "<p>No default to judge: " + escaped(study.noDefault) + "</p>\n";
+    }
+    std::string html = "<table><tr><th>default<th>on<th>on the Pareto front<th>why</tr>\n";
+    for (const Verdict& v : study.verdicts) {
+        html += std::string("<tr") + (v.onFront ? "" : " class=d") + "><td>" + escaped(v.setting) + "<td>" +
+                escaped(v.source) + "<td>" + (v.onFront ? "yes" : "no") + "<td>" + escaped(v.words) +
+                "</tr>\n";
+    }
+    return html + "</table>\n";
+}
+
 std::string sectionOf(const Study& study, const std::filesystem::path& folder) {
     std::string html = "<h2 id=" + study.name + ">" + escaped(study.title) +
                        "</h2>\n<p class=why>verified before timing: " + escaped(study.verified) +
@@ -91,7 +105,7 @@ std::string sectionOf(const Study& study, const std::filesystem::path& folder) {
     for (const std::string& finding : study.findings) {
         html += "<li>" + escaped(finding) + "</li>\n";
     }
-    return html + "</ul>\n" + tableOf(study);
+    return html + "</ul>\n" + defaultsOf(study) + tableOf(study);
 }
 
 } // namespace

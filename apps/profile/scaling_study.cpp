@@ -9,6 +9,9 @@ namespace fathom::profile {
 
 namespace {
 
+// Patches whose points are compared with the float64 twin: all up to 320x240, so many of a larger picture.
+constexpr size_t kTwinPatches = 300;
+
 struct Measured {
     double x = 0.0;
     FrameCost cost;
@@ -41,14 +44,7 @@ public:
                   uint32_t classes) {
         FrameBench bench(context_.device, sceneWith(context_.settings, classes), shots.camera);
         bench.run(shots.shots.front());
-        if (shots.camera.depth.pixels() <=
-            320u * 240u) { // the twins take seconds for more; the sizes share the code
-            const std::string wrong = bench.differsFromTwins(shots.shots.front());
-            verify(wrong.empty(), "scaling", setting, wrong + " differs from the float64 twin");
-        }
-        const auto report = bench.run(shots.shots.front());
-        verify(report.counts.valid == shots.camera.depth.pixels(), "scaling", setting,
-               "valid pixels are missing");
+        check(bench, setting, shots);
         Measured m{x, bench.measure(shots.shots, context_.settings.effort())};
         StudyRow row;
         row.source = source;
@@ -96,9 +92,51 @@ public:
     }
 
 private:
+    // Before anything is timed, at every size.
+    static void check(FrameBench& bench, const std::string& setting, const ShotSource& shots) {
+        const std::string wrong = bench.differsFromTwins(shots.shots.front(), kTwinPatches);
+        verify(wrong.empty(), "scaling", setting, wrong + " differs from the float64 twin");
+        const std::string sphere = bench.spheresDiffer();
+        verify(sphere.empty(), "scaling", setting, sphere + " is not about a forbidden point of its own");
+        const FrameReport report = bench.run(shots.shots.front());
+        verify(report.counts.valid == shots.camera.depth.pixels(), "scaling", setting,
+               "valid pixels are missing");
+    }
+
     const StudyContext& context_;
     Study& study_;
 };
+
+Curve sizesOf(ScalingRun& run, bool quick) {
+    using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
+    Curve sizes;
+    for (const auto& [w, h] :
+         quick ? Sizes{{80, 60}, {160, 120}, {400, 300}}
+               : Sizes{{160, 120}, {320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
+        const ShotSource shots = wallShot(w, h, 1.0);
+        sizes.push_back(
+            run.take("size, every point forbidden", shots.name, w * static_cast<double>(h), shots, 2));
+    }
+    return sizes;
+}
+
+Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
+    Curve shares;
+    for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
+        shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
+                                  digits(share * 100.0) + " %", share * 100.0, wallShot(w, h, share), 2));
+    }
+    return shares;
+}
+
+Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
+    Curve classes;
+    for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
+        classes.push_back(
+            run.take("classes, 10 % forbidden", std::to_string(c) + " classes", c, wallShot(w, h, 0.1), c));
+    }
+    return Curve(classes.rbegin(), classes.rend()); // the most passes first: they name the lines
+}
 
 } // namespace
 
@@ -107,8 +145,11 @@ Study scalingStudy(const StudyContext& context) {
     study.name = "scaling";
     study.title = "Scaling: picture size, selected pixels, classes";
     study.verified =
-        "class bits and points against the float64 twins up to 320x240; every pixel counted at every size";
+        "at every size: class bits of every pixel and points of up to 300 patches, corners among them, "
+        "against "
+        "the float64 twins; every region sphere about a forbidden point of its own; every pixel counted";
     study.errorName = "error", study.errorUnit = "none";
+    study.noDefault = "its rows are sizes and scenes, which the camera and the scene file give";
     study.timeName = "upload to published p50";
     study.moreNames = {"x",
                        "upload_to_published_p50_ms",
@@ -122,32 +163,14 @@ Study scalingStudy(const StudyContext& context) {
                        "pack_p50_ms",
                        "moments_p50_ms"};
     const bool quick = context.settings.quick;
-    ScalingRun run(context, study);
-    Curve sizes, shares, classes;
-    using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
-    for (const auto& [w, h] :
-         quick ? Sizes{{80, 60}, {160, 120}, {320, 240}}
-               : Sizes{{160, 120}, {320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
-        const ShotSource shots = wallShot(w, h, 1.0);
-        sizes.push_back(
-            run.take("size, every point forbidden", shots.name, w * static_cast<double>(h), shots, 2));
-    }
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
-    for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
-        const std::string setting = digits(share * 100.0) + " %";
-        shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
-                                  setting, share * 100.0, wallShot(w, h, share), 2));
-    }
-    for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
-        classes.push_back(
-            run.take("classes, 10 % forbidden", std::to_string(c) + " classes", c, wallShot(w, h, 0.1), c));
-    }
+    const std::string size = std::to_string(w) + "x" + std::to_string(h);
+    ScalingRun run(context, study);
+    const Curve sizes = sizesOf(run, quick), shares = sharesOf(run, w, h, quick),
+                classes = classesOf(run, w, h, quick);
     run.draw(sizes, "every point forbidden", "pixels", true);
-    run.draw(shares, std::to_string(w) + "x" + std::to_string(h) + ", forbidden share",
-             "forbidden pixels [%]", false);
-    run.draw(Curve(classes.rbegin(), classes.rend()),
-             std::to_string(w) + "x" + std::to_string(h) + ", 10 % forbidden, by classes",
-             "classes of points", false);
+    run.draw(shares, size + ", forbidden share", "forbidden pixels [%]", false);
+    run.draw(classes, size + ", 10 % forbidden, by classes", "classes of points", false);
     return study;
 }
 

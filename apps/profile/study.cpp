@@ -48,16 +48,15 @@ void judgeDefault(Study& study, const StudyRow& chosen) {
             best = &row;
         }
     }
-    const std::string name = "default '" + chosen.setting + "' on " + chosen.source;
-    if (best == nullptr) {
-        study.findings.push_back(name + " lies on the Pareto front");
-        return;
+    Verdict verdict{chosen.source, chosen.setting, best == nullptr, "lies on the Pareto front"};
+    if (best != nullptr) {
+        verdict.words = "is off the front: '" + best->setting + "' has " + digits(best->error) + " against " +
+                        digits(chosen.error) + " " + study.errorUnit + " at " + digits(timeOf(study, *best)) +
+                        " against " + digits(timeOf(study, chosen)) + " ms" +
+                        (study.defaultReason.empty() ? "" : "; it stays the default: " + study.defaultReason);
     }
-    study.findings.push_back(
-        name + " is off the front: '" + best->setting + "' has " + digits(best->error) + " against " +
-        digits(chosen.error) + " " + study.errorUnit + " at " + digits(timeOf(study, *best)) + " against " +
-        digits(timeOf(study, chosen)) + " ms" +
-        (study.defaultReason.empty() ? "" : "; it stays the default: " + study.defaultReason));
+    study.findings.push_back("default '" + verdict.setting + "' on " + verdict.source + " " + verdict.words);
+    study.verdicts.push_back(std::move(verdict));
 }
 
 } // namespace
@@ -102,8 +101,10 @@ PlotPanel frontPanel(const Study& study, const std::string& title, const RowValu
                 series.points.push_back({time, error, row.setting, row.isDefault, false});
             }
         }
-        markPoints(series.points);
-        panel.series.push_back(std::move(series));
+        if (!series.points.empty()) {
+            markPoints(series.points);
+            panel.series.push_back(std::move(series));
+        }
     }
     return panel;
 }

@@ -45,6 +45,13 @@ struct StudyRow {
     bool onFront = false;                                    // set by finishStudy()
 };
 
+// Whether a default lies on the Pareto front of its source.
+struct Verdict {
+    std::string source, setting;
+    bool onFront = false;
+    std::string words; // off the front: which setting beats it, and why it stays the default
+};
+
 struct PlotPoint {
     double x = 0.0, y = 0.0;
     std::string label;
@@ -56,6 +63,8 @@ struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;
     bool connect = false; // a line through the points in their order
+    int colour = -1;      // of the palette; -1 = by its place among the series
+    double dash = 0.0;    // [pixels] of the line; 0 = solid
 };
 
 struct PlotPanel {
@@ -76,18 +85,20 @@ struct Study {
     std::vector<StudyRow> rows;
     std::vector<PlotPanel> panels;
     std::vector<std::string> findings;
-    std::string defaultReason; // why the default may lie off the front
+    std::string defaultReason;     // why the default may lie off the front
+    std::vector<Verdict> verdicts; // one a default, set by markFront()
+    std::string noDefault;         // why there is none to judge; empty when there is one
 };
 
 // p50 of the time that the study ranks by [ms].
 double timeOf(const Study& study, const StudyRow& row);
 
-// Marks the Pareto front of each source and says of each default whether it lies on it (within 5 % of time
-// and error, what repeats differ by) or which setting beats it.
+// Marks the Pareto front of each source and says of each default, as a verdict and as a finding, whether it
+// lies on it (within 5 % of time and error, what repeats differ by) or which setting beats it.
 void markFront(Study& study);
 
 // One panel with a series a source and the front of what it shows. x and y of a row; empty = the study's own
-// time and error. Rows without a finite y or a positive x are left out.
+// time and error. Rows without a finite y or a positive x are left out, and sources without any row.
 using RowValue = std::function<double(const StudyRow&)>;
 PlotPanel frontPanel(const Study& study, const std::string& title, const RowValue& x = {},
                      const RowValue& y = {});

@@ -75,7 +75,22 @@ private:
         return panel.bars ? 0.0 : widest + 34.0;
     }
 
-    static Colour colourOf(size_t i) { return kSeries[i % kSeries.size()]; }
+    Colour colourOf(size_t i) const {
+        const int chosen = panel_.series[i].colour;
+        return kSeries[(chosen >= 0 ? static_cast<size_t>(chosen) : i) % kSeries.size()];
+    }
+
+    void setDash(double dash) const { cairo_set_dash(p_.cr(), &dash, dash > 0.0 ? 1 : 0, 0.0); }
+
+    // Words that stay readable over lines: the paper's colour behind them.
+    void words(double x, double y, const std::string& text, Colour colour, bool bold) const {
+        for (const double dx : {-1.5, 0.0, 1.5}) {
+            for (const double dy : {-1.5, 0.0, 1.5}) {
+                p_.text(x + dx, y + dy, text, 12, kPaper, Align::Left, bold);
+            }
+        }
+        p_.text(x, y, text, 12, colour, Align::Left, bold);
+    }
 
     void line(double x0, double y0, double x1, double y1, Colour colour, double width) const {
         p_.setColour(colour);
@@ -127,6 +142,7 @@ private:
         }
         p_.setColour(colour.alpha(series.connect ? 0.9 : 0.55));
         cairo_set_line_width(p_.cr(), series.connect ? 2.2 : 3.0);
+        setDash(series.dash);
         for (size_t i = 0; i < points.size(); ++i) {
             const double x = x_.at(points[i].x), y = y_.at(points[i].y);
             if (i == 0) {
@@ -139,6 +155,7 @@ private:
             cairo_line_to(p_.cr(), x, y);
         }
         cairo_stroke(p_.cr());
+        setDash(0.0);
     }
 
     void paintPoints(const PlotSeries& series, Colour colour) const {
@@ -178,8 +195,8 @@ private:
     }
 
     void place(const PlotPoint& q) {
-        const std::string words = q.isDefault ? q.label + " (default)" : q.label;
-        const double width = p_.textWidth(words, 12, q.isDefault), x = x_.at(q.x), y = y_.at(q.y);
+        const std::string label = q.isDefault ? q.label + " (default)" : q.label;
+        const double width = p_.textWidth(label, 12, q.isDefault), x = x_.at(q.x), y = y_.at(q.y);
         const std::array<std::array<double, 2>, 6> offsets{{{11.0, -7.0},
                                                             {11.0, 4.0},
                                                             {11.0, 18.0},
@@ -189,8 +206,7 @@ private:
         for (const auto& [dx, dy] : offsets) {
             const Box4 box{x + dx, y + dy - 11.0, x + dx + width, y + dy + 3.0};
             if (free(box) && box.x0 > x0_) {
-                p_.text(x + dx, y + dy, words, 12, q.isFront || q.isDefault ? kInk : kFaint, Align::Left,
-                        q.isDefault);
+                words(x + dx, y + dy, label, q.isFront || q.isDefault ? kInk : kFaint, q.isDefault);
                 taken_.push_back(box);
                 return;
             }
@@ -200,7 +216,13 @@ private:
     void paintLegend() const {
         double y = y0_ + 10.0;
         for (size_t i = 0; i < panel_.series.size(); ++i, y += 20.0) {
-            dot(x1_ + 20.0, y - 4.0, 5.0, colourOf(i), true);
+            if (panel_.series[i].dash > 0.0) {
+                setDash(panel_.series[i].dash);
+                line(x1_ + 8.0, y - 4.0, x1_ + 29.0, y - 4.0, colourOf(i), 2.2);
+                setDash(0.0);
+            } else {
+                dot(x1_ + 20.0, y - 4.0, 5.0, colourOf(i), true);
+            }
             p_.text(x1_ + 31.0, y, panel_.series[i].name, 13, kInk);
         }
     }

@@ -135,7 +135,8 @@ Study toolStudy(const StudyContext& context) {
         }
     }
     markFront(study);
-    study.findings.push_back("no count is a default: the scene file gives the tool's spheres");
+    study.noDefault = "no count is a default: the scene file gives the tool's spheres";
+    study.findings.push_back(study.noDefault);
     study.panels.push_back(frontPanel(study, "protrusion or gap, the larger"));
     return study;
 }

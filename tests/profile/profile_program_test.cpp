@@ -5,6 +5,7 @@
 #include "tests/apps/scratch_folder.h"
 #include "tests/program/run_fathom.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <map>
@@ -116,8 +117,43 @@ TEST_CASE("The report names the device, its driver, the settings and the three c
     }
 }
 
+TEST_CASE("Every study says of each default whether it lies on the front and why not, or why it has none") {
+    const auto out = quickRun().folder.path() / "out";
+    const std::string html = textOf(out / "report.html");
+    for (const auto& entry : profile::allStudies()) {
+        CAPTURE(std::string(entry.name));
+        const auto& study = quickRun().study(entry.name);
+        CHECK(study["defaults"].empty() == study["no_default"].is_string());
+        size_t defaults = 0;
+        for (const auto& row : study["rows"]) {
+            defaults += row["default"].get<bool>() ? 1 : 0;
+        }
+        CHECK(study["defaults"].size() == defaults);
+        std::map<std::string, size_t> said; // in the table
+        const auto table = tableOf(out / (std::string(entry.name) + ".csv"));
+        CHECK(table.front().back() == "default_judgement");
+        for (size_t i = 1; i < table.size(); ++i) {
+            ++said[table[i].size() == table.front().size() ? table[i].back() : std::string()];
+        }
+        for (const auto& verdict : study["defaults"]) {
+            std::string words = verdict["words"];
+            CHECK((verdict["on_front"].get<bool>()
+                       ? words == "lies on the Pareto front"
+                       : words.find("; it stays the default: ") < words.size() - 40));
+            CHECK(html.find(words.substr(0, words.find('\''))) != std::string::npos);
+            std::replace(words.begin(), words.end(), ',', ';');
+            CHECK(said[words] > 0);
+        }
+        if (study["no_default"].is_string()) {
+            const std::string why = study["no_default"];
+            CHECK(why.size() > 20);
+            CHECK(html.find("No default to judge: " + why) != std::string::npos);
+        }
+    }
+}
+
 TEST_CASE("Every study that ranks settings marks its default and says whether it lies on the front") {
-    for (const char* name : {"filter", "fixture", "query"}) {
+    for (const char* name : {"filter", "fixture", "query", "solver", "precision"}) {
         const auto& study = quickRun().study(name);
         size_t defaults = 0, said = 0, front = 0;
         for (const auto& row : study["rows"]) {
@@ -145,6 +181,58 @@ TEST_CASE(
     CHECK(error.at("5x5 s10mm") == error.at("5x5 s10mm all patches"));
 }
 
+TEST_CASE("Polynomial weights filter nearly as the exact ones do, but not quite") {
+    std::map<std::string, double> error;
+    for (const auto& row : quickRun().study("filter")["rows"]) {
+        if (row["source"] == "corner") {
+            error[row["setting"]] = row["error"].get<double>();
+        }
+    }
+    CHECK(error.at("5x5 s10mm polynomial") == doctest::Approx(error.at("5x5 s10mm")).epsilon(0.02));
+    CHECK(error.at("5x5 s10mm polynomial") != error.at("5x5 s10mm"));
+}
+
+TEST_CASE("Few rows with a look at the rest err as all rows do; the worst row alone costs solves") {
+    std::map<std::string, nlohmann::json> rows;
+    for (const auto& row : quickRun().study("solver")["rows"]) {
+        if (startsWith(row["source"], "reduced rows, ")) {
+            rows[row["setting"]] = row;
+        }
+    }
+    const double all = rows.at("all rows")["error"];
+    CHECK(all < 0.01);
+    CHECK(rows.at("1 first")["error"].get<double>() == doctest::Approx(all).epsilon(1e-6));
+    CHECK(rows.at("1 only")["strengthened_a_turn"].get<double>() >
+          rows.at("1 first")["strengthened_a_turn"].get<double>());
+    CHECK(rows.at("all rows")["share_in_contact"].get<double>() > 0.9);
+}
+
+TEST_CASE("Formats of less precision err more, and nodes rounded outwards lose nothing that is near") {
+    std::map<std::string, std::map<std::string, nlohmann::json>> rows;
+    for (const auto& row : quickRun().study("precision")["rows"]) {
+        rows[row["source"]][row["setting"]] = row;
+    }
+    for (const char* away : {"0.8", "8"}) {
+        for (const char* what : {"centres ", "tree nodes "}) {
+            auto& of = rows.at(std::string(what) + away + " m from the origin");
+            const auto error = [&](const char* format) { return of.at(format)["error"].get<double>(); };
+            CHECK(error("double") == 0.0);
+            CHECK(error("double") < error("single"));
+            CHECK(error("single") < error("half about the patch"));
+            CHECK(error("half about the patch") < error("half"));
+        }
+        auto& nodes = rows.at(std::string("tree nodes ") + away + " m from the origin");
+        const double exact = nodes.at("double")["nodes_found"];
+        CHECK(exact > 0.0);
+        CHECK(exact < nodes.at("double")["elements"].get<double>());
+        CHECK(nodes.at("half about the patch")["nodes_found"].get<double>() >= exact);
+        CHECK(nodes.at("half")["nodes_found"].get<double>() >= exact);
+    }
+    CHECK(rows.at("frame: depth pixels").at("half")["error"].get<double>() > 0.1); // [mm] at 0.8 m
+    CHECK(rows.at("frame: depth pixels").at("16-bit sensor units")["error"].get<double>() < 1e-3);
+    CHECK(rows.at("frame: filter weights").at("half weights")["error"].get<double>() > 0.0);
+}
+
 TEST_CASE("The boundary error stays within the budget and fewer spheres are kept for a larger one") {
     std::map<std::string, nlohmann::json> rows;
     for (const auto& row : quickRun().study("fixture")["rows"]) {
@@ -165,7 +253,8 @@ TEST_CASE("With late answers a short reach stalls and lags and a long one does n
     }
     const auto& brief = rows.at("answers 10 ticks late, reach 2 mm");
     const auto& ample = rows.at("answers 10 ticks late, reach 10 mm");
-    CHECK(brief["found_or_stalled"].get<double>() > ample["found_or_stalled"].get<double>());
+    CHECK(brief["stalled_turns"].get<double>() > ample["stalled_turns"].get<double>());
+    CHECK(brief["found_spheres"].is_null());
     CHECK(brief["error"].get<double>() > ample["error"].get<double>());
 }
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts of the precision study: what is stored or computed in half, single and double. Each gives rows of
+// largest error [mm] against CPU time of the same loop; the first of each source is the double result, whose
+// error is 0. Each throws Error when an error is larger than the format explains.
+#pragma once
+
+#include "apps/profile/study.h"
+
+#include <vector>
+
+namespace fathom::profile {
+
+// Distances of leaves to the nearest of many region spheres, over the format of the spheres' centres.
+std::vector<StudyRow> centreRows(const StudyContext& context);
+// Nodes of the region tree, culled by the leaves: how much a node grows, over its format. Rounded outwards,
+// so that no sphere ever leaves its node.
+std::vector<StudyRow> nodeRows(const StudyContext& context);
+// Depth pixels, made into points: how far a point lies off, over what the pixel is stored in.
+std::vector<StudyRow> depthRows(const StudyContext& context);
+// The bilateral filter, 5x5: error of the filtered depth, over what its weights and sums are computed in.
+std::vector<StudyRow> weightRows(const StudyContext& context);
+// Gaps of leaf-sphere pairs as the haptic turn takes them, over what they are computed in.
+std::vector<StudyRow> gapRows(const StudyContext& context);
+
+// One row of them. bytes: of an element; elements: how many the loop goes over; found NaN when nothing is
+// looked for.
+StudyRow precisionRow(const std::string& source, const std::string& setting, bool isDefault, double errorMm,
+                      const Cost& cost, double bytes, double elements, double found);
+
+} // namespace fathom::profile

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Formats of the region tree's nodes: centre and radius of a bound in double, single, half, and half about
+// the patch. Whatever a centre loses by rounding its radius gains, rounded up: a node never lets a sphere
+// out.
+#include "apps/profile/half_number.h"
+#include "apps/profile/precision.h"
+#include "engine/types/pose.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr size_t kChildren = 16;   // sub-patches of a patch, and spheres of a sub-patch
+constexpr double kSphere = 0.02;   // [m] radius of a region sphere
+constexpr double kReach = 0.01;    // [m] of the cull
+constexpr double kLeaf = 0.008;    // [m] radius of a leaf
+constexpr double kSpread = 0.0064; // [m] edge of a sub-patch
+
+struct Bound {
+    dvec3 centre{0.0};
+    double radius = 0.0;
+};
+
+// A wall of sub-patches, 16 a patch, each the bound of its 16 spheres; the very spheres too.
+struct Wall {
+    std::vector<dvec3> spheres;
+    std::vector<Bound> nodes;   // sub-patches, patch by patch
+    std::vector<dvec3> anchors; // a patch
+    std::vector<dvec3> leaves;
+
+    Wall(size_t patches, size_t leafCount, double away) {
+        const auto across = static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(patches))));
+        for (size_t p = 0; p < patches; ++p) {
+            const dvec3 corner(4.0 * kSpread * static_cast<double>(p % across),
+                               4.0 * kSpread * static_cast<double>(p / across), away);
+            anchors.push_back(dvec3(glm::vec3(corner + dvec3(2.0 * kSpread, 2.0 * kSpread, 0.0))));
+            for (size_t s = 0; s < kChildren; ++s) {
+                addSubPatch(corner +
+                            kSpread * dvec3(static_cast<double>(s % 4), static_cast<double>(s / 4), 0.0));
+            }
+        }
+        const double extent = 4.0 * kSpread * static_cast<double>(across);
+        for (size_t i = 0; i < leafCount; ++i) {
+            const double t = static_cast<double>(i);
+            leaves.push_back({extent * (0.5 + 0.3 * std::sin(1.7 * t)),
+                              extent * (0.5 + 0.3 * std::cos(2.3 * t)), away - 0.03 - 0.03 * std::sin(t)});
+        }
+    }
+
+private:
+    void addSubPatch(const dvec3& corner) {
+        Bound bound;
+        for (size_t k = 0; k < kChildren; ++k) {
+            const double n = static_cast<double>(spheres.size());
+            spheres.push_back(corner + dvec3(0.25 * kSpread * static_cast<double>(k % 4),
+                                             0.25 * kSpread * static_cast<double>(k / 4),
+                                             0.01 * std::sin(37.0 * n)));
+            bound.centre += spheres.back() / static_cast<double>(kChildren);
+        }
+        for (size_t k = spheres.size() - kChildren; k < spheres.size(); ++k) {
+            bound.radius = std::max(bound.radius, glm::distance(spheres[k], bound.centre) + kSphere);
+        }
+        nodes.push_back(bound);
+    }
+};
+
+// Each format: how a node is stored, and what it says again.
+struct DoubleNode {
+    double x, y, z, r;
+    static DoubleNode of(const Bound& b, const dvec3&) {
+        return {b.centre.x, b.centre.y, b.centre.z, b.radius};
+    }
+    Bound bound(const dvec3&) const { return {{x, y, z}, r}; }
+};
+
+struct SingleNode {
+    float x, y, z, r;
+    static SingleNode of(const Bound& b, const dvec3&) {
+        const glm::vec3 c(b.centre);
+        const double needed = b.radius + glm::distance(dvec3(c), b.centre);
+        float r = static_cast<float>(needed);
+        r = static_cast<double>(r) < needed ? std::nextafter(r, std::numeric_limits<float>::max()) : r;
+        return {c.x, c.y, c.z, r};
+    }
+    Bound bound(const dvec3&) const { return {dvec3(glm::vec3(x, y, z)), static_cast<double>(r)}; }
+};
+
+template <bool kAboutPatch>
+struct HalfNode {
+    uint16_t x, y, z, r;
+    static HalfNode of(const Bound& b, const dvec3& anchor) {
+        const glm::vec3 c(kAboutPatch ? b.centre - anchor : b.centre);
+        HalfNode node{halved(c.x), halved(c.y), halved(c.z), 0};
+        node.r = halvedUp(b.radius + glm::distance(node.bound(anchor).centre, b.centre));
+        return node;
+    }
+    Bound bound(const dvec3& anchor) const {
+        const glm::vec3 c(widened(x), widened(y), widened(z));
+        // The sum that is culled with: single, as a shader's would be.
+        return {kAboutPatch ? dvec3(c + glm::vec3(anchor)) : dvec3(c), static_cast<double>(widened(r))};
+    }
+};
+
+template <class Node>
+using Real = std::conditional_t<std::is_same_v<Node, DoubleNode>, double, float>;
+
+// Nodes within reach of some leaf, in order; every node is asked.
+template <class Node>
+void cull(const Wall& wall, const std::vector<Node>& nodes, std::vector<uint8_t>& marks) {
+    using T = Real<Node>;
+    marks.assign(nodes.size(), 0);
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const Bound b = nodes[n].bound(wall.anchors[n / kChildren]);
+        const T x = static_cast<T>(b.centre.x), y = static_cast<T>(b.centre.y),
+                z = static_cast<T>(b.centre.z);
+        const T limit = static_cast<T>(b.radius) + static_cast<T>((kReach + kLeaf) * 1.00001 + 1e-6);
+        bool found = false;
+        for (size_t l = 0; l < wall.leaves.size() && !found; ++l) {
+            const T dx = x - static_cast<T>(wall.leaves[l].x), dy = y - static_cast<T>(wall.leaves[l].y),
+                    dz = z - static_cast<T>(wall.leaves[l].z);
+            found = dx * dx + dy * dy + dz * dz <= limit * limit;
+        }
+        marks[n] = found ? 1 : 0;
+    }
+}
+
+// [m] by which the stored node reaches farther than the exact one; negative when a sphere is out.
+template <class Node>
+double growthOf(const Wall& wall, const std::vector<Node>& nodes, const std::string& name) {
+    double most = 0.0;
+    for (size_t n = 0; n < nodes.size(); ++n) {
+        const Bound b = nodes[n].bound(wall.anchors[n / kChildren]);
+        for (size_t k = n * kChildren; k < (n + 1) * kChildren; ++k) {
+            const double out = glm::distance(wall.spheres[k], b.centre) + kSphere - b.radius;
+            verify(out <= 1e-15, "precision", name,
+                   "a sphere leaves its node by " + digits(out * 1e6) + " um");
+        }
+        most =
+            std::max(most, b.radius + glm::distance(b.centre, wall.nodes[n].centre) - wall.nodes[n].radius);
+    }
+    return most;
+}
+
+template <class Node>
+StudyRow rowOf(const StudyContext& context, const std::string& source, const std::string& name,
+               const Wall& wall, const std::vector<uint8_t>& needed, double allowed) {
+    std::vector<Node> nodes;
+    for (size_t n = 0; n < wall.nodes.size(); ++n) {
+        nodes.push_back(Node::of(wall.nodes[n], wall.anchors[n / kChildren]));
+    }
+    const double growth = growthOf(wall, nodes, name);
+    verify(growth <= allowed, "precision", name, "a node grows by " + digits(growth * 1e3) + " mm");
+    std::vector<uint8_t> marks;
+    cull(wall, nodes, marks);
+    for (size_t n = 0; n < marks.size() && !needed.empty(); ++n) {
+        verify(marks[n] >= needed[n], "precision", name, "the cull loses node " + std::to_string(n));
+    }
+    const Cost cost = timeCpu(context.settings.effort(), [&] { cull(wall, nodes, marks); });
+    return precisionRow(source, name, name == "single", growth * 1e3, cost, sizeof(Node),
+                        static_cast<double>(nodes.size()),
+                        static_cast<double>(std::count(marks.begin(), marks.end(), 1)));
+}
+
+} // namespace
+
+std::vector<StudyRow> nodeRows(const StudyContext& context) {
+    const size_t patches = context.settings.quick ? 64 : 1200, leaves = context.settings.quick ? 32 : 256;
+    std::vector<StudyRow> rows;
+    for (double away : {0.8, 8.0}) {
+        const Wall wall(patches, leaves, away);
+        const std::string source = "tree nodes " + digits(away) + " m from the origin";
+        std::vector<DoubleNode> exact;
+        for (const Bound& b : wall.nodes) {
+            exact.push_back(DoubleNode::of(b, {}));
+        }
+        std::vector<uint8_t> needed;
+        cull(wall, exact, needed);
+        rows.push_back(rowOf<DoubleNode>(context, source, "double", wall, {}, 1e-15));
+        rows.push_back(rowOf<SingleNode>(context, source, "single", wall, needed, 4e-6));
+        rows.push_back(rowOf<HalfNode<true>>(context, source, "half about the patch", wall, needed, 1e-4));
+        rows.push_back(rowOf<HalfNode<false>>(context, source, "half", wall, needed, away * 4e-3));
+    }
+    return rows;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Half, single and double where it applies: stored centres, tree nodes, depth pixels, filter weights, pair
+// gaps.
+#include "apps/profile/precision.h"
+#include "apps/profile/studies.h"
+
+namespace fathom::profile {
+
+StudyRow precisionRow(const std::string& source, const std::string& setting, bool isDefault, double errorMm,
+                      const Cost& cost, double bytes, double elements, double found) {
+    StudyRow row;
+    row.source = source;
+    row.setting = setting;
+    row.isDefault = isDefault;
+    row.error = errorMm;
+    row.cost = cost;
+    row.more = {bytes, elements, found};
+    return row;
+}
+
+namespace {
+
+// Of the sources that begin so.
+PlotPanel panelOf(const Study& study, const std::string& title, const std::string& source) {
+    return frontPanel(study, title, [&](const StudyRow& row) {
+        return row.source.rfind(source, 0) == 0 ? timeOf(study, row) : NAN;
+    });
+}
+
+} // namespace
+
+Study precisionStudy(const StudyContext& context) {
+    Study study;
+    study.name = "precision";
+    study.title = "Precision: half, single and double for what is stored and computed most";
+    study.verified =
+        "every format within its own rounding of the double result; no region sphere outside its "
+        "node, whatever the format; culls find every node that the double nodes find";
+    study.errorName = "largest error";
+    study.errorUnit = "mm";
+    study.time = TimeKind::Cpu;
+    study.timeName = "the whole loop, CPU time p50";
+    study.moreNames = {"bytes_an_element", "elements", "nodes_found"};
+    study.defaultReason = "what is in half precision errs by more than the error budget allows or costs its "
+                          "conversion; single keeps every bit that the sensor gives";
+    for (const auto part : {centreRows, nodeRows, depthRows, weightRows, gapRows}) {
+        for (StudyRow& row : part(context)) {
+            study.rows.push_back(std::move(row));
+        }
+    }
+    markFront(study);
+    study.panels.push_back(
+        panelOf(study, "nearest centre, every sphere scanned: error of a distance", "centres"));
+    study.panels.push_back(panelOf(study, "tree nodes culled: growth of a node", "tree nodes"));
+    study.panels.push_back(
+        panelOf(study, "a frame's points, filter and gaps: error of a depth or gap", "frame"));
+    return study;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What studies verify before they time: that a wrong frame is found, wherever in the picture it is wrong.
+#include "apps/profile/half_number.h"
+#include "apps/profile/shot_source.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::profile;
+
+namespace {
+
+struct Rig {
+    gpu::Instance instance;
+    gpu::Device device{instance, "llvmpipe"};
+    ShotSource source = wallShot(203, 117, 1.0);
+    FrameBench bench{device, studyScene({}), source.camera};
+    Rig() { bench.run(source.shots.front()); }
+};
+
+} // namespace
+
+TEST_CASE(
+    "A frame is equal to its twins over every patch and over few, and a wrong depth anywhere is found") {
+    const Rig rig;
+    const Shot& shot = rig.source.shots.front();
+    CHECK(rig.bench.differsFromTwins(shot).empty());
+    CHECK(rig.bench.differsFromTwins(shot, 7).empty());
+    CHECK(rig.bench.differsFromTwins(shot, 1).empty());
+    for (const size_t pixel : {size_t{0}, size_t{202}, size_t{116 * 203}, size_t{117 * 203 - 1}}) {
+        Shot wrong = shot; // the corners are always looked at
+        wrong.depth[pixel] = static_cast<uint16_t>(wrong.depth[pixel] + 40);
+        CAPTURE(pixel);
+        CHECK(rig.bench.differsFromTwins(wrong, 1).rfind("point of pixel ", 0) == 0);
+    }
+    size_t found = 0;
+    for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel a patch; 5 patches asked for, 4 corners besides
+        Shot wrong = shot;
+        const size_t u = std::min(p % 13 * 16 + 8, 200u), v = std::min(p / 13 * 16 + 2, 115u);
+        wrong.depth[v * 203 + u] = static_cast<uint16_t>(wrong.depth[v * 203 + u] + 40);
+        found += rig.bench.differsFromTwins(wrong, 5).empty() ? 0 : 1;
+    }
+    CHECK(found >= 5);
+    CHECK(found <= 30); // a window reaches over a patch's border
+    Shot grey = shot;
+    grey.colour[60 * 203 + 100] = 0xff808080u; // class bits are compared everywhere
+    CHECK(rig.bench.differsFromTwins(grey, 1) == "class bits of pixel " + std::to_string(60 * 203 + 100));
+}
+
+TEST_CASE(
+    "Every region sphere of a frame stands about a forbidden point of its own, and a moved one is found") {
+    Rig rig;
+    CHECK(rig.bench.set().host.spheres.size() > 1000);
+    CHECK(rig.bench.spheresDiffer().empty());
+    auto& spheres = const_cast<RegionSpheres&>(rig.bench.set().host.spheres);
+    spheres.x[17] += 1e-4f;
+    CHECK(rig.bench.spheresDiffer() == "region sphere 17");
+    spheres.x[17] -= 1e-4f;
+    spheres.radius[5] *= 0.99f;
+    CHECK(rig.bench.spheresDiffer() == "region sphere 5");
+    spheres.radius[5] /= 0.99f;
+    spheres.source[9] = spheres.source[8];
+    CHECK(rig.bench.spheresDiffer() == "region sphere 9");
+}
+
+TEST_CASE("Half precision rounds to the nearest, or up where a bound must hold") {
+    for (const double value : {0.0, 1.0, 0.5, 65504.0, 6e-8, 0.0312, 1.0009765625, 0.8, 3.14159}) {
+        CAPTURE(value);
+        const float single = static_cast<float>(value), half = widened(halved(single));
+        CHECK(std::abs(half - single) <= std::max(6e-8f, single * 0x1p-11f));
+        const float up = widened(halvedUp(value));
+        CHECK(static_cast<double>(up) >= value);
+        CHECK(static_cast<double>(up) <= value * (1.0 + 0x1p-10) + 6e-8);
+        CHECK(widened(halved(-single)) == -half);
+    }
+    CHECK(widened(halved(1.0f + 0x1p-11f)) == 1.0f); // a tie goes to the even one
+    CHECK(widened(halvedUp(1.0 + 0x1p-12)) == 1.0f + 0x1p-10f);
+}
