@@ -1,67 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom profile --quick` from outside: that every study runs, verifies what it times and leaves whole files
 // with the fields that they promise. No test looks at a time.
-#include "apps/profile/studies.h"
-#include "tests/apps/scratch_folder.h"
-#include "tests/program/run_fathom.h"
+#include "tests/profile/quick_run.h"
 
 #include <algorithm>
-#include <cmath>
-#include <doctest/doctest.h>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <sstream>
 
 using namespace fathom;
-using fathom::testing::ScratchFolder;
-using fathom::testing::textOf;
-
-namespace {
-
-struct QuickRun {
-    ScratchFolder folder;
-    ProgramRun program;
-    nlohmann::json report;
-    QuickRun() {
-        const std::string out = (folder.path() / "out").string();
-        program = runFathom({"--device", "llvmpipe", "--trace", (folder.path() / "trace.json").string(),
-                             "profile", "--quick", "--out", out});
-        report = nlohmann::json::parse(textOf(folder.path() / "out" / "profile.json"), nullptr, false);
-    }
-    const nlohmann::json& study(const std::string& name) const {
-        for (const auto& s : report["studies"]) {
-            if (s["name"] == name) {
-                return s;
-            }
-        }
-        FAIL("no study " << name);
-        return report;
-    }
-};
-
-const QuickRun& quickRun() { // one run serves every case
-    static const QuickRun run;
-    return run;
-}
-
-std::vector<std::vector<std::string>> tableOf(const std::filesystem::path& file) {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream in(textOf(file));
-    for (std::string line; std::getline(in, line);) {
-        auto& row = rows.emplace_back();
-        std::istringstream cells(line);
-        for (std::string cell; std::getline(cells, cell, ',');) {
-            row.push_back(cell);
-        }
-    }
-    return rows;
-}
-
-bool startsWith(const std::string& text, const std::string& head) {
-    return text.compare(0, head.size(), head) == 0;
-}
-
-} // namespace
+using namespace fathom::testing;
 
 TEST_CASE("A quick profile verifies every study and ends with code 0") {
     const QuickRun& run = quickRun();
@@ -167,114 +113,6 @@ TEST_CASE("Every study that ranks settings marks its default and says whether it
         CHECK_MESSAGE(said == defaults, name);
         CHECK_MESSAGE(front > 0, name);
     }
-}
-
-TEST_CASE(
-    "The filter lowers the depth error of a smooth scene, and patches skipped or not change nothing of it") {
-    std::map<std::string, double> error;
-    for (const auto& row : quickRun().study("filter")["rows"]) {
-        if (row["source"] == "corner") {
-            error[row["setting"]] = row["error"].get<double>();
-        }
-    }
-    CHECK(error.at("5x5 s10mm") < 0.9 * error.at("none"));
-    CHECK(error.at("5x5 s10mm") == error.at("5x5 s10mm all patches"));
-}
-
-TEST_CASE("Polynomial weights filter nearly as the exact ones do, but not quite") {
-    std::map<std::string, double> error;
-    for (const auto& row : quickRun().study("filter")["rows"]) {
-        if (row["source"] == "corner") {
-            error[row["setting"]] = row["error"].get<double>();
-        }
-    }
-    CHECK(error.at("5x5 s10mm polynomial") == doctest::Approx(error.at("5x5 s10mm")).epsilon(0.02));
-    CHECK(error.at("5x5 s10mm polynomial") != error.at("5x5 s10mm"));
-}
-
-TEST_CASE("Few rows with a look at the rest err as all rows do; the worst row alone costs solves") {
-    std::map<std::string, nlohmann::json> rows;
-    for (const auto& row : quickRun().study("solver")["rows"]) {
-        if (startsWith(row["source"], "reduced rows, ")) {
-            rows[row["setting"]] = row;
-        }
-    }
-    const double all = rows.at("all rows")["error"];
-    CHECK(all < 0.01);
-    CHECK(rows.at("1 first")["error"].get<double>() == doctest::Approx(all).epsilon(1e-6));
-    CHECK(rows.at("1 only")["strengthened_a_turn"].get<double>() >
-          rows.at("1 first")["strengthened_a_turn"].get<double>());
-    CHECK(rows.at("all rows")["share_in_contact"].get<double>() > 0.9);
-}
-
-TEST_CASE("Formats of less precision err more, and nodes rounded outwards lose nothing that is near") {
-    std::map<std::string, std::map<std::string, nlohmann::json>> rows;
-    for (const auto& row : quickRun().study("precision")["rows"]) {
-        rows[row["source"]][row["setting"]] = row;
-    }
-    for (const char* away : {"0.8", "8"}) {
-        for (const char* what : {"centres ", "tree nodes "}) {
-            auto& of = rows.at(std::string(what) + away + " m from the origin");
-            const auto error = [&](const char* format) { return of.at(format)["error"].get<double>(); };
-            CHECK(error("double") == 0.0);
-            CHECK(error("double") < error("single"));
-            CHECK(error("single") < error("half about the patch"));
-            CHECK(error("half about the patch") < error("half"));
-        }
-        auto& nodes = rows.at(std::string("tree nodes ") + away + " m from the origin");
-        const double exact = nodes.at("double")["nodes_found"];
-        CHECK(exact > 0.0);
-        CHECK(exact < nodes.at("double")["elements"].get<double>());
-        CHECK(nodes.at("half about the patch")["nodes_found"].get<double>() >= exact);
-        CHECK(nodes.at("half")["nodes_found"].get<double>() >= exact);
-    }
-    CHECK(rows.at("frame: depth pixels").at("half")["error"].get<double>() > 0.1); // [mm] at 0.8 m
-    CHECK(rows.at("frame: depth pixels").at("16-bit sensor units")["error"].get<double>() < 1e-3);
-    CHECK(rows.at("frame: filter weights").at("half weights")["error"].get<double>() > 0.0);
-}
-
-TEST_CASE("The boundary error stays within the budget and fewer spheres are kept for a larger one") {
-    std::map<std::string, nlohmann::json> rows;
-    for (const auto& row : quickRun().study("fixture")["rows"]) {
-        if (startsWith(row["source"].get<std::string>(), "plane")) {
-            rows[row["setting"]] = row;
-        }
-    }
-    CHECK(rows.at("0 mm")["error"] == 0.0);
-    CHECK(rows.at("0.1 mm")["error"].get<double>() <= 0.102);
-    CHECK(rows.at("1 mm")["error"].get<double>() <= 1.002);
-    CHECK(rows.at("1 mm")["spheres"].get<double>() < 0.6 * rows.at("0 mm")["spheres"].get<double>());
-}
-
-TEST_CASE("With late answers a short reach stalls and lags and a long one does not") {
-    std::map<std::string, nlohmann::json> rows;
-    for (const auto& row : quickRun().study("query")["rows"]) {
-        rows[row["source"].get<std::string>() + ", " + row["setting"].get<std::string>()] = row;
-    }
-    const auto& brief = rows.at("answers 10 ticks late, reach 2 mm");
-    const auto& ample = rows.at("answers 10 ticks late, reach 10 mm");
-    CHECK(brief["stalled_turns"].get<double>() > ample["stalled_turns"].get<double>());
-    CHECK(brief["found_spheres"].is_null());
-    CHECK(brief["error"].get<double>() > ample["error"].get<double>());
-}
-
-TEST_CASE("Larger pictures cost more of every fitted step, and the exponents are said") {
-    size_t fitted = 0;
-    for (const std::string finding : quickRun().study("scaling")["findings"]) {
-        fitted += finding.find(" grows as x^") != std::string::npos ? 1 : 0;
-    }
-    CHECK(fitted >= 8);
-}
-
-TEST_CASE("What is left out of a scene saves the memory that its buffers took") {
-    std::map<std::string, double> saved;
-    for (const auto& row : quickRun().study("leave_out")["rows"]) {
-        saved[row["setting"]] = row["memory_saved_MiB"].get<double>();
-    }
-    CHECK(saved.at("nothing left out") == 0.0);
-    CHECK(saved.at("hold") > 1.0);
-    CHECK(saved.at("forbidden class") > saved.at("hold"));
-    CHECK(saved.at("filter") == 0.0);
 }
 
 TEST_CASE("--trace puts uploads, passes, queries and ticks on one time line") {

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// One quick run of `fathom profile`, shared by all cases that look at what it left behind.
+#pragma once
+
+#include "apps/profile/studies.h"
+#include "tests/apps/scratch_folder.h"
+#include "tests/program/run_fathom.h"
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace fathom::testing {
+
+struct QuickRun {
+    ScratchFolder folder;
+    ProgramRun program;
+    nlohmann::json report;
+    QuickRun() {
+        const std::string out = (folder.path() / "out").string();
+        program = runFathom({"--device", "llvmpipe", "--trace", (folder.path() / "trace.json").string(),
+                             "profile", "--quick", "--out", out});
+        report = nlohmann::json::parse(textOf(folder.path() / "out" / "profile.json"), nullptr, false);
+    }
+    const nlohmann::json& study(const std::string& name) const {
+        for (const auto& s : report["studies"]) {
+            if (s["name"] == name) {
+                return s;
+            }
+        }
+        FAIL("no study " << name);
+        return report;
+    }
+};
+
+inline const QuickRun& quickRun() { // one run serves every case
+    static const QuickRun run;
+    return run;
+}
+
+inline std::vector<std::vector<std::string>> tableOf(const std::filesystem::path& file) {
+    std::vector<std::vector<std::string>> rows;
+    std::istringstream in(textOf(file));
+    for (std::string line; std::getline(in, line);) {
+        auto& row = rows.emplace_back();
+        std::istringstream cells(line);
+        for (std::string cell; std::getline(cells, cell, ',');) {
+            row.push_back(cell);
+        }
+    }
+    return rows;
+}
+
+inline bool startsWith(const std::string& text, const std::string& head) {
+    return text.compare(0, head.size(), head) == 0;
+}
+
+} // namespace fathom::testing

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the studies of a quick run found: figures that hold on any machine, no times.
+#include "tests/profile/quick_run.h"
+
+#include <algorithm>
+#include <map>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+TEST_CASE(
+    "The filter lowers the depth error of a smooth scene, and patches skipped or not change nothing of it") {
+    std::map<std::string, double> error;
+    for (const auto& row : quickRun().study("filter")["rows"]) {
+        if (row["source"] == "corner") {
+            error[row["setting"]] = row["error"].get<double>();
+        }
+    }
+    CHECK(error.at("5x5 s10mm") < 0.9 * error.at("none"));
+    CHECK(error.at("5x5 s10mm") == error.at("5x5 s10mm all patches"));
+}
+
+TEST_CASE("Polynomial weights filter nearly as the exact ones do, but not quite") {
+    std::map<std::string, double> error;
+    for (const auto& row : quickRun().study("filter")["rows"]) {
+        if (row["source"] == "corner") {
+            error[row["setting"]] = row["error"].get<double>();
+        }
+    }
+    CHECK(error.at("5x5 s10mm polynomial") == doctest::Approx(error.at("5x5 s10mm")).epsilon(0.02));
+    CHECK(error.at("5x5 s10mm polynomial") != error.at("5x5 s10mm"));
+}
+
+TEST_CASE("Few rows with a look at the rest err as all rows do; the worst row alone costs solves") {
+    std::map<std::string, nlohmann::json> rows;
+    for (const auto& row : quickRun().study("solver")["rows"]) {
+        if (startsWith(row["source"], "reduced rows, ")) {
+            rows[row["setting"]] = row;
+        }
+    }
+    const double all = rows.at("all rows")["error"];
+    CHECK(all < 0.01);
+    CHECK(rows.at("1 first")["error"].get<double>() == doctest::Approx(all).epsilon(1e-6));
+    CHECK(rows.at("1 only")["strengthened_a_turn"].get<double>() >
+          rows.at("1 first")["strengthened_a_turn"].get<double>());
+    CHECK(rows.at("all rows")["share_in_contact"].get<double>() > 0.9);
+}
+
+TEST_CASE("Formats of less precision err more, and nodes rounded outwards lose nothing that is near") {
+    std::map<std::string, std::map<std::string, nlohmann::json>> rows;
+    for (const auto& row : quickRun().study("precision")["rows"]) {
+        rows[row["source"]][row["setting"]] = row;
+    }
+    for (const char* away : {"0.8", "8"}) {
+        for (const char* what : {"centres ", "tree nodes "}) {
+            auto& of = rows.at(std::string(what) + away + " m from the origin");
+            const auto error = [&](const char* format) { return of.at(format)["error"].get<double>(); };
+            CHECK(error("double") == 0.0);
+            CHECK(error("double") < error("single"));
+            CHECK(error("single") < error("half about the patch"));
+            CHECK(error("half about the patch") < error("half"));
+        }
+        auto& nodes = rows.at(std::string("tree nodes ") + away + " m from the origin");
+        const double exact = nodes.at("double")["nodes_found"];
+        CHECK(exact > 0.0);
+        CHECK(exact < nodes.at("double")["elements"].get<double>());
+        CHECK(nodes.at("half about the patch")["nodes_found"].get<double>() >= exact);
+        CHECK(nodes.at("half")["nodes_found"].get<double>() >= exact);
+    }
+    CHECK(rows.at("frame: depth pixels").at("half")["error"].get<double>() > 0.1); // [mm] at 0.8 m
+    CHECK(rows.at("frame: depth pixels").at("16-bit sensor units")["error"].get<double>() < 1e-3);
+    CHECK(rows.at("frame: filter weights").at("half weights")["error"].get<double>() > 0.0);
+}
+
+TEST_CASE("The boundary error stays within the budget and fewer spheres are kept for a larger one") {
+    std::map<std::string, nlohmann::json> rows;
+    for (const auto& row : quickRun().study("fixture")["rows"]) {
+        if (startsWith(row["source"].get<std::string>(), "plane")) {
+            rows[row["setting"]] = row;
+        }
+    }
+    CHECK(rows.at("0 mm")["error"] == 0.0);
+    CHECK(rows.at("0.1 mm")["error"].get<double>() <= 0.102);
+    CHECK(rows.at("1 mm")["error"].get<double>() <= 1.002);
+    CHECK(rows.at("1 mm")["error"].get<double>() > 0.05);
+    CHECK(rows.at("1 mm")["spheres"].get<double>() < 0.6 * rows.at("0 mm")["spheres"].get<double>());
+}
+
+TEST_CASE("With late answers a short reach stalls and lags and a long one does not") {
+    std::map<std::string, nlohmann::json> rows;
+    for (const auto& row : quickRun().study("query")["rows"]) {
+        rows[row["source"].get<std::string>() + ", " + row["setting"].get<std::string>()] = row;
+    }
+    const auto& brief = rows.at("answers 10 ticks late, reach 2 mm");
+    const auto& ample = rows.at("answers 10 ticks late, reach 10 mm");
+    CHECK(brief["stalled_turns"].get<double>() > ample["stalled_turns"].get<double>());
+    CHECK(brief["found_spheres"].is_null());
+    CHECK(brief["error"].get<double>() > ample["error"].get<double>());
+}
+
+TEST_CASE("Larger pictures cost more of every fitted step, and the exponents are said") {
+    size_t fitted = 0;
+    for (const std::string finding : quickRun().study("scaling")["findings"]) {
+        fitted += finding.find(" grows as x^") != std::string::npos ? 1 : 0;
+    }
+    CHECK(fitted >= 8);
+}
+
+TEST_CASE("What is left out of a scene saves the memory that its buffers took") {
+    std::map<std::string, double> saved;
+    for (const auto& row : quickRun().study("leave_out")["rows"]) {
+        saved[row["setting"]] = row["memory_saved_MiB"].get<double>();
+    }
+    CHECK(saved.at("nothing left out") == 0.0);
+    CHECK(saved.at("hold") > 1.0);
+    CHECK(saved.at("forbidden class") > saved.at("hold"));
+    CHECK(saved.at("filter") == 0.0);
+}
+
+TEST_CASE("A row of the query study counts found spheres or stalled turns, never one in the other's place") {
+    std::map<std::string, double> found;
+    for (const auto& row : quickRun().study("query")["rows"]) {
+        const bool late = startsWith(row["source"], "answers ");
+        CHECK(row["found_spheres"].is_null() == late);
+        CHECK(row["stalled_turns"].is_null() != late);
+        CHECK(row["error"].is_null() != late); // lag is a matter of the drag alone
+        if (!late) {
+            found[row["source"].get<std::string>() + " " + row["setting"].get<std::string>()] =
+                row["found_spheres"];
+        }
+    }
+    CHECK(found.at("12.29 k spheres CPU 1000 leaves") > 10.0);
+    CHECK(found.at("12.29 k spheres CPU 1000 leaves") == found.at("12.29 k spheres GPU 1000 leaves"));
+    CHECK(found.at("12.29 k spheres CPU 1000 leaves") >= found.at("12.29 k spheres CPU 1 leaves"));
+}
+
+TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap") {
+    std::map<std::string, std::map<double, nlohmann::json>> rows;
+    for (const auto& row : quickRun().study("tool")["rows"]) {
+        rows[row["source"]][row["leaves"].get<double>()] = row;
+    }
+    for (auto& [source, of] : rows) {
+        CAPTURE(source);
+        REQUIRE(of.size() == 2);
+        CHECK(of.rbegin()->second["error"].get<double>() < 0.5 * of.begin()->second["error"].get<double>());
+        CHECK(of.rbegin()->second["protrusion_mm"].get<double>() > 1.0);
+    }
+    CHECK(rows.at("covering spheres").rbegin()->second["gap_mm"].get<double>() <= 1e-6);
+    CHECK(rows.at("smaller spheres, with gaps").rbegin()->second["gap_mm"].get<double>() > 0.1);
+}
+
+TEST_CASE("A step's floor is the longer of moving and computing, and its ratio what it took over that") {
+    for (const auto& row : quickRun().study("limit")["rows"]) {
+        const double moving = row["moving_ms"], computing = row["computing_ms"], floor = row["floor_ms"];
+        const auto& time = row["gpu_p50_ms"].is_null() ? row["cpu_p50_ms"] : row["gpu_p50_ms"];
+        CHECK(moving > 0.0);
+        CHECK(floor == std::max(moving, computing));
+        CHECK(row["ratio"].get<double>() * floor == doctest::Approx(time.get<double>()));
+    }
+}
