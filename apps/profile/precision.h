@@ -27,4 +27,11 @@ std::vector<StudyRow> gapRows(const StudyContext& context);
 StudyRow precisionRow(const std::string& source, const std::string& setting, bool isDefault, double errorMm,
                       const Cost& cost, double bytes, double elements, double found);
 
+// Smallest squared distance [m^2] of a point to `count` others, of which only whole runs of 16 are looked at:
+// the same loop for each kind of number, compiled for several instruction sets.
+float nearestSquared(const float* x, const float* y, const float* z, size_t count, float cx, float cy,
+                     float cz) noexcept;
+double nearestSquared(const double* x, const double* y, const double* z, size_t count, double cx, double cy,
+                      double cz) noexcept;
+
 } // namespace fathom::profile

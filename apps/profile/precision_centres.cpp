@@ -11,17 +11,9 @@ namespace fathom::profile {
 
 namespace {
 
-template <class T>
-struct Columns {
-    std::vector<T> x, y, z;
-    void add(T px, T py, T pz) { x.push_back(px), y.push_back(py), z.push_back(pz); }
-    size_t size() const { return x.size(); }
-};
-
-// Smallest squared distance; the same loop for each kind of number.
 FATHOM_CLONES
-float nearestSingle(const float* __restrict x, const float* __restrict y, const float* __restrict z,
-                    size_t count, float cx, float cy, float cz) noexcept {
+float scanSingle(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                 size_t count, float cx, float cy, float cz) noexcept {
     float least[16];
     std::fill_n(least, 16, 1e30f);
     for (size_t i = 0; i + 16 <= count; i += 16) {
@@ -35,8 +27,8 @@ float nearestSingle(const float* __restrict x, const float* __restrict y, const 
 }
 
 FATHOM_CLONES
-double nearestDouble(const double* __restrict x, const double* __restrict y, const double* __restrict z,
-                     size_t count, double cx, double cy, double cz) noexcept {
+double scanDouble(const double* __restrict x, const double* __restrict y, const double* __restrict z,
+                  size_t count, double cx, double cy, double cz) noexcept {
     double least[16];
     std::fill_n(least, 16, 1e30);
     for (size_t i = 0; i + 16 <= count; i += 16) {
@@ -48,6 +40,27 @@ double nearestDouble(const double* __restrict x, const double* __restrict y, con
     }
     return *std::min_element(least, least + 16);
 }
+
+} // namespace
+
+float nearestSquared(const float* x, const float* y, const float* z, size_t count, float cx, float cy,
+                     float cz) noexcept {
+    return scanSingle(x, y, z, count, cx, cy, cz);
+}
+
+double nearestSquared(const double* x, const double* y, const double* z, size_t count, double cx, double cy,
+                      double cz) noexcept {
+    return scanDouble(x, y, z, count, cx, cy, cz);
+}
+
+namespace {
+
+template <class T>
+struct Columns {
+    std::vector<T> x, y, z;
+    void add(T px, T py, T pz) { x.push_back(px), y.push_back(py), z.push_back(pz); }
+    size_t size() const { return x.size(); }
+};
 
 FATHOM_CLONES
 float nearestHalf(const uint16_t* __restrict x, const uint16_t* __restrict y, const uint16_t* __restrict z,
@@ -104,8 +117,8 @@ using Distances = std::vector<double>; // a leaf [m]
 Distances runDouble(const Scene& s) {
     Distances out;
     for (const dvec3& c : s.leaves) {
-        out.push_back(std::sqrt(nearestDouble(s.exact.x.data(), s.exact.y.data(), s.exact.z.data(),
-                                              s.exact.size(), c.x, c.y, c.z)));
+        out.push_back(std::sqrt(nearestSquared(s.exact.x.data(), s.exact.y.data(), s.exact.z.data(),
+                                               s.exact.size(), c.x, c.y, c.z)));
     }
     return out;
 }
@@ -113,8 +126,8 @@ Distances runSingle(const Scene& s) {
     Distances out;
     for (const dvec3& c : s.leaves) {
         const glm::vec3 f(c);
-        out.push_back(std::sqrt(double{nearestSingle(s.single.x.data(), s.single.y.data(), s.single.z.data(),
-                                                     s.single.size(), f.x, f.y, f.z)}));
+        out.push_back(std::sqrt(double{nearestSquared(s.single.x.data(), s.single.y.data(), s.single.z.data(),
+                                                      s.single.size(), f.x, f.y, f.z)}));
     }
     return out;
 }

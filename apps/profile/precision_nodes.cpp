@@ -67,16 +67,19 @@ private:
     }
 };
 
-// Each format: how a node is stored, and what it says again.
+// Each format: how a node is stored, and the sphere (centre, radius) that it says again, in the numbers that
+// are culled with.
 struct DoubleNode {
+    using Number = double;
     double x, y, z, r;
     static DoubleNode of(const Bound& b, const dvec3&) {
         return {b.centre.x, b.centre.y, b.centre.z, b.radius};
     }
-    Bound bound(const dvec3&) const { return {{x, y, z}, r}; }
+    glm::dvec4 sphere(const dvec3&) const { return {x, y, z, r}; }
 };
 
 struct SingleNode {
+    using Number = float;
     float x, y, z, r;
     static SingleNode of(const Bound& b, const dvec3&) {
         const glm::vec3 c(b.centre);
@@ -85,45 +88,49 @@ struct SingleNode {
         r = static_cast<double>(r) < needed ? std::nextafter(r, std::numeric_limits<float>::max()) : r;
         return {c.x, c.y, c.z, r};
     }
-    Bound bound(const dvec3&) const { return {dvec3(glm::vec3(x, y, z)), static_cast<double>(r)}; }
+    glm::vec4 sphere(const dvec3&) const { return {x, y, z, r}; }
 };
 
 template <bool kAboutPatch>
 struct HalfNode {
+    using Number = float;
     uint16_t x, y, z, r;
     static HalfNode of(const Bound& b, const dvec3& anchor) {
         const glm::vec3 c(kAboutPatch ? b.centre - anchor : b.centre);
         HalfNode node{halved(c.x), halved(c.y), halved(c.z), 0};
-        node.r = halvedUp(b.radius + glm::distance(node.bound(anchor).centre, b.centre));
+        node.r = halvedUp(b.radius + glm::distance(dvec3(node.sphere(anchor)), b.centre));
         return node;
     }
-    Bound bound(const dvec3& anchor) const {
+    glm::vec4 sphere(const dvec3& anchor) const {
         const glm::vec3 c(widened(x), widened(y), widened(z));
-        // The sum that is culled with: single, as a shader's would be.
-        return {kAboutPatch ? dvec3(c + glm::vec3(anchor)) : dvec3(c), static_cast<double>(widened(r))};
+        return {kAboutPatch ? c + glm::vec3(anchor) : c, widened(r)};
     }
 };
 
-template <class Node>
-using Real = std::conditional_t<std::is_same_v<Node, DoubleNode>, double, float>;
+// Centres of the leaves; a multiple of 16.
+template <class T>
+struct Leaves {
+    std::vector<T> x, y, z;
+    explicit Leaves(const std::vector<dvec3>& leaves) {
+        for (const dvec3& l : leaves) {
+            x.push_back(static_cast<T>(l.x)), y.push_back(static_cast<T>(l.y)),
+                z.push_back(static_cast<T>(l.z));
+        }
+    }
+};
 
-// Nodes within reach of some leaf, in order; every node is asked.
+// Marks the nodes within reach of some leaf; every node is asked of every leaf.
 template <class Node>
-void cull(const Wall& wall, const std::vector<Node>& nodes, std::vector<uint8_t>& marks) {
-    using T = Real<Node>;
+void cull(const Wall& wall, const Leaves<typename Node::Number>& leaves, const std::vector<Node>& nodes,
+          std::vector<uint8_t>& marks) {
+    using T = typename Node::Number;
     marks.assign(nodes.size(), 0);
     for (size_t n = 0; n < nodes.size(); ++n) {
-        const Bound b = nodes[n].bound(wall.anchors[n / kChildren]);
-        const T x = static_cast<T>(b.centre.x), y = static_cast<T>(b.centre.y),
-                z = static_cast<T>(b.centre.z);
-        const T limit = static_cast<T>(b.radius) + static_cast<T>((kReach + kLeaf) * 1.00001 + 1e-6);
-        bool found = false;
-        for (size_t l = 0; l < wall.leaves.size() && !found; ++l) {
-            const T dx = x - static_cast<T>(wall.leaves[l].x), dy = y - static_cast<T>(wall.leaves[l].y),
-                    dz = z - static_cast<T>(wall.leaves[l].z);
-            found = dx * dx + dy * dy + dz * dz <= limit * limit;
-        }
-        marks[n] = found ? 1 : 0;
+        const auto node = nodes[n].sphere(wall.anchors[n / kChildren]);
+        const T limit = node.w + static_cast<T>((kReach + kLeaf) * 1.00001 + 1e-6);
+        const T nearest = nearestSquared(leaves.x.data(), leaves.y.data(), leaves.z.data(), leaves.x.size(),
+                                         node.x, node.y, node.z);
+        marks[n] = nearest <= limit * limit ? 1 : 0;
     }
 }
 
@@ -132,7 +139,8 @@ template <class Node>
 double growthOf(const Wall& wall, const std::vector<Node>& nodes, const std::string& name) {
     double most = 0.0;
     for (size_t n = 0; n < nodes.size(); ++n) {
-        const Bound b = nodes[n].bound(wall.anchors[n / kChildren]);
+        const glm::dvec4 sphere(nodes[n].sphere(wall.anchors[n / kChildren]));
+        const Bound b{dvec3(sphere), sphere.w};
         for (size_t k = n * kChildren; k < (n + 1) * kChildren; ++k) {
             const double out = glm::distance(wall.spheres[k], b.centre) + kSphere - b.radius;
             verify(out <= 1e-15, "precision", name,
@@ -153,12 +161,13 @@ StudyRow rowOf(const StudyContext& context, const std::string& source, const std
     }
     const double growth = growthOf(wall, nodes, name);
     verify(growth <= allowed, "precision", name, "a node grows by " + digits(growth * 1e3) + " mm");
+    const Leaves<typename Node::Number> leaves(wall.leaves);
     std::vector<uint8_t> marks;
-    cull(wall, nodes, marks);
+    cull(wall, leaves, nodes, marks);
     for (size_t n = 0; n < marks.size() && !needed.empty(); ++n) {
         verify(marks[n] >= needed[n], "precision", name, "the cull loses node " + std::to_string(n));
     }
-    const Cost cost = timeCpu(context.settings.effort(), [&] { cull(wall, nodes, marks); });
+    const Cost cost = timeCpu(context.settings.effort(), [&] { cull(wall, leaves, nodes, marks); });
     return precisionRow(source, name, name == "single", growth * 1e3, cost, sizeof(Node),
                         static_cast<double>(nodes.size()),
                         static_cast<double>(std::count(marks.begin(), marks.end(), 1)));
@@ -177,7 +186,7 @@ std::vector<StudyRow> nodeRows(const StudyContext& context) {
             exact.push_back(DoubleNode::of(b, {}));
         }
         std::vector<uint8_t> needed;
-        cull(wall, exact, needed);
+        cull(wall, Leaves<double>(wall.leaves), exact, needed);
         rows.push_back(rowOf<DoubleNode>(context, source, "double", wall, {}, 1e-15));
         rows.push_back(rowOf<SingleNode>(context, source, "single", wall, needed, 4e-6));
         rows.push_back(rowOf<HalfNode<true>>(context, source, "half about the patch", wall, needed, 1e-4));

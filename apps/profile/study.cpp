@@ -93,8 +93,9 @@ PlotPanel frontPanel(const Study& study, const std::string& title, const RowValu
     panel.title = title;
     panel.xLabel = study.timeName + " [ms]";
     panel.yLabel = study.errorName + " [" + study.errorUnit + "]";
+    int colour = 0; // a source keeps its own in every panel of a study
     for (const std::string& source : sourcesOf(study)) {
-        PlotSeries series{source, {}, false};
+        PlotSeries series{source, {}, false, colour++};
         for (const StudyRow& row : study.rows) {
             const double time = x ? x(row) : timeOf(study, row), error = y ? y(row) : row.error;
             if (row.source == source && time > 0.0 && std::isfinite(error)) {
