@@ -48,6 +48,14 @@ PanelAxis linearAxis(const std::vector<double>& values) {
     return axis;
 }
 
+// Where a decade gets ticks: often enough that even a short axis has some.
+std::vector<double> factorsOf(double span) {
+    if (span < 0.5) {
+        return {1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};
+    }
+    return {1.0, 2.0, 5.0};
+}
+
 } // namespace
 
 double PanelAxis::at(double value) const {
@@ -68,7 +76,7 @@ std::vector<PanelAxis::Tick> PanelAxis::ticks() const {
     }
     const double span = hi - lo, bottom = lo + (hasZero ? kZeroRoom : 0.0);
     for (int decade = static_cast<int>(std::floor(lo)); decade <= static_cast<int>(std::ceil(hi)); ++decade) {
-        for (double factor : {1.0, 2.0, 5.0}) {
+        for (double factor : factorsOf(span)) {
             const double at10 = decade + std::log10(factor);
             const bool wanted = factor == 1.0 ? (span < 6.0 || decade % 2 == 0) : span < 2.5;
             if (wanted && at10 >= bottom && at10 <= hi) {

@@ -137,5 +137,10 @@ TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart
         CHECK(axis.at(tick.value) <= 500.0);
     }
     CHECK(panelAxis({}, true, 0.0, 1.0).ticks().size() >= 1);
+    for (double low : {0.0091, 0.013, 0.47, 3.3, 7.6}) { // a short axis is never without a scale
+        const PanelAxis brief = panelAxis({low, 1.1 * low}, true, 0.0, 100.0);
+        CHECK(brief.ticks().size() >= 2);
+        CHECK(brief.ticks().size() <= 6);
+    }
     CHECK(panelAxis({5.0, 5.0}, true, 0.0, 1.0).at(5.0) == doctest::Approx(0.5));
 }
