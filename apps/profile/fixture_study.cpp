@@ -112,17 +112,16 @@ Study fixtureStudy(const StudyContext& context) {
                 built.row.isDefault = budget == chosen && radius == radii[radii.size() - (quick ? 1 : 2)];
                 if (budget == 0.0) {
                     all = std::move(built.spheres);
-                    built.row.error = 0.0;
                 }
                 study.rows.push_back(std::move(built.row));
             }
         }
     }
     markFront(study);
-    study.panels.push_back(frontPanel(study, "build: submission until the set has landed"));
-    study.panels.back().yLabel = "largest boundary error [mm]";
-    study.panels.push_back(queryPanel(study));
-    study.panels.back().yLabel = "largest boundary error [mm]";
+    study.panels = {frontPanel(study, "build: submission until the set has landed"), queryPanel(study)};
+    for (PlotPanel& panel : study.panels) {
+        panel.yLabel = "largest boundary error [mm]";
+    }
     return study;
 }
 
