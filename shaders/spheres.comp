@@ -9,6 +9,7 @@ layout(local_size_x_id = 0) in; // divides 256
 layout(constant_id = 1) const uint kThin = 1;       // 1: the error budget leaves points out
 layout(constant_id = 2) const uint kHold = 1;       // 1: unseen points stay for a while
 layout(constant_id = 3) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
+layout(constant_id = 4) const uint kLeaks = 1;      // 1: within near..far neighbours may be a radius apart
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
@@ -75,8 +76,10 @@ vec4 seenSphere(uint slot, uvec2 at, uint c, CellsAround around) {
         return vec4(0.0, 0.0, 0.0, -1.0);
     }
     vec4 p = points[slot];
-    noteLeak(at, at + uvec2(1, 0), p, c);
-    noteLeak(at, at + uvec2(0, 1), p, c);
+    if (kLeaks != 0) {
+        noteLeak(at, at + uvec2(1, 0), p, c);
+        noteLeak(at, at + uvec2(0, 1), p, c);
+    }
     float grown = kThin != 0 ? keptGrowth(at, around) : 0.0;
     return vec4(p.xyz, grown < 0.0 ? -1.0 : params.classes[c].role.x + grown);
 }

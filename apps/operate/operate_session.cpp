@@ -51,6 +51,13 @@ std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scen
     return waypoints;
 }
 
+// Radii may change while it runs: what the scene at first could leave out for its radii stays in.
+Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device) {
+    Plan plan = makePlan(scene, camera, static_cast<uint32_t>(tool.leafCount()), device);
+    plan.leaks = plan.spheres;
+    return plan;
+}
+
 } // namespace
 
 bool isSpare(const FixtureClass& fixture) {
@@ -80,7 +87,7 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
     , tool(openTool(scene))
     , instance(gpu::Validation{options.validate, false}, extensions)
     , device(instance, global.device, drawing)
-    , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))
+    , plan(planToEdit(scene, camera->info(), tool, device.facts()))
     , frames(device, scene, camera->info(), plan, kReaders)
     , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach) {}
 

@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace fathom {
 
@@ -12,6 +13,13 @@ namespace {
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 
 // Decides the switches; the items that explain them follow from these alone.
+bool mayLeak(const Scene& scene, const Intrinsics& lens) {
+    return std::any_of(scene.fixtures.begin(), scene.fixtures.end(), [&](const FixtureClass& f) {
+        return f.isPoints() && f.role == Role::Forbidden &&
+               scene.farZ >= leaksFrom(lens, f.radius + 3.0 * scene.registrationSigma);
+    });
+}
+
 Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     Plan plan;
     plan.spheres = scene.hasForbiddenPoints();
@@ -21,6 +29,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.occlusion = plan.colour && !camera.registered;
     plan.thin = plan.spheres && scene.errorBudget > 0.0;
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
+    plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
     plan.pack =
         plan.spheres && device.kind != DeviceKind::Cpu; // there nothing crosses a bus, and it takes 2 ms
     for (const FixtureClass& f : scene.fixtures) {
@@ -70,7 +79,9 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
          "the scene has no class of points");
     pass("thin", plan.thin, "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm",
          plan.spheres ? "error budget 0 keeps every point" : "no forbidden class of points");
-    pass("spheres", plan.spheres, plan.hold ? "forbidden classes, unseen points held" : "forbidden classes",
+    pass("spheres", plan.spheres,
+         std::string("forbidden classes") + (plan.hold ? ", unseen points held" : "") +
+             (plan.leaks ? ", holes between points looked for" : ", too near for holes between points"),
          "no forbidden class of points");
     pass("tree", plan.spheres, "bounds up to one root for the query", "no forbidden class of points");
     pass("pack", plan.pack, "spheres in a row: the host reads them across a bus",
@@ -105,6 +116,18 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
 }
 
 } // namespace
+
+// Points are z (rho, 1), rho of neighbours at most 1 / f apart. With a the distance of two, |dz| <= 0.7 a:
+// sqrt(1 - 0.7^2) a <= |z rho - z' rho'| <= z / f + |rho'| 0.7 a.
+double leaksFrom(const Intrinsics& lens, double radius) noexcept {
+    const auto reach = [](double centre, uint32_t size, double f) {
+        return std::max(centre, size - centre) / f;
+    };
+    const double widest =
+        std::hypot(reach(lens.cx, lens.width, lens.fx), reach(lens.cy, lens.height, lens.fy));
+    const double left = 0.71 - 0.7 * widest;
+    return lens.distorted() || left <= 0.0 ? 0.0 : 0.999 * radius * left * std::min(lens.fx, lens.fy);
+}
 
 PatchLayout patchLayout(uint32_t width, uint32_t height) {
     if (width == 0 || height == 0 || width > kMaxWidth || height > kMaxHeight) {

@@ -39,6 +39,7 @@ struct Plan {
     bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
     uint32_t classes = 0;   // classes of points
     bool box = false;       // some class has a box
+    bool leaks = false; // neighbours may be a region radius apart somewhere in near..far: it is looked for
     bool polynomialWeights = false; // the filter's, in place of exp
     uint32_t filterRadius = 0;
     bool edge = false;
@@ -52,6 +53,10 @@ struct Plan {
     bool has(const std::string& name) const;
     uint32_t dispatchesPerFrame() const; // of the frame path, query excluded
 };
+
+// Range [m] below which neighbouring points of one surface (|dz| <= 0.7 of their distance) are nearer to each
+// other than `radius` [m]; 0 = not known: distorted and very wide lenses.
+double leaksFrom(const Intrinsics& lens, double radius) noexcept;
 
 // Sizes of the picture in patches of 16x16 pixels and in the levels of the region tree.
 struct PatchLayout {

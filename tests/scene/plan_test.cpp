@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 #include <set>
 
 using namespace fathom;
@@ -146,6 +147,34 @@ TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter an
     small.maxInvocations = 128;
     CHECK(makePlan(scene, camera, 1, small).pixelGroup == 128);
     CHECK(planOf(scene, camera).pixelGroup == 256);
+}
+
+TEST_CASE("Holes between points are looked for only where neighbours can be a radius apart") {
+    CameraInfo camera = cameraOf(640, 480);
+    camera.depth.cx = 320.0, camera.depth.cy = 240.0;
+    const double radius = 0.04, from = leaksFrom(camera.depth, radius);
+    REQUIRE(from > 1.0);
+    size_t holes = 0;
+    for (uint32_t k = 0; k < 20000; ++k) { // corners and middle, every slope that counts as a surface
+        const double u = k % 3 * 319.0, v = k / 3 % 3 * 239.0, z = from * (k % 100 + 1) / 101.0;
+        const glm::dvec2 a = camera.depth.ray(u, v),
+                         b = k % 2 == 0 ? camera.depth.ray(u + 1, v) : camera.depth.ray(u, v + 1);
+        const double other = z * (0.9 + 0.2 * (k / 100 % 101) / 100.0);
+        const double apart = glm::distance(dvec3(a * z, z), dvec3(b * other, other));
+        holes += apart >= radius && std::abs(other - z) <= 0.7 * apart ? 1 : 0;
+    }
+    CHECK(holes == 0);
+    Scene scene = sceneOf({points(Role::Forbidden)});
+    scene.fixtures[0].radius = radius;
+    scene.farZ = 0.99 * from;
+    CHECK_FALSE(planOf(scene, camera).leaks);
+    scene.farZ = 1.01 * from;
+    CHECK(planOf(scene, camera).leaks);
+    CameraInfo bent = camera;
+    bent.depth.distortion[0] = 0.1;
+    scene.farZ = 0.5;
+    CHECK(planOf(scene, bent).leaks); // not known for such a lens
+    CHECK_FALSE(planOf(sceneOf({points(Role::Guidance)}), bent).leaks);
 }
 
 TEST_CASE("Every item says why, what is left out takes no memory, what is in takes some") {
