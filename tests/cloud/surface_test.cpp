@@ -47,6 +47,11 @@ Scene edgeScene(double edge) {
     return scene;
 }
 
+// Rows are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
+bool onCpu() {
+    return vulkan().device.facts().kind == DeviceKind::Cpu;
+}
+
 } // namespace
 
 TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixels are rejected, for every "
@@ -82,9 +87,8 @@ TEST_CASE("Windows from shared memory, direct reads and rows in registers give t
             CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterRow = false; });
             CloudRig rows(scene, camera, [&](Plan& plan) { plan.filterRow = radius <= 2; });
             direct.run(picture), tiled.run(picture), rows.run(picture);
-            // Rows are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
-            const bool cpu = test::vulkan().device.facts().kind == DeviceKind::Cpu;
-            CHECK((!cpu || (rows.points().z == direct.points().z && rows.points().at == direct.points().at)));
+            CHECK((!onCpu() ||
+                   (rows.points().z == direct.points().z && rows.points().at == direct.points().at)));
             const Agreement ofRows = comparePoints(rows);
             CHECK(ofRows.wrong == 0);
             CHECK(ofRows.worst < 1e-6);
@@ -119,7 +123,7 @@ TEST_CASE("Polynomial weights follow their own twin and stay within 3 % of the n
         CHECK(agreement.points == 67 * 41);
         CHECK(agreement.wrong == 0);
         CHECK(agreement.worst < 1e-6);
-        CHECK(rows.points().z == direct.points().z);
+        CHECK((!onCpu() || rows.points().z == direct.points().z));
         CHECK(tiled.points().z == direct.points().z);
         const std::vector<double> a = exact.points().z, b = rows.points().z;
         double apart = 0.0;

@@ -156,7 +156,8 @@ TEST_CASE(
 TEST_CASE("pictures of odd sizes run, from one pixel on") {
     for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{17u, 1u}, std::pair{7u, 5u},
                                         std::pair{33u, 17u}, std::pair{257u, 3u}}) {
-        CAPTURE(width);
+        const uint32_t across = width; // clang 14 cannot capture a binding
+        CAPTURE(across);
         Stage stage;
         stage.recording(
             {Picture(width, height, 500).paint({0, 0, width, height}, kRed), Picture(width, height, 500)});

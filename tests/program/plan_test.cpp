@@ -99,10 +99,10 @@ TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out,
                                                  {"buffer colour upload", "no class asks for colour"},
                                                  {"buffer memory of points", "hold_s is 0"},
                                                  {"buffer rays", "no lens distortion"}};
-    for (const auto& [name, why] : out) {
-        CAPTURE(name);
-        CHECK(!plan.at(name).in);
-        CHECK(plan.at(name).why.find(why) != std::string::npos);
+    for (const auto& row : out) {
+        CAPTURE(row.first);
+        CHECK(!plan.at(row.first).in);
+        CHECK(plan.at(row.first).why.find(row.second) != std::string::npos);
     }
     checkRunsThat(stage, plan);
 }
@@ -124,9 +124,9 @@ TEST_CASE("guidance alone needs no spheres, no tree and no query; shapes alone n
     scene.fixtures = {"name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, -1]}"};
     stage.scene(scene);
     const auto shapes = planOf(stage);
-    for (const auto& [name, item] : shapes) {
-        CAPTURE(name);
-        CHECK((name.rfind("thread", 0) == 0 || !item.in));
+    for (const auto& row : shapes) {
+        CAPTURE(row.first);
+        CHECK((row.first.rfind("thread", 0) == 0 || !row.second.in));
     }
     checkRunsThat(stage, shapes);
 }
