@@ -139,8 +139,9 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
     for (const auto& row : quickRun().study("tool")["rows"]) {
         rows[row["source"]][row["leaves"].get<double>()] = row;
     }
-    for (auto& [source, of] : rows) {
-        CAPTURE(source);
+    for (const auto& row : rows) {
+        CAPTURE(row.first);
+        const auto& of = row.second;
         REQUIRE(of.size() == 2);
         CHECK(of.rbegin()->second["error"].get<double>() < 0.5 * of.begin()->second["error"].get<double>());
         CHECK(of.rbegin()->second["protrusion_mm"].get<double>() > 1.0);
