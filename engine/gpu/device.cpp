@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 namespace fathom::gpu {
 
@@ -180,8 +181,8 @@ void Device::savePipelineCache() const noexcept {
         }
         const std::filesystem::path target(cacheFile_);
         std::filesystem::create_directories(target.parent_path());
-        const std::filesystem::path fresh =
-            target.string() + "." + std::to_string(reinterpret_cast<uintptr_t>(this));
+        const std::filesystem::path fresh = target.string() + "." + std::to_string(::getpid()) + "." +
+                                            std::to_string(reinterpret_cast<uintptr_t>(this));
         std::ofstream(fresh, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
         std::filesystem::rename(fresh, target);
     } catch (const std::exception& e) {
