@@ -4,6 +4,7 @@
 #include "apps/binding/open_hand.h"
 #include "devices/bridge/door_socket.h"
 #include "devices/usb/device_files.h"
+#include "engine/gpu/device.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -70,6 +71,23 @@ int printDoors(std::ostream& out, const std::filesystem::path& folder) {
     return static_cast<int>(found.size());
 }
 
+// Nothing is computed: every physical device that Vulkan names, refused ones with the reason.
+void printComputeDevices(std::ostream& out) {
+    try {
+        const gpu::Instance instance(gpu::Validation{false, false});
+        size_t index = 0;
+        for (const std::string& line : gpu::Device::list(instance)) {
+            out << "compute " << line << "\n";
+            if (line.find(", refused: ") == std::string::npos) {
+                out << "          --device " << index << ", or a part of its name\n";
+            }
+            ++index;
+        }
+    } catch (const std::exception& e) {
+        out << "compute REFUSED: " << e.what() << "\n";
+    }
+}
+
 } // namespace
 
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
@@ -86,11 +104,12 @@ void printHandDevices(std::ostream& out, const std::filesystem::path& root,
 }
 
 void addDevicesCommand(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("devices", "list cameras and haptic devices, with what stops them");
+    CLI::App* command = app.add_subcommand(
+        "devices", "list cameras, haptic devices and compute devices, with what stops them");
     command->callback([] {
         const char* folder = std::getenv("XDG_RUNTIME_DIR");
         printHandDevices(std::cout, "/", folder != nullptr ? folder : "");
+        printComputeDevices(std::cout);
     });
 }
 
