@@ -70,7 +70,10 @@ public:
         out.radius[next_] = s.w;
         out.source[next_] = corner + inPatch_[key & 255] + ((key & 256) != 0 ? pixels_ : 0);
         out.fixture[next_] = static_cast<uint8_t>(rows_[c]);
-        set_.keys[next_++] = key;
+        if (!set_.keys.empty()) {
+            set_.keys[next_] = key;
+        }
+        ++next_;
         tally_.add(patch, c);
     }
     void finish() { tally_.finish(); }
@@ -84,9 +87,9 @@ private:
     size_t next_ = 0;
 };
 
-void makeRoom(FixtureSet& set, size_t spheres) {
+void makeRoom(FixtureSet& set, const Plan& plan, size_t spheres) {
     set.host.spheres.resize(spheres);
-    set.keys.resize(spheres);
+    set.keys.resize(plan.query == Plan::Query::Gpu ? spheres : 0);
 }
 
 void takePacked(const FixtureSet& set, uint32_t count, SphereColumns& columns) {
@@ -198,7 +201,7 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene
     set.host.guidance.clear();
     set.host.forbiddenBits.clear();
     if (!plan.spheres) {
-        makeRoom(set, 0);
+        makeRoom(set, plan, 0);
     }
     if (!plan.cloud) {
         return counts;
@@ -212,7 +215,7 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene
     }
     if (plan.spheres) {
         counts.spheres = c.spheres;
-        makeRoom(set, c.spheres);
+        makeRoom(set, plan, c.spheres);
         SphereColumns columns(set, rows, layout, counts);
         if (plan.pack) {
             takePacked(set, c.spheres, columns);

@@ -46,6 +46,7 @@ CloudRig::Change packing(bool pack) {
 void checkPacked(const CloudRig& rig) {
     const Expected all = inOrder(rig);
     const RegionSpheres& host = rig.host().spheres;
+    CHECK((rig.plan().query == Plan::Query::Gpu || rig.set().keys.empty()));
     REQUIRE(host.size() == all.spheres.size());
     CHECK(rig.counters().spheres == all.spheres.size());
     size_t wrong = 0;
