@@ -12,7 +12,6 @@ namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
 
-// Decides the switches; the items that explain them follow from these alone.
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
     return std::any_of(scene.fixtures.begin(), scene.fixtures.end(), [&](const FixtureClass& f) {
         return f.isPoints() && f.role == Role::Forbidden &&
@@ -20,6 +19,7 @@ bool mayLeak(const Scene& scene, const Intrinsics& lens) {
     });
 }
 
+// Decides the switches; the items that explain them follow from these alone.
 Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     Plan plan;
     plan.spheres = scene.hasForbiddenPoints();
