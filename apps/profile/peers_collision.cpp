@@ -13,23 +13,8 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kReach = 0.01;        // [m]
-constexpr double kRegionRadius = 0.02; // [m]
-constexpr size_t kPoses = 8;           // a timed sample is one query at each
-
-Scene everyPoint() {
-    Scene scene;
-    FixtureClass all;
-    all.name = "all";
-    all.radius = kRegionRadius;
-    scene.fixtures = {all};
-    scene.errorBudget = 0.0;
-    scene.holdSeconds = 0.0;
-    scene.filter.radius = 0;
-    scene.filter.edge = 0.0;
-    scene.contact.where = Scene::Contact::Where::Gpu; // the set then has what both ways need
-    return scene;
-}
+constexpr double kReach = 0.01; // [m]
+constexpr size_t kPoses = 8;    // a timed sample is one query at each
 
 // One set of spheres, and the device's copy of it.
 struct Rig {
@@ -37,7 +22,7 @@ struct Rig {
     double treeMs; // device time of the passes that make spheres and tree, p50
 
     Rig(const StudyContext& context, const ShotSource& source)
-        : bench(context.device, everyPoint(), source.camera)
+        : bench(context.device, everyPointScene(), source.camera)
         , treeMs(treeTime(bench.measure(source.shots, context.settings.effort()))) {}
     static double treeTime(const FrameCost& cost) {
         const auto spheres = cost.passes.find("spheres"), tree = cost.passes.find("tree");

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kReach = 0.01;         // [m]
 constexpr double kMostBrutePairs = 4e8; // leaf-sphere pairs that brute force is let try
-constexpr double kRegionRadius = 0.02;  // [m]
 
 struct Size {
     uint32_t width, height;
@@ -30,22 +29,9 @@ struct QueryRig {
     ShotSource source;
     FrameBench bench;
 
-    static Scene scene() {
-        Scene scene;
-        FixtureClass all;
-        all.name = "all";
-        all.radius = kRegionRadius;
-        scene.fixtures = {all};
-        scene.errorBudget = 0.0;
-        scene.holdSeconds = 0.0;
-        scene.filter.radius = 0;
-        scene.filter.edge = 0.0;
-        scene.contact.where = Scene::Contact::Where::Gpu; // the set then has what both ways need
-        return scene;
-    }
     QueryRig(gpu::Device& device, const Size& size)
         : source(wallShot(size.width, size.height, 1.0))
-        , bench(device, scene(), source.camera) {
+        , bench(device, everyPointScene(), source.camera) {
         bench.run(source.shots.front());
     }
     const Fixtures& host() const { return bench.set().host; }

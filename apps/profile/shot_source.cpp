@@ -103,6 +103,20 @@ std::vector<ShotSource> studySources(const Settings& settings, const std::vector
     return sources;
 }
 
+Scene everyPointScene() {
+    Scene scene;
+    FixtureClass all;
+    all.name = "all";
+    all.radius = 0.02;
+    scene.fixtures = {all};
+    scene.errorBudget = 0.0;
+    scene.holdSeconds = 0.0;
+    scene.filter.radius = 0;
+    scene.filter.edge = 0.0;
+    scene.contact.where = Scene::Contact::Where::Gpu;
+    return scene;
+}
+
 Scene studyScene(const Settings& settings) {
     if (!settings.scene.empty()) {
         return openScene(settings.scene);

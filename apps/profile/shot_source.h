@@ -18,6 +18,10 @@ ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames);
 // red, the next 2 % yellow, the rest grey.
 ShotSource wallShot(uint32_t width, uint32_t height, double share);
 
+// Every point of a picture forbidden, R = 20 mm, and nothing left out or moved: as many spheres as points, in
+// sets that the CPU's query and the GPU's can both be asked about.
+Scene everyPointScene();
+
 // What a study runs on: the recording when one was given, else these analytic scenes.
 std::vector<ShotSource> studySources(const Settings& settings, const std::vector<std::string>& analytic,
                                      uint32_t frames);
