@@ -124,6 +124,9 @@ struct PlayedDevice {
             if (feels(least, most, 2000)) {
                 return true;
             }
+            if (fz < -1e-3) { // not lost: slow, or wrong
+                return feels(least, most);
+            }
         }
         return false;
     }

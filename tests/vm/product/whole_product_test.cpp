@@ -111,7 +111,7 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     Stage stage;
     // Down onto the block from above, and 20 mm into its region.
     std::ofstream(stage.folder / "press.csv") << "t_s,x,y,z,qw,qx,qy,qz\n0,0,0,0.35,1,0,0,0\n"
-                                                 "2,0,0,0.47,1,0,0,0\n11,0,0,0.47,1,0,0,0\n";
+                                                 "2,0,0,0.47,1,0,0,0\n16,0,0,0.47,1,0,0,0\n";
     std::thread pull([&stage] {
         waitFor([&stage] { return std::filesystem::exists(stage.folder / "view.door"); }, // turns begin
                 std::chrono::seconds(90));
@@ -127,8 +127,7 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     INFO(run.err);
     REQUIRE(run.exitCode == 0);
     const auto summary = stage.summary();
-    CHECK(summary["frames"]["count"].get<int>() >=
-          2); // an emulated machine that is busy takes seconds a frame
+    CHECK(summary["frames"]["count"].get<int>() > 5);
     CHECK(summary["frames"]["exposure_to_published_ms"]["p50"].get<double>() > 0.0);
     CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
     CHECK(summary["fixtures"][0]["points_mean"].get<double>() == doctest::Approx(39 * 39).epsilon(0.1));
@@ -166,17 +165,13 @@ TEST_CASE("A live camera in lockstep is refused") {
 
 TEST_CASE("A recording of a live camera has every picture") {
     Stage stage;
-    const ProgramRun record =
-        runFathom({"record", stage.file("scene.yaml"), "--source",
-                   "v4l2:auto,frames=60,intrinsics=" + stage.file("lens.json"), "--out", stage.file("rec")});
+    const ProgramRun record = runFathom({"record", stage.file("scene.yaml"), "--source",
+                                         "v4l2:auto,frames=60,rate=15,intrinsics=" + stage.file("lens.json"),
+                                         "--out", stage.file("rec")});
     INFO(record.err);
     CHECK(record.out.find("60 pictures") != std::string::npos);
-    // An emulated machine may be too slow for all of them; then the command has to say so, to a picture.
-    int skipped = -1, lost = -1;
-    const auto at = record.out.find(" s, ");
-    REQUIRE(at != std::string::npos);
-    REQUIRE(std::sscanf(record.out.c_str() + at, " s, %d skipped, %d lost", &skipped, &lost) == 2);
-    CHECK(record.exitCode == (lost == 0 ? 0 : 1));
+    CHECK(record.exitCode == 0);
+    CHECK(record.out.find("0 skipped, 0 lost") != std::string::npos);
     MESSAGE(record.out);
     RecordedCamera camera(stage.folder / "rec");
     Bytes wanted(2 * kWidth * kHeight);
