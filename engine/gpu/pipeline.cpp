@@ -19,33 +19,45 @@ VkShaderModule makeModule(VkDevice device, std::span<const uint32_t> spirv) {
     return module;
 }
 
-VkDescriptorType typeOf(uint32_t binding, bool uniform) {
-    return binding == 0 && uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-}
-
-VkDescriptorSetLayout makeSetLayout(VkDevice device, uint32_t count, bool uniform) {
-    std::vector<VkDescriptorSetLayoutBinding> bindings(count);
-    for (uint32_t b = 0; b < count; ++b) {
-        bindings[b] = {b, typeOf(b, uniform), 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr};
+VkDescriptorSetLayout makeSetLayout(VkDevice device, const std::vector<VkDescriptorType>& types) {
+    std::vector<VkDescriptorSetLayoutBinding> bindings;
+    for (const VkDescriptorType type : types) {
+        bindings.push_back(
+            {static_cast<uint32_t>(bindings.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
-    info.bindingCount = count;
+    info.bindingCount = static_cast<uint32_t>(bindings.size());
     info.pBindings = bindings.data();
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
     check(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
     return layout;
 }
 
+std::vector<VkDescriptorType> typesOf(const PipelineInfo& info) {
+    std::vector<VkDescriptorType> types(info.bindings, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    if (info.uniform) {
+        types.at(0) = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    }
+    for (const Texels& t : info.texels) {
+        types.at(t.binding) = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    }
+    return types;
+}
+
 } // namespace
 
 Pipeline::Pipeline(const Device& device, const PipelineInfo& info)
     : device_(device)
-    , setLayout_(makeSetLayout(device.handle(), info.bindings, info.uniform))
     , bindings_(info.bindings)
     , pushBytes_(info.pushBytes)
     , groupSize_(info.constants.empty() ? 1 : info.constants[0])
-    , uniform_(info.uniform)
+    , types_(typesOf(info))
+    , formats_(info.bindings, VK_FORMAT_UNDEFINED)
     , name_(info.name) {
+    for (const Texels& t : info.texels) {
+        formats_.at(t.binding) = t.format;
+    }
+    setLayout_ = makeSetLayout(device.handle(), types_);
     const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, info.pushBytes};
     VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
     layout.setLayoutCount = 1;
@@ -87,10 +99,11 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline,
                     std::to_string(buffers.size()));
     }
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, pipeline.bindings()},
-                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1}};
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, pipeline.bindings()}};
     VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool.maxSets = 1;
-    pool.poolSizeCount = 2;
+    pool.poolSizeCount = 3;
     pool.pPoolSizes = sizes;
     check(vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_), "vkCreateDescriptorPool");
     const VkDescriptorSetLayout layout = pipeline.setLayout();
@@ -102,8 +115,10 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline,
 
     std::vector<VkDescriptorBufferInfo> infos;
     for (const Buffer* buffer : buffers) {
-        infos.push_back(
-            {buffer != nullptr && *buffer ? buffer->handle() : unused.handle(), 0, VK_WHOLE_SIZE});
+        const Buffer& real = buffer != nullptr && *buffer ? *buffer : unused;
+        const VkFormat format = pipeline.texelsOf(static_cast<uint32_t>(infos.size()));
+        infos.push_back({real.handle(), 0, VK_WHOLE_SIZE});
+        views_.push_back(format != VK_FORMAT_UNDEFINED ? viewOf(real, format) : VK_NULL_HANDLE);
     }
     std::vector<VkWriteDescriptorSet> writes;
     for (uint32_t b = 0; b < infos.size(); ++b) {
@@ -111,15 +126,29 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline,
         write.dstSet = set_;
         write.dstBinding = b;
         write.descriptorCount = 1;
-        write.descriptorType = typeOf(b, pipeline.uniform());
+        write.descriptorType = pipeline.typeOf(b);
         write.pBufferInfo = &infos[b];
+        write.pTexelBufferView = &views_[b];
         writes.push_back(write);
     }
     vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
+VkBufferView Bindings::viewOf(const Buffer& buffer, VkFormat format) {
+    VkBufferViewCreateInfo info{VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO};
+    info.buffer = buffer.handle();
+    info.format = format;
+    info.range = VK_WHOLE_SIZE;
+    VkBufferView view = VK_NULL_HANDLE;
+    check(vkCreateBufferView(device_->handle(), &info, nullptr, &view), "vkCreateBufferView");
+    return view;
+}
+
 Bindings::~Bindings() {
     if (device_ != nullptr) {
+        for (VkBufferView view : views_) {
+            vkDestroyBufferView(device_->handle(), view, nullptr);
+        }
         vkDestroyDescriptorPool(device_->handle(), pool_, nullptr);
     }
 }
@@ -128,6 +157,7 @@ void Bindings::swap(Bindings& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pool_, other.pool_);
     std::swap(set_, other.set_);
+    std::swap(views_, other.views_);
 }
 
 } // namespace fathom::gpu

@@ -7,8 +7,16 @@
 #include <initializer_list>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace fathom::gpu {
+
+// A binding that is read by texelFetch. On a CPU device that is one vector gather where a storage buffer is
+// read lane by lane.
+struct Texels {
+    uint32_t binding;
+    VkFormat format; // one that every device can fetch from a buffer
+};
 
 struct PipelineInfo {
     const char* name; // shows in messages and traces
@@ -17,6 +25,7 @@ struct PipelineInfo {
     bool uniform = true;    // buffer 0 is a uniform buffer (parameters), the others are storage buffers
     uint32_t pushBytes = 0; // <= 128
     std::span<const uint32_t> constants; // specialisation constants 0..n-1; 0 = local_size_x
+    std::initializer_list<Texels> texels = {};
 };
 
 class Pipeline {
@@ -30,7 +39,8 @@ public:
     VkPipelineLayout layout() const { return layout_; }
     VkDescriptorSetLayout setLayout() const { return setLayout_; }
     uint32_t bindings() const { return bindings_; }
-    bool uniform() const { return uniform_; } // binding 0 is a uniform buffer
+    VkDescriptorType typeOf(uint32_t binding) const { return types_[binding]; }
+    VkFormat texelsOf(uint32_t binding) const { return formats_[binding]; } // undefined: no texels
     uint32_t pushBytes() const { return pushBytes_; }
     uint32_t groupSize() const { return groupSize_; }
     const std::string& name() const { return name_; }
@@ -41,7 +51,8 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
     uint32_t bindings_ = 0, pushBytes_ = 0, groupSize_ = 1;
-    bool uniform_ = true;
+    std::vector<VkDescriptorType> types_;
+    std::vector<VkFormat> formats_;
     std::string name_;
 };
 
@@ -62,11 +73,13 @@ public:
     VkDescriptorSet handle() const { return set_; }
 
 private:
+    VkBufferView viewOf(const Buffer& buffer, VkFormat format);
     void swap(Bindings& other) noexcept;
 
     const Device* device_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::vector<VkBufferView> views_;
 };
 
 } // namespace fathom::gpu
