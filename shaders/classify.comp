@@ -13,15 +13,15 @@ layout(constant_id = 3) const uint kHold = 0;    // 1: patches that hold points 
 layout(constant_id = 4) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the loop over them unrolls
 layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
-layout(constant_id = 7) const uint kEven = 0;       // 1: the picture's width is even: two neighbours are one word
-layout(constant_id = 8) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
+layout(constant_id = 7) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
+layout(constant_id = 8) const uint kFour = 0;       // 1: the width is a multiple of four: a texel of depth is four pixels
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(std430, binding = 3) readonly buffer Colour { uint colour[]; };
+layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
-layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // slot -> class bits
+layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // a byte a slot: class bits
 layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> 1 when on the list
 layout(std430, binding = 7) writeonly buffer List { uint list[]; };         // patches with work, any order
 layout(std430, binding = 8) buffer Counters { FrameCounters counters; };
@@ -33,10 +33,10 @@ layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // p
 #include "shaders/lib/slots.glsl"
 
 // The colour of a depth pixel; false when the colour camera does not see the point.
-bool colourOf(uint pixel, vec3 p, out uint rgba) {
-    rgba = 0;
+bool colourOf(uint pixel, vec3 p, out vec3 rgb) {
+    rgb = vec3(0.0);
     if (kColour == 1) {
-        rgba = colour[pixel];
+        rgb = vec3(texelFetch(colours, int(pixel)).xyz);
         return true;
     }
     vec3 q = transformPoint(params.colourTdepth, p);
@@ -52,16 +52,18 @@ bool colourOf(uint pixel, vec3 p, out uint rgba) {
     if (q.z > front * 1.02 + 0.005) {
         return false; // something nearer hides it from the colour camera
     }
-    rgba = colour[at.y * int(params.colourSize.x) + at.x];
+    rgb = vec3(texelFetch(colours, at.y * int(params.colourSize.x) + at.x).xyz);
     return true;
 }
 
+// No && and no ||, which branch.
 bool inClass(ClassParams c, Hsl colourHere, bool seen, vec3 base) {
-    bool asks = c.hue.z != 0.0 || c.satLight.x > 0.0 || c.satLight.y < 1.0 || c.satLight.z > 0.0 || c.satLight.w < 1.0;
-    if (asks && (!seen || !passesColour(colourHere, c.hue, c.satLight))) {
-        return false;
+    float inside = kColour == 2 && !seen ? c.boxMax.w : insideGates(colourHere, c);
+    if (kBox != 0) {
+        vec3 box = min(base - c.boxMin.xyz, c.boxMax.xyz - base);
+        inside = c.boxMin.w == 0.0 ? inside : min(inside, min(box.x, min(box.y, box.z)) >= 0.0 ? 0.0 : -1.0);
     }
-    return c.boxMin.w == 0.0 || (all(greaterThanEqual(base, c.boxMin.xyz)) && all(lessThanEqual(base, c.boxMax.xyz)));
+    return inside >= -1e-4;
 }
 
 void putOnList(uint patchIndex) {
@@ -74,17 +76,15 @@ void putOnList(uint patchIndex) {
 
 uint classBits(uvec2 at, uint pixel, float z) {
     vec3 p = vec3(rayOf(at) * z, z);
-    uint rgba = 0;
-    bool seen = kColour != 0 && colourOf(pixel, p, rgba);
-    Hsl colourHere = hslOf(rgba);
+    vec3 rgb = vec3(0.0);
+    bool seen = kColour != 0 && colourOf(pixel, p, rgb);
+    Hsl colourHere = hslOf(rgb);
     vec3 base = kBox != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     uint mask = 0;
     for (uint c = 0; c < kClasses; ++c) {
-        if (inClass(params.classes[c], colourHere, seen, base)) {
-            mask |= 1u << c;
-        }
+        mask |= inClass(params.classes[c], colourHere, seen, base) ? 1u << c : 0u;
     }
-    return mask;
+    return z != 0.0 ? mask : 0u;
 }
 
 shared uint found[kMaxClasses];
@@ -96,16 +96,12 @@ vec4 depthsAt(uvec2 at) {
         return z;
     }
     uint pixel = at.y * params.size.x + at.x;
-    if (kEven != 0) {
-        [[unroll]] for (uint k = 0; k < 4u; k += 2u) {
-            uint word = at.x + k < params.size.x ? depthWords[(pixel + k) >> 1] : 0u;
-            z[k] = metresOf(word & 0xffffu);
-            z[k + 1u] = metresOf(word >> 16);
-        }
-    } else {
-        [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            z[k] = at.x + k < params.size.x ? depthAt(pixel + k) : 0.0;
-        }
+    if (kFour != 0) {
+        uvec4 raw = at.x < params.size.x ? texelFetch(depths, int(pixel >> 2)) : uvec4(0);
+        return vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
+    }
+    [[unroll]] for (uint k = 0; k < 4u; ++k) {
+        z[k] = at.x + k < params.size.x ? depthAt(pixel + k) : 0.0;
     }
     return z;
 }
@@ -140,11 +136,9 @@ void main() {
     vec4 z = depthsAt(at);
     uvec4 mask = uvec4(0);
     [[unroll]] for (uint k = 0; k < 4u; ++k) {
-        if (z[k] != 0.0) {
-            mask[k] = classBits(at + uvec2(k, 0), at.y * params.size.x + at.x + k, z[k]);
-        }
-        masks[slot + k] = mask[k];
+        mask[k] = classBits(at + uvec2(k, 0), at.y * params.size.x + at.x + k, z[k]);
     }
+    masks[slot >> 2] = mask.x | mask.y << 8 | mask.z << 16 | mask.w << 24;
     countPixels(mask);
     if (any(notEqual(mask, uvec4(0))) || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
         putOnList(patchIndex);

@@ -3,38 +3,40 @@
 // Moments of every guidance class in every listed patch: count, mean, sums of products about the mean. One group of 16
 // invocations a patch, one invocation a sub-patch; the first merges them in fixed order (Chan, Golub, LeVeque 1979).
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in; // 16
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Masks { uint masks[]; };
-layout(std430, binding = 2) readonly buffer Points { vec4 points[]; };
+layout(std430, binding = 1) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
+layout(binding = 2) uniform samplerBuffer points; // a slot: base point about the origin, w = 0: none
 layout(std430, binding = 3) readonly buffer List { uint list[]; };
 layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; }; // patch * kMaxClasses + k-th guidance class
 
 shared PatchMoments part[16];
 
-PatchMoments subMoments(uint firstSlot, uint c) {
+// Without a branch: a CPU device walks both sides of each.
+PatchMoments subMoments(uint sub, uint c) {
+    vec4 point[16]; // w = 1: of the class
+    [[unroll]] for (uint p = 0; p < 16u; ++p) {
+        point[p] = texelFetch(points, int(sub * 16u + p));
+        uint bit = masks[sub * 4u + (p >> 2)] >> ((p & 3u) * 8u + c) & 1u;
+        point[p].w = all(bvec2(point[p].w != 0.0, bit != 0u)) ? 1.0 : 0.0;
+    }
     vec3 sum = vec3(0.0), anchor = vec3(0.0);
     float count = 0.0;
-    for (uint p = 0; p < 16u; ++p) {
-        vec4 point = points[firstSlot + p];
-        if (point.w != 0.0 && (masks[firstSlot + p] >> c & 1u) != 0) {
-            anchor = count == 0.0 ? point.xyz : anchor; // differences of neighbours are exact: sums of them keep their digits
-            sum += point.xyz - anchor;
-            count += 1.0;
-        }
+    [[unroll]] for (uint p = 0; p < 16u; ++p) {
+        anchor = all(bvec2(count == 0.0, point[p].w != 0.0)) ? point[p].xyz : anchor; // differences of neighbours are exact: sums of them keep their digits
+        sum += point[p].w != 0.0 ? point[p].xyz - anchor : vec3(0.0);
+        count += point[p].w;
     }
     vec3 offset = count > 0.0 ? sum / count : vec3(0.0);
     PatchMoments m = PatchMoments(vec4(anchor, count), vec4(offset, 0.0), vec4(0.0), vec4(0.0));
-    for (uint p = 0; p < 16u; ++p) {
-        vec4 point = points[firstSlot + p];
-        if (point.w != 0.0 && (masks[firstSlot + p] >> c & 1u) != 0) {
-            vec3 d = (point.xyz - anchor) - offset;
-            m.first += vec4(d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y);
-            m.second.xy += vec2(d.y * d.z, d.z * d.z);
-        }
+    [[unroll]] for (uint p = 0; p < 16u; ++p) {
+        vec3 d = point[p].w != 0.0 ? (point[p].xyz - anchor) - offset : vec3(0.0);
+        m.first += vec4(d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y);
+        m.second.xy += vec2(d.y * d.z, d.z * d.z);
     }
     return m;
 }
@@ -57,7 +59,7 @@ void main() {
         if (params.classes[c].role.z == 0.0) {
             continue;
         }
-        part[gl_LocalInvocationID.x] = subMoments(patchIndex * 256u + gl_LocalInvocationID.x * 16u, c);
+        part[gl_LocalInvocationID.x] = subMoments(patchIndex * 16u + gl_LocalInvocationID.x, c);
         barrier();
         if (gl_LocalInvocationID.x == 0) {
             PatchMoments m = part[0];

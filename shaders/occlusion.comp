@@ -9,7 +9,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kRays = 0; // 1: distorted lens, rays from the table
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; }; // two uint16 a word
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
 layout(std430, binding = 3) buffer Cells { uint nearest[]; };             // bits of the smallest z, 0xffffffff = none
 

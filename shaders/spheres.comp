@@ -3,6 +3,7 @@
 // Region spheres of the listed patches and the bounds of their 4x4 sub-patches (paper IV.B.1, eq. 3). One invocation
 // a sub-patch, or (kByPixel) one group a patch: one invocation a pixel, then one a sub-patch. With hold, points of earlier frames that the new picture does not contradict stay as a second layer.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in; // divides 256
@@ -10,11 +11,12 @@ layout(constant_id = 1) const uint kThin = 1;       // 1: the error budget leave
 layout(constant_id = 2) const uint kHold = 1;       // 1: unseen points stay for a while
 layout(constant_id = 3) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
 layout(constant_id = 4) const uint kLeaks = 1;      // 1: within near..far neighbours may be a radius apart
+layout(constant_id = 5) const uint kClasses = 1;    // classes of points
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
-layout(std430, binding = 2) readonly buffer Masks { uint masks[]; };
-layout(std430, binding = 3) readonly buffer Points { vec4 points[]; };
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
+layout(std430, binding = 2) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
+layout(binding = 3) uniform samplerBuffer points; // a slot: base point about the origin, w = z [m]; 0 = none
 layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 5) readonly buffer List { uint list[]; };
 layout(std430, binding = 6) readonly buffer Cells { vec4 growth[]; };
@@ -33,6 +35,7 @@ layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/depth.glsl"
+#include "shaders/lib/masks.glsl"
 #include "shaders/lib/forbidden.glsl"
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/hold.glsl"
@@ -40,15 +43,16 @@ const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/thinning.glsl"
 
 // Warns of holes: neighbours of one class on one surface that are at least R apart.
-void noteLeak(uvec2 at, uvec2 next, vec4 p, uint c) {
+void noteLeak(uvec2 next, vec4 p, uint c) {
     if (any(greaterThanEqual(next, params.size.xy)) || listed[(next.y >> 4) * params.size.z + (next.x >> 4)] == 0) {
         return;
     }
     uint slot = slotOfPixel(next, params.size.z);
-    vec4 q = points[slot];
+    vec4 q = texelFetch(points, int(slot));
     float apart = distance(p.xyz, q.xyz);
     bool surface = abs(q.w - p.w) <= 0.7 * apart; // steeper than 45 degrees is rather an edge
-    if (q.w != 0.0 && apart >= params.classes[c].role.x && surface && forbiddenAt(slot) == c) {
+    bool same = forbiddenClass(q.w != 0.0 ? maskAt(slot) & params.depthBand.w : 0u) == c;
+    if (all(bvec3(apart >= params.classes[c].role.x, surface, same))) {
         atomicMax(counters.leakSpacing[c], floatBitsToUint(apart));
         atomicMax(counters.leakRange[c], floatBitsToUint(p.w));
     }
@@ -70,18 +74,11 @@ CellsAround cellsOfSub(ivec2 at) {
     return CellsAround(cellAt(at), cellAt(at - ivec2(4, 0)), cellAt(at - ivec2(0, 4)), cellAt(at - ivec2(4, 4)));
 }
 
-// The sphere of the point seen now in a slot; R < 0 when there is none or the budget leaves it out.
-vec4 seenSphere(uint slot, uvec2 at, uint c, CellsAround around) {
-    if (c == kNone) {
-        return vec4(0.0, 0.0, 0.0, -1.0);
-    }
-    vec4 p = points[slot];
-    if (kLeaks != 0) {
-        noteLeak(at, at + uvec2(1, 0), p, c);
-        noteLeak(at, at + uvec2(0, 1), p, c);
-    }
-    float grown = kThin != 0 ? keptGrowth(at, around) : 0.0;
-    return vec4(p.xyz, grown < 0.0 ? -1.0 : params.classes[c].role.x + grown);
+// The sphere of the point seen now in pixel p of a sub-patch; R < 0 when there is none or the budget leaves it out.
+vec4 seenSphere(vec4 point, const uint p, uint c, CellsAround around) {
+    float grown = kThin != 0 ? keptGrowth(p, around) : 0.0;
+    float radius = radiusOf(c) + grown;
+    return vec4(point.xyz, any(bvec2(c == kNone, grown < 0.0)) ? -1.0 : radius);
 }
 
 struct PixelResult {
@@ -89,19 +86,24 @@ struct PixelResult {
     uint note;         // 1 = a forbidden class; 2 x points remembered
 };
 
-PixelResult handlePixel(uint slot, uvec2 at, CellsAround around) {
-    uint c = forbiddenAt(slot), remembered = 0, heldClass = 0;
-    uint note = (masks[slot] & params.depthBand.w) != 0 ? 1u : 0u;
-    vec4 sphere = seenSphere(slot, at, c, around), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
-    if (kHold != 0) {
-        heldSphere = updateMemory(slot, c, heldClass, remembered);
+// Pixel p (0..15) of the sub-patch `sub`, whose corner lies at `corner`.
+PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAround around) {
+    uint slot = sub * 16u + p, remembered = 0, heldClass = 0;
+    vec4 point = texelFetch(points, int(slot));
+    uint c = forbiddenClass(point.w != 0.0 ? mask : 0u);
+    vec4 sphere = seenSphere(point, p, c, around), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
+    if (kLeaks != 0 && c != kNone) {
+        uvec2 at = corner + uvec2(p & 3u, p >> 2);
+        noteLeak(at + uvec2(1, 0), point, c);
+        noteLeak(at + uvec2(0, 1), point, c);
     }
-    spheres[slot] = sphere;
     if (kHold != 0) {
+        heldSphere = updateMemory(slot, point.xyz, c, heldClass, remembered);
         held[slot] = heldSphere;
     }
+    spheres[slot] = sphere;
     classes[slot] = (c == kNone ? 0u : c) | heldClass << 8;
-    return PixelResult(sphere, heldSphere, note + 2u * remembered);
+    return PixelResult(sphere, heldSphere, (mask != 0u ? 1u : 0u) + 2u * remembered);
 }
 
 // Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
@@ -125,22 +127,26 @@ void wholeSub(uint sub) {
         around = cellsOfSub(ivec2(corner));
     }
     uint count = 0, marks = 0, remembered = 0;
-    for (uint p = 0; p < 16u; ++p) {
-        PixelResult r = handlePixel(sub * 16u + p, corner + uvec2(p & 3u, p >> 2), around);
+    [[unroll]] for (uint p = 0; p < 16u; ++p) {
+        uint mask = masks[sub * 4u + (p >> 2)] >> ((p & 3u) * 8u) & params.depthBand.w;
+        PixelResult r = handlePixel(sub, p, corner, mask, around);
         mine[p] = r.sphere;
-        mine[16u * (kLayers - 1u) + p] = kHold != 0 ? r.held : r.sphere;
+        if (kHold != 0) {
+            mine[16u * (kLayers - 1u) + p] = r.held;
+        }
         marks |= (r.note & 1u) << p;
         remembered += r.note >> 1;
     }
     vec3 sum = vec3(0.0);
-    for (uint k = 0; k < 16u * kLayers; ++k) {
+    [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
         sum += mine[k].w >= 0.0 ? mine[k].xyz : vec3(0.0);
         count += mine[k].w >= 0.0 ? 1u : 0u;
     }
     vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
     float radius = -1.0;
-    for (uint k = 0; k < 16u * kLayers; ++k) {
-        radius = mine[k].w >= 0.0 ? max(radius, distance(mine[k].xyz, centre) + mine[k].w) : radius;
+    [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
+        float reach = distance(mine[k].xyz, centre) + mine[k].w;
+        radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
     }
     putBound(sub, centre, radius, count, marks, remembered);
 }
@@ -180,7 +186,8 @@ void wholePatch(uint patchIndex) {
         if (kThin != 0) {
             around = cellsOfGroup(i >> 4);
         }
-        PixelResult r = handlePixel(patchIndex * 256u + i, patchAt + pixelInPatch(i), around);
+        uint sub = patchIndex * 16u + (i >> 4);
+        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around);
         all[i] = r.sphere;
         if (kHold != 0) {
             all[256u * (kLayers - 1u) + i] = r.held;

@@ -13,30 +13,33 @@ layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejecte
 layout(constant_id = 4) const uint kTiled = 0;   // 1: the window comes from shared memory (the paper); 0: direct reads
 
 layout(constant_id = 5) const uint kRow = 0;     // 1: four pixels of a row an invocation, radius at most 2
-layout(constant_id = 6) const uint kEven = 0;    // 1: the picture's width is even: two neighbours are one word
-
+layout(constant_id = 6) const uint kEven = 0;    // 1: the width is even and rows are read: a texel of depth is two pixels
 layout(constant_id = 7) const uint kPolynomial = 0; // 1: weights by a power of a line, which has no exp and ends at 0
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Depth { uint depthWords[]; };
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kEven: two a texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(std430, binding = 3) readonly buffer Masks { uint masks[]; };
+layout(std430, binding = 3) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot -> base point about the origin, w = z [m]; 0 = none
 
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/masks.glsl"
 #include "shaders/lib/slots.glsl"
 
 const uint kHalo = kRadius > 1u ? kRadius : 1u;
 const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
 shared float tile[kTileEdge * kTileEdge];
 
+bool outside(ivec2 at) { // no && and no ||, which branch
+    return any(greaterThanEqual(uvec2(at), params.size.xy)); // below zero is beyond the end
+}
+
 float depthOfPixel(ivec2 at) {
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.size.xy)))) {
-        return 0.0;
-    }
-    return depthAt(uint(at.y) * params.size.x + uint(at.x));
+    bool beyond = outside(at);
+    float z = depthAt(beyond ? 0u : uint(at.y) * params.size.x + uint(at.x));
+    return beyond ? 0.0 : z;
 }
 
 void fillTile(ivec2 patchOrigin) {
@@ -69,19 +72,20 @@ float[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
 }
 
 // Three neighbours on one side. -1: all valid ones are nearer than z by more than the edge; +1: all farther; 0: neither.
-int sideJump(vec3 side, float z) {
-    bvec3 valid = notEqual(side, vec3(0.0));
-    bvec3 nearer = lessThan(side, vec3(z * (1.0 - params.more.w))), farther = greaterThan(side, vec3(z * (1.0 + params.more.w)));
-    bool allNearer = all(equal(valid, bvec3(uvec3(valid) * uvec3(nearer))));
-    bool allFarther = all(equal(valid, farther)); // no depth is never farther
-    return !any(valid) ? 0 : (allNearer ? -1 : (allFarther ? 1 : 0));
+float sideJump(vec3 side, float z) {
+    float far = max(side.x, max(side.y, side.z)); // 0: no depth there
+    vec3 valid = mix(side, vec3(far), equal(side, vec3(0.0)));
+    float near = min(valid.x, min(valid.y, valid.z));
+    float jump = far < z * (1.0 - params.more.w) ? -1.0 : (near > z * (1.0 + params.more.w) ? 1.0 : 0.0);
+    return far == 0.0 ? 0.0 : jump;
 }
 
 // Between a nearer surface on one side and a farther one on the other: a mixed pixel that lies on neither. A silhouette or
 // a thin rod has jumps of one sign only and stays.
 bool isFlying(float n[9]) {
-    return sideJump(vec3(n[2], n[5], n[8]), n[4]) * sideJump(vec3(n[0], n[3], n[6]), n[4]) < 0 ||
-           sideJump(vec3(n[6], n[7], n[8]), n[4]) * sideJump(vec3(n[0], n[1], n[2]), n[4]) < 0;
+    float across = sideJump(vec3(n[2], n[5], n[8]), n[4]) * sideJump(vec3(n[0], n[3], n[6]), n[4]);
+    float down = sideJump(vec3(n[6], n[7], n[8]), n[4]) * sideJump(vec3(n[0], n[1], n[2]), n[4]);
+    return min(across, down) < 0.0;
 }
 
 // Fewer than 2 of the 8 neighbours within the isolation distance: marine snow, a speck of noise.
@@ -131,72 +135,73 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
 const int kReach = 2;
 const int kWide = 4 + 2 * kReach, kHigh = 1 + 2 * kReach;
 
+// Of a pixel in an even column and its right neighbour.
+vec2 pairOfDepths(ivec2 q) {
+    if (kEven == 0) {
+        return vec2(depthOfPixel(q), depthOfPixel(q + ivec2(1, 0)));
+    }
+    bool beyond = outside(q); // both are or none
+    uvec2 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * params.size.x + uint(q.x)) >> 1)).xy;
+    return beyond ? vec2(0.0) : vec2(metresOf(raw.x), metresOf(raw.y));
+}
+
+vec3 pointIn(ivec2 q, float z) {
+    if (kRays == 0) {
+        return pointAt(q, z);
+    }
+    return z != 0.0 ? pointAt(q, z) : vec3(0.0); // rays are a table of the pixels inside
+}
+
 void loadRow(ivec2 at, out vec3 window[kHigh * kWide]) {
     [[unroll]] for (int y = 0; y < kHigh; ++y) {
         [[unroll]] for (int x = 0; x < kWide; x += 2) {
             ivec2 q = at + ivec2(x - kReach, y - kReach);
-            float z0 = 0.0, z1 = 0.0;
-            if (kEven != 0) { // both inside or both outside, and in one word
-                if (all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, ivec2(params.size.xy)))) {
-                    uint word = depthWords[(uint(q.y) * params.size.x + uint(q.x)) >> 1];
-                    z0 = metresOf(word & 0xffffu);
-                    z1 = metresOf(word >> 16);
-                }
-            } else {
-                z0 = depthOfPixel(q);
-                z1 = depthOfPixel(q + ivec2(1, 0));
-            }
-            vec3 p0 = vec3(0.0), p1 = vec3(0.0);
-            if (kRays == 0 || z0 != 0.0) {
-                p0 = pointAt(q, z0);
-            }
-            if (kRays == 0 || z1 != 0.0) {
-                p1 = pointAt(q + ivec2(1, 0), z1);
-            }
-            window[y * kWide + x] = p0;
-            window[y * kWide + x + 1] = p1;
+            vec2 z = pairOfDepths(q);
+            window[y * kWide + x] = pointIn(q, z.x);
+            window[y * kWide + x + 1] = pointIn(q + ivec2(1, 0), z.y);
         }
     }
 }
 
 // The same decisions and sums as below, pixel by pixel, in the same order.
-vec4 surfaceInRow(vec3 window[kHigh * kWide], int k, uint mask) {
+float surfaceInRow(vec3 window[kHigh * kWide], int k, uint mask) {
     float n[9];
-    int near = 0;
+    uint near = 0;
     vec3 p = window[kReach * kWide + kReach + k];
     float limit = max(params.filterParams.z, params.filterParams.w * p.z);
     [[unroll]] for (int i = 0; i < 9; ++i) {
         vec3 q = window[(kReach + i / 3 - 1) * kWide + kReach + k + i % 3 - 1];
         n[i] = q.z;
-        near += i != 4 && q.z != 0.0 && distance(q, p) <= limit ? 1 : 0;
+        bool beside = distance(q, p) <= limit;
+        near += i != 4 ? uint(q.z != 0.0) * uint(beside) : 0u;
     }
-    bool rejected = (kEdge != 0 && isFlying(n)) || near < 2 || mask == 0;
+    bool flying = kEdge != 0 ? isFlying(n) : false;
+    bool rejected = any(bvec3(flying, near < 2u, mask == 0u));
     float sum = 0.0, weights = 0.0;
     [[unroll]] for (int dy = -int(min(kRadius, 2u)); dy <= int(min(kRadius, 2u)); ++dy) {
         [[unroll]] for (int dx = -int(min(kRadius, 2u)); dx <= int(min(kRadius, 2u)); ++dx) {
             vec3 q = window[(kReach + dy) * kWide + kReach + k + dx];
             vec3 apart = q - p;
-            float weight = q.z != 0.0 ? weightOf(dot(apart, apart) * params.filterParams.x) : 0.0;
+            float weight = weightOf(dot(apart, apart) * params.filterParams.x);
+            weight = q.z != 0.0 ? weight : 0.0;
             sum += (q.z - p.z) * weight;
             weights += weight;
         }
     }
     float z = kRadius != 0 ? p.z + sum / weights : p.z;
-    return rejected ? vec4(0.0) : vec4(0.0, 0.0, 0.0, z);
+    return rejected ? 0.0 : z;
 }
 
 void filterRow(uint patchIndex, uint row) {
     uint slot = patchIndex * 256u + row * 4u;
-    uvec4 mask = uvec4(masks[slot], masks[slot + 1u], masks[slot + 2u], masks[slot + 3u]);
+    uvec4 mask = uvec4(masks[slot >> 2]) >> uvec4(0, 8, 16, 24) & 255u;
     ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
     vec3 window[kHigh * kWide];
     loadRow(at, window);
     [[unroll]] for (int k = 0; k < 4; ++k) {
-        vec4 result = surfaceInRow(window, k, mask[k]);
-        if (result.w != 0.0) {
-            result.xyz = transformPoint(params.baseTcamera, pointAt(at + ivec2(k, 0), result.w));
-        }
-        points[slot + uint(k)] = result;
+        float z = surfaceInRow(window, k, mask[k]);
+        vec3 base = transformPoint(params.baseTcamera, pointAt(at + ivec2(k, 0), z));
+        points[slot + uint(k)] = z != 0.0 ? vec4(base, z) : vec4(0.0);
     }
 }
 
@@ -215,7 +220,7 @@ void main() {
     for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
         uint slot = patchIndex * 256u + i;
         vec4 result = vec4(0.0);
-        if (masks[slot] != 0) {
+        if (maskAt(slot) != 0) {
             ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
             float around[9] = aroundOf(at, patchOrigin);
             if (!(kEdge != 0 && isFlying(around)) && !isIsolated(at, around)) {

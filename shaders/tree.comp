@@ -3,6 +3,7 @@
 // Parents over 4x4 children, from patches up to one root: centre = mean of all points below, radius = max(|c_k - centre| + r_k)
 // (paper eq. 3 with the children's spheres). One invocation a node; the top levels run in one group with barriers between.
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in;
@@ -14,14 +15,14 @@ layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 4) writeonly buffer Begins { uint begins[]; }; // patch -> spheres of the patches before it
 
-// Index of child k of node `at` on `level`; 0xffffffff when it lies outside.
-uint childOf(uvec2 at, uint level, uint k, uint index) {
-    if (level == 1u) {
-        return listed[index] != 0 ? index * 16u + k : 0xffffffffu; // sub-patches of an unlisted patch hold old data
-    }
+// Index of child k of node `at` on `level`; kNoChild when it lies outside. No branch: a CPU device walks both sides of each.
+const uint kNoChild = 0xffffffffu;
+uint childOf(uvec2 at, uint level, uint k, uint index, uint used) {
     uvec4 below = tree.levels[level - 1u];
     uvec2 child = at * 4u + uvec2(k & 3u, k >> 2);
-    return all(lessThan(child, below.xy)) ? below.z + child.y * below.x + child.x : 0xffffffffu;
+    uint above = all(lessThan(child, below.xy)) ? below.z + child.y * below.x + child.x : kNoChild;
+    uint inPatch = used != 0u ? index * 16u + k : kNoChild; // sub-patches of an unlisted patch hold old data
+    return level == 1u ? inPatch : above;
 }
 
 // All children are read before any is looked at: the reads are on their way together, a node costs one of their delays, not 32.
@@ -29,23 +30,24 @@ void buildNode(uint level, uint index) {
     uvec4 here = tree.levels[level];
     uvec2 at = uvec2(index % here.x, index / here.x);
     vec4 child[16];
-    uint below[16];
-    for (uint k = 0; k < 16u; ++k) {
-        uint c = childOf(at, level, k, index);
-        uint safe = c != 0xffffffffu ? c : 0u;
+    uint below[16], used = listed[level == 1u ? index : 0u];
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
+        uint c = childOf(at, level, k, index, used);
+        uint safe = c != kNoChild ? c : 0u;
         child[k] = nodes[safe];
-        below[k] = c != 0xffffffffu ? nodeCounts[safe] : 0u;
+        below[k] = c != kNoChild ? nodeCounts[safe] : 0u;
     }
     vec3 sum = vec3(0.0);
     uint count = 0;
-    for (uint k = 0; k < 16u; ++k) {
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
         sum += below[k] != 0 ? child[k].xyz * float(below[k]) : vec3(0.0);
         count += below[k];
     }
     vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
     float radius = -1.0;
-    for (uint k = 0; k < 16u; ++k) {
-        radius = below[k] != 0 ? max(radius, distance(child[k].xyz, centre) + child[k].w) : radius;
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
+        float reach = distance(child[k].xyz, centre) + child[k].w;
+        radius = below[k] != 0 ? max(radius, reach) : radius;
     }
     nodes[here.z + index] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
     nodeCounts[here.z + index] = count;

@@ -101,7 +101,7 @@ FrameCost FrameBench::costOf(const FrameSamples& samples) const {
 }
 
 std::vector<uint32_t> FrameBench::masks() const {
-    const auto slots = readBack<uint32_t>(device_, cycle_->work().masks);
+    const auto slots = readBack<uint8_t>(device_, cycle_->work().masks);
     std::vector<uint32_t> out;
     for (uint32_t v = 0; v < camera_.depth.height; ++v) {
         for (uint32_t u = 0; u < camera_.depth.width; ++u) {

@@ -48,7 +48,7 @@ reference::FrameView PrecisionRig::view() const {
 }
 
 std::vector<uint32_t> PrecisionRig::masks() const {
-    const auto slots = read<uint32_t>(cycle_->work().masks);
+    const auto slots = read<uint8_t>(cycle_->work().masks);
     std::vector<uint32_t> out;
     for (int v = 0; v < height(); ++v) {
         for (int u = 0; u < width(); ++u) {
@@ -85,7 +85,7 @@ std::vector<reference::CellThinning> PrecisionRig::thinning() const {
             const uint32_t sub = slot(u, v) / 16;
             const glm::vec4 g = listed[sub / 16] != 0 ? cells[sub] : glm::vec4(0.0f);
             reference::CellThinning& cell = out.emplace_back();
-            cell.whole = g.x < 0.0f ? -1.0 - static_cast<double>(g.x) : -1.0;
+            cell.whole = g.x < 0.0f ? -static_cast<double>(g.x) : -1.0;
             for (int q = 0; g.x >= 0.0f && q < 4; ++q) {
                 cell.quarters[static_cast<size_t>(q)] = g[q] > 0.0f ? g[q] : -1.0;
             }

@@ -14,6 +14,10 @@ uint32_t colourMode(const Plan& plan) {
     return !plan.colour ? 0 : (plan.occlusion ? 2 : 1);
 }
 
+bool inFours(const CloudContext& c) {
+    return c.camera.depth.width % 4 == 0;
+}
+
 // Four pixels an invocation: 64 do a patch.
 uint32_t groupOf(const Plan& plan) {
     return std::min(64u, plan.pixelGroup);
@@ -23,10 +27,15 @@ uint32_t groupOf(const Plan& plan) {
 
 ClassifyPass::ClassifyPass(const CloudContext& c)
     : pipeline_(c.device,
-                {"classify", classify_spv, 10, true, 0,
+                {"classify",
+                 classify_spv,
+                 10,
+                 true,
+                 0,
                  std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
                             c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
-                            1 - c.camera.depth.width % 2, uint32_t{c.plan.groupCounts}}})
+                            uint32_t{c.plan.groupCounts}, uint32_t{inFours(c)}},
+                 {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kColourTexels}}})
     , work_(c.work)
     , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {
     for (uint32_t u = 0; u < kUploads; ++u) {

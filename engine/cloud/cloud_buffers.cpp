@@ -35,7 +35,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     if (!plan.cloud) {
         return;
     }
-    masks = Buffer(device, slots * 4, MemoryKind::Device, "masks");
+    masks = Buffer(device, slots, MemoryKind::Device, "masks");
     listed = Buffer(device, patches * 4, MemoryKind::Device, "listed");
     list = Buffer(device, patches * 4, MemoryKind::Device, "list");
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Device, "counters");
@@ -111,7 +111,7 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     }
     if (plan.guidancePoints) {
         points = Buffer(device, slots * 16, MemoryKind::Readback, "set points");
-        masks = Buffer(device, slots * 4, MemoryKind::Readback, "set masks");
+        masks = Buffer(device, slots, MemoryKind::Readback, "set masks");
     }
 }
 

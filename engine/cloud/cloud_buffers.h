@@ -19,7 +19,7 @@ struct WorkBuffers {
     WorkBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout,
                 const CameraInfo& camera);
 
-    gpu::Buffer masks;                // uint a slot: class bits
+    gpu::Buffer masks;                // uint8 a slot: class bits
     gpu::Buffer listed;               // uint a patch: 1 when on the list
     gpu::Buffer list;                 // uint: listed patches, any order
     gpu::Buffer counters;             // FrameCounters
@@ -37,6 +37,11 @@ struct WorkBuffers {
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
 };
+
+// How passes fetch what a frame uploads, and points.
+inline constexpr VkFormat kDepthTexels = VK_FORMAT_R16_UINT;
+inline constexpr VkFormat kPointTexels = VK_FORMAT_R32G32B32A32_SFLOAT;
+inline constexpr VkFormat kColourTexels = VK_FORMAT_R8G8B8A8_UINT;
 
 // What one frame uploads; two of them.
 struct UploadBuffers {

@@ -32,17 +32,29 @@ void setRows(vec4 (&rows)[3], const Pose& pose) {
     }
 }
 
+// Bounds as insideGates (shaders/lib/colour.glsl) takes them: outward by what float32 may round away of them
+// and of the products with them. What has no gate lies inside of any.
+void setGates(shared::ClassParams& c, const FixtureClass& f) {
+    constexpr double kIn = 1.0 - 1.9e-7, kOut = 1.0 + 1.9e-7;
+    const auto asks = [](const std::optional<Band>& b) { return b && (b->lo > 0.0 || b->hi < 1.0); };
+    const bool any = f.hue || asks(f.saturation) || asks(f.lightness);
+    const Band s = f.saturation.value_or(Band{0.0, 1.0}), l = f.lightness.value_or(Band{0.0, 1.0});
+    const Band h = f.hue.value_or(Band{-1.0, 361.0});
+    const bool greyPasses = !f.hue && s.lo <= 0.0;
+    c.hue = {h.lo * kIn, h.hi * kOut, h.lo > h.hi ? 1.0 : 0.0, greyPasses ? 0.0 : -1.0};
+    c.satLight = {s.lo * kIn, s.hi * kOut, l.lo * 510.0 * kIn, l.hi * 510.0 * kOut};
+    c.boxMax.w = any ? -1.0f : 0.0f;
+}
+
 shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene& scene,
                                 const dvec3& origin) {
     shared::ClassParams c{};
-    c.hue = f.hue ? vec4(f.hue->lo, f.hue->hi, 1.0, f.hue->lo > f.hue->hi ? 1.0 : 0.0) : vec4(0.0f);
-    const Band s = f.saturation.value_or(Band{0.0, 1.0}), l = f.lightness.value_or(Band{0.0, 1.0});
-    c.satLight = {s.lo, s.hi, l.lo, l.hi};
+    setGates(c, f);
     if (f.box) {
         // Outward by what float32 may round away: a point exactly on a face is inside.
         const double slack = 3e-7 * std::max(1.0, scene.farZ);
         c.boxMin = vec4(glm::vec3(f.box->min - origin - slack), 1.0f);
-        c.boxMax = vec4(glm::vec3(f.box->max - origin + slack), 0.0f);
+        c.boxMax = vec4(glm::vec3(f.box->max - origin + slack), c.boxMax.w);
     }
     c.role = {f.radius + 3.0 * scene.registrationSigma, f.role == Role::Forbidden ? 1.0 : 0.0,
               f.role == Role::Guidance ? 1.0 : 0.0, row};

@@ -28,7 +28,7 @@ public:
     glm::vec4 at(uint32_t u, uint32_t v) const {
         const uint32_t slot = slotOfPixel(u, v, across_);
         const bool in = set_.device.listed.as<uint32_t>()[slot / 256] != 0 &&
-                        (set_.device.masks.as<uint32_t>()[slot] & bit_) != 0;
+                        (set_.device.masks.as<uint8_t>()[slot] & bit_) != 0;
         return in ? set_.device.points.as<glm::vec4>()[slot] : glm::vec4(0.0f);
     }
 

@@ -9,7 +9,7 @@
 namespace fathom::cloud {
 
 MomentsPass::MomentsPass(const CloudContext& c)
-    : pipeline_(c.device, {"moments", moments_spv, 5, true, 0, std::array{16u}})
+    : pipeline_(c.device, {"moments", moments_spv, 5, true, 0, std::array{16u}, {{2, kPointTexels}}})
     , counters_(c.work.counters) {
     for (const SetBuffers* s : c.sets) {
         auto& perUpload = bindings_.emplace_back();

@@ -6,8 +6,13 @@
 namespace fathom::cloud {
 
 OcclusionPass::OcclusionPass(const CloudContext& c)
-    : pipeline_(c.device, {"occlusion", occlusion_spv, 4, true, 0,
-                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}}})
+    : pipeline_(c.device, {"occlusion",
+                           occlusion_spv,
+                           4,
+                           true,
+                           0,
+                           std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}},
+                           {{1, kDepthTexels}}})
     , nearest_(c.work.nearest)
     , groups_((c.camera.depth.pixels() + c.plan.pixelGroup - 1) / c.plan.pixelGroup) {
     for (uint32_t u = 0; u < kUploads; ++u) {

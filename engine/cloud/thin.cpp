@@ -9,7 +9,9 @@
 namespace fathom::cloud {
 
 ThinPass::ThinPass(const CloudContext& c)
-    : pipeline_(c.device, {"thin", thin_spv, 7, true, 0, std::array{c.plan.subGroup}})
+    : pipeline_(
+          c.device,
+          {"thin", thin_spv, 7, true, 0, std::array{c.plan.subGroup, c.plan.classes}, {{2, kPointTexels}}})
     , counters_(c.work.counters) {
     for (uint32_t u = 0; u < kUploads; ++u) {
         bindings_[u] = gpu::Bindings(c.device, pipeline_,

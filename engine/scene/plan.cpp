@@ -103,7 +103,7 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
            plan.colour ? "double-buffered" : "no class asks for colour");
     buffer("rays", plan.rays, 8 * pixels,
            plan.rays ? "distorted lens" : "no lens distortion: computed from the pixel");
-    buffer("masks and points", plan.cloud, 20 * slots, "class bits and base-frame points");
+    buffer("masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
     buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u),

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth words to metres and pixels to rays. Needs params, depthWords, rays and kRays.
+// Depth words to metres and pixels to rays. Needs params, depths, rays and kRays.
 
 uint rawDepth(uint pixel) {
-    return (depthWords[pixel >> 1] >> ((pixel & 1u) * 16u)) & 0xffffu;
+    return texelFetch(depths, int(pixel)).x;
 }
 
 // Metres along the optical axis; 0 when there is no measurement in near..far.
 float metresOf(uint raw) {
-    return raw >= params.depthBand.x && raw <= params.depthBand.y ? float(raw) * params.more.z : 0.0;
+    return all(bvec2(raw >= params.depthBand.x, raw <= params.depthBand.y)) ? float(raw) * params.more.z : 0.0;
 }
 
 float depthAt(uint pixel) {

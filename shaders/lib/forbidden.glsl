@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// The class whose sphere a pixel gets. Needs params, masks, points.
+// The class whose sphere a pixel gets. Needs params and kClasses, how many classes of
+// points there are.
 
 const uint kNone = 0xffu;
 
-// Largest radius, then file order: params.time.w lists the forbidden classes so, four bits each, 15 ends the list.
+// Largest radius, then file order: params.time.w lists the forbidden classes so, four bits each, 15 ends the list. From the
+// last to the first, the first that the mask has stays; no branch.
 uint forbiddenClass(uint mask) {
-    uint order = params.time.w;
-    for (uint i = 0; i < kMaxClasses; ++i) {
-        uint c = (order >> (4u * i)) & 15u;
-        if (c == 15u) {
-            return kNone;
-        }
-        if ((mask >> c & 1u) != 0) {
-            return c;
-        }
+    uint found = kNone;
+    [[unroll]] for (uint i = 0; i < kClasses; ++i) {
+        uint c = (params.time.w >> (4u * (kClasses - 1u - i))) & 15u;
+        found = (mask >> c & 1u) != 0 ? c : found;
     }
-    return kNone;
+    return found;
 }
 
-// Class of the kept forbidden point in a slot, kNone when there is none.
-uint forbiddenAt(uint slot) {
-    uint mask = masks[slot] & params.depthBand.w;
-    return mask != 0 && points[slot].w != 0.0 ? forbiddenClass(mask) : kNone;
+// Region radius [m] of a class; of the first for kNone. By selection: a CPU device reads what all invocations agree on once,
+// and what they do not lane by lane.
+float radiusOf(uint c) {
+    float radius = params.classes[0].role.x;
+    [[unroll]] for (uint i = 1; i < kClasses; ++i) {
+        radius = c == i ? params.classes[i].role.x : radius;
+    }
+    return radius;
 }

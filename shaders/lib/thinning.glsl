@@ -3,12 +3,12 @@
 
 // Decision of the 4x4 cell at a pixel; all zero outside the picture and in patches without work.
 vec4 cellAt(ivec2 at) {
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, ivec2(params.size.xy)))) {
-        return vec4(0.0);
-    }
-    uvec2 p = uvec2(at);
+    bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
+    uvec2 p = inside ? uvec2(at) : uvec2(0);
     uint patchIndex = (p.y >> 4) * params.size.z + (p.x >> 4);
-    return listed[patchIndex] == 0 ? vec4(0.0) : growth[patchIndex * 16u + ((p.y >> 2) & 3u) * 4u + ((p.x >> 2) & 3u)];
+    uint used = listed[patchIndex];
+    vec4 cell = growth[patchIndex * 16u + ((p.y >> 2) & 3u) * 4u + ((p.x >> 2) & 3u)];
+    return all(bvec2(inside, used != 0u)) ? cell : vec4(0.0);
 }
 
 bool isWhole(vec4 cell) {
@@ -25,22 +25,23 @@ float quarterGrowth(vec4 cell, uint q) {
     return isWhole(cell) ? 0.0 : (q < 2u ? (q == 0u ? cell.x : cell.y) : (q == 2u ? cell.z : cell.w));
 }
 
-// What a point's sphere grows by, -1 when the point is left out. Corners of 4x4 cells always stay; corners of 2x2 cells stay
-// unless every 4x4 cell that they touch was thinned as one; the rest stays unless its own cell was thinned.
-float keptGrowth(uvec2 pixel, CellsAround c) {
-    bool right = (pixel.x & 2u) != 0, low = (pixel.y & 2u) != 0; // half of the 4x4 cell
+// What the sphere of pixel p (0..15) of a 4x4 cell grows by, -1 when the point is left out. Corners of 4x4 cells always stay;
+// corners of 2x2 cells stay unless every 4x4 cell that they touch was thinned as one; the rest stays unless its own cell was
+// thinned.
+float keptGrowth(const uint p, CellsAround c) {
+    bool right = (p & 2u) != 0, low = (p & 8u) != 0; // half of the 4x4 cell
     uint q = (low ? 2u : 0u) + (right ? 1u : 0u);
     float own = quarterGrowth(c.own, q);
-    if ((pixel.x & 1u) != 0 || (pixel.y & 1u) != 0) {
-        return isWhole(c.own) || own > 0.0 ? -1.0 : 0.0;
+    if ((p & 5u) != 0) {
+        return any(bvec2(isWhole(c.own), own > 0.0)) ? -1.0 : 0.0;
     }
     // The 2x2 cells left, above and across, in whichever 4x4 cell they lie.
     vec4 leftCell = right ? c.own : c.left, upCell = low ? c.own : c.up;
     vec4 acrossCell = right ? (low ? c.own : c.up) : (low ? c.left : c.corner);
     float grown = max(max(own, quarterGrowth(leftCell, q ^ 1u)), max(quarterGrowth(upCell, q ^ 2u), quarterGrowth(acrossCell, q ^ 3u)));
-    if (right || low) {
-        return isWhole(c.own) && isWhole(leftCell) && isWhole(upCell) ? -1.0 : grown;
+    if ((p & 10u) != 0) {
+        return all(bvec3(isWhole(c.own), isWhole(leftCell), isWhole(upCell))) ? -1.0 : grown;
     }
-    float whole = max(max(-1.0 - c.own.x, -1.0 - c.left.x), max(-1.0 - c.up.x, -1.0 - c.corner.x));
+    float whole = -min(min(c.own.x, c.left.x), min(c.up.x, c.corner.x));
     return max(grown, whole);
 }

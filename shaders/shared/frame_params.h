@@ -7,12 +7,12 @@ FATHOM_SHARED_BEGIN
 
 FATHOM_CONST kMaxClasses = 8; // classes of points in a scene: bits of a pixel's mask
 
-// One class of points. Gates are inclusive.
+// One class of points. Gates are inclusive; what the class does not ask for has bounds that nothing exceeds.
 struct ClassParams {
-    vec4 hue;      // lo, hi [degree], 1 = has the gate, 1 = wraps through 0
-    vec4 satLight; // saturation lo, hi; lightness lo, hi
+    vec4 hue;      // lo, hi [degree]; 1 = wraps through 0; 0 = grey passes, -1 = it does not
+    vec4 satLight; // saturation lo, hi; lightness lo, hi [1/510]
     vec4 boxMin;   // base axes about the origin [m]; w = 1: has a box
-    vec4 boxMax;
+    vec4 boxMax;   // w = 0: points whose colour is not seen pass, -1: they do not
     vec4 role; // region radius with 3 registration sigma [m]; 1 = forbidden; 1 = guidance; row of
                // Scene::fixtures
 };

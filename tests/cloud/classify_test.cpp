@@ -214,6 +214,17 @@ TEST_CASE("Near and far that fall on a depth unit are inclusive at every unit, a
     }
 }
 
+TEST_CASE("A range that holds no depth unit takes no pixel") {
+    const CameraInfo camera = pinholeCamera(37, 21, 0.001);
+    const Picture picture = drawnPicture(camera, [](int u, int) { return 0.5 + 0.001 * (u % 3); });
+    Scene scene = plainScene();
+    scene.fixtures = {forbiddenClass("all", 0.01)};
+    scene.nearZ = 0.5002, scene.farZ = 0.5008; // between 500 and 501 units
+    CloudRig rig(scene, camera);
+    CHECK(rig.run(picture).counts.classPixels[0] == 0);
+    CHECK(compareMasks(rig).different == 0);
+}
+
 TEST_CASE("A box takes the points that lie exactly on its faces") {
     const CameraInfo camera = [] {
         CameraInfo c = pinholeCamera(40, 40);

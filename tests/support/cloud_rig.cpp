@@ -45,7 +45,7 @@ std::vector<uint32_t> CloudRig::listed() const {
 }
 
 std::vector<uint32_t> CloudRig::masks() const {
-    const auto slots = read<uint32_t>(cycle_->work().masks);
+    const auto slots = read<uint8_t>(cycle_->work().masks);
     std::vector<uint32_t> out;
     for (int v = 0; v < height(); ++v) {
         for (int u = 0; u < width(); ++u) {
@@ -82,7 +82,7 @@ std::vector<reference::CellThinning> CloudRig::thinning() const {
             const uint32_t sub = slot(u, v) / 16;
             const glm::vec4 g = work[sub / 16] != 0 ? cells[sub] : glm::vec4(0.0f);
             reference::CellThinning& cell = out.emplace_back();
-            cell.whole = g.x < 0.0f ? -1.0 - static_cast<double>(g.x) : -1.0;
+            cell.whole = g.x < 0.0f ? -static_cast<double>(g.x) : -1.0;
             for (int q = 0; g.x >= 0.0f && q < 4; ++q) {
                 cell.quarters[static_cast<size_t>(q)] = g[q] > 0.0f ? g[q] : -1.0;
             }
