@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
+#include <utility>
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -16,7 +18,8 @@ namespace fathom {
 
 namespace {
 
-constexpr int kMostReports = 64;                        // a turn
+constexpr int kMostReports = 64; // a turn
+constexpr auto kSeekPause = std::chrono::milliseconds(100);
 constexpr uint32_t kGuidance = 1, kDeadManOpen = 2;     // of HandSample
 constexpr uint32_t kFirstButton = 1, kSecondButton = 2; // of the device
 
@@ -39,6 +42,25 @@ int openNode(const DeviceFile& file) {
     return descriptor;
 }
 
+// The same kind of device, wherever it is now; -1 = not there, or not yet for this user.
+int openAgain(uint16_t vendor, uint16_t product) {
+    for (const DeviceFile& file : findDeviceFiles()) {
+        if (file.kind == DeviceFile::Kind::SpaceMouse && file.vendor == vendor && file.product == product) {
+            const int descriptor = ::open(file.node.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+            if (descriptor >= 0) {
+                return descriptor;
+            }
+        }
+    }
+    return -1;
+}
+
+void closeIt(int descriptor) noexcept {
+    if (descriptor >= 0) {
+        ::close(descriptor);
+    }
+}
+
 } // namespace
 
 SpaceMouseHand::SpaceMouseHand(const std::filesystem::path& node, const SpaceMouseOptions& options)
@@ -47,16 +69,48 @@ SpaceMouseHand::SpaceMouseHand(const std::filesystem::path& node, const SpaceMou
     const DeviceFile file = choose(node);
     descriptor_ = openNode(file);
     name_ = file.name + " at " + file.node.string();
+    reopen_ = [vendor = file.vendor, product = file.product] { return openAgain(vendor, product); };
+    seeker_ = std::thread([this] { seek(); });
 }
 
-SpaceMouseHand::SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options)
+SpaceMouseHand::SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options,
+                               std::function<int()> reopen)
     : descriptor_(descriptor)
     , name_(std::move(name))
-    , options_(options) {}
+    , options_(options)
+    , reopen_(std::move(reopen)) {
+    if (reopen_) {
+        seeker_ = std::thread([this] { seek(); });
+    }
+}
 
 SpaceMouseHand::~SpaceMouseHand() {
-    if (descriptor_ >= 0) {
-        ::close(descriptor_);
+    stop_.store(true);
+    if (seeker_.joinable()) {
+        seeker_.join();
+    }
+    closeIt(descriptor_);
+    closeIt(gone_.exchange(-1));
+    closeIt(found_.exchange(-1));
+}
+
+// close() may wait for the kernel: not on the haptic turn.
+void SpaceMouseHand::lose() noexcept {
+    gone_.store(std::exchange(descriptor_, -1)); // the thread has taken the one before
+    state_ = {};
+    ++figures_.losses;
+    seeking_.store(true);
+}
+
+void SpaceMouseHand::seek() noexcept {
+    while (!stop_.load()) {
+        std::this_thread::sleep_for(kSeekPause);
+        closeIt(gone_.exchange(-1));
+        const int next = seeking_.load() ? reopen_() : -1;
+        if (next >= 0) {
+            seeking_.store(false);
+            found_.store(next);
+        }
     }
 }
 
@@ -72,15 +126,15 @@ void SpaceMouseHand::takeReports(double t) noexcept {
         } else if (got < 0 && (errno == EAGAIN || errno == EINTR)) {
             return;
         } else { // unplugged
-            ::close(descriptor_);
-            descriptor_ = -1;
-            state_ = {};
-            ++figures_.losses;
+            lose();
         }
     }
 }
 
 HandSample SpaceMouseHand::read(double t) noexcept {
+    if (descriptor_ < 0) {
+        descriptor_ = found_.exchange(-1);
+    }
     takeReports(t);
     if (t - heard_ > kSilence) {
         state_.shift = state_.turn = {};

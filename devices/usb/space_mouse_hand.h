@@ -5,7 +5,10 @@
 #include "devices/live_hand.h"
 #include "devices/usb/space_mouse.h"
 
+#include <atomic>
 #include <filesystem>
+#include <functional>
+#include <thread>
 
 namespace fathom {
 
@@ -18,14 +21,17 @@ struct SpaceMouseOptions {
 // read() makes a few non-blocking system calls. The device reports every 8 to 16 ms while it is held and
 // falls silent after a report of zeros; one that is silent while deflected (lost out of radio range) counts
 // as let go after kSilence. Its first button is guidance, its second opens the dead-man switch while it is
-// down.
+// down. Unplugged it is looked for ten times a second by vendor and product, on a thread of its own, and goes
+// on from the pose where it was, at whatever node it comes back.
 class SpaceMouseHand final : public LiveHand {
 public:
     // node: /dev/hidrawN; empty = the first SpaceMouse. Throws BadInput: none, no permission (udev rule), not
     // one.
     explicit SpaceMouseHand(const std::filesystem::path& node, const SpaceMouseOptions& options = {});
-    // On a descriptor that is read like a hidraw node, non-blocking; owns it.
-    SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options);
+    // On a descriptor that is read like a hidraw node, non-blocking; owns it. reopen, called on another
+    // thread while the device is away, gives the next one or -1; empty = it never comes back.
+    SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options,
+                   std::function<int()> reopen = {});
     SpaceMouseHand(const SpaceMouseHand&) = delete;
     SpaceMouseHand& operator=(const SpaceMouseHand&) = delete;
     ~SpaceMouseHand() override;
@@ -43,6 +49,8 @@ public:
 
 private:
     void takeReports(double t) noexcept;
+    void lose() noexcept;
+    void seek() noexcept; // the thread
 
     int descriptor_;
     std::string name_;
@@ -52,6 +60,12 @@ private:
     double before_ = 0.0, heard_ = 0.0; // [s] last turn, last report
     bool started_ = false;
     LiveHandFigures figures_;
+
+    // To the thread and back: descriptors, -1 = none.
+    std::function<int()> reopen_;
+    std::atomic<int> gone_{-1}, found_{-1};
+    std::atomic<bool> seeking_{false}, stop_{false};
+    std::thread seeker_;
 };
 
 } // namespace fathom

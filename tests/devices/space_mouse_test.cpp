@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/usb/space_mouse_hand.h"
 
+#include "tests/devices/door_rig.h"
+
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -12,6 +15,7 @@
 #include <unistd.h>
 
 using namespace fathom;
+using namespace fathom::testing;
 
 namespace {
 
@@ -149,4 +153,29 @@ TEST_CASE("Buttons are guidance and dead-man; an unplugged cap is an open dead-m
     CHECK(sample.deviceThandle.position.x == x);
     CHECK_FALSE(cap.hand->alive());
     CHECK(cap.hand->figures().losses == 1);
+}
+
+TEST_CASE("A cap that is plugged in again goes on from where it was, as often as it is pulled") {
+    std::atomic<int> next{-1}; // what plugging in puts there
+    int ends[2];
+    REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);
+    SpaceMouseHand hand(ends[1], "test mouse", {}, [&] { return next.exchange(-1); });
+    double t = 0.0;
+    const auto read = [&] { return hand.read(t += 0.001); };
+    for (uint32_t times = 1; times <= 3; ++times) {
+        const Report push = motion(1, {350, 0, 0});
+        REQUIRE(::send(ends[0], push.data(), push.size(), 0) == std::ssize(push));
+        read();
+        const double x = read().deviceThandle.position.x;
+        CHECK(x > 0.0);
+        ::close(ends[0]);
+        CHECK(read().buttons == 6);
+        CHECK_FALSE(hand.alive());
+        CHECK(hand.figures().losses == times);
+        REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);
+        next = ends[1];
+        REQUIRE(eventually([&] { return read().buttons == 0 && hand.alive(); }));
+        CHECK(read().deviceThandle.position.x == x); // the push before is forgotten
+    }
+    ::close(ends[0]);
 }
