@@ -4,12 +4,16 @@
 #include "apps/binding/open_hand.h"
 #include "devices/bridge/door_socket.h"
 #include "devices/usb/device_files.h"
+#include "devices/v4l2/pixel_format.h"
+#include "devices/v4l2/video_node.h"
 #include "engine/gpu/device.h"
+#include "engine/types/error.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <iostream>
+#include <span>
 
 namespace fathom {
 
@@ -21,10 +25,42 @@ const char* kindOf(DeviceFile::Kind kind) {
         return "haptic  ";
     case DeviceFile::Kind::SpaceMouse:
         return "hand    ";
+    case DeviceFile::Kind::SerialPort:
+        return "serial  ";
+    case DeviceFile::Kind::Closed:
+        return "other   ";
     case DeviceFile::Kind::Camera:
         break;
     }
     return "camera  ";
+}
+
+std::string formatNames(const VideoNode& node, std::span<const uint32_t> formats) {
+    std::string text;
+    for (const uint32_t format : formats) {
+        if (node.offers(format)) {
+            text += (text.empty() ? "" : ", ") + fourccName(format);
+            for (const VideoSize size : node.sizes(format)) {
+                text += " " + sizeName(size);
+            }
+        }
+    }
+    return text;
+}
+
+std::string cameraCapability(const std::filesystem::path& file) {
+    try {
+        const VideoNode node(file);
+        const std::string depth = formatNames(node, declaredDepthFormats()),
+                          colour = formatNames(node, colourFormats());
+        if (!depth.empty()) {
+            return "depth " + depth + "; --source v4l2:" + file.string();
+        }
+        return colour.empty() ? "REFUSED: no format that is read as depth or colour; it has " + node.offer()
+                              : "colour only: " + colour + "; --source v4l2:DEPTH,colour=" + file.string();
+    } catch (const BadInput& e) {
+        return std::string("REFUSED: ") + e.what();
+    }
 }
 
 std::string capabilityOf(const DeviceFile& file) {
@@ -33,10 +69,13 @@ std::string capabilityOf(const DeviceFile& file) {
         return axesOf("falcon") + "; through `fathom guard falcon`";
     case DeviceFile::Kind::SpaceMouse:
         return axesOf("none") + "; --hand-device spacemouse:" + file.node.string();
+    case DeviceFile::Kind::SerialPort:
+        return "may be opened; a manipulator could be there: which one, no port can tell";
     case DeviceFile::Kind::Camera:
+    case DeviceFile::Kind::Closed:
         break;
     }
-    return "V4L2 video node";
+    return cameraCapability(file.node);
 }
 
 void print(std::ostream& out, const DeviceFile& file) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/usb/device_files.h"
 
+#include "devices/usb/closed_devices.h"
 #include "devices/usb/space_mouse.h"
 #include "devices/usb/udev_rule.h"
 
@@ -57,11 +58,11 @@ void fillUsb(const fs::path& folder, DeviceFile& file) {
     }
 }
 
-std::string refusalOf(const fs::path& node, int mode) {
+std::string refusalOf(const fs::path& node, int mode, const char* remedy = kUdevRuleHint) {
     if (::access(node.c_str(), mode) == 0) {
         return {};
     }
-    return errno == EACCES || errno == EPERM ? std::string("no permission: ") + kUdevRuleHint
+    return errno == EACCES || errno == EPERM ? std::string("no permission: ") + remedy
                                              : std::string(std::strerror(errno));
 }
 
@@ -82,17 +83,42 @@ std::string numberText(const std::string& text) {
     return padded;
 }
 
-void findFalcons(const fs::path& root, std::vector<DeviceFile>& out) {
+// Devices that are known by their numbers on the bus.
+void findOnBus(const fs::path& root, std::vector<DeviceFile>& out) {
     for (const fs::path& device : entries(root / "sys/bus/usb/devices")) {
         DeviceFile file;
-        file.kind = DeviceFile::Kind::Falcon;
         fillUsb(device, file);
+        file.node = root / "dev/bus/usb" / numberText(lineOf(device / "busnum")) /
+                    numberText(lineOf(device / "devnum"));
         if (file.vendor == kFalconVendor && file.product == kFalconProduct) {
-            file.node = root / "dev/bus/usb" / numberText(lineOf(device / "busnum")) /
-                        numberText(lineOf(device / "devnum"));
+            file.kind = DeviceFile::Kind::Falcon;
             file.refused = refusalOf(file.node, R_OK | W_OK);
             out.push_back(file);
+        } else if (const ClosedDevice* closed = closedDevice(file.vendor, file.product)) {
+            file.kind = DeviceFile::Kind::Closed;
+            file.name = file.name.empty() ? closed->name : file.name;
+            file.refused = closed->why;
+            out.push_back(file);
         }
+    }
+}
+
+// Ports on USB, and those of the board that have a chip behind them.
+void findSerialPorts(const fs::path& root, std::vector<DeviceFile>& out) {
+    for (const fs::path& entry : entries(root / "sys/class/tty")) {
+        const std::string tty = entry.filename().string();
+        DeviceFile file;
+        file.kind = DeviceFile::Kind::SerialPort;
+        file.node = root / "dev" / tty;
+        const bool onUsb = tty.starts_with("ttyUSB") || tty.starts_with("ttyACM");
+        if (const auto usb = onUsb ? usbParent(entry / "device") : std::nullopt) {
+            fillUsb(*usb, file);
+        } else if (const std::string chip = lineOf(entry / "type"); chip.empty() || chip == "0") {
+            continue;
+        }
+        file.name = file.name.empty() ? "serial port" : file.name;
+        file.refused = refusalOf(file.node, R_OK | W_OK, onUsb ? kUdevRuleHint : kSerialGroupHint);
+        out.push_back(file);
     }
 }
 
@@ -133,9 +159,10 @@ void findCameras(const fs::path& root, std::vector<DeviceFile>& out) {
 
 std::vector<DeviceFile> findDeviceFiles(const fs::path& root) {
     std::vector<DeviceFile> found;
-    findFalcons(root, found);
+    findOnBus(root, found);
     findSpaceMice(root, found);
     findCameras(root, found);
+    findSerialPorts(root, found);
     const auto key = [](const DeviceFile& f) { // video2 before video10
         return std::tuple(f.kind, f.node.native().size(), f.node.native());
     };

@@ -10,12 +10,13 @@
 namespace fathom {
 
 struct DeviceFile {
-    enum class Kind { Falcon, SpaceMouse, Camera } kind = Kind::Camera;
+    // SerialPort: where a manipulator may be. Closed: known, but no driver here can serve it.
+    enum class Kind { Falcon, SpaceMouse, Camera, SerialPort, Closed } kind = Kind::Camera;
     std::filesystem::path node; // what is opened: /dev/hidraw0, /dev/video0, /dev/bus/usb/001/004
     std::string name;           // as the device or its driver calls itself
     std::string place;          // "usb 1-1.2"; empty = not on USB
     uint16_t vendor = 0, product = 0;
-    std::string refused; // why this user cannot open it; empty = may
+    std::string refused; // why this user cannot open it, or nobody can use it; empty = may
 };
 
 // Sorted by kind, then node. `root`: where /sys and /dev are, for tests.

@@ -85,6 +85,40 @@ TEST_CASE("A Falcon, a SpaceMouse and cameras are found by sysfs, in order, and 
     }
 }
 
+TEST_CASE("Serial ports on USB and of the board are listed, those without a chip are not") {
+    Machine m;
+    const fs::path cable = m.usb("1-4", "0403", "6001", "FT232R USB UART", 8);
+    m.node("tty", "ttyUSB0", cable / "1-4:1.0/ttyUSB0", "");
+    const fs::path tty = m.root() / "sys/class/tty";
+    write(tty / "ttyS0/type", "4");
+    write(m.root() / "dev/ttyS0", "");
+    write(tty / "ttyS1/type", "0");
+    fs::create_directories(tty / "tty7");
+    const auto found = findDeviceFiles(m.root());
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].kind == DeviceFile::Kind::SerialPort);
+    CHECK(found[0].node == m.root() / "dev/ttyS0");
+    CHECK(found[0].name == "serial port");
+    CHECK(found[1].node == m.root() / "dev/ttyUSB0");
+    CHECK(found[1].name == "FT232R USB UART");
+    CHECK(found[1].refused.empty());
+}
+
+TEST_CASE("Devices that nothing here can drive are named with the reason, their neighbours are not") {
+    Machine m;
+    m.usb("1-2", "1451", "0402", "", 7);
+    m.usb("1-3", "1d27", "0601", "Xtion PRO LIVE", 8);
+    m.usb("1-4", "2bc5", "0670", "a camera of the kernel's", 9);
+    m.usb("1-5", "1452", "0402", "", 10);
+    const auto found = findDeviceFiles(m.root());
+    REQUIRE(found.size() == 2);
+    CHECK(found[0].kind == DeviceFile::Kind::Closed);
+    CHECK(found[0].name == "Force Dimension haptic device");
+    CHECK(found[0].refused.find("devices/bridge/README.md") != std::string::npos);
+    CHECK(found[1].name == "Xtion PRO LIVE");
+    CHECK(found[1].refused.find("OpenNI2") != std::string::npos);
+}
+
 TEST_CASE("A machine without devices has none, and a node that is missing says so") {
     Machine m;
     CHECK(findDeviceFiles(m.root()).empty());
@@ -115,7 +149,7 @@ TEST_CASE("A device without permission names the udev rule, and that file names 
     std::ifstream in(kUdevRuleFile);
     const std::string rules{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     for (const char* id :
-         {"cb48", "0403", "256f", "046d", "c603", "c626", "c62b", "video4linux", "uaccess"}) {
+         {"cb48", "0403", "256f", "046d", "c603", "c626", "c62b", "video4linux", "ttyUSB", "uaccess"}) {
         CHECK_MESSAGE(rules.find(id) != std::string::npos, id);
     }
 }
