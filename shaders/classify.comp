@@ -15,6 +15,7 @@ layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the lo
 layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
 layout(constant_id = 7) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
 layout(constant_id = 8) const uint kFour = 0;       // 1: the width is a multiple of four: a texel of depth is four pixels
+layout(constant_id = 9) const uint kRange = 0;      // 1: some class asks for the range
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
@@ -66,6 +67,10 @@ bool inClass(ClassParams c, Hsl colourHere, bool seen, vec3 base) {
     return inside >= -1e-4;
 }
 
+bool inRange(vec4 gate, float range) {
+    return kRange != 0 ? any(bvec2(gate.z == 0.0, clamp(range, gate.x, gate.y) == range)) : true;
+}
+
 void putOnList(uint patchIndex) {
     if (listed[patchIndex] == 0 && atomicExchange(listed[patchIndex], 1u) == 0) {
         uint place = atomicAdd(counters.patchGroups.x, 1u);
@@ -80,9 +85,11 @@ uint classBits(uvec2 at, uint pixel, float z) {
     bool seen = kColour != 0 && colourOf(pixel, p, rgb);
     Hsl colourHere = hslOf(rgb);
     vec3 base = kBox != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
+    float range = kRange != 0 ? length(p) : 0.0;
     uint mask = 0;
     for (uint c = 0; c < kClasses; ++c) {
-        mask |= inClass(params.classes[c], colourHere, seen, base) ? 1u << c : 0u;
+        uint member = uint(inClass(params.classes[c], colourHere, seen, base)) & uint(inRange(params.ranges[c], range));
+        mask |= member << c;
     }
     return z != 0.0 ? mask : 0u;
 }

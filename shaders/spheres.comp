@@ -12,6 +12,8 @@ layout(constant_id = 2) const uint kHold = 1;       // 1: unseen points stay for
 layout(constant_id = 3) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
 layout(constant_id = 4) const uint kLeaks = 1;      // 1: within near..far neighbours may be a radius apart
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points
+layout(constant_id = 6) const uint kFan = 0;        // 1: pixels are beams at equal angles
+layout(constant_id = 7) const uint kBeam = 0;       // 1: spheres grow by 3 sigma of their points
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
@@ -34,6 +36,7 @@ layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
 
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
+#include "shaders/lib/beam.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/forbidden.glsl"
@@ -74,10 +77,17 @@ CellsAround cellsOfSub(ivec2 at) {
     return CellsAround(cellAt(at), cellAt(at - ivec2(4, 0)), cellAt(at - ivec2(0, 4)), cellAt(at - ivec2(4, 4)));
 }
 
-// The sphere of the point seen now in pixel p of a sub-patch; R < 0 when there is none or the budget leaves it out.
-vec4 seenSphere(vec4 point, const uint p, uint c, CellsAround around) {
+// Three sigma of a point, by its range from the camera [m].
+float grownBySigma(vec3 point) {
+    vec3 camera = vec3(params.baseTcamera[0].w, params.baseTcamera[1].w, params.baseTcamera[2].w);
+    return kBeam != 0 ? 3.0 * beamSigma(distance(point, camera)) : 0.0;
+}
+
+// The sphere of the point seen now in pixel p of a sub-patch; R < 0 when there is none or the budget leaves it out. more: for its
+// sigma [m].
+vec4 seenSphere(vec4 point, const uint p, uint c, float more, CellsAround around) {
     float grown = kThin != 0 ? keptGrowth(p, around) : 0.0;
-    float radius = radiusOf(c) + grown;
+    float radius = radiusOf(c) + grown + more;
     return vec4(point.xyz, any(bvec2(c == kNone, grown < 0.0)) ? -1.0 : radius);
 }
 
@@ -91,14 +101,15 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
     uint slot = sub * 16u + p, remembered = 0, heldClass = 0;
     vec4 point = texelFetch(points, int(slot));
     uint c = forbiddenClass(point.w != 0.0 ? mask : 0u);
-    vec4 sphere = seenSphere(point, p, c, around), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
+    float more = grownBySigma(point.xyz);
+    vec4 sphere = seenSphere(point, p, c, more, around), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
     if (kLeaks != 0 && c != kNone) {
         uvec2 at = corner + uvec2(p & 3u, p >> 2);
         noteLeak(at + uvec2(1, 0), point, c);
         noteLeak(at + uvec2(0, 1), point, c);
     }
     if (kHold != 0) {
-        heldSphere = updateMemory(slot, point.xyz, c, heldClass, remembered);
+        heldSphere = updateMemory(slot, point.xyz, c, more, heldClass, remembered);
         held[slot] = heldSphere;
     }
     spheres[slot] = sphere;

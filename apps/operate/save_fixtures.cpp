@@ -31,6 +31,7 @@ void putPoints(std::ostream& out, const FixtureClass& f) {
     put(out, "hue", f.hue);
     put(out, "saturation", f.saturation);
     put(out, "lightness", f.lightness);
+    put(out, "range", f.range);
     if (f.box) {
         out << ", box: {min: ";
         putVec(out, f.box->min);

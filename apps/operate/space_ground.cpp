@@ -73,9 +73,9 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
                 continue;
             }
             const auto z = static_cast<float>(set.depth[i] * set.camera.metresPerUnit);
-            const glm::vec3 p = turn * glm::vec3(z * static_cast<float>((u - lens.cx) / lens.fx),
-                                                 z * static_cast<float>((v - lens.cy) / lens.fy), z) +
-                                shift;
+            const glm::dvec2 ray =
+                lens.fan ? lens.ray(u, v) : glm::dvec2((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy);
+            const glm::vec3 p = turn * (z * glm::vec3(glm::vec2(ray), 1.0f)) + shift;
             if (p.z < static_cast<float>(kNearest)) {
                 continue;
             }

@@ -241,8 +241,7 @@ void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& s
     std::array<dvec3, 4> corners;
     for (size_t i = 0; i < 4; ++i) {
         const double u = i == 1 || i == 2 ? lens.width : 0.0, v = i >= 2 ? lens.height : 0.0;
-        corners[i] =
-            set.baseTcamera.apply(kDepth * dvec3((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy, 1.0));
+        corners[i] = set.baseTcamera.apply(kDepth * dvec3(lens.ray(u, v), 1.0));
     }
     for (size_t i = 0; i < 4; ++i) {
         line(list, port, set.baseTcamera.position, corners[i], colour::kQuiet, 1.2f);

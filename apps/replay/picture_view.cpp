@@ -32,7 +32,7 @@ glm::dvec2 PictureView::distortionShift(const dvec3& point) const {
     const double marginU = 0.5 * lens.width, marginV = 0.5 * lens.height;
     const bool near = straight.x > -marginU && straight.x < lens.width + marginU && straight.y > -marginV &&
                       straight.y < lens.height + marginV;
-    if (!lens.distorted() || !near) {
+    if (lens.pinhole() || !near) {
         return glm::dvec2(0.0);
     }
     return (lens.project(point) - straight) * static_cast<double>(scale);

@@ -12,7 +12,7 @@ WaterCamera::WaterCamera(std::unique_ptr<Camera> source, const FlatPort& port, d
     : source_(std::move(source))
     , info_(source_->info())
     , slots_(info_.depth.pixels(), false, kFramesInFlight + 1) {
-    if (info_.depth.distorted() || (info_.hasColour && info_.colour.distorted())) {
+    if (!info_.depth.pinhole() || (info_.hasColour && !info_.colour.pinhole())) {
         throw BadInput(source_->description(), "camera.port", "a lens with distortion",
                        "pictures without lens distortion, or intrinsics calibrated in water and no port");
     }

@@ -34,7 +34,7 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
                  0,
                  std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
                             c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
-                            uint32_t{c.plan.groupCounts}, uint32_t{inFours(c)}},
+                            uint32_t{c.plan.groupCounts}, uint32_t{inFours(c)}, uint32_t{c.plan.range}},
                  {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kColourTexels}}})
     , work_(c.work)
     , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {

@@ -61,6 +61,12 @@ shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene
     return c;
 }
 
+// Outward by what float32 may round away, as a box.
+vec4 rangeOf(const FixtureClass& f, double farZ) {
+    const double slack = 3e-7 * std::max(1.0, farZ);
+    return f.range ? vec4(f.range->lo - slack, f.range->hi + slack, 1.0, 0.0) : vec4(0.0f);
+}
+
 // Forbidden classes by radius, largest first, then in file order; four bits each, 15 ends the list.
 uint32_t forbiddenOrder(const shared::FrameParams& params) {
     std::vector<uint32_t> order(params.depthBand.z);
@@ -105,6 +111,7 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     p.depthBand = {lo, hi, rows.size(), 0};
     for (uint32_t c = 0; c < rows.size(); ++c) {
         p.classes[c] = classParams(scene.fixtures[rows[c]], rows[c], scene, origin);
+        p.ranges[c] = rangeOf(scene.fixtures[rows[c]], scene.farZ);
         p.depthBand.w |= scene.fixtures[rows[c]].role == Role::Forbidden ? 1u << c : 0u;
     }
     p.time = {0, static_cast<uint32_t>(scene.holdSeconds * 1e6), 0, forbiddenOrder(p)};
@@ -118,6 +125,9 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
                       kIsolationPixels / std::min(camera.depth.fx, camera.depth.fy)};
     const double constant = depthSigma(0.0);
     p.noise = {constant, depthSigma(1.0) - constant, 3.0, 0.0};
+    if (camera.beam) {
+        p.beam = {camera.beam->range, camera.beam->perMetre, camera.beam->across(), 0.0};
+    }
     setRows(p.colourTdepth, camera.colourTdepth);
     return p;
 }

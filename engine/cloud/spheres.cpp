@@ -9,15 +9,16 @@
 namespace fathom::cloud {
 
 SpheresPass::SpheresPass(const CloudContext& c)
-    : pipeline_(c.device, {"spheres",
-                           spheres_spv,
-                           18,
-                           true,
-                           0,
-                           std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup,
-                                      uint32_t{c.plan.thin}, uint32_t{c.plan.hold}, uint32_t{c.plan.byPixel},
-                                      uint32_t{c.plan.leaks}, c.plan.classes},
-                           {{1, kDepthTexels}, {3, kPointTexels}}})
+    : pipeline_(c.device,
+                {"spheres",
+                 spheres_spv,
+                 18,
+                 true,
+                 0,
+                 std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup, uint32_t{c.plan.thin},
+                            uint32_t{c.plan.hold}, uint32_t{c.plan.byPixel}, uint32_t{c.plan.leaks},
+                            c.plan.classes, uint32_t{c.plan.fan}, uint32_t{c.plan.beam}},
+                 {{1, kDepthTexels}, {3, kPointTexels}}})
     , work_(c.work)
     , hold_(c.plan.hold)
     , byPixel_(c.plan.byPixel) {

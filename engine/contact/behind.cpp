@@ -51,7 +51,7 @@ BehindTracker::Sight BehindTracker::look(const Fixtures& fixtures, const Pose& c
     sight.known = true;
     sight.forbidden = fixtures.forbiddenAt(column, line);
     sight.before = z - p.z;
-    sight.sigma = depthSigma(z);
+    sight.sigma = fixtures.camera.sigmaAt(p * (z / p.z));
     sight.range = glm::length(p) * z / p.z;
     return sight;
 }

@@ -53,6 +53,15 @@ BoxTest testBox(const FixtureClass& f, const dvec3& p, double scale) {
     return t;
 }
 
+BoxTest testRange(const FixtureClass& f, double range, double scale) {
+    BoxTest t;
+    if (f.range) {
+        t.inside = within(range, f.range);
+        t.unsure = std::min(std::abs(range - f.range->lo), std::abs(range - f.range->hi)) < kMetres * scale;
+    }
+    return t;
+}
+
 struct Seen {
     std::optional<uint32_t> colour; // empty: hidden or outside
     bool unsure = false;
@@ -116,8 +125,9 @@ ClassPicture classify(const FrameView& view, const CellPicture* cells) {
                 const FixtureClass& f = *classes[c];
                 const bool colour = !asksColour(f) || (seen.colour && passesColour(f, *seen.colour));
                 const BoxTest box = testBox(f, base, std::max(1.0, z));
-                out.masks[i] |= colour && box.inside ? 1u << c : 0u;
-                if (box.unsure || (asksColour(f) && seen.unsure)) {
+                const BoxTest range = testRange(f, glm::length(p), std::max(1.0, z));
+                out.masks[i] |= colour && box.inside && range.inside ? 1u << c : 0u;
+                if (box.unsure || range.unsure || (asksColour(f) && seen.unsure)) {
                     out.unsure[i] = 1;
                 }
             }

@@ -22,7 +22,7 @@ HoldMemory::Verdict HoldMemory::stays(const FrameView& view, const Memory& memor
     }
     const NearestPixel at = nearestPixel(view.camera().depth, q, 1e-3);
     const double z = view.z(at.u, at.v); // 0 outside the picture
-    const double nearer = q.z - 3.0 * depthSigma(q.z);
+    const double nearer = q.z - 3.0 * view.camera().sigmaAt(q);
     verdict.stays = z == 0.0 || z < nearer;
     verdict.unsure =
         verdict.unsure || at.unsure || (z != 0.0 && std::abs(z - nearer) < 1e-6 * std::max(1.0, q.z));
@@ -35,6 +35,7 @@ std::vector<RegionSphere> HoldMemory::step(const FrameView& view, double capture
     held_.resize(view.pixels());
     unsure_.resize(view.pixels());
     std::vector<RegionSphere> out(view.pixels());
+    const std::vector<double> growth = beamGrowth(view, points);
     for (size_t i = 0; i < view.pixels(); ++i) {
         Memory last = last_[i];
         last.time = previousTime;
@@ -44,9 +45,9 @@ std::vector<RegionSphere> HoldMemory::step(const FrameView& view, double capture
         }
         held_[i] = a.stays ? last : (b.stays ? held_[i] : Memory{});
         if (held_[i].cls >= 0) {
-            out[i] = {held_[i].at, regionRadius(view.scene(), held_[i].cls), held_[i].cls};
+            out[i] = {held_[i].at, regionRadius(view.scene(), held_[i].cls) + held_[i].grown, held_[i].cls};
         }
-        last_[i] = classes[i] < 0 ? Memory{} : Memory{points.at[i], classes[i], captureTime};
+        last_[i] = classes[i] < 0 ? Memory{} : Memory{points.at[i], classes[i], captureTime, growth[i]};
     }
     return out;
 }

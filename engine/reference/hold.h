@@ -24,6 +24,7 @@ private:
         dvec3 at{0.0};
         int cls = -1;
         double time = 0.0;
+        double grown = 0.0; // [m] for its sigma, as it was seen
     };
     struct Verdict {
         bool stays = false, unsure = false;

@@ -35,6 +35,14 @@ double regionRadius(const Scene& scene, int cls) {
     return pointClasses(scene)[static_cast<size_t>(cls)]->radius + 3.0 * scene.registrationSigma;
 }
 
+std::vector<double> beamGrowth(const FrameView& view, const PointPicture& points) {
+    std::vector<double> growth(points.z.size(), 0.0);
+    for (size_t i = 0; view.camera().beam && i < growth.size(); ++i) {
+        growth[i] = 3.0 * view.camera().beam->at(glm::distance(points.at[i], view.baseTcamera().position));
+    }
+    return growth;
+}
+
 std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes,
                                   const PointPicture& points, std::span<const double> growth) {
     std::vector<double> radii;

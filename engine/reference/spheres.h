@@ -26,6 +26,10 @@ std::vector<int> forbiddenClasses(const Scene& scene, std::span<const uint32_t> 
 // Radius of a class's region [m]: with 3 sigma of the registration.
 double regionRadius(const Scene& scene, int cls);
 
+// What each point's sphere grows by for its own sigma [m]: three of the beam's at its range; zeros without
+// beams.
+std::vector<double> beamGrowth(const FrameView& view, const PointPicture& points);
+
 // One sphere a kept point. growth: what thinning adds to each, -1 = left out; empty = every point is kept.
 std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes,
                                   const PointPicture& points, std::span<const double> growth);

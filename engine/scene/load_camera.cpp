@@ -14,8 +14,8 @@ CameraSource loadSource(const YamlNode& node, const Scene& scene) {
         node.refuse(std::to_string(given) + " sources", "exactly one of simulated, recorded, v4l2");
     }
     if (simulated) {
-        constexpr std::string_view kScenes[] = {"tank", "sphere", "plane", "torus",
-                                                "slot", "gap",    "plate", "corner"};
+        constexpr std::string_view kScenes[] = {"tank", "sphere", "plane",  "torus", "slot",
+                                                "gap",  "plate",  "corner", "sonar"};
         return {CameraSource::Kind::Simulated, std::string(kScenes[simulated->oneOf(kScenes)])};
     }
     if (recorded) {
@@ -58,10 +58,24 @@ void loadPort(const YamlNode& node, Scene& scene) {
     scene.port = port;
 }
 
+void loadBeam(const YamlNode& node, Scene& scene) {
+    constexpr double kRadian = 3.14159265358979323846 / 180.0;
+    node.checkKeys({"width_deg", "sigma", "sigma_per_m"});
+    Scene::Beam beam;
+    beam.width = kRadian * node.at("width_deg").number(Range::between(0.0, 30.0));
+    if (const auto sigma = node.find("sigma")) {
+        beam.range = sigma->number(Range::notNegative());
+    }
+    if (const auto more = node.find("sigma_per_m")) {
+        beam.perMetre = more->number(Range::between(0.0, 1.0));
+    }
+    scene.beam = beam;
+}
+
 } // namespace
 
 void loadCamera(const YamlNode& camera, Scene& scene) {
-    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port"});
+    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam"});
     if (const auto source = camera.find("source")) {
         scene.source = loadSource(*source, scene);
     }
@@ -74,6 +88,9 @@ void loadCamera(const YamlNode& camera, Scene& scene) {
     }
     if (const auto port = camera.find("port")) {
         loadPort(*port, scene);
+    }
+    if (const auto beam = camera.find("beam")) {
+        loadBeam(*beam, scene);
     }
 }
 

@@ -13,20 +13,19 @@ constexpr size_t kMaxRows = 64;
 constexpr size_t kMaxPointClasses = 8; // one bit each in a pixel's class byte
 constexpr uint32_t kMaxPixels = 3840u * 2160u;
 
-constexpr std::array<std::string_view, 10> kPointKeys{"hue",          "saturation", "lightness", "box",
-                                                      "radius",       "standoff",   "quat_xyzw", "min_count",
-                                                      "largest_part", "trim"};
+constexpr std::array<std::string_view, 12> kPointKeys{"hue",       "saturation", "lightness",    "intensity",
+                                                      "range",     "box",        "radius",       "standoff",
+                                                      "quat_xyzw", "min_count",  "largest_part", "trim"};
 constexpr std::array<std::string_view, 2> kShapeKeys{"base_T_shape", "size"};
 
 enum class RoleWord { Forbidden, Guidance, KeepIn };
 
-std::optional<Band> loadBand(const YamlNode& row, std::string_view key, double hi, bool mayWrap) {
+std::optional<Band> loadBand(const YamlNode& row, std::string_view key, const Range& range, bool mayWrap) {
     const auto node = row.find(key);
     if (!node) {
         return std::nullopt;
     }
     const std::vector<YamlNode> ends = node->list(2);
-    const Range range = Range::between(0.0, hi);
     const Band band{ends[0].number(range), ends[1].number(range)};
     if (band.lo > band.hi && !mayWrap) {
         node->refuse("lo <= hi, each " + range.words());
@@ -45,9 +44,17 @@ Box loadBox(const YamlNode& node) {
 }
 
 void loadPoints(const YamlNode& row, FixtureClass& fixture) {
-    fixture.hue = loadBand(row, "hue", 360.0, true);
-    fixture.saturation = loadBand(row, "saturation", 1.0, false);
-    fixture.lightness = loadBand(row, "lightness", 1.0, false);
+    const Range share = Range::between(0.0, 1.0);
+    fixture.hue = loadBand(row, "hue", Range::between(0.0, 360.0), true);
+    fixture.saturation = loadBand(row, "saturation", share, false);
+    fixture.lightness = loadBand(row, "lightness", share, false);
+    fixture.range = loadBand(row, "range", Range::notNegative(), false);
+    if (const auto intensity = row.find("intensity")) { // what has no colour shows its echoes as grey
+        if (fixture.lightness) {
+            intensity->refuse("in place of lightness, not beside it");
+        }
+        fixture.lightness = loadBand(row, "intensity", share, false);
+    }
     if (const auto box = row.find("box")) {
         fixture.box = loadBox(*box);
     }
@@ -129,8 +136,9 @@ void loadRole(const YamlNode& node, FixtureClass& fixture) {
 }
 
 FixtureClass loadRow(const YamlNode& row) {
-    row.checkKeys({"name", "role", "hue", "saturation", "lightness", "box", "radius", "standoff", "quat_xyzw",
-                   "min_count", "largest_part", "trim", "shape", "base_T_shape", "size"});
+    row.checkKeys({"name", "role", "hue", "saturation", "lightness", "intensity", "range", "box", "radius",
+                   "standoff", "quat_xyzw", "min_count", "largest_part", "trim", "shape", "base_T_shape",
+                   "size"});
     FixtureClass fixture;
     fixture.name = row.at("name").text();
     if (const auto shape = row.find("shape")) {

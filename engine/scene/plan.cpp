@@ -27,7 +27,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.cloud = plan.spheres || plan.moments;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
     plan.occlusion = plan.colour && !camera.registered;
-    plan.thin = plan.spheres && scene.errorBudget > 0.0;
+    plan.beam = plan.spheres && camera.beam.has_value();
+    plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof wants one radius a class
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
     plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
     plan.pack =
@@ -35,13 +36,15 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     for (const FixtureClass& f : scene.fixtures) {
         plan.classes += f.isPoints() ? 1 : 0;
         plan.box = plan.box || (f.isPoints() && f.box);
+        plan.range = plan.range || (f.isPoints() && f.range);
         plan.guidancePoints = plan.guidancePoints ||
                               (f.isPoints() && f.role == Role::Guidance && (f.largestPart || f.trim > 0.0));
     }
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
     }
-    plan.rays = plan.cloud && camera.depth.distorted();
+    plan.rays = plan.cloud && !camera.depth.pinhole();
+    plan.fan = plan.cloud && camera.depth.fan;
     plan.filterRadius = scene.filter.radius;
     plan.edge = scene.filter.edge > 0.0;
     plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
@@ -78,9 +81,12 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                                 : "no filter: points as measured",
          "the scene has no class of points");
     pass("thin", plan.thin, "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm",
-         plan.spheres ? "error budget 0 keeps every point" : "no forbidden class of points");
+         plan.beam      ? "each point's sphere has a size of its own"
+         : plan.spheres ? "error budget 0 keeps every point"
+                        : "no forbidden class of points");
     pass("spheres", plan.spheres,
-         std::string("forbidden classes") + (plan.hold ? ", unseen points held" : "") +
+         std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
+             (plan.hold ? ", unseen points held" : "") +
              (plan.leaks ? ", holes between points looked for" : ", too near for holes between points"),
          "no forbidden class of points");
     pass("tree", plan.spheres, "bounds up to one root for the query", "no forbidden class of points");
@@ -102,7 +108,9 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("colour upload", plan.colour, 2 * 4ull * camera.colour.pixels(),
            plan.colour ? "double-buffered" : "no class asks for colour");
     buffer("rays", plan.rays, 8 * pixels,
-           plan.rays ? "distorted lens" : "no lens distortion: computed from the pixel");
+           plan.fan    ? "beams at equal angles"
+           : plan.rays ? "distorted lens"
+                       : "no lens distortion: computed from the pixel");
     buffer("masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
@@ -126,7 +134,7 @@ double leaksFrom(const Intrinsics& lens, double radius) noexcept {
     const double widest =
         std::hypot(reach(lens.cx, lens.width, lens.fx), reach(lens.cy, lens.height, lens.fy));
     const double left = 0.71 - 0.7 * widest;
-    return lens.distorted() || left <= 0.0 ? 0.0 : 0.999 * radius * left * std::min(lens.fx, lens.fy);
+    return !lens.pinhole() || left <= 0.0 ? 0.0 : 0.999 * radius * left * std::min(lens.fx, lens.fy);
 }
 
 PatchLayout patchLayout(uint32_t width, uint32_t height) {

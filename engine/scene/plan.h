@@ -33,12 +33,15 @@ struct Plan {
     bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
     // Variants.
-    bool rays = false;      // distorted lens
+    bool rays = false;      // distorted lens, or a fan
     bool colour = false;    // some class asks for colour: it is uploaded
     bool tiled = false;     // the filter's window from shared memory
     bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
     uint32_t classes = 0;   // classes of points
     bool box = false;       // some class has a box
+    bool range = false;     // some class asks for the range
+    bool fan = false;       // the sensor's pixels are beams at equal angles
+    bool beam = false;      // each point's sphere grows by its own sigma
     bool leaks = false; // neighbours may be a region radius apart somewhere in near..far: it is looked for
     bool polynomialWeights = false; // the filter's, in place of exp
     uint32_t filterRadius = 0;
@@ -55,7 +58,8 @@ struct Plan {
 };
 
 // Range [m] below which neighbouring points of one surface (|dz| <= 0.7 of their distance) are nearer to each
-// other than `radius` [m]; 0 = not known: distorted and very wide lenses.
+// other than `radius` [m]; 0 = not known: fans, distorted and very wide
+// lenses.
 double leaksFrom(const Intrinsics& lens, double radius) noexcept;
 
 // Sizes of the picture in patches of 16x16 pixels and in the levels of the region tree.

@@ -36,7 +36,8 @@ struct FixtureClass {
     std::optional<Band> saturation; // 0..1
     std::optional<Band> lightness;  // 0..1
     std::optional<Box> box;
-    double radius = 0.04; // [m] of the sphere round each forbidden point, before 3 registration sigma
+    std::optional<Band> range; // [m] from the camera to the point
+    double radius = 0.04;      // [m] of the sphere round each forbidden point, before 3 registration sigma
     // Guidance.
     double standoff = 0.0;                 // [m] target = position + standoff x normal
     dquat orientation{1.0, 0.0, 0.0, 0.0}; // base_q_tool when the points are no plane
@@ -75,7 +76,12 @@ struct Scene {
         double distance = 0.0; // [m] from the lens to the water
         double index = 1.34;   // sea water
     };
-    std::optional<Port> port; // the camera looks through a flat port, calibrated in air
+    std::optional<Port> port;               // the camera looks through a flat port, calibrated in air
+    struct Beam {                           // in place of what the sensor tells of itself, BeamSigma
+        double range = 0.0, perMetre = 0.0; // [m], [m/m]
+        double width = 0.0;                 // [rad]
+    };
+    std::optional<Beam> beam;
 
     struct Filter {
         uint32_t radius = 2; // [pixels] 0..16; 0 = none

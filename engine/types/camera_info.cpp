@@ -2,6 +2,7 @@
 #include "engine/types/camera_info.h"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 
 namespace fathom {
 
@@ -20,6 +21,9 @@ glm::dvec2 distort(const glm::dvec2& r, const std::array<double, 5>& d) noexcept
 
 glm::dvec2 Intrinsics::ray(double u, double v) const noexcept {
     const glm::dvec2 seen{(u - cx) / fx, (v - cy) / fy};
+    if (fan) {
+        return {std::tan(seen.x), std::tan(seen.y) / std::cos(seen.x)};
+    }
     if (!distorted()) {
         return seen;
     }
@@ -35,11 +39,27 @@ glm::dvec2 Intrinsics::ray(double u, double v) const noexcept {
 }
 
 glm::dvec2 Intrinsics::project(const dvec3& point) const noexcept {
+    if (fan) {
+        return {fx * std::atan2(point.x, point.z) + cx,
+                fy * std::atan2(point.y, std::hypot(point.x, point.z)) + cy};
+    }
     glm::dvec2 r{point.x / point.z, point.y / point.z};
     if (distorted()) {
         r = distort(r, distortion);
     }
     return {fx * r.x + cx, fy * r.y + cy};
+}
+
+double BeamSigma::across() const noexcept {
+    return std::tan(0.5 * width) / std::sqrt(3.0);
+}
+
+double BeamSigma::at(double metres) const noexcept {
+    return std::hypot(range + perMetre * metres, across() * metres);
+}
+
+double CameraInfo::sigmaAt(const dvec3& point) const noexcept {
+    return beam ? beam->at(glm::length(point)) : depthSigma(point.z);
 }
 
 } // namespace fathom

@@ -6,23 +6,41 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace fathom {
 
-// Pinhole lens with Brown-Conrady distortion (k1 k2 p1 p2 k3, plumb_bob order). Pixel (0, 0) is the centre of
-// the first pixel; z forward, x right, y down.
+// Pinhole lens with Brown-Conrady distortion (k1 k2 p1 p2 k3, plumb_bob order), or a fan of beams at equal
+// angles. Pixel (0, 0) is the centre of the first pixel; z forward, x right, y down.
 struct Intrinsics {
     uint32_t width = 0, height = 0;                // [pixels]
     double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; // [pixels]
     std::array<double, 5> distortion{};            // k1 k2 p1 p2 k3; all zero = none
+    // Sonar, laser scan: (u - cx) / fx is the azimuth from z towards x [rad], (v - cy) / fy the elevation
+    // towards y; fx, fy in [pixels/rad]; no distortion; all within 85 degrees of the axis.
+    bool fan = false;
 
     bool distorted() const { return distortion != std::array<double, 5>{}; }
+    bool pinhole() const { return !fan && !distorted(); } // a ray is linear in the pixel
     uint32_t pixels() const { return width * height; }
 
     // Ray (x/z, y/z) through pixel (u, v): inverts the distortion by fixed-point iteration, float64.
     glm::dvec2 ray(double u, double v) const noexcept;
     // Pixel of the point with z > 0, distortion applied.
     glm::dvec2 project(const dvec3& point) const noexcept;
+};
+
+// What a sensor that measures along beams (sonar, laser) tells of where a point lies: at the measured range
+// on the beam's axis, off by a normal error along it and anywhere within the beam across it.
+struct BeamSigma {
+    double range = 0.0;    // [m] standard deviation along the beam
+    double perMetre = 0.0; // [m] more of it a metre of range
+    double width = 0.0;    // [rad] whole angle of the beam, 0..1
+
+    // sqrt((range + perMetre r)^2 + (r tan(width / 2))^2 / 3) [m], the second that of a uniform distribution:
+    // three of them exceed the beam's half width.
+    double at(double metres) const noexcept;
+    double across() const noexcept; // tan(width / 2) / sqrt(3)
 };
 
 struct CameraInfo {
@@ -33,6 +51,9 @@ struct CameraInfo {
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
     double sigma = 0.0; // [m] of its points beyond noise: what a correction leaves; regions grow by 3 of them
+    std::optional<BeamSigma> beam; // of each point; its region grows by 3 of them
+
+    double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading there, camera frame
 };
 
 // Standard deviation of a depth reading at range z [m], [m]: the model of structured-light and stereo cameras

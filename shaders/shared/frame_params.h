@@ -37,8 +37,10 @@ struct FrameParams {
     vec4 cameraTbase[3];
     vec4 colourTdepth[3];
     ClassParams classes[8];
+    vec4 beam;      // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
+    vec4 ranges[8]; // a class: least and largest range [m]; 1 = asks for it; -
 };
-FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640);
+FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 144);
 
 // Zeroed at the start of a frame. Integer counters only: their sums do not depend on the order.
 struct FrameCounters {

@@ -165,7 +165,7 @@ TEST_CASE("bounds are inclusive, an empty list of fixtures and the words auto an
               "haptics: {rate_hz: 10000, step_cap: 1e-5, solves: 1}\ncontact: {reach: 0.0001, delay: 0}\n") ==
           "");
     CHECK(refusal(kMinimal + "camera: {source: {v4l2: /dev/video0}, near: +0.5}\n") == "");
-    for (const char* name : {"tank", "sphere", "plane", "torus", "slot", "gap", "plate", "corner"}) {
+    for (const char* name : {"tank", "sphere", "plane", "torus", "slot", "gap", "plate", "corner", "sonar"}) {
         CHECK(refusal(kMinimal + "camera: {source: {simulated: " + name + "}}\n") == "");
     }
 }

@@ -164,7 +164,7 @@ TEST_CASE("camera and filter values outside their range are refused") {
         section("camera: {source: {simulated: tank, recorded: x}}", "camera.source: 2 sources",
                 "exactly one"),
         section("camera: {source: {simulated: tnak}}", "camera.source.simulated: tnak, did you mean 'tank'?",
-                "corner"),
+                "corner, sonar"),
         section("camera: {source: {recorded: ''}}", "camera.source.recorded: empty text", "text"),
         section("camera: {base_T_camera: {quat_xyzw: [0,0,0,0]}}",
                 "camera.base_T_camera.quat_xyzw: [0, 0, 0, 0]", "non-zero"),
