@@ -6,6 +6,9 @@
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
 #include "devices/simulated/simulated_camera.h"
+#include "devices/simulated/simulated_sonar.h"
+#include "devices/simulated/sonar_scene.h"
+#include "devices/sonar/beam_camera.h"
 #include "devices/v4l2/v4l2_camera.h"
 #include "devices/water/water_camera.h"
 #include "engine/haptics/device_preset.h"
@@ -17,10 +20,15 @@ namespace fathom {
 namespace {
 
 std::unique_ptr<Camera> openSimulated(const Scene& scene) {
+    if (scene.source.value == "sonar") {
+        SimulatedSonarOptions sonar;
+        sonar.baseTscene = scene.baseTcamera;
+        return std::make_unique<SimulatedSonar>(sonarScene(), sonar);
+    }
     const auto solids = analyticScene(scene.source.value);
     if (!solids) {
         throw BadInput(scene.file.string(), "camera.source.simulated", scene.source.value,
-                       "tank, sphere, plane, torus, slot, gap, plate, corner");
+                       "tank, sphere, plane, torus, slot, gap, plate, corner, sonar");
     }
     SimulatedCameraOptions options;
     options.baseTscene = scene.baseTcamera;
@@ -82,6 +90,10 @@ Scene openScene(const std::filesystem::path& file) {
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Pictures pictures) {
     std::unique_ptr<Camera> camera = openDry(scene, source, pictures);
+    if (scene.beam) {
+        const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
+        camera = std::make_unique<BeamCamera>(std::move(camera), beam);
+    }
     if (!scene.port || pictures == Pictures::Every) { // a recording keeps what the camera saw
         return camera;
     }

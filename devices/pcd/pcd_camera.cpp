@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/matrix.hpp>
 
 namespace fathom {
 
@@ -35,37 +36,78 @@ struct Line {
 };
 
 bool measured(const dvec3& p) {
-    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z != 0.0;
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
+}
+
+// Rows: what is right, down and forward in the cloud's axes.
+glm::dmat3 axes(const dvec3& right, const dvec3& down, const dvec3& forward) {
+    return glm::transpose(glm::dmat3(right, down, forward));
+}
+
+// As if the cloud's axes were these and its picture such; a residual without end when it is upside down so.
+// Empty: too few points.
+std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& opticalTcloud, bool fan) {
+    Line across, down;
+    for (size_t i = 0; i < cloud.points.size(); ++i) {
+        const dvec3 p = opticalTcloud * cloud.points[i];
+        if (measured(p)) {
+            const double x = fan ? std::atan2(p.x, p.z) : p.x / p.z;
+            const double y = fan ? std::atan2(p.y, std::hypot(p.x, p.z)) : p.y / p.z;
+            // About the centre: the sums keep their digits.
+            across.add(x, static_cast<double>(i % cloud.width) - 0.5 * cloud.width);
+            down.add(y, static_cast<double>(i / cloud.width) - 0.5 * cloud.height);
+        }
+    }
+    FittedLens fit;
+    fit.residual = HUGE_VAL;
+    fit.opticalTcloud = opticalTcloud;
+    if (across.n < 16.0 || !(across.spread() > 1e-9) || !(down.spread() > 1e-9)) {
+        return std::nullopt;
+    }
+    fit.lens = {.width = cloud.width,
+                .height = cloud.height,
+                .fx = across.factor(),
+                .fy = down.factor(),
+                .cx = across.offset() + 0.5 * cloud.width,
+                .cy = down.offset() + 0.5 * cloud.height,
+                .fan = fan};
+    if (fit.lens.fx > 0.0 && fit.lens.fy > 0.0) {
+        fit.residual = std::sqrt(across.meanSquare() + down.meanSquare());
+    }
+    return fit;
+}
+
+// Strength as grey; the full scale is the first that holds the largest.
+std::vector<uint32_t> greyOf(const std::vector<float>& intensity) {
+    float largest = 0.0f;
+    for (const float value : intensity) {
+        largest = std::isfinite(value) ? std::max(largest, value) : largest;
+    }
+    const float scale = largest <= 1.0f ? 255.0f : (largest <= 255.0f ? 1.0f : 255.0f / 65535.0f);
+    std::vector<uint32_t> grey;
+    for (const float value : intensity) {
+        const float level = std::isfinite(value) ? std::clamp(value * scale, 0.0f, 255.0f) : 0.0f;
+        grey.push_back(0xff000000u | 0x010101u * static_cast<uint32_t>(level + 0.5f));
+    }
+    return grey;
 }
 
 } // namespace
 
 FittedLens fitLens(const PcdCloud& cloud) {
-    Line across, down;
-    size_t behind = 0;
-    for (size_t i = 0; i < cloud.points.size(); ++i) {
-        const dvec3& p = cloud.points[i];
-        if (measured(p)) {
-            // About the centre: the sums keep their digits.
-            across.add(p.x / p.z, static_cast<double>(i % cloud.width) - 0.5 * cloud.width);
-            down.add(p.y / p.z, static_cast<double>(i / cloud.width) - 0.5 * cloud.height);
-            behind += p.z < 0.0 ? 1 : 0;
+    const dvec3 x(1.0, 0.0, 0.0), y(0.0, 1.0, 0.0), z(0.0, 0.0, 1.0);
+    const glm::dmat3 kinds[] = {axes(x, y, z), axes(x, -y, -z), axes(-y, -z, x)};
+    std::optional<FittedLens> best;
+    for (const bool fan : {false, true}) {
+        for (const glm::dmat3& kind : kinds) {
+            const auto fit = fitAs(cloud, kind, fan);
+            best = fit && (!best || fit->residual < best->residual) ? fit : best;
         }
     }
-    if (across.n < 16.0 || !(across.spread() > 1e-9) || !(down.spread() > 1e-9)) {
+    if (!best) {
         throw Error("too few points to find the lens");
     }
-    FittedLens fit;
-    fit.upAndBack = static_cast<double>(behind) > 0.5 * across.n;
-    // With z backward x/z changes its sign; with y up as well y/z keeps it.
-    fit.lens = {.width = cloud.width,
-                .height = cloud.height,
-                .fx = fit.upAndBack ? -across.factor() : across.factor(),
-                .fy = down.factor(),
-                .cx = across.offset() + 0.5 * cloud.width,
-                .cy = down.offset() + 0.5 * cloud.height};
-    fit.residual = std::sqrt(across.meanSquare() + down.meanSquare());
-    return fit;
+    return *best;
 }
 
 PcdCamera::PcdCamera(const std::filesystem::path& file)
@@ -77,16 +119,21 @@ PcdCamera::PcdCamera(const std::filesystem::path& file)
     } catch (const Error& e) {
         throw BadInput(file.string(), "points", e.what(), "at least 16, spread over the picture");
     }
-    if (fit.residual > kMostResidual || !(fit.lens.fx > 0.0) || !(fit.lens.fy > 0.0)) {
-        throw BadInput(file.string(), "points",
-                       "off a pinhole's rays by " + std::to_string(fit.residual) + " pixels",
-                       "a cloud that a depth camera saw, x right and y down (or y up and z backward)");
+    if (fit.residual > kMostResidual) {
+        throw BadInput(
+            file.string(), "points",
+            "off a pinhole's rays, and off a fan's, by " + std::to_string(fit.residual) + " pixels",
+            "a cloud that a depth camera or a scan of equal angles saw: x right and y down, y up and z "
+            "backward, or x forward and z up");
     }
     double farthest = 0.0;
-    for (const dvec3& p : cloud_.points) {
-        farthest = measured(p) ? std::max(farthest, std::abs(p.z)) : farthest;
+    for (dvec3& p : cloud_.points) {
+        p = fit.opticalTcloud * p;
+        farthest = measured(p) ? std::max(farthest, p.z) : farthest;
     }
-    upAndBack_ = fit.upAndBack;
+    if (cloud_.colour.empty()) {
+        cloud_.colour = greyOf(cloud_.intensity);
+    }
     info_.depth = info_.colour = fit.lens;
     info_.hasColour = !cloud_.colour.empty();
     info_.metresPerUnit = kFinestUnit * std::ceil(std::max(1.0, farthest / (65000.0 * kFinestUnit)));
@@ -101,9 +148,8 @@ std::optional<Frame> PcdCamera::next() {
     FrameSlot* slot = slots_->acquire();
     const std::span<uint16_t> depth = slot->depth();
     for (size_t i = 0; i < cloud_.points.size(); ++i) {
-        const double z = upAndBack_ ? -cloud_.points[i].z : cloud_.points[i].z;
-        depth[i] = measured(cloud_.points[i]) && z > 0.0
-                       ? static_cast<uint16_t>(std::lround(z / info_.metresPerUnit))
+        depth[i] = measured(cloud_.points[i])
+                       ? static_cast<uint16_t>(std::lround(cloud_.points[i].z / info_.metresPerUnit))
                        : uint16_t{0};
     }
     std::copy(cloud_.colour.begin(), cloud_.colour.end(), slot->colour().begin());

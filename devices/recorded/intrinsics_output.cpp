@@ -38,6 +38,15 @@ Json intrinsicsJson(const CameraInfo& camera) {
     }
     json["depth_scale_m_per_unit"] = camera.metresPerUnit;
     json["registered_to_color"] = camera.registered;
+    if (camera.depth.fan) {
+        json["projection"] = "equal_angles";
+    }
+    if (camera.beam) {
+        constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+        json["beam"] = {{"width_deg", camera.beam->width * kDegrees},
+                        {"sigma_m", camera.beam->range},
+                        {"sigma_m_per_m", camera.beam->perMetre}};
+    }
     if (!camera.hasColour) {
         json["has_color"] = false;
     }

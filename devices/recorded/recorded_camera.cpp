@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <spdlog/spdlog.h>
 
 namespace fathom {
@@ -49,6 +50,17 @@ RecordedCamera::RecordedCamera(const fs::path& folder)
     if (info().hasColour) {
         checkColourSize();
     }
+    const Intrinsics& lens = info().depth;
+    for (uint32_t i = 0; intrinsics_.rangePictures && i < lens.pixels(); ++i) {
+        const dvec3 ray(lens.ray(i % lens.width, i / lens.width), 1.0);
+        axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
+    }
+}
+
+void RecordedCamera::toDepth(std::span<uint16_t> ranges) const {
+    for (size_t i = 0; i < axisShare_.size(); ++i) {
+        ranges[i] = static_cast<uint16_t>(static_cast<float>(ranges[i]) * axisShare_[i] + 0.5f);
+    }
 }
 
 // One odd picture is a bad frame; a colour stream that never has the size told is a recording without
@@ -86,6 +98,7 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
     if (!fault.empty()) {
         return line.depth.string() + ": " + fault;
     }
+    toDepth(slot.depth());
     if (!camera.hasColour) {
         return "";
     }

@@ -34,6 +34,7 @@ public:
 private:
     void checkColourSize() const;
     std::string read(const IndexLine& line, FrameSlot& slot) const; // what is wrong; empty = read
+    void toDepth(std::span<uint16_t> ranges) const;
     Frame lease(uint32_t index, FrameSlot& slot) const;
     void skip(uint32_t index, const std::string& fault);
     void nameSkipped();
@@ -43,7 +44,8 @@ private:
     std::vector<IndexLine> index_;
     std::optional<PoseTrack> poses_;
     FrameSlots slots_;
-    uint32_t cursor_ = 0; // next data line
+    std::vector<float> axisShare_; // z of a unit step along each ray; empty = pictures hold z
+    uint32_t cursor_ = 0;          // next data line
     uint32_t skipped_ = 0;
     std::optional<double> lastStamp_; // [s] of the last delivered frame
     std::string firstFault_;

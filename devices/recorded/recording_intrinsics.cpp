@@ -117,6 +117,38 @@ void readOneLens(const JsonField& root, CameraInfo& camera) {
     }
 }
 
+bool readWord(const JsonField& root, std::string_view key, std::string_view plain, std::string_view other) {
+    const auto field = root.find(key);
+    if (field && field->text() != plain && field->text() != other) {
+        field->refuse(std::string(plain) + " or " + std::string(other));
+    }
+    return field && field->text() == other;
+}
+
+// What a sonar or a laser scanner has beside a camera.
+void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
+    constexpr double kRadian = 3.14159265358979323846 / 180.0, kWidest = 85.0 * kRadian;
+    Intrinsics& lens = intrinsics.camera.depth;
+    lens.fan = readWord(root, "projection", "pinhole", "equal_angles");
+    const double across = std::max(lens.cx, lens.width - lens.cx) / lens.fx,
+                 down = std::max(lens.cy, lens.height - lens.cy) / lens.fy;
+    if (lens.fan && (lens.distorted() || across > kWidest || down > kWidest)) {
+        root.at("projection").refuse("no distortion and beams within 85 degrees of the axis");
+    }
+    intrinsics.camera.colour.fan = intrinsics.camera.registered && lens.fan;
+    intrinsics.rangePictures = readWord(root, "depth_is", "z", "range");
+    if (const auto beam = root.find("beam")) {
+        BeamSigma sigma;
+        sigma.width = kRadian * beam->at("width_deg").finite();
+        sigma.range = beam->at("sigma_m").finite();
+        sigma.perMetre = beam->at("sigma_m_per_m").finite();
+        if (!(sigma.width >= 0.0 && sigma.width < 1.0 && sigma.range >= 0.0 && sigma.perMetre >= 0.0)) {
+            beam->refuse("numbers of at least 0, width_deg below 57");
+        }
+        intrinsics.camera.beam = sigma;
+    }
+}
+
 void readStamps(const JsonField& root, RecordingIntrinsics& intrinsics) {
     const auto depth = root.find("depth_stamps_s");
     const auto colour = findColour(root, "color_stamps_s", "colour_stamps_s");
@@ -149,6 +181,7 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file) {
     if (!camera.hasColour && !camera.registered) {
         colourThere->refuse("true where there is a block color");
     }
+    readBeams(root, intrinsics);
     readStamps(root, intrinsics);
     return intrinsics;
 }

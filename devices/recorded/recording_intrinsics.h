@@ -17,6 +17,7 @@ struct RecordingIntrinsics {
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.
     std::vector<double> depthStamps, colourStamps;
+    bool rangePictures = false; // depth/ holds ranges along the rays, not z
     double pairWithin =
         0.02; // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
 };
@@ -25,8 +26,9 @@ struct RecordingIntrinsics {
 // true]. Two lenses: depth and color (or colour) blocks of the same keys, depth_scale_m_per_unit,
 // registered_to_color, and unless registered extrinsics_topic_tf {Depth, Color: {t [m], q_xyzw}}. Distortion
 // is Brown-Conrady k1 k2 p1 p2 [k3] (plumb_bob); other models are accepted only with all coefficients zero.
-// has_color: false (flat only) tells of a recording of depth alone. Throws BadInput naming the file and
-// field.
+// has_color: false (flat only) tells of a recording of depth alone. Of a sonar or laser scan (flat only):
+// projection: equal_angles (fx, fy in pixels a radian), depth_is: range, and beam {width_deg, sigma_m,
+// sigma_m_per_m}; its rgb/ pictures show strength as grey. Throws BadInput naming the file and field.
 RecordingIntrinsics readIntrinsics(const std::filesystem::path& file);
 
 } // namespace fathom

@@ -95,6 +95,36 @@ TEST_CASE("A cloud that is not organised, cut off, or seen by no pinhole is refu
     CHECK(refusal(folder.path() / "y.pcd").find("cut off") != std::string::npos);
 }
 
+TEST_CASE("A scan of equal angles gives a fan, whatever its axes, and its strength as grey") {
+    const TemporaryFolder folder;
+    for (const bool robot : {false, true}) {
+        std::string text = "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
+                           "WIDTH 31\nHEIGHT 15\nPOINTS 465\nDATA binary\n";
+        for (int i = 0; i < 31 * 15; ++i) {
+            const double a = (i % 31 - 15.0) / 20.0, e = (i / 31 - 7.0) / 18.0;
+            const double r = i == 5 ? NAN : 2.0 + 0.01 * (i % 31);
+            const dvec3 p = r * dvec3(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
+            const dvec3 q = robot ? dvec3(p.z, -p.x, -p.y) : p;
+            for (const double value : {q.x, q.y, q.z, 2.0 * (i % 100)}) {
+                const auto number = static_cast<float>(value);
+                text.append(reinterpret_cast<const char*>(&number), sizeof number);
+            }
+        }
+        folder.write("fan.pcd", text);
+        PcdCamera camera(folder.path() / "fan.pcd");
+        const Intrinsics& lens = camera.info().depth;
+        CHECK(lens.fan);
+        CHECK(lens.fx == doctest::Approx(20.0).epsilon(1e-4));
+        CHECK(lens.fy == doctest::Approx(18.0).epsilon(1e-4));
+        CHECK(lens.cx == doctest::Approx(15.0).epsilon(1e-4));
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        CHECK((*frame)->depth[5] == 0);
+        CHECK((*frame)->depth[7 * 31 + 15] == 21500); // straight ahead
+        CHECK((*frame)->colour[64] == 0xff808080u);   // strength 128 of 255
+    }
+}
+
 TEST_CASE("LZF unpacks literals, short and long matches and overlapping ones, and refuses damaged data") {
     // "ab", then 7 bytes from 2 back ("abababa"), then 11 from 1 back.
     const std::vector<uint8_t> packed{1, 'a', 'b', 5 << 5, 1, 7 << 5, 2, 0};

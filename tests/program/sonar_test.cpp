@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// The shipped sonar scene through the whole program.
+#include "tests/program/run_fathom.h"
+
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+using namespace fathom;
+
+TEST_CASE("The sonar scene pushes back before steel and block are touched, and nothing enters a region") {
+    const auto out = std::filesystem::temp_directory_path() / "fathom-sonar-test";
+    std::filesystem::remove_all(out);
+    const ProgramRun run = runFathom({"replay", "apps/scenes/sonar.yaml", "--out", out.string()});
+    INFO(run.err);
+    REQUIRE(run.exitCode == 0);
+    const auto summary = nlohmann::json::parse(std::ifstream(out / "summary.json"));
+    CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
+    CHECK(summary["haptic"]["max_force_N"].get<double>() > 0.5);
+    for (const auto& fixture : summary["fixtures"]) {
+        CHECK(fixture["points_mean"].get<double>() > 100.0);
+    }
+    std::filesystem::remove_all(out);
+}
+
+TEST_CASE("The plan of the sonar scene has beams and no thinning, and says why") {
+    const ProgramRun run = runFathom({"plan", "apps/scenes/sonar.yaml"});
+    REQUIRE(run.exitCode == 0);
+    CHECK(run.out.find("3 sigma of range and beam added") != std::string::npos);
+    CHECK(run.out.find("each point's sphere has a size of its own") != std::string::npos);
+    CHECK(run.out.find("beams at equal angles") != std::string::npos);
+}
+
+TEST_CASE("A beam in a scene is checked") {
+    const auto file = std::filesystem::temp_directory_path() / "fathom-beam.yaml";
+    std::ofstream(file) << "camera: {beam: {width_deg: 95}}\n";
+    const ProgramRun run = runFathom({"plan", file.string()});
+    CHECK(run.exitCode == 2);
+    CHECK(run.err.find("camera.beam.width_deg: 95") != std::string::npos);
+    std::filesystem::remove(file);
+}
