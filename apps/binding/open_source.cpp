@@ -2,6 +2,7 @@
 #include "apps/binding/open_source.h"
 
 #include "devices/bag/bag_camera.h"
+#include "devices/openni2/open_openni2.h"
 #include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
@@ -43,6 +44,9 @@ std::unique_ptr<Camera> openLive(CameraRequest request, Pictures pictures) {
 std::unique_ptr<Camera> openNamed(const std::string& source, Pictures pictures) {
     if (isCameraRequest(source)) {
         return openLive(parseCameraRequest(source), pictures);
+    }
+    if (isOpenNi2Request(source)) {
+        return openOpenNi2(source);
     }
     if (source.ends_with(".bag")) {
         return std::make_unique<BagCamera>(source);

@@ -16,8 +16,9 @@ namespace fathom {
 Scene openScene(const std::filesystem::path& file);
 
 // What --source takes.
-inline constexpr const char* kSourceHelp = "in place of the scene's camera: a recording folder, a ROS bag, "
-                                           "an organised PCD, or a live camera as v4l2:auto";
+inline constexpr const char* kSourceHelp =
+    "in place of the scene's camera: a recording folder, a ROS bag, "
+    "an organised PCD, an .oni file, or a live camera as v4l2:auto or openni2";
 
 // Of a live camera: the newest at each call, or every one in order (for recordings).
 enum class Pictures { Newest, Every };

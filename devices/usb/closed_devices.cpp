@@ -13,7 +13,7 @@ constexpr const char* kDoor =
     "its protocol is closed; a program on the maker's own library can be a bridge to the "
     "door (devices/bridge/README.md)";
 constexpr const char* kOpenNi =
-    "it talks to OpenNI2, not to the kernel; --source openni2, in a program built with -DFATHOM_OPENNI2=ON";
+    "it talks to OpenNI2, not to the kernel; --source openni2";
 
 constexpr std::array kClosed{
     ClosedDevice{0x1451, 0, 0, "Force Dimension haptic device", kDoor},

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands in for openni2_camera.cpp in a program that is built without OpenNI2.
+#include "devices/openni2/open_openni2.h"
+
+#include "engine/types/error.h"
+
+namespace fathom {
+
+std::unique_ptr<Camera> openOpenNi2(const std::string& source) {
+    throw BadInput("--source", "openni2", source,
+                   "nothing: this program was built without OpenNI2 (install libopenni2-dev, build again)");
+}
+
+} // namespace fathom

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/openni2/openni2_camera.h"
+
+#include "devices/openni2/open_openni2.h"
+#include "devices/recorded/recording_intrinsics.h"
+#include "engine/types/error.h"
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <spdlog/spdlog.h>
+#include <sstream>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kSilenceMs = 2000;
+
+[[noreturn]] void refuse(const std::string& uri, const std::string& field, const std::string& allowed) {
+    std::string why = openni::OpenNI::getExtendedError();
+    while (!why.empty() && std::isspace(static_cast<unsigned char>(why.back())) != 0) {
+        why.pop_back();
+    }
+    throw BadInput(uri.empty() ? "openni2" : uri, field, why.empty() ? "not to be had" : why, allowed);
+}
+
+bool isDepth(openni::PixelFormat format) {
+    return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
+}
+
+// The largest picture, then the fastest, of a kind.
+template <class Wanted>
+std::optional<openni::VideoMode> bestMode(const openni::VideoStream& stream, const Wanted& wanted) {
+    const auto& modes = stream.getSensorInfo().getSupportedVideoModes();
+    std::optional<openni::VideoMode> best;
+    const auto worth = [](const openni::VideoMode& m) {
+        return m.getResolutionX() * m.getResolutionY() * 1000 + m.getFps();
+    };
+    for (int i = 0; i < modes.getSize(); ++i) {
+        if (wanted(modes[i]) && (!best || worth(modes[i]) > worth(*best))) {
+            best = modes[i];
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+OpenNi2Camera::Library::Library() {
+    if (openni::OpenNI::initialize() != openni::STATUS_OK) {
+        refuse("", "OpenNI2", "its drivers installed");
+    }
+}
+
+OpenNi2Camera::Library::~Library() {
+    openni::OpenNI::shutdown();
+}
+
+OpenNi2Camera::OpenNi2Camera(const std::string& uri, const std::filesystem::path& intrinsics,
+                             bool registered) {
+    open(uri);
+    openDepth();
+    openColour(registered);
+    readLens(intrinsics);
+    slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
+    if (file_) {
+        device_.getPlaybackControl()->setRepeatEnabled(false);
+        device_.getPlaybackControl()->setSpeed(-1.0f); // as fast as it is asked
+    }
+    if (depth_.stream.start() != openni::STATUS_OK ||
+        (hasColour_ && colour_.stream.start() != openni::STATUS_OK)) {
+        refuse(uri, "stream", "a device that no other program uses");
+    }
+}
+
+OpenNi2Camera::~OpenNi2Camera() {
+    for (Stream* s : {&depth_, &colour_}) {
+        s->newest.release();
+        s->stream.stop();
+        s->stream.destroy();
+    }
+    device_.close();
+}
+
+void OpenNi2Camera::open(const std::string& uri) {
+    if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
+        refuse(uri, "device", "a device of OpenNI2 that is plugged in and may be opened, or an .oni file");
+    }
+    file_ = device_.isFile();
+    name_ = file_ ? "recorded " + uri
+                  : "openni2 " + std::string(device_.getDeviceInfo().getName()) + " " +
+                        device_.getDeviceInfo().getUri();
+}
+
+void OpenNi2Camera::openDepth() {
+    if (!device_.hasSensor(openni::SENSOR_DEPTH) ||
+        depth_.stream.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
+        refuse(name_, "depth", "a source with depth");
+    }
+    if (const auto mode = bestMode(depth_.stream, [](const auto& m) { return isDepth(m.getPixelFormat()); });
+        mode && !file_) {
+        depth_.stream.setVideoMode(*mode);
+    }
+    const openni::VideoMode mode = depth_.stream.getVideoMode();
+    if (!isDepth(mode.getPixelFormat())) {
+        throw BadInput(name_, "depth", "pixel format " + std::to_string(mode.getPixelFormat()),
+                       "mm or 0.1 mm");
+    }
+    info_.metresPerUnit = mode.getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_1_MM ? 0.001 : 0.0001;
+    info_.depth.width = static_cast<uint32_t>(mode.getResolutionX());
+    info_.depth.height = static_cast<uint32_t>(mode.getResolutionY());
+    period_ = mode.getFps() > 0 ? 1.0 / mode.getFps() : period_;
+    depth_.mirrored = depth_.stream.getMirroringEnabled();
+    left_ = file_ ? device_.getPlaybackControl()->getNumberOfFrames(depth_.stream) : 0;
+}
+
+// Colour that the device does not register to depth is left out: OpenNI2 does not tell how the lenses lie.
+void OpenNi2Camera::openColour(bool registered) {
+    info_.hasColour = false;
+    if (!device_.hasSensor(openni::SENSOR_COLOR) ||
+        colour_.stream.create(device_, openni::SENSOR_COLOR) != openni::STATUS_OK) {
+        return;
+    }
+    const auto fits = [&](const openni::VideoMode& m) {
+        return m.getPixelFormat() == openni::PIXEL_FORMAT_RGB888 &&
+               static_cast<uint32_t>(m.getResolutionX()) == info_.depth.width &&
+               static_cast<uint32_t>(m.getResolutionY()) == info_.depth.height;
+    };
+    if (!file_) {
+        if (const auto mode = bestMode(colour_.stream, fits)) {
+            colour_.stream.setVideoMode(*mode);
+        }
+        const auto wanted = openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
+        registered = device_.isImageRegistrationModeSupported(wanted) &&
+                     device_.setImageRegistrationMode(wanted) == openni::STATUS_OK;
+        device_.setDepthColorSyncEnabled(true);
+    }
+    if (!registered || !fits(colour_.stream.getVideoMode())) {
+        spdlog::warn("{}: colour is left out: {}", name_,
+                     registered ? "not RGB of the depth's size" : "not known to be registered to depth");
+        colour_.stream.destroy();
+        return;
+    }
+    colour_.mirrored = colour_.stream.getMirroringEnabled();
+    info_.hasColour = hasColour_ = true;
+}
+
+void OpenNi2Camera::readLens(const std::filesystem::path& intrinsics) {
+    if (!intrinsics.empty()) {
+        const Intrinsics lens = readIntrinsics(intrinsics).camera.depth;
+        if (lens.width != info_.depth.width || lens.height != info_.depth.height) {
+            throw BadInput(intrinsics.string(), "width, height",
+                           std::to_string(lens.width) + "x" + std::to_string(lens.height),
+                           "the picture's " + std::to_string(info_.depth.width) + "x" +
+                               std::to_string(info_.depth.height));
+        }
+        info_.depth = info_.colour = lens;
+        return;
+    }
+    const double across = static_cast<double>(depth_.stream.getHorizontalFieldOfView()),
+                 down = static_cast<double>(depth_.stream.getVerticalFieldOfView());
+    if (!(across > 0.01 && across < 3.0 && down > 0.01 && down < 3.0)) {
+        throw BadInput(name_, "field of view", "unknown", "a device that tells it, or intrinsics=FILE");
+    }
+    Intrinsics& lens = info_.depth;
+    lens.fx = 0.5 * lens.width / std::tan(0.5 * across);
+    lens.fy = 0.5 * lens.height / std::tan(0.5 * down);
+    lens.cx = 0.5 * lens.width;
+    lens.cy = 0.5 * lens.height;
+    info_.colour = lens;
+}
+
+bool OpenNi2Camera::readAny() {
+    openni::VideoStream* streams[] = {&depth_.stream, &colour_.stream};
+    int which = 0;
+    if (openni::OpenNI::waitForAnyStream(streams, hasColour_ ? 2 : 1, &which, kSilenceMs) !=
+        openni::STATUS_OK) {
+        return false;
+    }
+    Stream& s = which == 0 ? depth_ : colour_;
+    if (s.stream.readFrame(&s.newest) != openni::STATUS_OK || !s.newest.isValid()) {
+        return false;
+    }
+    s.fresh = true;
+    if (which == 0) {
+        --left_;
+        const int number = s.newest.getFrameIndex();
+        lost_ += !file_ && lastNumber_ >= 0 && number > lastNumber_ + 1
+                     ? static_cast<uint64_t>(number - lastNumber_ - 1)
+                     : 0;
+        lastNumber_ = number;
+    }
+    return true;
+}
+
+bool OpenNi2Camera::paired() const {
+    if (!depth_.fresh || !hasColour_) {
+        return depth_.fresh;
+    }
+    const auto apart = static_cast<double>(depth_.newest.getTimestamp()) -
+                       static_cast<double>(colour_.newest.isValid() ? colour_.newest.getTimestamp() : 0);
+    return colour_.fresh && std::abs(apart) * 1e-6 <= 0.5 * period_;
+}
+
+std::optional<Frame> OpenNi2Camera::next() {
+    while (!paired()) {
+        if (file_ && left_ <= 0 && !(hasColour_ && depth_.fresh)) {
+            return std::nullopt;
+        }
+        skipped_ += depth_.fresh && colour_.fresh ? 1 : 0;
+        if (!readAny()) {
+            if (file_) {
+                return std::nullopt;
+            }
+            throw DeviceLost(name_ + ": no picture for two seconds");
+        }
+    }
+    return deliver();
+}
+
+Frame OpenNi2Camera::deliver() {
+    FrameSlot* slot = slots_->acquire();
+    if (slot == nullptr) {
+        throw Error(name_ + ": more frames are leased than the camera has memory for");
+    }
+    const uint32_t width = info_.depth.width;
+    for (uint32_t v = 0; v < info_.depth.height; ++v) {
+        const auto* z =
+            reinterpret_cast<const uint16_t*>(static_cast<const uint8_t*>(depth_.newest.getData()) +
+                                              size_t{v} * depth_.newest.getStrideInBytes());
+        uint16_t* to = slot->depth().data() + size_t{v} * width;
+        for (uint32_t u = 0; u < width; ++u) {
+            to[u] = z[depth_.mirrored ? width - 1 - u : u];
+        }
+        const auto* c = hasColour_ ? static_cast<const uint8_t*>(colour_.newest.getData()) +
+                                         size_t{v} * colour_.newest.getStrideInBytes()
+                                   : nullptr;
+        for (uint32_t u = 0; c != nullptr && u < width; ++u) {
+            const uint8_t* p = c + size_t{3} * (colour_.mirrored ? width - 1 - u : u);
+            slot->colour()[size_t{v} * width + u] =
+                0xff000000u | uint32_t{p[2]} << 16 | uint32_t{p[1]} << 8 | p[0];
+        }
+    }
+    Frame::Content content;
+    content.index = index_++;
+    content.sourceNumber = static_cast<uint64_t>(depth_.newest.getFrameIndex());
+    content.captureTime =
+        file_ ? 1e-6 * static_cast<double>(depth_.newest.getTimestamp())
+              : std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    content.depth = slot->depth().first(info_.depth.pixels());
+    content.colour = slot->colour().first(info_.hasColour ? info_.depth.pixels() : 0);
+    depth_.fresh = colour_.fresh = false;
+    return Frame(content, slot->giveBack());
+}
+
+std::unique_ptr<Camera> openOpenNi2(const std::string& source) {
+    std::istringstream words(source);
+    std::string uri, option;
+    std::getline(words, uri, ',');
+    std::filesystem::path intrinsics;
+    bool registered = false;
+    const std::string kind = "openni2", lens = "intrinsics=";
+    while (std::getline(words, option, ',')) {
+        if (option.starts_with(lens)) {
+            intrinsics = option.substr(lens.size());
+        } else if (option == "registered=yes") {
+            registered = true;
+        } else {
+            throw BadInput("--source", kind, option, "intrinsics=FILE, registered=yes");
+        }
+    }
+    if (uri == kind || uri.starts_with(kind + ":")) {
+        uri.erase(0, std::min(uri.size(), kind.size() + 1));
+    }
+    return std::make_unique<OpenNi2Camera>(uri, intrinsics, registered);
+}
+
+} // namespace fathom

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera of OpenNI2 on the real library: a live device of a driver that draws, and .oni files of the
+// library's own recorder.
+#include "devices/openni2/openni2_camera.h"
+
+#include "devices/openni2/open_openni2.h"
+#include "engine/types/error.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <fstream>
+
+using namespace fathom;
+
+namespace {
+
+const std::filesystem::path kFolder = std::filesystem::temp_directory_path() / "fathom-openni2-test";
+
+// Whether every pixel is that of one drawn picture; its number is in `n`.
+bool isDrawn(const Frame& frame, int& n) {
+    n = frame->depth[0] - 1000;
+    for (uint32_t v = 0; v < 24; ++v) {
+        for (uint32_t u = 0; u < 32; ++u) {
+            const size_t i = v * 32 + u;
+            const uint32_t colour = 0xff000000u | static_cast<uint32_t>(n & 255) << 16 | v << 8 | u;
+            if (frame->depth[i] != 1000 + 40 * v + u + static_cast<uint32_t>(n) ||
+                (!frame->colour.empty() && frame->colour[i] != colour)) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+std::string recorded(const char* uri, int pictures, bool colour) {
+    std::filesystem::create_directories(kFolder);
+    const std::string file = (kFolder / (std::string(uri) + (colour ? "" : "-depth") + ".oni")).string();
+    REQUIRE(openni::OpenNI::initialize() == openni::STATUS_OK);
+    {
+        openni::Device device;
+        openni::VideoStream depth, rgb;
+        openni::Recorder recorder;
+        REQUIRE(device.open(uri) == openni::STATUS_OK);
+        device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
+        REQUIRE(depth.create(device, openni::SENSOR_DEPTH) == openni::STATUS_OK);
+        REQUIRE(rgb.create(device, openni::SENSOR_COLOR) == openni::STATUS_OK);
+        REQUIRE(recorder.create(file.c_str()) == openni::STATUS_OK);
+        REQUIRE(recorder.attach(depth) == openni::STATUS_OK);
+        if (colour) {
+            REQUIRE(recorder.attach(rgb) == openni::STATUS_OK);
+        }
+        REQUIRE(recorder.start() == openni::STATUS_OK);
+        depth.start();
+        rgb.start();
+        openni::VideoFrameRef frame;
+        for (int i = 0; i < pictures; ++i) {
+            depth.readFrame(&frame);
+            rgb.readFrame(&frame);
+        }
+        recorder.stop();
+        depth.stop();
+        rgb.stop();
+        recorder.destroy();
+        frame.release();
+        depth.destroy();
+        rgb.destroy();
+        device.close();
+    }
+    openni::OpenNI::shutdown();
+    return file;
+}
+
+std::string refusal(const std::string& source) {
+    try {
+        openOpenNi2(source);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("A live device gives depth with its own colour, registered, with the lens of its field of view") {
+    for (const char* uri : {"fathom-test", "fathom-test-mirrored"}) {
+        CAPTURE(uri);
+        const auto camera = openOpenNi2(std::string("openni2:") + uri);
+        const CameraInfo& info = camera->info();
+        CHECK(camera->live());
+        CHECK(info.hasColour);
+        CHECK(info.registered);
+        CHECK(info.metresPerUnit == 0.001);
+        CHECK(info.depth.fx == doctest::Approx(16.0 / std::tan(0.5)));
+        CHECK(info.depth.fy == doctest::Approx(12.0 / std::tan(0.4)));
+        CHECK(camera->framePeriod() == doctest::Approx(1.0 / 30.0));
+        int before = 0;
+        for (int i = 0; i < 5; ++i) {
+            const auto frame = camera->next();
+            REQUIRE(frame);
+            int n = 0;
+            CHECK(isDrawn(*frame, n));
+            CHECK((*frame)->colour.size() == 768);
+            CHECK(n > before);
+            before = n;
+        }
+    }
+}
+
+TEST_CASE("A device that falls silent is lost") {
+    const auto camera = openOpenNi2("openni2:fathom-test-silent");
+    CHECK_THROWS_AS(
+        [&] {
+            for (int i = 0; i < 9; ++i) {
+                camera->next();
+            }
+        }(),
+        DeviceLost);
+}
+
+TEST_CASE(
+    "An .oni file gives the pictures of the device that it was recorded from, to the last bit, and ends") {
+    for (const bool colour : {false, true}) {
+        CAPTURE(colour);
+        const auto camera = openOpenNi2(recorded("fathom-test", 6, colour) + ",registered=yes");
+        CHECK_FALSE(camera->live());
+        CHECK(camera->info().hasColour == colour);
+        CHECK(camera->info().depth.fx == doctest::Approx(16.0 / std::tan(0.5)));
+        int count = 0, before = 0;
+        double stamp = -1.0;
+        while (const auto frame = camera->next()) {
+            int n = 0;
+            CHECK(isDrawn(*frame, n));
+            CHECK(n > before);
+            CHECK((*frame)->captureTime > stamp);
+            before = n;
+            stamp = (*frame)->captureTime;
+            ++count;
+        }
+        CHECK(count >= 4);
+        CHECK_FALSE(camera->next());
+        CHECK_FALSE(openOpenNi2(recorded("fathom-test", 2, colour))->info().hasColour); // unless it is said
+        MESSAGE("read ", count, " pictures of a recording of 6 reads");
+    }
+    std::filesystem::remove_all(kFolder);
+}
+
+TEST_CASE("What is not there, is no recording, or does not tell its lens is refused in one line") {
+    CHECK(refusal("openni2:nowhere").find("nowhere: device") != std::string::npos);
+    CHECK(refusal("/none/x.oni").find("/none/x.oni: device") != std::string::npos);
+    CHECK(refusal("openni2:fathom-test,focus=3").find("focus=3 (allowed: intrinsics=FILE, registered=yes)") !=
+          std::string::npos);
+    CHECK(refusal("openni2:fathom-test-plain").find("field of view: unknown") != std::string::npos);
+    std::filesystem::create_directories(kFolder);
+    const auto lens = [](int width) {
+        const std::string file = (kFolder / "lens.json").string();
+        std::ofstream(file) << "{\"width\": " << width
+                            << ", \"height\": 24, \"fx\": 30, \"fy\": 31, \"cx\": 16, \"cy\": 12, "
+                               "\"depth_scale_m_per_unit\": 0.001}";
+        return file;
+    };
+    CHECK(refusal("openni2:fathom-test-plain,intrinsics=" + lens(33)).find("33x24") != std::string::npos);
+    const auto camera = openOpenNi2("openni2:fathom-test-plain,intrinsics=" + lens(32));
+    CHECK(camera->info().depth.fy == 31.0);
+    CHECK_FALSE(camera->info().hasColour); // not registered
+    const auto frame = camera->next();
+    REQUIRE(frame);
+    CHECK((*frame)->colour.empty());
+}
+
+TEST_CASE("Requests of OpenNI2 are told from others") {
+    for (const char* yes : {"openni2", "openni2:2bc5/0401@1/2", "a/b.oni", "x.oni,intrinsics=l.json"}) {
+        CHECK_MESSAGE(isOpenNi2Request(yes), yes);
+    }
+    for (const char* no : {"openni", "v4l2:auto", "a/b.bag", "oni", "rec,intrinsics=x.oni"}) {
+        CHECK_FALSE_MESSAGE(isOpenNi2Request(no), no);
+    }
+}
