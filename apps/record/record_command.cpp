@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/record/record_command.h"
 
+#include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/binding/stop_signals.h"
+#include "apps/record/hand_log.h"
 #include "devices/recorded/recording_writer.h"
 #include "engine/types/error.h"
 
@@ -16,12 +18,13 @@ namespace fathom {
 namespace {
 
 struct RecordOptions {
-    std::string scene, source, out;
+    std::string scene, source, out, handDevice;
     double seconds = 0.0; // 0 = until the source ends or a signal
 };
 
 // Pictures until the source ends, `seconds` have passed on its own clock, or a signal.
-double copyFrames(Camera& camera, RecordingWriter& writer, double seconds, const std::atomic<bool>& stop) {
+double copyFrames(Camera& camera, RecordingWriter& writer, HandLog* hand, double seconds,
+                  const std::atomic<bool>& stop) {
     std::optional<double> first;
     double last = 0.0;
     while (!stop.load()) {
@@ -34,9 +37,24 @@ double copyFrames(Camera& camera, RecordingWriter& writer, double seconds, const
             break;
         }
         writer.add(*frame);
+        if (hand != nullptr) {
+            hand->frame((*frame)->captureTime);
+        }
         last = (*frame)->captureTime;
     }
     return first ? last - *first : 0.0;
+}
+
+// A picture and a hand have one clock only where the pictures are live.
+std::unique_ptr<HandLog> openHandLog(const RecordOptions& options, Scene scene, const Camera& camera) {
+    if (options.handDevice.empty()) {
+        return nullptr;
+    }
+    if (!camera.live()) {
+        throw BadInput("record", "--hand-device", camera.description(), "a live camera beside a live hand");
+    }
+    auto hand = openLiveHand(options.handDevice, scene);
+    return std::make_unique<HandLog>(std::move(hand), std::filesystem::path(options.out) / "hand.csv");
 }
 
 int runRecord(const RecordOptions& options) {
@@ -46,14 +64,20 @@ int runRecord(const RecordOptions& options) {
         Pictures::Every);
     const StopSignals signals;
     RecordingWriter writer(options.out, camera->info(), 2);
+    const std::unique_ptr<HandLog> hand = openHandLog(options, scene, *camera);
     double length = 0.0;
     std::string gone;
     try {
-        length = copyFrames(*camera, writer, options.seconds, signals.asked());
+        length = copyFrames(*camera, writer, hand.get(), options.seconds, signals.asked());
     } catch (const DeviceLost& e) {
         gone = e.what(); // what was seen until then is kept
     }
     writer.finish();
+    if (hand) {
+        hand->finish();
+        std::cout << "hand         " << hand->samples() << " readings of " << hand->hand().description()
+                  << " in hand.csv\n";
+    }
     std::cout << std::setprecision(4) << "recorded     " << writer.frames() << " pictures in " << length
               << " s, " << camera->skipped() << " skipped, " << camera->lost() << " lost\n"
               << "from         " << camera->description() << "\nwritten to   " << options.out << "\n";
@@ -78,6 +102,9 @@ void addRecordCommand(CLI::App& app, const GlobalOptions&, int& result) {
         app.add_subcommand("record", "write what the scene's camera sees as a recording for replay");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
     command->add_option("--source", options->source, kSourceHelp);
+    command->add_option(
+        "--hand-device", options->handDevice,
+        "record a live hand beside the pictures as hand.csv, for replay --operator; it feels no force");
     command
         ->add_option("--seconds", options->seconds,
                      "end after so long; default: until the source ends or Ctrl-C")

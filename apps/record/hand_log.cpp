@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/record/hand_log.h"
+
+#include "engine/types/error.h"
+
+#include <chrono>
+#include <iomanip>
+
+namespace fathom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock; // CLOCK_MONOTONIC
+constexpr auto kPeriod = std::chrono::milliseconds(1);
+
+double secondsOf(Clock::time_point t) {
+    return std::chrono::duration<double>(t.time_since_epoch()).count();
+}
+
+} // namespace
+
+HandLog::HandLog(std::unique_ptr<LiveHand> hand, const std::filesystem::path& file)
+    : hand_(std::move(hand))
+    , out_(file)
+    , file_(file) {
+    out_ << "t_s,x,y,z,qw,qx,qy,qz,button\n" << std::setprecision(12);
+    if (!out_) {
+        throw Error(file.string() + ": cannot be written");
+    }
+    thread_ = std::thread([this] { watch(); });
+}
+
+HandLog::~HandLog() {
+    stop_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+void HandLog::watch() noexcept {
+    Clock::time_point next = Clock::now();
+    while (!stop_.load()) {
+        const double t = secondsOf(Clock::now());
+        const HandSample sample = hand_->read(t);
+        hand_->write({}, 0.001);
+        {
+            const std::lock_guard lock(mutex_);
+            waiting_.push_back({t, sample});
+        }
+        ++samples_;
+        next = std::max(next + kPeriod, Clock::now()); // a late turn is not caught up
+        std::this_thread::sleep_until(next);
+    }
+}
+
+void HandLog::flush(double from, double to, double start, double scale) {
+    std::deque<Sample> taken;
+    {
+        const std::lock_guard lock(mutex_);
+        while (!waiting_.empty() && waiting_.front().t < to) {
+            taken.push_back(waiting_.front());
+            waiting_.pop_front();
+        }
+    }
+    for (const Sample& sample : taken) {
+        const double t = start + scale * (sample.t - from);
+        if (sample.t < from || !(t > written_)) {
+            continue;
+        }
+        written_ = t;
+        const dvec3& p = sample.hand.deviceThandle.position;
+        const dquat& q = sample.hand.deviceThandle.rotation;
+        out_ << t << "," << p.x << "," << p.y << "," << p.z << "," << q.w << "," << q.x << "," << q.y << ","
+             << q.z << "," << sample.hand.buttons << "\n";
+    }
+}
+
+void HandLog::frame(double captureTime) {
+    if (frames_ > 0 && captureTime > last_) {
+        flush(last_, captureTime, (frames_ - 1) * kFramePeriod, kFramePeriod / (captureTime - last_));
+    } else if (frames_ == 0) { // what came before the first picture belongs to none
+        const std::lock_guard lock(mutex_);
+        std::erase_if(waiting_, [=](const Sample& s) { return s.t < captureTime; });
+    }
+    last_ = captureTime;
+    ++frames_;
+}
+
+void HandLog::finish() {
+    stop_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+    if (frames_ > 0) {
+        flush(last_, last_ + kFramePeriod, (frames_ - 1) * kFramePeriod, 1.0);
+    }
+    out_.close();
+    if (!out_) {
+        throw Error(file_.string() + ": cannot be written");
+    }
+}
+
+} // namespace fathom
