@@ -77,12 +77,13 @@ mkdir "$share/out"
     printf '\n%s\n' 'rc=$?; echo $rc >/run/share/rc; sync; echo o >/proc/sysrq-trigger; while :; do sleep 1; done'
 } >"$share/guest-init"
 
+# no_timer_check: a busy machine delays the emulated timer so much at boot that the kernel takes it for broken and panics.
 readonly_share() { echo "-fsdev local,id=$1,path=$2,security_model=none,readonly=on,multidevs=remap -device virtio-9p-pci,fsdev=$1,mount_tag=$1"; }
 status=0
 # shellcheck disable=SC2046  # one word an option
 timeout --foreground "$seconds" qemu-system-x86_64 -M pc "${machine[@]}" -m "${FATHOM_VM_MIB:-2048}" -nodefaults -no-user-config -no-reboot \
     -display none -serial file:"$share/kernel.log" -serial stdio -kernel "$cache"/kernel/boot/vmlinuz-* -initrd "$cache/initramfs.gz" \
-    -append "console=ttyS0 panic=-1 nokaslr mitigations=off random.trust_cpu=on" -device virtio-rng-pci \
+    -append "console=ttyS0 panic=-1 nokaslr mitigations=off random.trust_cpu=on no_timer_check" -device virtio-rng-pci \
     $(readonly_share hostroot /) $(readonly_share modules "$cache/kernel/lib/modules") \
     -fsdev local,id=share,path="$share",security_model=none -device virtio-9p-pci,fsdev=share,mount_tag=share </dev/null || status=$?
 
