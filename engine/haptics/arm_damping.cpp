@@ -43,10 +43,10 @@ double smallestEigenvalue(std::array<std::array<double, kMost>, kMost>& a, size_
 
 } // namespace
 
-double ArmNormal::smallestSingular() const noexcept {
+double ArmNormal::smallestSingular(size_t rows) const noexcept {
     std::array<std::array<double, kMostJoints>, kMostJoints> gram{};
-    const bool wide = n_ > 6;
-    const size_t m = wide ? 6 : n_;
+    const bool wide = n_ > rows;
+    const size_t m = wide ? rows : n_;
     for (size_t i = 0; i < m; ++i) {
         for (size_t j = 0; j < m; ++j) {
             const size_t inner = wide ? n_ : 6;

@@ -16,9 +16,9 @@ public:
     void setColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
         columns_[joint] = {v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
     }
-    // Smallest singular value of the columns [m], of the first six when there are more joints than that:
-    // then of the six rows. By Jacobi rotations of the smaller Gram matrix.
-    double smallestSingular() const noexcept;
+    // Smallest singular value of the columns [m], or of the rows when there are more joints than rows: 6, or
+    // 3 where directions count for nothing (k = 0). By Jacobi rotations of the smaller Gram matrix.
+    double smallestSingular(size_t rows = 6) const noexcept;
     void damp(double lambda) noexcept; // fills metric()
     std::span<const double> metric() const noexcept { return {metric_.data(), n_ * n_}; }
     // (J^T M J + lambda^2 I)^-1 J^T M x for x = [a; alpha], alpha scaled by k. After damp().

@@ -13,10 +13,6 @@ namespace {
 
 constexpr double kFarthestAim = 2.0; // times the step cap
 
-double lengthOf(const Motion& m, double k) {
-    return std::sqrt(std::max(1e-300, glm::dot(m.a, m.a) + k * k * glm::dot(m.alpha, m.alpha)));
-}
-
 } // namespace
 
 Tool armTool(const ArmModel& arm, const ArmFrames& frames) {
@@ -36,11 +32,12 @@ Tool armTool(const ArmModel& arm, const ArmFrames& frames) {
 }
 
 ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOptions& options,
-                   const JointVector& start)
+                   const JointVector& start, std::span<const Shape> shapes)
     : arm_(arm)
     , base_(baseTarm)
     , options_(options)
     , n_(arm.count())
+    , shapes_(shapes.begin(), shapes.end())
     , narrow_(
           [&] {
               ArmFrames frames;
@@ -53,19 +50,28 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
     , leaves_(arm.leaves.size())
     , nextLeaves_(arm.leaves.size())
     , exempt_(arm.leaves.size(), dvec3(0.0))
+    , clearance_(arm.leaves.size(), 0.0)
     , violations_(kMostViolations)
-    , rowPair_(kMostRows, armrow::kJoint) {
+    , rows_(kMostRows) {
     for (size_t k = 0; k < n_; ++k) {
         q_[k] =
             std::clamp(std::isfinite(start[k]) ? start[k] : 0.0, arm.joints[k].lower, arm.joints[k].upper);
     }
     start_ = q_;
-    arm_.place(q_, base_, frames_);
+    shapes_.reserve(std::max(Proxy::kSpareShapes, shapes_.size()));
+    arm_.place(q_, base_, frames_, grasp_);
+    origin_ = frames_[0].position;
+    placeLeaves(frames_, leaves_);
 }
 
-void ArmProxy::placeLeaves(const ArmFrames& frames, const dvec3& origin, LeafCentres& out) const noexcept {
+void ArmProxy::setShapes(std::span<const Shape> shapes) noexcept {
+    const size_t count = std::min(shapes.size(), shapes_.capacity());
+    shapes_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
+}
+
+void ArmProxy::placeLeaves(const ArmFrames& frames, LeafCentres& out) const noexcept {
     for (size_t i = 0; i < arm_.leaves.size(); ++i) {
-        out.set(i, arm_.centre(frames, i) - origin);
+        out.set(i, arm_.centre(frames, i) - origin_);
     }
 }
 
@@ -73,22 +79,24 @@ bool ArmProxy::covers(const ContactSet& contacts) noexcept {
     if (contacts.leafAtQuery.size() != arm_.leaves.size()) {
         return false;
     }
-    placeLeaves(frames_, contacts.origin, leaves_);
+    origin_ = contacts.origin;
+    placeLeaves(frames_, leaves_);
     return TrustRegion::covers(contacts, leaves_);
 }
 
-ArmProxy::Goal ArmProxy::aim(const Pose& target, double k, ArmTurn& out) noexcept {
+ArmProxy::Goal ArmProxy::aim(const ArmInput& input, ArmTurn& out) noexcept {
     const Pose now = tip();
+    const double k = input.metricRadius;
     // A target far away bends the way there: only what a solve can go is asked for, or a stretched arm
     // dances.
-    Motion left = remaining(now, target);
+    Motion left = remaining(now, input.target);
     left = std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(left, k)) * left;
     ArmNormal normal(n_);
     for (size_t j = 0; j < n_; ++j) {
         const dvec3 turning = arm_.joints[j].slides ? dvec3(0.0) : arm_.axisOf(frames_, j);
         normal.setColumn(j, arm_.motionOf(frames_, j, now.position), k * turning);
     }
-    const double smallest = normal.smallestSingular();
+    const double smallest = normal.smallestSingular(k == 0.0 ? 3 : 6);
     if (out.solves == 0) {
         out.manipulability = smallest;
         out.singular = smallest < options_.singularBelow;
@@ -101,126 +109,68 @@ ArmProxy::Goal ArmProxy::aim(const Pose& target, double k, ArmTurn& out) noexcep
     return goal;
 }
 
-void ArmProxy::tryStep(const JointVector& dq, double share, const dvec3& origin) noexcept {
-    for (size_t k = 0; k < n_; ++k) {
-        next_[k] = clampedJoint(k, q_[k] + share * dq[k]);
+// The fingers go first, by themselves: what they may do is looked at as exactly as any motion.
+void ArmProxy::moveGrasp(const ArmInput& input, ArmTurn& out) noexcept {
+    if (!std::isfinite(input.grasp) || arm_.fingers.empty()) {
+        return;
     }
-    arm_.place(next_, base_, nextFrames_);
-    placeLeaves(nextFrames_, origin, nextLeaves_);
-}
-
-double ArmProxy::shareToCap(const JointVector& dq, const dvec3& origin) noexcept {
-    double share = 1.0;
-    for (int k = 0; k < 12; ++k) {
-        tryStep(dq, share, origin);
-        const double travel = longestTravel(leaves_, nextLeaves_);
-        if (travel <= options_.stepCap) {
-            return share;
+    const double wanted = std::clamp(input.grasp, 0.0, 1.0) - grasp_;
+    double change = std::clamp(wanted, -options_.graspPerTurn, options_.graspPerTurn);
+    if (change == 0.0) {
+        return;
+    }
+    if (input.contacts != nullptr) {
+        gather(*input.contacts, true);
+    }
+    out.graspHeld = true;
+    for (int tries = 0; tries < 6 && out.graspHeld; ++tries, change *= 0.5) {
+        size_t violating = 0;
+        tryPosture(q_, grasp_ + change);
+        if (longestTravel(leaves_, nextLeaves_) <= options_.stepCap && allowed(input.contacts, violating)) {
+            out.graspHeld = tries > 0;
+            take();
+            return;
         }
-        share *= 0.999 * options_.stepCap / travel;
     }
-    tryStep(dq, 0.0, origin);
-    return 0.0;
 }
 
-bool ArmProxy::allowed(const ContactSet* contacts, size_t& violating) noexcept {
-    violating = 0;
-    if (contacts == nullptr) {
-        return true;
-    }
-    violating = narrow_.check(*contacts, nextLeaves_, exempt_, violations_);
-    return violating == 0 && trust_.contains(*contacts, nextLeaves_);
-}
-
-// Solves, cuts to the caps, checks exactly; strengthens and solves again; at last shortens. Returns the
-// share.
-double ArmProxy::fit(JointVector& dq, const Goal& goal, const ContactSet* contacts, ArmTurn& out) noexcept {
-    const dvec3 origin = contacts != nullptr ? contacts->origin : dvec3(0.0);
-    double share = 1.0;
-    size_t violating = 0;
-    for (int round = 0; round < proxy::kRounds; ++round) {
-        share = shareToCap(dq, origin);
-        if (allowed(contacts, violating)) {
-            return share;
-        }
-        JointVector other{};
-        if (violating == 0 || !strengthen(violating, share) ||
-            solver_.solve(std::span(goal.wanted.data(), n_), std::span(other.data(), n_)) !=
-                SolveStatus::Optimal) {
-            break;
-        }
-        dq = other;
-    }
-    out.stalled = out.stalled || violating == 0;
-    double good = 0.0, bad = share;
-    for (int k = 0; k < proxy::kBisections; ++k) {
-        const double middle = 0.5 * (good + bad);
-        tryStep(dq, middle, origin);
-        (allowed(contacts, violating) ? good : bad) = middle;
-    }
-    tryStep(dq, good, origin);
-    return good;
-}
-
-// Where rows that ask for motion contradict each other, they ask for no worse than now.
-bool ArmProxy::solveRows(const Goal& goal, JointVector& dq) noexcept {
-    const std::span<const double> wanted(goal.wanted.data(), n_);
-    if (solver_.solve(wanted, std::span(dq.data(), n_)) == SolveStatus::Optimal) {
-        return true;
-    }
-    for (size_t i = 0; i < solver_.rows(); ++i) {
-        solver_.setOffset(i, std::min(0.0, solver_.offset(i)));
-    }
-    return solver_.solve(wanted, std::span(dq.data(), n_)) == SolveStatus::Optimal;
-}
-
-// One linearisation. True when another one may bring the tip nearer.
-bool ArmProxy::step(const Pose& target, double k, const ContactSet* contacts, ArmTurn& out) noexcept {
-    placeLeaves(frames_, contacts != nullptr ? contacts->origin : dvec3(0.0), leaves_);
-    collectRows(contacts, out);
-    const Goal goal = aim(target, k, out);
-    ++out.solves;
-    JointVector dq{};
-    if (!solveRows(goal, dq)) {
-        out.trapped = out.solves == 1;
-        return false;
-    }
-    countActive(out);
-    const double share = fit(dq, goal, contacts, out);
-    if (share == 0.0) {
-        return false;
-    }
-    // What arcs and raised offsets add must not carry the tip away from a hand that is still.
-    const double before = lengthOf(remaining(tip(), target), k);
-    const double after = lengthOf(remaining(arm_.tip(nextFrames_), target), k);
-    if (!out.escape && after >= before && before > proxy::kNothing) {
-        return false;
-    }
-    escapeLeft_ *= 1.0 - share;
-    const double travel = longestTravel(leaves_, nextLeaves_);
-    q_ = next_;
-    frames_ = nextFrames_;
-    return travel > proxy::kNothing;
-}
-
-ArmTurn ArmProxy::turn(const Pose& target, double metricRadius, const ContactSet* contacts) noexcept {
+ArmTurn ArmProxy::turn(const ArmInput& asked) noexcept {
     ArmTurn out;
     start_ = q_;
     escapeLeft_ = options_.escapePerTurn;
-    const double k = std::isfinite(metricRadius) ? std::clamp(metricRadius, 0.0, 10.0) : 0.0;
+    activeCount_ = 0;
+    ArmInput input = asked;
+    input.metricRadius = std::isfinite(asked.metricRadius) ? std::clamp(asked.metricRadius, 0.0, 10.0) : 0.0;
+    const ContactSet* contacts = input.contacts;
     const bool usable = contacts == nullptr || contacts->leafAtQuery.size() == arm_.leaves.size();
-    if (usable && isFinite(target)) {
-        while (out.solves < options_.solves && step(target, k, contacts, out)) {
+    if (usable) {
+        origin_ = contacts != nullptr ? contacts->origin : frames_[0].position;
+        placeLeaves(frames_, leaves_);
+        if (contacts != nullptr) {
+            flagBehind(*contacts);
+        } else {
+            std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
+        }
+        moveGrasp(input, out);
+    }
+    while (usable && isFinite(input.target) && out.solves < options_.solves && step(input, out)) {
+        if (input.deadline.passed != nullptr && input.deadline.passed(input.deadline.context)) {
+            break;
         }
     }
-    out.q = q_;
-    out.tip = tip();
-    out.residual = lengthOf(remaining(out.tip, target), k);
-    if (contacts != nullptr && usable) {
-        placeLeaves(frames_, contacts->origin, leaves_);
-        out.minGap = narrow_.smallestGapAt(*contacts, leaves_);
-    }
+    report(input, usable, out);
     return out;
+}
+
+void ArmProxy::report(const ArmInput& input, bool usable, ArmTurn& out) noexcept {
+    out.q = q_;
+    out.grasp = grasp_;
+    out.tip = tip();
+    out.residual = lengthOf(remaining(out.tip, input.target), input.metricRadius);
+    out.active = {active_.data(), activeCount_};
+    if (input.contacts != nullptr && usable) {
+        out.minGap = narrow_.smallestGapAt(*input.contacts, leaves_);
+    }
 }
 
 } // namespace fathom

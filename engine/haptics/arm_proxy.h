@@ -7,7 +7,9 @@
 
 #include "engine/contact/contact_set.h"
 #include "engine/contact/narrow_phase.h"
+#include "engine/contact/shapes.h"
 #include "engine/haptics/constraint_solver.h"
+#include "engine/haptics/proxy.h"
 #include "engine/haptics/tool_motion.h"
 #include "engine/model/arm_model.h"
 
@@ -18,10 +20,6 @@ namespace fathom {
 // leaves.
 Tool armTool(const ArmModel& arm, const ArmFrames& frames);
 
-namespace armrow {
-inline constexpr uint32_t kJoint = ~0u; // in place of a pair: the row of a joint
-}
-
 struct ArmProxyOptions {
     double stepCap = 0.002;        // [m] farthest that any leaf of any link travels in one solve
     uint32_t solves = 4;           // linearisations a turn, at most
@@ -30,10 +28,20 @@ struct ArmProxyOptions {
     double damping = 1e-3;         // [m/rad] lambda away from singular postures
     double singularBelow = 0.02;   // [m/rad] smallest singular value of M^1/2 J below which lambda grows
     double singularDamping = 0.05; // [m/rad] lambda in the singular posture itself
+    double graspPerTurn = 0.0;     // of the whole way from open to closed, in one turn
+};
+
+struct ArmInput {
+    Pose target;                          // base_T_tip that the hand asks for
+    double metricRadius = 0.1;            // [m] k = sqrt(K_r / K_t); 0 = the tip's direction is free
+    const ContactSet* contacts = nullptr; // of armTool() at a recent posture; null = nothing to touch
+    double grasp = 0.0;                   // 0 open .. 1 closed that is asked for; not finite = as it is
+    Deadline deadline;
 };
 
 struct ArmTurn {
     JointVector q{};           // after the turn
+    double grasp = 0.0;        // after the turn
     Pose tip;                  // base_T_tip after the turn
     double residual = 0.0;     // [m] |what is left to the target|_M: what the pilot feels as the arm's limit
     double minGap = 0.0;       // [m] over the set, as ProxyTurn::minGap
@@ -44,63 +52,108 @@ struct ArmTurn {
     bool escape = false;       // some leaf overlaps a sphere
     bool trapped = false;      // no motion obeys every row: held
     bool stalled = false;      // cut by the trust region
+    bool graspHeld = false;    // a finger would have entered a region: the grasp stays
     uint32_t solves = 0;
+    uint32_t infeasible = 0; // solver calls that found no motion
+    std::span<const ActiveContact>
+        active; // rows of leaves that pushed, arms about the tip; until the next turn
 };
 
 // One thread. Allocates in the constructor only; turn() is noexcept, never locks, throws or waits. Kept by an
-// exact check before any posture is taken: no listed pair's gap ends below min(0, its gap before); joints
-// never leave [lower, upper] and never go faster than their speed over a turn.
+// exact check before any posture is taken: no listed pair's gap ends below min(0, its gap before), nor any
+// leaf's to an authored shape; joints never leave [lower, upper] and never go faster than their speed over a
+// turn. Exempt are pairs that would hold a leaf behind a surface, as for a free tool. Lines and axes bind the
+// tip, as far as the joints can.
 class ArmProxy {
 public:
     // The start is clamped to the joint limits. `arm` must outlive this.
     ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOptions& options,
-             const JointVector& start);
+             const JointVector& start, std::span<const Shape> shapes = {});
 
-    // contacts: of armTool() at a recent posture; null = nothing to touch. metricRadius: k = sqrt(K_r / K_t)
-    // [m]; 0 = the tip's direction is free.
-    ArmTurn turn(const Pose& target, double metricRadius, const ContactSet* contacts) noexcept;
+    ArmTurn turn(const ArmInput& input) noexcept;
+    ArmTurn turn(const Pose& target, double metricRadius, const ContactSet* contacts) noexcept {
+        return turn({target, metricRadius, contacts, grasp_, {}});
+    }
 
     bool covers(const ContactSet& contacts) noexcept;
+    // As Proxy::setShapes().
+    void setShapes(std::span<const Shape> shapes) noexcept;
+    std::span<const Shape> shapes() const noexcept { return shapes_; }
+
     const JointVector& joints() const { return q_; }
+    ArmPosture posture() const { return {q_, grasp_}; }
     const ArmFrames& frames() const { return frames_; }
     Pose tip() const { return arm_.tip(frames_); }
+    size_t leafCount() const { return arm_.leaves.size(); }
+    double leafRadius(size_t leaf) const { return arm_.leaves[leaf].sphere.radius; }
 
 private:
-    static constexpr size_t kMostLeafRows = 512, kMostRows = 1024, kMostViolations = 64;
+    static constexpr size_t kMostLeafRows = 512, kMostRows = 1280, kMostViolations = 64;
 
     struct Goal { // of one linearisation, in joint space
         JointVector wanted{};
         double lambda = 0.0;
     };
-    bool step(const Pose& target, double k, const ContactSet* contacts, ArmTurn& out) noexcept;
-    Goal aim(const Pose& target, double k, ArmTurn& out) noexcept;
-    void addLeafRow(const ContactRow& row, double offset) noexcept;
+    struct SolverRow { // what a row of the solver is about
+        ContactRow row;
+        bool joint = false; // a limit of place or speed: `row` means nothing
+    };
+
+    // arm_proxy.cpp
+    Goal aim(const ArmInput& input, ArmTurn& out) noexcept;
+    void moveGrasp(const ArmInput& input, ArmTurn& out) noexcept;
+    void report(const ArmInput& input, bool usable, ArmTurn& out) noexcept;
+
+    // arm_proxy_rows.cpp: the conditions on the next joint increments.
+    void collectRows(const ContactSet* contacts, bool anew, ArmTurn& out) noexcept;
+    void gather(const ContactSet& contacts, bool anew) noexcept;
+    void flagBehind(const ContactSet& contacts) noexcept;
+    void addPairRows(const ContactSet& contacts) noexcept;
+    void addBehindRows(const ContactSet& contacts) noexcept;
+    void addShapeRows(ArmTurn& out) noexcept;
+    void addEqualityRows(const Shape& shape, uint32_t index) noexcept;
     void addJointRows() noexcept;
-    void collectRows(const ContactSet* contacts, ArmTurn& out) noexcept;
-    void tryStep(const JointVector& dq, double share, const dvec3& origin) noexcept;
-    double shareToCap(const JointVector& dq, const dvec3& origin) noexcept;
-    bool allowed(const ContactSet* contacts, size_t& violating) noexcept;
-    bool solveRows(const Goal& goal, JointVector& dq) noexcept;
+    void addLeafRow(const ContactRow& row, double offset) noexcept;
+    void addRow(const JointVector& normal, double offset, const SolverRow& what) noexcept;
     bool strengthen(size_t violating, double share) noexcept;
+    bool strengthenShapes(double share) noexcept;
+    bool strengthenEqualities(double share) noexcept;
+    void recordActive(ArmTurn& out) noexcept;
+
+    // arm_proxy_step.cpp: solve, cut, check, and only then move.
+    bool step(const ArmInput& input, ArmTurn& out) noexcept;
+    bool solveRows(const Goal& goal, JointVector& dq, ArmTurn& out) noexcept;
     double fit(JointVector& dq, const Goal& goal, const ContactSet* contacts, ArmTurn& out) noexcept;
+    double bisect(const JointVector& dq, double most, const ContactSet* contacts) noexcept;
+    double shareToCap(const JointVector& dq) noexcept;
+    void tryPosture(const JointVector& q, double grasp) noexcept;
+    void tryStep(const JointVector& dq, double share) noexcept;
+    bool allowed(const ContactSet* contacts, size_t& violating) noexcept;
+    bool shapesAllow() const noexcept;
+    void take() noexcept;
     double clampedJoint(size_t k, double q) const noexcept;
-    void placeLeaves(const ArmFrames& frames, const dvec3& origin, LeafCentres& out) const noexcept;
-    void countActive(ArmTurn& out) const noexcept;
+    void placeLeaves(const ArmFrames& frames, LeafCentres& out) const noexcept;
 
     const ArmModel& arm_;
     Pose base_;
     ArmProxyOptions options_;
     size_t n_;
     JointVector q_{}, start_{}, next_{}; // now, at the start of the turn, tried
+    double grasp_ = 0.0, nextGrasp_ = 0.0;
     ArmFrames frames_, nextFrames_;
+    std::vector<Shape> shapes_;
     NarrowPhase narrow_;
     TrustRegion trust_;
     ConstraintSolver solver_;
-    LeafCentres leaves_, nextLeaves_;
-    std::vector<dvec3> exempt_; // no leaf of an arm is taken for one behind a surface
+    LeafCentres leaves_, nextLeaves_; // centres about origin_
+    dvec3 origin_{0.0};               // [m] base frame: of the set in force
+    std::vector<dvec3> exempt_;       // a leaf: way to the camera while it is behind, else zero
+    std::vector<double> clearance_;   // a leaf: [m] left along it
     std::vector<NarrowPhase::Violation> violations_;
-    std::vector<uint32_t> rowPair_; // of solver rows that are leaves'; ~0 for joints
-    double escapeLeft_ = 0.0;       // [m] of this turn
+    std::vector<SolverRow> rows_; // of the solver
+    double escapeLeft_ = 0.0;     // [m] of this turn
+    std::array<ActiveContact, kMaxUnknowns> active_;
+    size_t activeCount_ = 0;
 };
 
 } // namespace fathom

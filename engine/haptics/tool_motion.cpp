@@ -38,6 +38,11 @@ Motion remaining(const Pose& pose, const Pose& target) noexcept {
     return {target.position - pose.position, rotationLog(target.rotation * glm::conjugate(pose.rotation))};
 }
 
+double lengthOf(const Motion& motion, double k) noexcept {
+    return std::sqrt(
+        std::max(1e-300, glm::dot(motion.a, motion.a) + k * k * glm::dot(motion.alpha, motion.alpha)));
+}
+
 LeafPlaces::LeafPlaces(const Tool& tool)
     : centres_(tool.leafCount()) {
     for (size_t i = 0; i < tool.leafCount(); ++i) {

@@ -33,6 +33,9 @@ Pose moved(const Pose& pose, const Motion& motion) noexcept;
 // What is left from pose to target: [p_target - p; log(q_target q^-1)], shortest arc.
 Motion remaining(const Pose& pose, const Pose& target) noexcept;
 
+// sqrt(|a|^2 + k^2 |alpha|^2) [m], never 0.
+double lengthOf(const Motion& motion, double k) noexcept;
+
 // Leaf centres of a tool at poses. noexcept and without allocation after the constructor; one thread.
 class LeafPlaces {
 public:

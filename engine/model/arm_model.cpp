@@ -3,18 +3,27 @@
 
 namespace fathom {
 
-void ArmModel::place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames) const noexcept {
+namespace {
+
+Pose movedBy(const dvec3& axis, bool slides, double q) {
+    return slides ? Pose{q * axis, {1.0, 0.0, 0.0, 0.0}} : Pose{dvec3(0.0), rotationExp(q * axis)};
+}
+
+} // namespace
+
+void ArmModel::place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames,
+                     double grasp) const noexcept {
     frames[0] = worldTbase;
     for (size_t k = 0; k < joints.size(); ++k) {
         const ArmJoint& joint = joints[k];
-        Pose move;
-        if (joint.slides) {
-            move.position = q[k] * joint.axis;
-        } else {
-            move.rotation = rotationExp(q[k] * joint.axis);
-        }
-        frames[k + 1] = frames[k] * joint.before * move;
+        frames[k + 1] = frames[k] * joint.before * movedBy(joint.axis, joint.slides, q[k]);
         frames[k + 1].rotation = glm::normalize(frames[k + 1].rotation);
+    }
+    for (size_t f = 0; f < fingers.size(); ++f) {
+        const ArmFinger& finger = fingers[f];
+        const double at = finger.open + grasp * (finger.closed - finger.open);
+        frames[kMostJoints + 1 + f] =
+            frames[finger.joint] * finger.before * movedBy(finger.axis, finger.slides, at);
     }
 }
 

@@ -35,7 +35,10 @@ public:
             }
         }
         model_.lastTtip = before;
-        addLinks(base, Pose{}, 0);
+        addLinks(base, Pose{}, {0, 0});
+        if (model_.fingers.size() < options_.fingers.size()) {
+            refuseFinger();
+        }
         if (model_.leaves.empty()) {
             refuse("collision", "no shapes on any link", "links with collision geometry");
         }
@@ -126,11 +129,16 @@ private:
         moving_.push_back(joint.name);
     }
 
-    // Spheres of `link` and of all that it carries, in the frame after `joint` moving joints.
-    void addLinks(const LinkPtr& link, const Pose& frameTlink, uint32_t joint) {
+    struct Carrier {     // of a link
+        uint32_t joint;  // how many joints of the chain
+        uint32_t finger; // 0 = none, else one more than its index
+    };
+
+    // Spheres of `link` and of all that it carries, in its carrier's frame.
+    void addLinks(const LinkPtr& link, const Pose& frameTlink, const Carrier& carrier) {
         const size_t before = model_.leaves.size();
         for (const auto& collision : link->collision_array) {
-            addShape(*link, *collision, frameTlink * poseOf(collision->origin), joint);
+            addShape(*link, *collision, frameTlink * poseOf(collision->origin), carrier);
         }
         if (model_.leaves.size() > before) {
             model_.links.push_back(link->name);
@@ -138,22 +146,61 @@ private:
         for (const auto& below : link->child_joints) {
             const LinkPtr child = urdf_->getLink(below->child_link_name);
             const auto chained = std::find(moving_.begin(), moving_.end(), below->name);
+            const Pose place = frameTlink * poseOf(below->parent_to_joint_origin_transform);
             if (chained != moving_.end()) {
-                addLinks(child, Pose{}, static_cast<uint32_t>(chained - moving_.begin()) + 1);
-                continue;
+                addLinks(child, Pose{}, {static_cast<uint32_t>(chained - moving_.begin()) + 1, 0});
+            } else if (carrier.finger == 0 && addFinger(*below, place, carrier.joint)) {
+                addLinks(child, Pose{}, {carrier.joint, static_cast<uint32_t>(model_.fingers.size())});
+            } else {
+                addLinks(child, place, carrier);
             }
-            addLinks(child, frameTlink * poseOf(below->parent_to_joint_origin_transform), joint);
         }
     }
 
+    // False: the options name no such finger.
+    bool addFinger(const urdf::Joint& joint, const Pose& before, uint32_t carriedBy) {
+        const auto wanted = std::find_if(options_.fingers.begin(), options_.fingers.end(),
+                                         [&](const auto& finger) { return finger.joint == joint.name; });
+        if (wanted == options_.fingers.end()) {
+            return false;
+        }
+        const bool slides = joint.type == urdf::Joint::PRISMATIC;
+        const dvec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
+        if ((!slides && joint.type != urdf::Joint::REVOLUTE) || !joint.limits ||
+            !(glm::length(axis) > 1e-9)) {
+            refuse("joint " + joint.name, "no finger",
+                   "a revolute or prismatic joint with limits and an axis");
+        }
+        if (model_.fingers.size() == kMostFingers) {
+            refuse("joint " + joint.name, "one more finger", std::to_string(kMostFingers) + " at most");
+        }
+        model_.fingers.push_back({joint.name, carriedBy, slides, before, glm::normalize(axis),
+                                  wanted->open.value_or(joint.limits->lower),
+                                  wanted->closed.value_or(joint.limits->upper)});
+        return true;
+    }
+
+    [[noreturn]] void refuseFinger() const {
+        for (const auto& wanted : options_.fingers) {
+            const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
+            if (std::none_of(model_.fingers.begin(), model_.fingers.end(), same)) {
+                refuse("finger", "'" + wanted.joint + "'",
+                       "a joint beside the chain from base to tip that no other finger carries, named once");
+            }
+        }
+        refuse("finger", "named twice", "each finger once");
+    }
+
     void addShape(const urdf::Link& link, const urdf::Collision& collision, const Pose& place,
-                  uint32_t joint) {
+                  const Carrier& carrier) {
         const auto keep = [&](const Sphere& s) {
             if (!isFinite(s.centre) || !(s.radius > 0.0)) {
                 refuse("link " + link.name, "a sphere without radius", "radii above 0");
             }
-            model_.leaves.push_back(
-                {{place.apply(s.centre), s.radius}, joint, static_cast<uint32_t>(model_.links.size())});
+            model_.leaves.push_back({{place.apply(s.centre), s.radius},
+                                     carrier.joint,
+                                     static_cast<uint32_t>(model_.links.size()),
+                                     carrier.finger});
         };
         if (const auto* ball = dynamic_cast<const urdf::Sphere*>(collision.geometry.get())) {
             keep({dvec3(0.0), ball->radius});

@@ -223,7 +223,7 @@ TEST_CASE("the smallest singular value and the damping are those of the textbook
 
 TEST_CASE("a turn of a whole arm allocates nothing; what it costs, by leaf count") {
     std::mt19937_64 random(3);
-    for (size_t leaves : {500u, 2000u}) {
+    for (size_t leaves : {500u, 1000u, 2000u}) {
         const ArmModel arm = makeArm(5, leaves / 5);
         ArmProxy proxy(arm, Pose{}, {}, JointVector{});
         World world;

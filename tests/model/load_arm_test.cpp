@@ -148,3 +148,26 @@ TEST_CASE("real arms of four joints are read, slashes in the names and all") {
     CHECK(arm.links[0] == "oberon4/base");
     CHECK(arm.leaves.size() > 50);
 }
+
+TEST_CASE("A finger beside the chain is moved by the grasp from its open to its closed place") {
+    ArmOptions options;
+    options.tip = "tip";
+    options.fingers = {{"jaw", 0.0, 1.5707963267948966}};
+    const ArmModel arm = load(kArm + "</robot>", options);
+    REQUIRE(arm.fingers.size() == 1);
+    REQUIRE(arm.leaves.size() == 4);
+    CHECK(arm.leaves[3].joint == 1);
+    CHECK(arm.leaves[3].finger == 1);
+    ArmFrames open, closed;
+    arm.place({0.0, 0.0}, Pose{}, open, 0.0);
+    arm.place({0.0, 0.0}, Pose{}, closed, 1.0);
+    CHECK(glm::distance(arm.centre(open, 3), arm.centre(closed, 3)) == doctest::Approx(0.1 * std::sqrt(2.0)));
+    options.fingers = {{"jaw", {}, {}}};
+    const ArmModel limits = load(kArm + "</robot>", options);
+    CHECK(limits.fingers[0].open == -1.0);
+    CHECK(limits.fingers[0].closed == 2.0);
+    options.fingers = {{"turn", {}, {}}}; // of the chain
+    CHECK(refusalOf(kArm + "</robot>", options).find("beside the chain") != std::string::npos);
+    options.fingers = {{"jaw", {}, {}}, {"jaw", {}, {}}};
+    CHECK(refusalOf(kArm + "</robot>", options).find("each finger once") != std::string::npos);
+}
