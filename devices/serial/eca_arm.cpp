@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/serial/eca_arm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kDegree = 0.017453292519943295;
+constexpr int kPressedFrames = 3; // against the stop: a single reading may be noise
+constexpr double kAmpere = 0.094e-3;
+
+} // namespace
+
+double EcaArm::radiansPerCount(size_t joint) noexcept {
+    constexpr std::array<double, 4> kCountsPerDegree{798.0, 588.14, 569.88, 8.89};
+    return joint < kCountsPerDegree.size() ? kDegree / kCountsPerDegree[joint]
+                                           : 2.0 * std::asin(62.5 / 78.0) / 7000.0;
+}
+
+EcaArm::EcaArm(SerialPort& port, const EcaOptions& options)
+    : port_(port)
+    , options_(options) {
+    overSince_.fill(std::numeric_limits<double>::infinity());
+    feedback_.age = std::numeric_limits<double>::infinity();
+}
+
+void EcaArm::loseHome() noexcept {
+    homing_ = 0;
+    feedback_.homed = false;
+    pressed_.fill(0);
+}
+
+void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {
+    for (size_t j = 0; j < kEcaJoints; ++j) {
+        // The shortest way round 16 bits: right while a joint moves less than half of them between frames.
+        const auto moved = static_cast<int16_t>(status[j].encoder - encoder_[j]);
+        if (any_ && std::abs(int{moved}) > options_.mostCounts) {
+            loseHome();
+        }
+        counts_[j] += any_ ? moved : 0;
+        encoder_[j] = status[j].encoder;
+        current_[j] = status[j].current;
+        pressed_[j] = current_[j] >= options_.stopCurrent ? pressed_[j] + 1 : 0;
+        feedback_.position[j] = static_cast<double>(counts_[j] - zero_[j]) * radiansPerCount(j);
+        feedback_.current[j] = std::max(0.0, kAmpere * current_[j] - 0.2e-3);
+    }
+    any_ = true;
+    heardAt_ = now;
+}
+
+void EcaArm::receive(double now) noexcept {
+    std::array<uint8_t, 256> bytes{};
+    for (size_t got = port_.read(bytes); got > 0; got = port_.read(bytes)) {
+        for (size_t i = 0; i < got; ++i) {
+            const auto frame = reader_.take(bytes[i]);
+            if (frame && *frame != sent_) { // a half-duplex line gives back what was sent
+                heard(statusOf(*frame), now);
+            }
+        }
+    }
+    feedback_.damaged = reader_.damaged();
+}
+
+void EcaArm::watch(double now, const ArmCommand& command) noexcept {
+    feedback_.age = any_ ? now - heardAt_ : std::numeric_limits<double>::infinity();
+    feedback_.stale = !(feedback_.age <= options_.staleAfter);
+    for (size_t j = 0; j < kEcaJoints; ++j) {
+        const bool over = current_[j] > options_.mostCurrent;
+        overSince_[j] = over ? std::min(overSince_[j], now) : std::numeric_limits<double>::infinity();
+        feedback_.overloaded = feedback_.overloaded || now - overSince_[j] > options_.overloadTime;
+    }
+    feedback_.holding = command.hold || feedback_.stale || feedback_.overloaded || homing_ < kEcaJoints;
+}
+
+EcaDemand EcaArm::speedDemand(double speed) const noexcept {
+    EcaDemand demand;
+    demand.currentLimit = options_.currentLimit;
+    const double counts = std::min(4095.0, std::round(4095.0 * std::abs(speed) / options_.fullSpeed));
+    if (!(counts >= 1.0)) {
+        return demand;
+    }
+    demand.kind = speed < 0.0 ? EcaDemand::Kind::SpeedCw : EcaDemand::Kind::SpeedCcw;
+    demand.speed = static_cast<uint16_t>(counts);
+    return demand;
+}
+
+std::array<EcaDemand, kEcaJoints> EcaArm::demandsFor(const ArmCommand& command) noexcept {
+    std::array<EcaDemand, kEcaJoints> demands;
+    demands.fill(speedDemand(0.0));
+    const bool may = !command.hold && !feedback_.stale && !feedback_.overloaded;
+    if (may && homing_ < kEcaJoints) {
+        const size_t j = homing_;
+        if (pressed_[j] >= kPressedFrames) { // here is its stop
+            zero_[j] = counts_[j] - std::llround(options_.stop[j] / radiansPerCount(j));
+            feedback_.position[j] = options_.stop[j];
+            feedback_.homed = ++homing_ == kEcaJoints;
+        } else {
+            demands[j] = speedDemand(-options_.homingSpeed);
+        }
+        return demands;
+    }
+    for (size_t j = 0; may && j < kEcaJoints; ++j) {
+        const double error = command.position[j] - feedback_.position[j];
+        demands[j] = std::isfinite(error) ? speedDemand(options_.gain * error) : speedDemand(0.0);
+    }
+    return demands;
+}
+
+void EcaArm::step(double now, const ArmCommand& command) noexcept {
+    receive(now);
+    watch(now, command);
+    if (now >= nextCommand_) {
+        nextCommand_ = now + options_.period;
+        sent_ = encodeEca(demandsFor(command));
+        port_.write(sent_);
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames of the ECA 5E Micro arm: 51 bytes each way, five joint blocks. Facts from the public driver
+// eca_arm5emicro_driver (gitAnto, MIT); other ECA arms and the hardware itself are unverified.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+namespace fathom {
+
+inline constexpr size_t kEcaJoints = 5; // shoulder, slew, elbow, wrist, gripper
+using EcaBytes = std::array<uint8_t, 51>;
+
+struct EcaDemand {
+    enum class Kind : uint8_t { Hold = 0, SpeedCw = 3, SpeedCcw = 4 };
+    Kind kind = Kind::Hold;
+    uint16_t speed = 0;           // 0..4095
+    uint16_t speedLimit = 4095;   // 0..4095
+    uint16_t currentLimit = 4095; // 0..4095
+};
+
+struct EcaStatus {
+    uint16_t encoder = 0; // wraps
+    uint16_t speed = 0;
+    uint8_t current = 0; // [mA] = 0.094 n - 0.2 in the public source; the byte's meaning is unverified
+    uint8_t temperature = 0;
+};
+
+// Sum S of bytes 0..48: (S mod 255) - floor(S / 255), as a byte.
+uint8_t ecaChecksum(const EcaBytes& frame) noexcept;
+EcaBytes encodeEca(const std::array<EcaDemand, kEcaJoints>& demands) noexcept;
+EcaBytes encodeEca(const std::array<EcaStatus, kEcaJoints>& status) noexcept; // what an arm answers
+std::array<EcaDemand, kEcaJoints> demandsOf(const EcaBytes& frame) noexcept;
+std::array<EcaStatus, kEcaJoints> statusOf(const EcaBytes& frame) noexcept;
+
+// Takes a line byte by byte and gives back whole frames: start byte, zeros, end byte and checksum must be
+// right; after a bad one it looks for the next start inside what it has. Never allocates or throws.
+class EcaReader {
+public:
+    std::optional<EcaBytes> take(uint8_t byte) noexcept;
+    uint64_t damaged() const noexcept { return damaged_; } // frames begun that were none
+
+private:
+    void resync() noexcept;
+
+    EcaBytes frame_{};
+    size_t size_ = 0;
+    uint64_t damaged_ = 0;
+};
+
+} // namespace fathom

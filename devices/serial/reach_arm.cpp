@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/serial/reach_arm.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kNever = -1e9;
+constexpr uint8_t kVelocity = 0x02, kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
+constexpr std::array<uint8_t, ReachArm::kAxes> kDevice{5, 4, 3, 2, 1};
+constexpr size_t kJaws = 4;
+
+double perUnit(size_t axis) noexcept { // ours to the line's: the jaws' are millimetres
+    return axis == kJaws ? 1e3 : 1.0;
+}
+
+} // namespace
+
+ReachArm::ReachArm(SerialPort& port, const ReachOptions& options)
+    : port_(port)
+    , options_(options) {
+    heardAt_.fill(kNever);
+    overSince_.fill(std::numeric_limits<double>::infinity());
+    feedback_.homed = true;
+    feedback_.age = std::numeric_limits<double>::infinity();
+}
+
+// The line's own echo is a position packet like an answer: each packet sent answers for one that is equal.
+bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
+    for (Sent& sent : sent_) {
+        const ReachPacket& p = sent.packet;
+        if (now - sent.at <= options_.echoTime && p.id == packet.id && p.device == packet.device &&
+            p.size == packet.size &&
+            std::equal(p.data.begin(), p.data.begin() + p.size, packet.data.begin())) {
+            sent.at = kNever;
+            return true;
+        }
+    }
+    return false;
+}
+
+void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
+    const auto value = packet.asFloat();
+    const auto device = std::find(kDevice.begin(), kDevice.end(), packet.device);
+    if (!value || !std::isfinite(*value) || device == kDevice.end() || isEcho(packet, now)) {
+        return;
+    }
+    const auto axis = static_cast<size_t>(device - kDevice.begin());
+    if (packet.id == kPosition) {
+        feedback_.position[axis] = static_cast<double>(*value) / perUnit(axis);
+        heardAt_[axis] = now;
+    } else if (packet.id == kCurrent) {
+        feedback_.current[axis] = static_cast<double>(*value) * 1e-3;
+    }
+}
+
+void ReachArm::receive(double now) noexcept {
+    std::array<uint8_t, 256> bytes{};
+    for (size_t got = port_.read(bytes); got > 0; got = port_.read(bytes)) {
+        for (size_t i = 0; i < got; ++i) {
+            if (const auto packet = reader_.take(bytes[i])) {
+                heard(*packet, now);
+            }
+        }
+    }
+    feedback_.damaged = reader_.damaged();
+}
+
+void ReachArm::watch(double now, const ArmCommand& command) noexcept {
+    const double oldest = *std::min_element(heardAt_.begin(), heardAt_.end());
+    feedback_.age = oldest == kNever ? std::numeric_limits<double>::infinity() : now - oldest;
+    feedback_.stale = !(feedback_.age <= options_.staleAfter);
+    for (size_t k = 0; k < kAxes; ++k) {
+        const bool over = std::abs(feedback_.current[k]) > options_.mostCurrent;
+        overSince_[k] = over ? std::min(overSince_[k], now) : std::numeric_limits<double>::infinity();
+        feedback_.overloaded = feedback_.overloaded || now - overSince_[k] > options_.overloadTime;
+    }
+    feedback_.holding = command.hold || feedback_.stale || feedback_.overloaded;
+}
+
+void ReachArm::send(const ReachPacket& packet, double now) noexcept {
+    ReachFrame frame;
+    const size_t size = encodeReach(packet, frame);
+    port_.write({frame.data(), size});
+    sent_[nextSent_] = {packet, now};
+    nextSent_ = (nextSent_ + 1) % sent_.size();
+}
+
+void ReachArm::sendAll(double now, const ArmCommand& command) noexcept {
+    for (size_t k = 0; k < kAxes; ++k) {
+        const double most = k == kJaws ? options_.jawLead : options_.lead;
+        const double ahead = std::clamp(command.position[k] - feedback_.position[k], -most, most);
+        if (feedback_.holding || !std::isfinite(ahead)) {
+            send(ReachPacket::ofFloat(kVelocity, kDevice[k], 0.0f), now);
+        } else {
+            const double setpoint = (feedback_.position[k] + ahead) * perUnit(k);
+            send(ReachPacket::ofFloat(kPosition, kDevice[k], static_cast<float>(setpoint)), now);
+        }
+        ReachPacket request{kRequest, kDevice[k], 2, {}};
+        request.data[0] = kPosition;
+        request.data[1] = kCurrent;
+        send(request, now);
+    }
+}
+
+void ReachArm::step(double now, const ArmCommand& command) noexcept {
+    receive(now);
+    watch(now, command);
+    if (now >= nextCommand_) {
+        nextCommand_ = now + options_.period;
+        sendAll(now, command);
+    }
+}
+
+} // namespace fathom

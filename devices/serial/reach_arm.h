@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Reach Alpha 5 on a serial line (RS-232 or RS-485, 115200 8N1). Facts from the public driver alpha
+// (evan-palmer, MIT). Unverified on hardware: the signs and zeros of its joints, its own current limits (this
+// host's are what counts), how it behaves when setpoints stop.
+#pragma once
+
+#include "devices/arm.h"
+#include "devices/serial/reach_packet.h"
+#include "devices/serial/serial_port.h"
+
+#include <vector>
+
+namespace fathom {
+
+struct ReachOptions {
+    double period = 0.02;    // [s] between commands
+    double staleAfter = 0.1; // [s] age of feedback at which the arm is told to stop
+    double lead = 0.05;     // [rad] a setpoint is at most this far ahead: where the arm ends if the line dies
+    double jawLead = 0.005; // [m] the same of the jaws
+    double mostCurrent = 1.5;  // [A] of any motor, longer than overloadTime: latched hold
+    double overloadTime = 0.1; // [s]
+    double echoTime = 0.05;    // [s] in which a packet equal to one sent is the line's own echo; 0 = no echo
+};
+
+// Axes: base, shoulder, elbow, wrist [rad], jaws [m]. Absolute sensors: no homing. Sends positions, each at
+// most `lead` ahead of what was measured; on hold velocity 0.
+class ReachArm final : public ArmDevice {
+public:
+    static constexpr size_t kAxes = 5;
+
+    ReachArm(SerialPort& port, const ReachOptions& options = {});
+
+    void step(double now, const ArmCommand& command) noexcept override;
+    const ArmFeedback& feedback() const noexcept override { return feedback_; }
+    void reset() noexcept override { feedback_.overloaded = false; }
+
+private:
+    struct Sent {
+        ReachPacket packet;
+        double at = -1e9; // [s]
+    };
+    void receive(double now) noexcept;
+    void heard(const ReachPacket& packet, double now) noexcept;
+    bool isEcho(const ReachPacket& packet, double now) noexcept;
+    void watch(double now, const ArmCommand& command) noexcept;
+    void sendAll(double now, const ArmCommand& command) noexcept;
+    void send(const ReachPacket& packet, double now) noexcept;
+
+    SerialPort& port_;
+    ReachOptions options_;
+    ReachReader reader_;
+    ArmFeedback feedback_;
+    std::array<double, kAxes> heardAt_{};   // [s] of each position; -1e9 = never
+    std::array<double, kAxes> overSince_{}; // [s]; infinite = not over
+    std::array<Sent, 32> sent_{};           // newest overwrite oldest
+    size_t nextSent_ = 0;
+    double nextCommand_ = -1e9; // [s]
+};
+
+} // namespace fathom

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// A simulated arm at the far end of a pseudo-terminal, on a line with faults.
+#pragma once
+
+#include "devices/simulated/arm_simulator.h"
+
+#include <deque>
+#include <fcntl.h>
+#include <poll.h>
+#include <random>
+#include <stdexcept>
+#include <stdlib.h>
+#include <string>
+#include <termios.h>
+#include <unistd.h>
+
+namespace fathom::testing {
+
+struct LineFaults {
+    double noise = 0.0;   // share of bytes that arrive as another
+    double loss = 0.0;    // share of bytes that do not arrive
+    bool echo = false;    // the host hears itself
+    double latency = 0.0; // [s] of answers
+    bool cut = false;     // nothing gets through
+};
+
+// Time is the test's; only the terminal is real, and it is waited for.
+class PtyLine {
+public:
+    explicit PtyLine(ArmSimulator& arm)
+        : arm_(arm)
+        , master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+        if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) {
+            throw std::runtime_error("no pseudo-terminal");
+        }
+        name_ = ::ptsname(master_);
+        slave_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY);
+        termios raw{};
+        ::tcgetattr(slave_, &raw);
+        ::cfmakeraw(&raw);
+        ::tcsetattr(slave_, TCSANOW, &raw);
+    }
+    ~PtyLine() {
+        ::close(slave_);
+        ::close(master_);
+    }
+    PtyLine(const PtyLine&) = delete;
+    PtyLine& operator=(const PtyLine&) = delete;
+
+    LineFaults faults;
+    const std::string& name() const { return name_; }
+
+    // What the host has sent goes to the arm, what the arm has answered by now goes to the host.
+    void exchange(double now) {
+        std::vector<uint8_t> answers;
+        uint8_t bytes[256];
+        for (pollfd wait{master_, POLLIN, 0}; ::poll(&wait, 1, 1) > 0;) {
+            const ssize_t got = ::read(master_, bytes, sizeof bytes);
+            if (got <= 0) {
+                break;
+            }
+            std::vector<uint8_t> sent(bytes, bytes + got);
+            spoil(sent);
+            if (faults.echo) {
+                answers.insert(answers.end(), bytes, bytes + got);
+            }
+            arm_.receive(sent, answers);
+        }
+        spoil(answers);
+        for (uint8_t byte : answers) {
+            waiting_.push_back({now + faults.latency, byte});
+        }
+        std::vector<uint8_t> due;
+        while (!waiting_.empty() && waiting_.front().at <= now) {
+            due.push_back(waiting_.front().byte);
+            waiting_.pop_front();
+        }
+        if (!due.empty() && ::write(master_, due.data(), due.size()) > 0) {
+            pollfd there{slave_, POLLIN, 0};
+            ::poll(&there, 1, 200);
+        }
+    }
+
+private:
+    struct Waiting {
+        double at;
+        uint8_t byte;
+    };
+
+    void spoil(std::vector<uint8_t>& bytes) {
+        std::uniform_real_distribution<double> share(0.0, 1.0);
+        std::vector<uint8_t> out;
+        for (uint8_t byte : bytes) {
+            if (!faults.cut && share(random_) >= faults.loss) {
+                out.push_back(share(random_) < faults.noise ? static_cast<uint8_t>(random_()) : byte);
+            }
+        }
+        bytes.swap(out);
+    }
+
+    ArmSimulator& arm_;
+    int master_, slave_ = -1;
+    std::string name_;
+    std::deque<Waiting> waiting_;
+    std::mt19937_64 random_{9};
+};
+
+} // namespace fathom::testing

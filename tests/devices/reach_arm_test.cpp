@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The Reach Alpha 5 driver against a simulated arm on a pseudo-terminal, on good lines and bad ones.
+#include "devices/serial/reach_arm.h"
+#include "engine/types/error.h"
+#include "tests/devices/pty_line.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+struct Rig {
+    ReachSimulator arm;
+    PtyLine line{arm};
+    SerialPort port{line.name(), 115200};
+    ReachArm driver;
+    double now = 0.0;
+
+    explicit Rig(const ReachOptions& options = {})
+        : driver(port, options) {}
+
+    void run(double seconds, const ArmCommand& command) {
+        constexpr double kStep = 0.01;
+        for (double end = now + seconds; now < end; now += kStep) {
+            driver.step(now, command);
+            line.exchange(now);
+            arm.step(kStep);
+        }
+        driver.step(now, command);
+    }
+    // Of what was commanded, in the line's units [rad], jaws [mm].
+    double error(const ArmCommand& command) const {
+        const std::array<size_t, 5> device{5, 4, 3, 2, 1};
+        double worst = 0.0;
+        for (size_t k = 0; k < 5; ++k) {
+            worst = std::max(worst,
+                             std::abs(arm.position[device[k]] - command.position[k] * (k == 4 ? 1e3 : 1.0)));
+        }
+        return worst;
+    }
+};
+
+const ArmCommand kGo{{0.3, -0.2, 0.4, 0.1, 0.01}, false};
+const ArmCommand kHold{{9.0, 9.0, 9.0, 9.0, 9.0}, true};
+
+} // namespace
+
+TEST_CASE("A Reach arm goes where it is told and says where it is") {
+    Rig rig;
+    CHECK(rig.driver.feedback().stale);
+    rig.run(2.0, kGo);
+    CHECK(rig.error(kGo) < 1e-5);
+    const ArmFeedback& f = rig.driver.feedback();
+    CHECK_FALSE(f.stale);
+    CHECK_FALSE(f.holding);
+    CHECK(f.homed);
+    CHECK(f.damaged == 0);
+    for (size_t k = 0; k < 5; ++k) {
+        CHECK(f.position[k] == doctest::Approx(kGo.position[k]).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("Noise, lost bytes, its own echo and late answers slow a Reach arm, and lead it nowhere else") {
+    for (const LineFaults& faults :
+         {LineFaults{0.004, 0.0, false, 0.0, false}, LineFaults{0.0, 0.004, false, 0.0, false},
+          LineFaults{0.0, 0.0, true, 0.0, false}, LineFaults{0.0, 0.0, false, 0.03, false},
+          LineFaults{0.003, 0.003, true, 0.02, false}}) {
+        Rig rig;
+        rig.line.faults = faults;
+        double farthest = 0.0;
+        for (int i = 0; i < 40; ++i) {
+            rig.run(0.1, kGo);
+            for (double q : rig.arm.position) {
+                farthest = std::max(farthest, std::abs(q));
+            }
+        }
+        CAPTURE(faults.noise);
+        CAPTURE(faults.loss);
+        CAPTURE(faults.echo);
+        CHECK(rig.error(kGo) < 1e-4);
+        CHECK(farthest < 10.0 + 1e-3); // the jaws' 10 mm are the farthest of all
+        CHECK((rig.driver.feedback().damaged > 0) == (faults.noise > 0.0 || faults.loss > 0.0));
+    }
+}
+
+TEST_CASE("On hold a Reach arm stands, and its own echo is not taken for feedback") {
+    Rig rig;
+    rig.line.faults.echo = true;
+    rig.run(0.5, kGo);
+    const auto held = rig.arm.position;
+    rig.run(0.05, kHold);
+    const auto there = rig.arm.position;
+    rig.run(0.5, kHold);
+    CHECK(rig.arm.position == there);
+    for (size_t d = 1; d < 6; ++d) {
+        CHECK(std::abs(there[d] - held[d]) < (d == 1 ? 1.0 : 0.06)); // it stopped within its lead
+    }
+    CHECK(rig.driver.feedback().holding);
+
+    Rig deaf; // nothing but echo comes back
+    deaf.line.faults.echo = true;
+    deaf.line.faults.cut = false;
+    struct Mute final : ArmSimulator {
+        void receive(std::span<const uint8_t>, std::vector<uint8_t>&) override {}
+        void step(double) override {}
+    } mute;
+    PtyLine line(mute);
+    line.faults.echo = true;
+    SerialPort port(line.name(), 115200);
+    ReachArm driver(port, {});
+    for (double now = 0.0; now < 1.0; now += 0.01) {
+        driver.step(now, kGo);
+        line.exchange(now);
+    }
+    CHECK(driver.feedback().stale);
+    CHECK(driver.feedback().holding);
+}
+
+TEST_CASE(
+    "A cut line makes feedback stale, the arm ends within its lead, and goes on when the line is back") {
+    Rig rig;
+    rig.run(0.2, kGo);
+    REQUIRE_FALSE(rig.driver.feedback().stale);
+    const double before = rig.arm.position[5];
+    rig.line.faults.cut = true;
+    rig.run(0.25, kGo);
+    CHECK(rig.driver.feedback().stale);
+    CHECK(rig.driver.feedback().holding);
+    CHECK(rig.driver.feedback().age > 0.1);
+    const double stopped = rig.arm.position[5];
+    CHECK(stopped - before < 0.05 + 0.02);
+    rig.run(1.0, kGo);
+    CHECK(rig.arm.position[5] == stopped);
+    rig.line.faults.cut = false;
+    rig.run(2.0, kGo);
+    CHECK_FALSE(rig.driver.feedback().stale);
+    CHECK(rig.error(kGo) < 1e-4);
+}
+
+TEST_CASE("A motor that draws too much for too long holds the arm until it is reset") {
+    Rig rig;
+    rig.run(0.2, kGo);
+    rig.arm.current[3] = 2000.0; // [mA] of 1500
+    rig.run(0.05, kGo);
+    CHECK_FALSE(rig.driver.feedback().overloaded); // a peak is none
+    rig.run(0.3, kGo);
+    CHECK(rig.driver.feedback().overloaded);
+    CHECK(rig.driver.feedback().current[2] == doctest::Approx(2.0));
+    const auto there = rig.arm.position;
+    rig.arm.current[3] = 100.0;
+    rig.run(0.3, kGo);
+    CHECK(rig.driver.feedback().overloaded);
+    CHECK(rig.arm.position == there);
+    rig.driver.reset();
+    rig.run(2.0, kGo);
+    CHECK(rig.error(kGo) < 1e-4);
+}
+
+TEST_CASE("A serial line that is none is refused in one line") {
+    const auto refusal = [](const std::string& name, uint32_t baud) -> std::string {
+        try {
+            SerialPort port(name, baud);
+        } catch (const BadInput& e) {
+            return e.what();
+        }
+        return "";
+    };
+    CHECK(refusal("/dev/no_such_line", 115200).find("No such file") != std::string::npos);
+    CHECK(refusal("/dev/null", 115200).find("a terminal device") != std::string::npos);
+    CHECK(refusal("/dev/null", 1234).find("115200") != std::string::npos);
+    Rig rig;
+    CHECK_NOTHROW(
+        SerialPort(rig.line.name(), 115200, true)); // no direction control there: told, and no error
+}
