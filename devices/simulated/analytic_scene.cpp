@@ -2,6 +2,7 @@
 #include "devices/simulated/analytic_scene.h"
 
 #include "devices/simulated/tank_scene.h"
+#include "devices/simulated/wetmate_scene.h"
 
 #include <cmath>
 
@@ -102,8 +103,8 @@ AnalyticScene cornerScene() {
 } // namespace
 
 const std::vector<std::string>& analyticSceneNames() {
-    static const std::vector<std::string> kNames = {"tank", "sphere", "plane", "torus",
-                                                    "slot", "gap",    "plate", "corner"};
+    static const std::vector<std::string> kNames = {"tank", "sphere", "plane",  "torus",  "slot",
+                                                    "gap",  "plate",  "corner", "wetmate"};
     return kNames;
 }
 
@@ -131,6 +132,9 @@ std::optional<AnalyticScene> analyticScene(std::string_view name) {
     }
     if (name == "corner") {
         return cornerScene();
+    }
+    if (name == "wetmate") {
+        return wetmateScene();
     }
     return std::nullopt;
 }

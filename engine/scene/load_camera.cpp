@@ -15,7 +15,7 @@ CameraSource loadSource(const YamlNode& node, const Scene& scene) {
     }
     if (simulated) {
         constexpr std::string_view kScenes[] = {"tank", "sphere", "plane",  "torus", "slot",
-                                                "gap",  "plate",  "corner", "sonar"};
+                                                "gap",  "plate",  "corner", "sonar", "wetmate"};
         return {CameraSource::Kind::Simulated, std::string(kScenes[simulated->oneOf(kScenes)])};
     }
     if (recorded) {

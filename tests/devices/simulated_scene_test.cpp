@@ -39,7 +39,7 @@ bool inBand(const Hsl& c, double lo, double hi) {
 } // namespace
 
 TEST_CASE("Every built-in scene is known by its name and any other name is not") {
-    CHECK(analyticSceneNames().size() == 8);
+    CHECK(analyticSceneNames().size() == 9);
     for (const std::string& name : analyticSceneNames()) {
         const std::optional<AnalyticScene> scene = analyticScene(name);
         REQUIRE(scene.has_value());

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// A wet-mate connector beside a valve: what an arm is to approach, and what it must not touch on the way.
+#pragma once
+
+#include "devices/simulated/analytic_scene.h"
+
+namespace fathom {
+
+// Scene frame as all. The red wheel's middle and the middle of the yellow receptacle's face, which looks at
+// the camera [m].
+inline constexpr dvec3 kWetmateWheel{-0.08, 0.0, 0.86}, kWetmateFace{0.12, 0.03, 0.88};
+
+AnalyticScene wetmateScene();
+
+} // namespace fathom
