@@ -16,6 +16,7 @@ layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, 
 layout(constant_id = 7) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
 layout(constant_id = 8) const uint kFour = 0;       // 1: the width is a multiple of four: a texel of depth is four pixels
 layout(constant_id = 9) const uint kRange = 0;      // 1: some class asks for the range
+layout(constant_id = 10) const uint kArm = 0;       // 1: what the arm's spheres hold is no point of any class
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
@@ -27,6 +28,9 @@ layout(std430, binding = 6) buffer Listed { uint listed[]; };               // p
 layout(std430, binding = 7) writeonly buffer List { uint list[]; };         // patches with work, any order
 layout(std430, binding = 8) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points kept in memory
+// The arm, about the origin [m]: x of arm[0] = bits of the count of links; a link is two entries, its bound and (bits of) the first
+// and the end of its spheres.
+layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
 
 #include "shaders/lib/colour.glsl"
 #include "shaders/lib/depth.glsl"
@@ -71,6 +75,28 @@ bool inRange(vec4 gate, float range) {
     return kRange != 0 ? any(bvec2(gate.z == 0.0, clamp(range, gate.x, gate.y) == range)) : true;
 }
 
+bool within(vec3 p, vec4 sphere) {
+    vec3 d = p - sphere.xyz;
+    return dot(d, d) <= sphere.w * sphere.w;
+}
+
+bool onArm(vec3 p) {
+    uint links = floatBitsToUint(arm[0].x);
+    for (uint k = 0; k < links; ++k) {
+        if (!within(p, arm[1u + 2u * k])) {
+            continue;
+        }
+        vec4 range = arm[2u + 2u * k];
+        uint end = floatBitsToUint(range.y);
+        for (uint s = floatBitsToUint(range.x); s < end; ++s) {
+            if (within(p, arm[s])) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 void putOnList(uint patchIndex) {
     if (listed[patchIndex] == 0 && atomicExchange(listed[patchIndex], 1u) == 0) {
         uint place = atomicAdd(counters.patchGroups.x, 1u);
@@ -84,14 +110,18 @@ uint classBits(uvec2 at, uint pixel, float z) {
     vec3 rgb = vec3(0.0);
     bool seen = kColour != 0 && colourOf(pixel, p, rgb);
     Hsl colourHere = hslOf(rgb);
-    vec3 base = kBox != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
+    vec3 base = kBox != 0 || kArm != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     float range = kRange != 0 ? length(p) : 0.0;
     uint mask = 0;
     for (uint c = 0; c < kClasses; ++c) {
         uint member = uint(inClass(params.classes[c], colourHere, seen, base)) & uint(inRange(params.ranges[c], range));
         mask |= member << c;
     }
-    return z != 0.0 ? mask : 0u;
+    mask = z != 0.0 ? mask : 0u;
+    if (kArm != 0 && mask != 0 && onArm(base)) {
+        return 0;
+    }
+    return mask;
 }
 
 shared uint found[kMaxClasses];

@@ -13,10 +13,10 @@ void ContactLoop::run(const std::atomic<bool>& stop) {
     }
 }
 
-void ContactLoop::answerOne(const Pose& baseTtool) {
+void ContactLoop::answerOne(const ToolPlace& place) {
     ContactSet& set = crossings_.contacts.back();
     const auto begin = std::chrono::steady_clock::now();
-    if (!answers_.answer(baseTtool, set)) {
+    if (!answers_.answer(place, set)) {
         return;
     }
     const auto end = std::chrono::steady_clock::now();

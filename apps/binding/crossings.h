@@ -42,6 +42,7 @@ struct TurnRow {
     TurnRecord record;
     HandSample hand;         // raw, as the device gave it
     Pose start;              // base_T_tool that the turn started from
+    ArmPosture startArm;     // and the arm, where there is one
     uint64_t generation = 0; // of the fixture set obeyed; 0 = none
     uint64_t query = 0;      // whose answer was obeyed; 0 = none
     double wokenLate = 0.0;  // [s] from when the turn was due to its start
@@ -80,7 +81,8 @@ struct Crossings {
         , emptied(2 * kFramesInFlight) {}
 
     Latest<SceneNews> scene;             // frame -> haptic
-    Latest<Pose> proxy;                  // haptic -> contact: base_T_tool
+    Latest<ToolPlace> proxy;             // haptic -> contact
+    Latest<ToolPlace> shown;             // haptic -> frame: where the arm is, for the self-filter
     Latest<ShapeList> shapes;            // window -> haptic
     LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, in force and offered
     Ring<TurnRow> turns;                 // haptic -> writer

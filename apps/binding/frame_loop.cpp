@@ -102,6 +102,9 @@ PublishedFrame* FrameLoop::emptyFrame() {
 
 void FrameLoop::publish(double t) {
     PublishedFrame* frame = emptyFrame();
+    if (crossings_.shown.refresh()) {
+        feed_.shown(crossings_.shown.front());
+    }
     feed_.publish(t, *frame);
     frame->t = t;
     if (frame->changed) {

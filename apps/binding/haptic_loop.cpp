@@ -89,7 +89,7 @@ double HapticLoop::turn(double due) noexcept {
     // The end of the period that the clock is in: after a late wake-up that is not the one that was due.
     const Until until{&clock_, (std::floor(began / period_) + 1.0) * period_};
     const TurnInput input = inputFor(began, sample, until);
-    const Pose start = cycle_.pose();
+    const ToolPlace start = cycle_.place();
     const auto turnBegan = std::chrono::steady_clock::now();
     const TurnRecord record = cycle_.turn(input);
     const auto turnOver = std::chrono::steady_clock::now();
@@ -98,8 +98,11 @@ double HapticLoop::turn(double due) noexcept {
         inForce_ = std::move(offered_);
         offered_ = {};
     }
-    crossings_.proxy.back() = cycle_.pose();
+    const ToolPlace place = cycle_.place();
+    crossings_.proxy.back() = place;
     crossings_.proxy.publish();
+    crossings_.shown.back() = place;
+    crossings_.shown.publish();
     const double over = clock_.now();
     report(record, sample, start, due, began,
            std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over);
@@ -111,12 +114,13 @@ double HapticLoop::turn(double due) noexcept {
     return over;
 }
 
-void HapticLoop::report(const TurnRecord& record, const HandSample& hand, const Pose& start, double due,
+void HapticLoop::report(const TurnRecord& record, const HandSample& hand, const ToolPlace& start, double due,
                         double began, double took, double over) noexcept {
     TurnRow row;
     row.record = record;
     row.hand = hand;
-    row.start = start;
+    row.start = start.pose;
+    row.startArm = start.arm;
     row.generation = inForce_ ? inForce_->generation : 0;
     row.query = inForce_ ? inForce_->query : 0;
     row.wokenLate = began - due;

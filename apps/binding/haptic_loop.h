@@ -38,8 +38,8 @@ private:
     bool ended(double t) const noexcept;
     void offerNewest() noexcept;
     TurnInput inputFor(double now, const HandSample& sample, const Until& until) const noexcept;
-    void report(const TurnRecord& record, const HandSample& hand, const Pose& start, double due, double began,
-                double took, double over) noexcept;
+    void report(const TurnRecord& record, const HandSample& hand, const ToolPlace& start, double due,
+                double began, double took, double over) noexcept;
 
     HapticCycle& cycle_;
     HapticDevice& hand_;

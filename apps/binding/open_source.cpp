@@ -105,7 +105,9 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
     return std::make_unique<WaterCamera>(std::move(camera), port, scene.nearZ, scene.farZ);
 }
 
-Tool openTool(const Scene& scene) {
+namespace {
+
+Tool writtenTool(const Scene& scene) {
     try {
         if (!scene.tool.file.empty()) {
             return Tool(readSphereTree(scene.tool.file));
@@ -121,6 +123,19 @@ Tool openTool(const Scene& scene) {
         throw BadInput(scene.file.string(), "tool", e.what(),
                        "1 to 4096 spheres with finite centres and positive radii");
     }
+}
+
+} // namespace
+
+std::unique_ptr<ArmRig> openArm(const Scene& scene) {
+    if (!scene.arm || !scene.tool.given()) {
+        return makeArmRig(scene, {});
+    }
+    return makeArmRig(scene, writtenTool(scene).leaves());
+}
+
+Tool openTool(const Scene& scene, const ArmRig* arm) {
+    return arm != nullptr ? arm->heldTool() : writtenTool(scene);
 }
 
 } // namespace fathom

@@ -4,6 +4,7 @@
 
 #include "devices/camera.h"
 #include "engine/contact/tool.h"
+#include "engine/cycle/arm_rig.h"
 #include "engine/scene/scene.h"
 
 #include <filesystem>
@@ -27,7 +28,11 @@ enum class Pictures { Newest, Every };
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Pictures pictures = Pictures::Newest);
 
-// The scene's tool: listed spheres or a .sph file. Throws BadInput.
-Tool openTool(const Scene& scene);
+// The scene's arm, or null where it has none. Throws BadInput.
+std::unique_ptr<ArmRig> openArm(const Scene& scene);
+
+// The scene's tool: listed spheres or a .sph file; what the arm's tip carries, the scene's tool included,
+// where there is an arm. Throws BadInput.
+Tool openTool(const Scene& scene, const ArmRig* arm = nullptr);
 
 } // namespace fathom

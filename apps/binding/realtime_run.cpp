@@ -121,7 +121,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     HapticLoop haptic(cycle, hand, crossings_, clock_, {pathDuration, options_.framePeriod}, options_.trace);
     WatchedSink watched(sink, options_.staleAfter);
     RecordDrain drain(crossings_, watched);
-    crossings_.proxy.back() = cycle.pose();
+    crossings_.proxy.back() = cycle.place();
     crossings_.proxy.publish();
     clock_.start(kHeadStart);
     {

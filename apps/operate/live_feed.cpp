@@ -54,12 +54,12 @@ void LiveFeed::publish(double t, PublishedFrame& out) {
     out.colour.swap(colour_);
 }
 
-bool LiveAnswers::answer(const Pose& baseTtool, ContactSet& out) {
+bool LiveAnswers::answer(const ToolPlace& place, ContactSet& out) {
     const auto set = session_.frames.sets().newest();
     if (!set) {
         return false;
     }
-    session_.contact.query(*set, baseTtool, out);
+    session_.contact.query(*set, place, out);
     return true;
 }
 

@@ -45,7 +45,7 @@ class LiveAnswers final : public ContactAnswers {
 public:
     explicit LiveAnswers(OperateSession& session)
         : session_(session) {}
-    bool answer(const Pose& baseTtool, ContactSet& out) override;
+    bool answer(const ToolPlace& place, ContactSet& out) override;
 
 private:
     OperateSession& session_;

@@ -84,12 +84,13 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
                                const std::atomic<bool>& stop)
     : scene(withSpareClasses(openScene(options.scene)))
     , camera(endless(scene, options, stop))
-    , tool(openTool(scene))
+    , arm(openArm(scene))
+    , tool(openTool(scene, arm.get()))
     , instance(gpu::Validation{options.validate, false}, extensions)
     , device(instance, global.device, drawing)
     , plan(planToEdit(scene, camera->info(), tool, device.facts()))
     , frames(device, scene, camera->info(), plan, kReaders)
-    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach) {}
+    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach, arm.get()) {}
 
 std::string OperateSession::title() const {
     return scene.file.stem().string() + ", " + camera->description();

@@ -27,7 +27,8 @@ struct OperateSession {
 
     Scene scene; // with spare classes
     std::unique_ptr<Camera> camera;
-    Tool tool;
+    std::unique_ptr<ArmRig> arm; // null = the tool moves freely
+    Tool tool;                   // on an arm, what its tip carries
     gpu::Instance instance;
     gpu::Device device;
     Plan plan;

@@ -20,7 +20,8 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
-    const Tool tool = openTool(scene);
+    const auto arm = openArm(scene);
+    const Tool tool = openTool(scene, arm.get());
     const gpu::Instance instance;
     const gpu::Device device(instance, global.device);
     const Plan plan =
@@ -28,7 +29,12 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     std::cout << "scene   " << options.scene << ", " << camera->description() << ", "
               << camera->info().depth.width << "x" << camera->info().depth.height << "\n"
               << "device  " << device.facts().name << " (" << device.facts().driver << ")\n"
-              << "tool    " << tool.leafCount() << " leaves\n\n";
+              << "tool    " << tool.leafCount() << " leaves\n";
+    if (arm) {
+        std::cout << "arm     " << arm->model.count() << " joints, " << arm->model.leaves.size()
+                  << " leaves on " << arm->model.links.size() << " links\n";
+    }
+    std::cout << "\n";
     printPlan(std::cout, plan);
     std::cout << "\n" << plan.dispatchesPerFrame() << " dispatches a frame\n";
 }

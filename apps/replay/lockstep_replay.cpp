@@ -28,7 +28,7 @@ LockstepReplay::LockstepReplay(ReplaySession& session, const ReplayOptions& opti
     , trace_(trace)
     , shapes_(shapesOf(session.scene))
     , haptics_(makeHapticOptions(session.scene, session.tool))
-    , audit_(session.tool) {}
+    , audit_(session.tool, session.arm.get()) {}
 
 void LockstepReplay::fetch() {
     next_ = session_.camera->next();
@@ -42,6 +42,10 @@ void LockstepReplay::fetch() {
 
 void LockstepReplay::processNext() {
     lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
+    if (session_.plan.selfFilter) { // the picture shows the arm where it is now
+        session_.frames.setArm(
+            session_.arm->inPicture(cycle_ ? cycle_->place().arm : session_.arm->startPosture()));
+    }
     ready_ = session_.frames.process(std::move(*next_));
     if (trace_ != nullptr) {
         trace_->frame(*ready_);
@@ -76,7 +80,7 @@ void LockstepReplay::query(double) {
     if (published_) {
         auto answer = std::make_unique<ContactSet>();
         const auto start = std::chrono::steady_clock::now();
-        session_.contact.query(*session_.frames.sets().newest(), cycle_->pose(), *answer);
+        session_.contact.query(*session_.frames.sets().newest(), cycle_->place(), *answer);
         recorder_.query(micros(start));
         if (trace_ != nullptr) {
             trace_->query(start, std::chrono::steady_clock::now(), answer->size());
@@ -101,7 +105,7 @@ void LockstepReplay::dropOldSets() {
     }
 }
 
-void LockstepReplay::audit(const TurnRecord& record, const Pose& start) {
+void LockstepReplay::audit(const TurnRecord& record, const ToolPlace& start) {
     const Kept* obeyed = inForce_ ? keptSet(inForce_->generation) : nullptr;
     if (obeyed == nullptr || !session_.plan.spheres) {
         return;
@@ -110,7 +114,7 @@ void LockstepReplay::audit(const TurnRecord& record, const Pose& start) {
     for (const ContactSet::Behind& b : inForce_->behind) {
         behind.push_back(b.leaf);
     }
-    audit_.tick(obeyed->fixtures, obeyed->grid, start, record.tool, behind);
+    audit_.tick(obeyed->fixtures, obeyed->grid, start, {record.tool, record.arm.posture}, behind);
 }
 
 void LockstepReplay::tick(double t) {
@@ -130,7 +134,7 @@ void LockstepReplay::tick(double t) {
     }
     input.sourceEnded = sourceEnded_;
 
-    const Pose start = cycle_->pose();
+    const ToolPlace start = cycle_->place();
     const auto began = std::chrono::steady_clock::now();
     const TurnRecord record = cycle_->turn(input);
     const double took = micros(began);
@@ -144,7 +148,7 @@ void LockstepReplay::tick(double t) {
     }
     hand_->write(record.deviceWrench, haptics_.period);
     audit(record, start);
-    recorder_.tick(tickOf(record, took, took > haptics_.period * 1e6));
+    recorder_.tick(tickOf(record, start.arm, took, took > haptics_.period * 1e6));
     if (inForce_ && recorder_.wantsMoment()) {
         if (const Kept* obeyed = keptSet(inForce_->generation)) {
             recorder_.moment(obeyed->fixtures, lastColour_);
@@ -164,7 +168,8 @@ ReplayRecorder::Ending LockstepReplay::run() {
     processNext(); // early: the built-in path needs the first set; it is in force from its own time on
     path_.emplace(openHandPath(session_, options_, *session_.frames.sets().newest()));
     hand_ = openHand(*path_, session_, options_);
-    cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle);
+    cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
+                   session_.arm.get());
 
     Progress progress;
     for (double t = 0.0; !ended(t); t = static_cast<double>(ticks_) * haptics_.period) {
@@ -179,8 +184,8 @@ ReplayRecorder::Ending LockstepReplay::run() {
     ending.skipped = session_.camera->skipped();
     ending.contact = session_.contact.statistics();
     ending.where = session_.where();
-    ending.maxPenetration = audit_.maxPenetration();
-    ending.maxEscapeDepth = audit_.maxEscapeDepth();
+    ending.maxPenetration = audit_.figures().maxPenetration();
+    ending.maxEscapeDepth = audit_.figures().maxEscapeDepth();
     ending.stiffness = cycle_->springs().stiffness;
     ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
     ending.device = session_.device.facts().name;
@@ -191,6 +196,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
     ending.colour = lastColour_;
     ending.lastSet = &kept_.back()->fixtures;
     ending.leaves = session_.tool.leaves();
+    ending.linkPenetration = audit_.linkPenetration();
     return ending;
 }
 

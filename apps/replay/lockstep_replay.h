@@ -5,9 +5,9 @@
 
 #include "apps/replay/replay_recorder.h"
 #include "apps/replay/replay_session.h"
+#include "apps/replay/tool_audit.h"
 #include "engine/cycle/cadence_trace.h"
 #include "engine/cycle/haptic_cycle.h"
-#include "engine/reference/penetration_audit.h"
 
 #include <deque>
 #include <memory>
@@ -42,7 +42,7 @@ private:
     bool ended(double t) const;
     void query(double t);
     void tick(double t);
-    void audit(const TurnRecord& record, const Pose& start);
+    void audit(const TurnRecord& record, const ToolPlace& start);
     const Kept* keptSet(uint64_t generation) const;
     void dropOldSets();
 
@@ -55,7 +55,7 @@ private:
     std::optional<HandPath> path_;
     std::unique_ptr<HapticDevice> hand_;
     std::optional<HapticCycle> cycle_;
-    PenetrationAudit audit_;
+    ToolAudit audit_;
 
     std::optional<Frame> next_;        // fetched, not yet due
     std::optional<FrameReport> ready_; // processed, not yet due

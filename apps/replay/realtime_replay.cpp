@@ -33,7 +33,17 @@ std::string describe(const ThreadPlacement& placement) {
 class RealtimeReplay::Feed final : public FrameFeed {
 public:
     explicit Feed(ReplaySession& session)
-        : session_(session) {}
+        : session_(session) {
+        if (session_.plan.selfFilter) {
+            session_.frames.setArm(session_.arm->inPicture(session_.arm->startPosture()));
+        }
+    }
+
+    void shown(const ToolPlace& place) override {
+        if (session_.plan.selfFilter) {
+            session_.frames.setArm(session_.arm->inPicture(place.arm));
+        }
+    }
 
     std::optional<uint32_t> fetch() override {
         next_ = session_.camera->next();
@@ -82,12 +92,12 @@ public:
     explicit Answers(ReplaySession& session)
         : session_(session) {}
 
-    bool answer(const Pose& baseTtool, ContactSet& out) override {
+    bool answer(const ToolPlace& place, ContactSet& out) override {
         const auto set = session_.frames.sets().newest();
         if (!set) {
             return false;
         }
-        session_.contact.query(*set, baseTtool, out);
+        session_.contact.query(*set, place, out);
         return true;
     }
 
@@ -103,7 +113,7 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , placement_(placement)
     , shapes_(shapesOf(session.scene))
     , haptics_(makeHapticOptions(session.scene, session.tool))
-    , audit_(session.tool)
+    , audit_(session.tool, session.arm.get())
     , view_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
     , feed_(std::make_unique<Feed>(session))
     , answers_(session.plan.query != Plan::Query::None ? std::make_unique<Answers>(session) : nullptr)
@@ -146,7 +156,8 @@ ReplayRecorder::Ending RealtimeReplay::run() {
         runLive(path);
     } else {
         const std::unique_ptr<HapticDevice> hand = openHand(path, session_, options_);
-        cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle);
+        cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle, nullptr,
+                       session_.arm.get());
         run_->run(*cycle_, *hand, path.duration(), *this, signals_.asked());
     }
     progress_.finish();
@@ -166,7 +177,8 @@ void RealtimeReplay::runLive(const HandPath& path) {
     LiveHand& hand = *session_.liveHand;
     awaitHand(hand, signals_.asked());
     const Pose start = startOf(path, session_.scene);
-    cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start);
+    cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start,
+                   session_.arm.get());
     run_->run(*cycle_, hand, options_.seconds, *this, signals_.asked());
 }
 
@@ -177,8 +189,9 @@ ReplayRecorder::Ending RealtimeReplay::ending() {
     ending.contact = session_.contact.statistics();
     ending.where = session_.where();
     if (audited_ && figures_.recordsLost == 0) {
-        ending.maxPenetration = audit_.maxPenetration();
-        ending.maxEscapeDepth = audit_.maxEscapeDepth();
+        ending.maxPenetration = audit_.figures().maxPenetration();
+        ending.maxEscapeDepth = audit_.figures().maxEscapeDepth();
+        ending.linkPenetration = audit_.linkPenetration();
     }
     ending.stiffness = cycle_->springs().stiffness;
     ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
@@ -216,7 +229,7 @@ void RealtimeReplay::query(const QueryNote& note) {
 void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                           std::span<const uint32_t> behind) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
-    recorder_.tick(tickOf(row.record, row.micros, row.late));
+    recorder_.tick(tickOf(row.record, row.startArm, row.micros, row.late));
     if (view_) {
         view_->turn(row);
     }
@@ -233,7 +246,8 @@ void RealtimeReplay::audit(const TurnRow& row, const PublishedFrame* obeyed, boo
     }
     audited_ = audited_ && obeyedKnown;
     if (obeyed != nullptr && audited_) {
-        audit_.tick(obeyed->fixtures, obeyed->grid, row.start, row.record.tool, behind);
+        audit_.tick(obeyed->fixtures, obeyed->grid, {row.start, row.startArm},
+                    {row.record.tool, row.record.arm.posture}, behind);
     }
 }
 

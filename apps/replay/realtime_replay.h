@@ -10,7 +10,7 @@
 #include "apps/replay/progress.h"
 #include "apps/replay/replay_recorder.h"
 #include "apps/replay/replay_session.h"
-#include "engine/reference/penetration_audit.h"
+#include "apps/replay/tool_audit.h"
 
 #include <memory>
 #include <optional>
@@ -75,7 +75,7 @@ private:
     Progress progress_;
     std::vector<Shape> shapes_;
     HapticOptions haptics_;
-    PenetrationAudit audit_;
+    ToolAudit audit_;
     bool audited_ = true;                 // every turn so far could be
     std::unique_ptr<ViewPublisher> view_; // null = nobody may watch
     std::unique_ptr<Feed> feed_;

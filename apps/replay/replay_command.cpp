@@ -25,6 +25,19 @@ void printPart(const char* name, const Percentiles& p, const char* unit) {
     }
 }
 
+void print(const ReplaySummary::Arm& arm) {
+    std::cout << "arm          " << arm.leaves << " leaves on " << arm.links.size() << " links, "
+              << arm.joints.size() << " joints; at a limit in " << arm.limitedTicks << " turns, singular in "
+              << arm.singularTicks << ", limits exceeded by " << arm.limitViolation << "\n";
+    printPart("  residual  ", arm.residual, "m");
+    for (const auto& link : arm.links) {
+        if (link.penetration) {
+            std::cout << "  link       " << link.name << ": " << link.leaves << " leaves, "
+                      << *link.penetration * 1e6 << " um deep\n";
+        }
+    }
+}
+
 void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << std::setprecision(4);
     std::cout << "frames       " << s.frames.count << " used, " << s.frames.skipped << " skipped on "
@@ -42,6 +55,9 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
         std::cout << *s.haptic.maxPenetration * 1e6 << " um beyond the allowance\n";
     } else {
         std::cout << "not audited\n";
+    }
+    if (s.arm) {
+        print(*s.arm);
     }
     for (const auto& f : s.fixtures) {
         std::cout << "fixture      " << f.name << " (" << f.role << "): " << f.pointsMean.value_or(0.0)
@@ -86,7 +102,8 @@ std::unique_ptr<CadenceTrace> openTrace(const ReplaySession& session, const Glob
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
     ReplaySession session(options, global, 2);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures);
+    ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures,
+                            session.arm.get());
     LockstepReplay replay(session, options, recorder, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
@@ -103,7 +120,8 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
         placement.rest); // before the device: a software device's workers inherit it
     ReplaySession session(options, global, 2);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures);
+    ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures,
+                            session.arm.get());
     RealtimeReplay replay(session, options, recorder, placement, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {

@@ -41,12 +41,14 @@ FrameRecord recordOf(const FrameReport& report, double t, const std::vector<std:
 } // namespace
 
 ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
-                               bool saveFixtures)
+                               bool saveFixtures, const ArmRig* arm)
     : out_(prepared(std::move(out), saveFixtures))
     , scene_(scene)
     , saveFixtures_(saveFixtures)
     , haptics_(out_ / "haptics.csv")
     , frames_(out_ / "frames.csv", passes)
+    , arm_(arm)
+    , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm) : nullptr)
     , passes_(std::move(passes))
     , sums_(scene.fixtures.size()) {
     for (const FixtureClass& f : scene.fixtures) {
@@ -94,6 +96,9 @@ void ReplayRecorder::tick(const TickRecord& tick) {
     totals_.add(tick);
     history_.add(tick);
     lastTick_ = tick;
+    if (armReport_) {
+        armReport_->add(tick);
+    }
 }
 
 bool ReplayRecorder::wantsMoment() const {
@@ -149,7 +154,9 @@ void ReplayRecorder::writePictures(const Ending& ending) const {
     for (const FixtureClass& f : scene_.fixtures) {
         overlay.classNames.push_back(f.name);
     }
-    overlay.leaves = ending.leaves;
+    const std::vector<Sphere> links =
+        arm_ != nullptr ? arm_->aboutTip(overlay.tick.arm.posture) : std::vector<Sphere>{};
+    overlay.leaves = arm_ != nullptr ? std::span<const Sphere>(links) : ending.leaves;
     overlay.title = ending.title;
     writeOverlay(out_ / "overlay.png", overlay);
 }
@@ -175,6 +182,10 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
                        percentilesOf(std::move(queryMicros_)), ending.where};
     summary.fixtures = fixtureRows();
     summary.guidance = guidance_;
+    if (armReport_) {
+        armReport_->commit();
+        summary.arm = armReport_->summary(ending.linkPenetration);
+    }
     summary.device = ending.device;
     summary.lockstep = ending.lockstep;
     writeSummary(out_ / "summary.json", summary);

@@ -2,6 +2,7 @@
 // Takes everything a replay produces, as it comes, and leaves the files of the output contract.
 #pragma once
 
+#include "apps/replay/arm_report.h"
 #include "apps/replay/frames_csv.h"
 #include "apps/replay/haptics_csv.h"
 #include "apps/replay/summary.h"
@@ -12,6 +13,7 @@
 #include "engine/cycle/frame_cycle.h"
 
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace fathom {
@@ -22,7 +24,7 @@ public:
     // fixture sets are saved as fixtures/NNNNNN.ply when saveFixtures. Throws Error that names what cannot be
     // written.
     ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
-                   bool saveFixtures);
+                   bool saveFixtures, const ArmRig* arm = nullptr);
 
     // A used frame, at t [s] of the run, with the set it made; unchanged frames too.
     void frame(const FrameReport& report, double t, const Fixtures& set);
@@ -49,6 +51,7 @@ public:
         std::span<const uint32_t> colour; // of the last frame, for runs without any force; may be empty
         const Fixtures* lastSet = nullptr;
         std::span<const Sphere> leaves;
+        std::vector<double> linkPenetration; // [m] of ToolAudit; empty = no arm, or not audited
     };
     // Writes all files and returns what summary.json says.
     ReplaySummary finish(const Ending& ending);
@@ -68,6 +71,8 @@ private:
     bool saveFixtures_;
     HapticsCsv haptics_;
     FramesCsv frames_;
+    const ArmRig* arm_;
+    std::unique_ptr<ArmReport> armReport_; // null without an arm
     std::vector<std::string> passes_;
     TickTotals totals_;
     TraceHistory history_;

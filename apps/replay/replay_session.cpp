@@ -53,11 +53,12 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
     : scene(sceneOf(options))
     , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(openReplayCamera(scene, options))
-    , tool(openTool(scene))
+    , arm(openArm(scene))
+    , tool(openTool(scene, arm.get()))
     , device(instance, global.device)
     , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))
     , frames(device, scene, camera->info(), plan, readers)
-    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach) {}
+    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach, arm.get()) {}
 
 std::string ReplaySession::title() const {
     return scene.file.stem().string() + ", " + camera->description();

@@ -22,7 +22,8 @@ struct ReplaySession {
     Scene scene;
     std::unique_ptr<LiveHand> liveHand; // null = scripted or simulated
     std::unique_ptr<Camera> camera;
-    Tool tool;
+    std::unique_ptr<ArmRig> arm; // null = the tool moves freely
+    Tool tool;                   // on an arm, what its tip carries
     gpu::Instance instance;
     gpu::Device device;
     Plan plan;

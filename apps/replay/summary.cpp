@@ -88,6 +88,31 @@ Json guidanceJson(const std::vector<ReplaySummary::GuidanceRow>& rows) {
     return list;
 }
 
+Json armJson(const ReplaySummary::Arm& arm) {
+    Json joints = Json::array(), links = Json::array();
+    for (const auto& j : arm.joints) {
+        joints.push_back({{"name", j.name},
+                          {"lower", number(j.lower)},
+                          {"upper", number(j.upper)},
+                          {"speed_limit", number(j.speed)},
+                          {"min", number(j.least)},
+                          {"max", number(j.most)},
+                          {"max_speed", number(j.fastest)}});
+    }
+    for (const auto& l : arm.links) {
+        links.push_back(
+            {{"link", l.name}, {"leaves", l.leaves}, {"max_penetration_m", number(l.penetration)}});
+    }
+    return {{"leaves", arm.leaves},
+            {"joints", joints},
+            {"links", links},
+            {"limit_violation_max", number(arm.limitViolation)},
+            {"residual_m", times(arm.residual)},
+            {"limited_ticks", arm.limitedTicks},
+            {"singular_ticks", arm.singularTicks},
+            {"grasp_held_ticks", arm.graspHeldTicks}};
+}
+
 } // namespace
 
 void ReplaySummary::Haptic::take(TickTotals totals) {
@@ -119,6 +144,9 @@ std::string toJson(const ReplaySummary& summary) {
                        {"where", summary.contact.where}};
     json["fixtures"] = fixturesJson(summary.fixtures);
     json["guidance"] = guidanceJson(summary.guidance);
+    if (summary.arm) {
+        json["arm"] = armJson(*summary.arm);
+    }
     json["device"] = summary.device;
     json["lockstep"] = summary.lockstep;
     json["digest"] = summary.digest;

@@ -62,6 +62,26 @@ struct ReplaySummary {
     };
     std::vector<GuidanceRow> guidance;
 
+    struct Arm {
+        struct Joint {
+            std::string name;
+            double lower, upper, speed;  // limits [rad], [m]; [rad/s], [m/s]
+            double least, most, fastest; // of the run
+        };
+        std::vector<Joint> joints; // base to tip
+        struct Link {
+            std::string name;
+            uint64_t leaves = 0;
+            std::optional<double> penetration; // [m] deepest beyond the allowance; empty = not audited
+        };
+        std::vector<Link> links;
+        uint64_t leaves = 0;
+        double limitViolation = 0.0; // [rad], [m] worst, of places and speeds
+        Percentiles residual;        // [m] what the arm could not follow
+        uint64_t limitedTicks = 0, singularTicks = 0, graspHeldTicks = 0;
+    };
+    std::optional<Arm> arm; // empty = the tool moves freely
+
     std::string device;
     bool lockstep = true;
     std::string digest; // hex

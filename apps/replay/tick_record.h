@@ -3,6 +3,7 @@
 // reads.
 #pragma once
 
+#include "engine/cycle/turn_record.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
@@ -47,6 +48,8 @@ struct TickRecord {
     bool late = false;            // ended more than one period after its start was due
     uint32_t solves = 0;          // linearisations
     bool infeasible = false;      // some solve had no feasible step
+    ArmRecord arm;                // all zero without an arm
+    ArmPosture armStart;          // that the turn started from
 };
 
 // A pass of the frame cadence and the time it took [ms]; kUnknown when the device gives no timestamps.

@@ -25,7 +25,7 @@ TickState stateOf(TurnState state) {
 
 } // namespace
 
-TickRecord tickOf(const TurnRecord& turn, double turnMicros, bool late) {
+TickRecord tickOf(const TurnRecord& turn, const ArmPosture& armStart, double turnMicros, bool late) {
     TickRecord tick;
     tick.t = turn.t;
     tick.device = turn.device;
@@ -44,6 +44,8 @@ TickRecord tickOf(const TurnRecord& turn, double turnMicros, bool late) {
     tick.late = late;
     tick.solves = turn.solves;
     tick.infeasible = turn.infeasible != 0;
+    tick.arm = turn.arm;
+    tick.armStart = armStart;
     return tick;
 }
 

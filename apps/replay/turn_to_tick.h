@@ -8,6 +8,6 @@
 namespace fathom {
 
 // turnMicros: compute time of the turn [us]; late: it ended more than one period after its start was due.
-TickRecord tickOf(const TurnRecord& turn, double turnMicros, bool late);
+TickRecord tickOf(const TurnRecord& turn, const ArmPosture& armStart, double turnMicros, bool late);
 
 } // namespace fathom

@@ -75,7 +75,7 @@ void judge(const TurnRecord& record, LongRun& run, Digest& digest) {
     run.contacts += record.contacts > 0;
     run.escapes += record.state == TurnState::Escape;
     run.guided += record.guidance > 0.0;
-    digest.add(tickOf(record, 0.0, false));
+    digest.add(tickOf(record, {}, 0.0, false));
 }
 
 LongRun roam(uint64_t ticks) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/cloud_buffers.h"
 
+#include "engine/cloud/self_filter.h"
+
 #include "shaders/shared/frame_params.h"
 
 #include <algorithm>
@@ -81,6 +83,9 @@ UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const 
     depth = Buffer(device, 2ull * camera.depth.pixels(), MemoryKind::Upload, "depth");
     if (plan.colour) {
         colour = Buffer(device, 4ull * camera.colour.pixels(), MemoryKind::Upload, "colour");
+    }
+    if (plan.selfFilter) {
+        arm = Buffer(device, LinkSpheres::kMostEntries * 16ull, MemoryKind::Upload, "arm");
     }
 }
 

@@ -50,6 +50,7 @@ struct UploadBuffers {
     gpu::Buffer params; // FrameParams
     gpu::Buffer depth;  // uint16 a pixel, row-major
     gpu::Buffer colour; // uint a pixel, row-major; empty when no class asks
+    gpu::Buffer arm; // vec4: links and spheres of the arm, as classify.comp says; empty without self-filter
 };
 
 // Device side of one fixture set. Readback buffers are what the CPU copies from.

@@ -12,8 +12,9 @@ constexpr double kNothingToTouch = 1000.0; // [m] certified where no region exis
 } // namespace
 
 ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
-                           cloud::FixturePool& pool, const Tool& tool, double reach)
+                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm)
     : tool_(tool)
+    , arm_(arm)
     , reach_(reach)
     , where_(plan.query) {
     if (where_ == Plan::Query::Gpu) {
@@ -21,15 +22,24 @@ ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLay
     }
 }
 
-void ContactCycle::query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
+void ContactCycle::query(const cloud::FixtureSet& set, const ToolPlace& place, ContactSet& out) {
+    if (arm_ != nullptr) { // its leaves are in the base frame already
+        ask(arm_->toolAt(place.arm), set, Pose{}, out);
+    } else {
+        ask(tool_, set, place.pose, out);
+    }
+}
+
+void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool,
+                       ContactSet& out) {
     switch (where_) {
     case Plan::Query::None:
-        fillContactSet(tool_, baseTtool, kNothingToTouch, set.host, {}, out);
-        out.pairBegin.assign(tool_.leafCount() + 1, 0);
-        out.pairBandEnd.assign(tool_.leafCount() * ContactSet::kGapBands, 0);
+        fillContactSet(tool, baseTtool, kNothingToTouch, set.host, {}, out);
+        out.pairBegin.assign(tool.leafCount() + 1, 0);
+        out.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);
         return;
     case Plan::Query::Cpu:
-        cpu_.query(tool_, baseTtool, reach_, set.host, set.grid, out);
+        cpu_.query(tool, baseTtool, reach_, set.host, set.grid, out);
         break;
     case Plan::Query::Gpu: {
         const auto onDevice = [&](const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) {
@@ -39,11 +49,11 @@ void ContactCycle::query(const cloud::FixtureSet& set, const Pose& baseTtool, Co
             }
             return fits;
         };
-        gpuLoop_.run(tool_, baseTtool, reach_, set.host, set.grid.maxRadius(), onDevice, out);
+        gpuLoop_.run(tool, baseTtool, reach_, set.host, set.grid.maxRadius(), onDevice, out);
         break;
     }
     }
-    behind_.update(tool_, set.host, set.grid.maxRadius(), out);
+    behind_.update(tool, set.host, set.grid.maxRadius(), out);
 }
 
 QueryStatistics ContactCycle::statistics() const {

@@ -6,6 +6,8 @@
 #include "engine/cloud/tree_query.h"
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"
+#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/turn_record.h"
 
 #include <optional>
 
@@ -14,16 +16,23 @@ namespace fathom {
 // One thread. Both ways give equal sets.
 class ContactCycle {
 public:
+    // arm: null = the tool moves freely; else what is asked about is the whole arm, by its posture.
     ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
-                 const Tool& tool, double reach);
+                 const Tool& tool, double reach, const ArmRig* arm = nullptr);
 
     // Without forbidden points the set is empty and its reach unlimited.
-    void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out);
+    void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
+        query(set, ToolPlace{baseTtool, {}}, out);
+    }
+    void query(const cloud::FixtureSet& set, const ToolPlace& place, ContactSet& out);
 
     QueryStatistics statistics() const;
 
 private:
+    void ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out);
+
     const Tool& tool_;
+    const ArmRig* arm_;
     double reach_;
     Plan::Query where_;
     CullCpu cpu_;

@@ -90,8 +90,15 @@ void FrameCycle::warmUp() {
     content.colour = colour;
     for (uint32_t slot = 0; slot < cloud::kUploads; ++slot) {
         cloud::uploadFrame(uploads_[slot], Frame(content, nullptr), params);
+        uploadArm(slot, dvec3(0.0));
         device_.submit(passes_.frame(slot, 0).handle(), timeline_.handle(), ticket_, ticket_ + 1);
         timeline_.wait(++ticket_);
+    }
+}
+
+void FrameCycle::uploadArm(uint32_t slot, const dvec3& origin) const {
+    if (plan_.selfFilter) {
+        cloud::uploadArm(uploads_[slot], arm_, origin);
     }
 }
 
@@ -115,6 +122,7 @@ void FrameCycle::upload(Frame frame) {
     if (!f.unchanged && plan_.cloud) {
         cloud::setFrame(params_, f.pose, *origin_, frame->captureTime, lastCapture_);
         cloud::uploadFrame(uploads_[f.slot], frame, params_);
+        uploadArm(f.slot, *origin_);
         nextSlot_ = (nextSlot_ + 1) % cloud::kUploads;
     }
     lastSource_ = frame->sourceNumber;

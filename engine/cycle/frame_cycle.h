@@ -5,6 +5,7 @@
 
 #include "engine/cloud/collect.h"
 #include "engine/cloud/fixture_set.h"
+#include "engine/cloud/self_filter.h"
 #include "engine/cycle/frame_passes.h"
 #include "engine/gpu/device.h"
 #include "engine/types/frame.h"
@@ -43,6 +44,9 @@ public:
     // Other gates, radii, roles and boxes for the frames from now on. The scene must have as many classes of
     // points as before, and the same plan; throws Error otherwise.
     void setScene(const Scene& scene);
+    // Where the arm is in the pictures from the next upload() on. Nothing happens without a self-filter in
+    // the plan.
+    void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
     // The same in three steps: upload() may run while the device works on the frame before.
     void upload(Frame frame);
     void submit();
@@ -70,6 +74,7 @@ private:
 
     void warmUp();
     void clearMemory();
+    void uploadArm(uint32_t slot, const dvec3& origin) const;
     void fillHost(const InFlight& f);
     void warnLeaks(const cloud::FrameCounts& counts);
 
@@ -85,6 +90,7 @@ private:
     FramePasses passes_;
     gpu::Timeline timeline_;
 
+    cloud::LinkSpheres arm_;
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
     std::optional<InFlight> uploaded_, submitted_;

@@ -26,32 +26,42 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
-Pose begin(HandMap& map, const Pose& start, const Pose* tool0) {
+// Where the hand commands the tool at first.
+Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm) {
     if (tool0 == nullptr) {
         return map.map(start, false);
     }
-    map.align(start, *tool0);
-    return *tool0;
+    const Pose tool = arm != nullptr ? arm->tipAt({arm->start, 0.0}) : *tool0;
+    map.align(start, tool);
+    return tool;
 }
 
 } // namespace
 
 HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
-                         const Pose& start, const Pose* tool0)
+                         const Pose& start, const Pose* tool0, const ArmRig* arm)
     : options_(options)
     , map_(options.baseRdevice, options.handScale)
     , guidance_(options.guidance)
-    , proxy_(tool, shapes, options.proxy, begin(map_, start, tool0))
+    , rig_(arm)
     , watch_(options.device, options.coupling, options.springs)
     , passivity_(passivityOf(options))
-    , springEnd_(proxy_.pose())
-    , device_(proxy_.pose())
+    , springEnd_(begin(map_, start, tool0, arm))
+    , device_(springEnd_)
     , handle_{start.position, glm::normalize(start.rotation)}
-    , toolBefore_(device_)
     , deviceBefore_(device_) {
-    for (const Sphere& leaf : tool.leaves()) {
-        leafRadius_.push_back(leaf.radius);
+    if (arm != nullptr) {
+        arm_.emplace(arm->model, arm->baseTarm, arm->proxy, arm->start, shapes);
+        tool_ = arm_->tip();
+    } else {
+        proxy_.emplace(tool, shapes, options.proxy, device_);
+        tool_ = proxy_->pose();
+        for (const Sphere& leaf : tool.leaves()) {
+            leafRadius_.push_back(leaf.radius);
+        }
     }
+    toolBefore_ = tool_;
+    springEnd_ = deviceBefore_ = device_ = arm != nullptr ? device_ : tool_;
 }
 
 TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
@@ -77,7 +87,7 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     moved.minGap = kNotKnown;
     springEnd_ = device_;
     if (now.running && now.sane) {
-        moved = moveTool(input, set);
+        moved = moveTool(input, set, out);
     }
     stepRamps(now, moved.trapped);
     const double period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
@@ -94,7 +104,7 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
 void HapticCycle::report(const Situation& now, const ProxyTurn& moved, bool hasSet,
                          TurnRecord& out) const noexcept {
     out.device = device_;
-    out.tool = proxy_.pose();
+    out.tool = tool_;
     out.contacts = static_cast<uint32_t>(moved.active.size());
     out.minGap = hasSet ? moved.minGap : kNotKnown;
     out.state = stateOf(now, moved);
@@ -104,69 +114,6 @@ void HapticCycle::report(const Situation& now, const ProxyTurn& moved, bool hasS
     out.stalled = moved.stalled;
     out.solves = moved.solves;
     out.infeasible = moved.infeasible;
-}
-
-void HapticCycle::recordTouches(const ContactSet* set, const ProxyTurn& moved,
-                                TurnRecord& out) const noexcept {
-    for (const ActiveContact& active : moved.active) {
-        const ContactRow& row = active.row;
-        if (out.touchCount == kMostTouches) {
-            return;
-        }
-        Touch& touch = out.touches[out.touchCount++];
-        touch.kind = row.kind;
-        touch.normal = row.normal;
-        touch.point = proxy_.pose().position + row.arm - leafRadius_[row.leaf] * row.normal;
-        touch.gap = row.gap;
-        touch.multiplier = active.multiplier;
-        touch.leaf = row.leaf;
-        touch.source = row.pair;
-        if (row.kind == ContactRow::Kind::Sphere && set != nullptr) {
-            const uint32_t sphere = set->pairSphere[row.pair];
-            touch.source = set->source[sphere];
-            touch.fixture = set->fixture[sphere];
-        } else if (row.kind != ContactRow::Kind::Behind) {
-            touch.fixture = proxy_.shapes()[row.pair].fixture;
-        }
-    }
-}
-
-const ContactSet* HapticCycle::chooseSet(const TurnInput& input, TurnRecord& out) noexcept {
-    const ContactSet* offered = input.offered;
-    if (offered != nullptr && offered->frame >= 0 && proxy_.covers(*offered)) {
-        out.adopted = true;
-        return offered;
-    }
-    return input.contacts != nullptr && input.contacts->frame >= 0 ? input.contacts : nullptr;
-}
-
-double HapticCycle::sceneAge(const TurnInput& input, const ContactSet* set) noexcept {
-    // The set in force may be older than the newest fixture set; while it is the same one, the picture may be
-    // newer.
-    const bool newest = set == nullptr || set->generation == input.generation;
-    const double age = input.time - (newest ? input.captureTime : set->captureTime);
-    age_ = input.sourceEnded && hasAge_ ? std::min(age, age_) : age;
-    hasAge_ = true;
-    return age_;
-}
-
-ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set) noexcept {
-    ProxyInput wanted;
-    wanted.target = device_;
-    wanted.metricRadius = watch_.springs().metricRadius;
-    wanted.contacts = set;
-    wanted.deadline = input.deadline;
-    if (!options_.paperGuidance) {
-        // The turn is composed, not added to log(q_dev q^-1): the same to first order, and at rest the torque
-        // is exactly K_r times the lead.
-        const auto lead = guidance_.lead(device_, watch_.springs());
-        wanted.target.position += lead.translation;
-        if (lead.rotation != dvec3(0.0)) {
-            wanted.target.rotation = glm::normalize(rotationExp(lead.rotation) * device_.rotation);
-        }
-    }
-    springEnd_ = wanted.target;
-    return proxy_.turn(wanted);
 }
 
 void HapticCycle::stepRamps(const Situation& now, bool trapped) noexcept {
@@ -179,7 +126,7 @@ void HapticCycle::stepRamps(const Situation& now, bool trapped) noexcept {
 
 Wrench HapticCycle::springWrench() noexcept {
     const Springs& springs = watch_.springs();
-    const Pose& tool = proxy_.pose();
+    const Pose& tool = tool_;
     dvec3 slip(0.0), spin(0.0);
     if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
         const dvec3 toolMoved = tool.position - toolBefore_.position,

@@ -2,11 +2,14 @@
 // One turn of the haptic cadence: hand pose in, wrench out, in the same tick. Design 6.
 #pragma once
 
+#include "engine/cycle/arm_rig.h"
 #include "engine/cycle/haptic_options.h"
 #include "engine/cycle/turn_record.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/haptics/passivity.h"
 #include "engine/haptics/stiffness_watch.h"
+
+#include <optional>
 
 namespace fathom {
 
@@ -27,17 +30,23 @@ namespace fathom {
 class HapticCycle {
 public:
     // start: raw pose of the hand before the first turn; the tool starts where it commands, or at base_T_tool
-    // `tool0` when that is given: then the hand map is aligned, as after a clutch.
+    // `tool0` when that is given: then the hand map is aligned, as after a clutch. arm: null = the tool moves
+    // freely; else it must outlive this, the tool is its tip and starts where the arm does (tool0, when
+    // given, says only that the hand map is aligned to that), and contact sets are of ArmRig::toolAt().
     HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
-                const Pose& start, const Pose* tool0 = nullptr);
+                const Pose& start, const Pose* tool0 = nullptr, const ArmRig* arm = nullptr);
 
     TurnRecord turn(const TurnInput& input) noexcept;
 
     // Other authored shapes from the next turn on; those beyond what the constructor made room for are left
     // out. On the haptic thread, between turns.
-    void setShapes(std::span<const Shape> shapes) noexcept { proxy_.setShapes(shapes); }
+    void setShapes(std::span<const Shape> shapes) noexcept {
+        arm_ ? arm_->setShapes(shapes) : proxy_->setShapes(shapes);
+    }
 
-    const Pose& pose() const { return proxy_.pose(); } // base_T_tool: what the next contact query asks about
+    const Pose& pose() const { return tool_; } // base_T_tool: what the next contact query asks about
+    // Pose and, on an arm, posture.
+    ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
     const Springs& springs() const {
         return watch_.springs();
     } // in force: those of the options, or less while turns are slow
@@ -66,7 +75,13 @@ private:
 
     const ContactSet* chooseSet(const TurnInput& input, TurnRecord& out) noexcept;
     double sceneAge(const TurnInput& input, const ContactSet* set) noexcept;
-    ProxyTurn moveTool(const TurnInput& input, const ContactSet* set) noexcept;
+    bool covers(const ContactSet& set) noexcept;
+    ProxyTurn moveTool(const TurnInput& input, const ContactSet* set, TurnRecord& out) noexcept;
+    ProxyTurn moveArm(const TurnInput& input, const ProxyInput& wanted, TurnRecord& out) noexcept;
+    std::span<const Shape> shapes() const noexcept { return arm_ ? arm_->shapes() : proxy_->shapes(); }
+    double leafRadius(uint32_t leaf) const noexcept {
+        return arm_ ? arm_->leafRadius(leaf) : leafRadius_[leaf];
+    }
     void stepRamps(const Situation& now, bool trapped) noexcept;
     Wrench springWrench() noexcept;
     Wrench guidancePull() const noexcept;
@@ -84,11 +99,14 @@ private:
     HapticOptions options_;
     HandMap map_;
     Guidance guidance_;
-    Proxy proxy_;
+    const ArmRig* rig_;
+    std::optional<ArmProxy> arm_; // exactly one of these two is there
+    std::optional<Proxy> proxy_;
     StiffnessWatch watch_;
     PassivityController passivity_;
 
     std::vector<double> leafRadius_; // [m]
+    Pose tool_;                      // base_T_tool after the last turn
     Pose springEnd_;                 // base_T_tool that the solver aims at: device, led by guidance
     Pose device_, handle_;           // last good sample: mapped, raw
     Pose toolBefore_, deviceBefore_; // at the end of the turn before, for the damping

@@ -5,6 +5,7 @@
 #include "engine/contact/contact_set.h"
 #include "engine/contact/fixtures.h"
 #include "engine/haptics/proxy.h"
+#include "engine/model/arm_model.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
@@ -67,6 +68,22 @@ struct Touch {
 };
 inline constexpr size_t kMostTouches = 8;
 
+// Where the tool is, and its arm when it hangs on one: what a contact query asks about.
+struct ToolPlace {
+    Pose pose; // base_T_tool
+    ArmPosture arm;
+};
+
+// What a turn did to an arm; all zero without one.
+struct ArmRecord {
+    ArmPosture posture;          // after the turn
+    double residual = 0.0;       // [m] |what is left to the target|_M
+    double manipulability = 0.0; // [m/rad] smallest singular value of M^1/2 J
+    uint32_t atLimits = 0;       // limits of joints or of their speeds that pushed
+    bool graspHeld = false;      // a finger would have entered a region
+    bool singular = false;       // damped
+};
+
 // One row of haptics.csv and what the view shows beside it.
 struct TurnRecord {
     double t = 0.0;            // [s]
@@ -82,6 +99,7 @@ struct TurnRecord {
     bool stalled = false;                                          // cut by the trust region
     double marginPassive = kNotKnown, marginUncoupled = kNotKnown; // [N s/m]; NaN = b unknown
 
+    ArmRecord arm;
     Wrench deviceWrench;     // for HapticDevice::write: device axes, about the handle, on actuated axes only
     Wrench residual;         // base axes: what the device cannot render
     bool adopted = false;    // TurnInput::offered is in force now

@@ -39,6 +39,8 @@ PenetrationAudit::PenetrationAudit(const Tool& tool) {
         leaves_.push_back(std::move(leaf));
     }
     behind_.resize(leaves_.size());
+    start_.resize(leaves_.size());
+    end_.resize(leaves_.size());
 }
 
 void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
@@ -50,13 +52,40 @@ void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const P
         throw Error("penetration audit: the tool pose is not finite");
     }
     set_ = &set;
+    for (size_t i = 0; i < leaves_.size(); ++i) {
+        start_[i] = centreOf(leaves_[i], start);
+        end_[i] = centreOf(leaves_[i], end);
+    }
+    audit(set, grid, behind);
+}
+
+void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
+                            std::span<const dvec3> end, std::span<const uint32_t> behind) {
+    if (set.frame < 0) {
+        return;
+    }
+    if (start.size() != leaves_.size() || end.size() != leaves_.size()) {
+        throw Error("penetration audit: not as many centres as leaves");
+    }
+    for (size_t i = 0; i < leaves_.size(); ++i) {
+        if (!isFinite(start[i]) || !isFinite(end[i])) {
+            throw Error("penetration audit: a leaf's centre is not finite");
+        }
+        start_[i] = start[i] - set.origin;
+        end_[i] = end[i] - set.origin;
+    }
+    audit(set, grid, behind);
+}
+
+void PenetrationAudit::audit(const Fixtures& set, const RegionGrid& grid, std::span<const uint32_t> behind) {
+    set_ = &set;
     grid_ = &grid;
     if (!anySet_ || set.generation != generation_) {
         anySet_ = true;
         generation_ = set.generation;
         placed_ = placedSpheres(set.spheres);
         checkGrid();
-        takeAllowances(start);
+        takeAllowances();
     } else {
         checkGrid();
     }
@@ -66,11 +95,12 @@ void PenetrationAudit::tick(const Fixtures& set, const RegionGrid& grid, const P
     }
     Worst promised, exempt;
     for (size_t i = 0; i < leaves_.size(); ++i) {
-        const Worst worst = judge(leaves_[i], centreOf(leaves_[i], end));
+        const Worst worst = judge(leaves_[i], end_[i]);
         Worst& sum = behind_[i] != 0 ? exempt : promised;
         sum.beyond = std::max(sum.beyond, worst.beyond);
         sum.inside = std::max(sum.inside, worst.inside);
         sum.any = std::max(sum.any, worst.any);
+        leaves_[i].worst = std::max(leaves_[i].worst, behind_[i] != 0 ? 0.0 : worst.beyond);
     }
     ++ticks_;
     maxPenetration_ = std::max(maxPenetration_, promised.beyond);
@@ -124,10 +154,11 @@ void PenetrationAudit::search(Leaf& leaf, const dvec3& centre) {
     leaf.mayMove = std::max(nearest, kNear);
 }
 
-void PenetrationAudit::takeAllowances(const Pose& start) {
+void PenetrationAudit::takeAllowances() {
     allowed_.assign(set_->spheres.size(), 0.0);
-    for (Leaf& leaf : leaves_) {
-        const dvec3 centre = centreOf(leaf, start);
+    for (size_t i = 0; i < leaves_.size(); ++i) {
+        Leaf& leaf = leaves_[i];
+        const dvec3 centre = start_[i];
         leaf.candidates.clear(); // they are of another set
         search(leaf, centre);
         for (Candidate& candidate : leaf.candidates) {

@@ -29,6 +29,13 @@ public:
     void tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
               std::span<const uint32_t> behind = {});
 
+    // The same for a tool whose leaves move among themselves: their centres in the base frame [m], in the
+    // order of the tool that the constructor got. Throws Error when there are not as many.
+    void tick(const Fixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
+              std::span<const dvec3> end, std::span<const uint32_t> behind = {});
+
+    // [m] largest depth of one leaf beyond its allowance, so far.
+    double leafPenetration(size_t leaf) const { return leaves_[leaf].worst; }
     double maxPenetration() const { return maxPenetration_; } // [m] largest depth beyond the allowance
     double maxEscapeDepth() const { return maxEscapeDepth_; } // [m] largest depth inside the allowance
     double maxBehindDepth() const { return maxBehindDepth_; } // [m] largest depth of a leaf flagged behind
@@ -52,6 +59,7 @@ private:
         dvec3 searchedAt{0.0};             // about the set's origin: where the last search was
         double mayMove = 0.0;              // [m] from there, before any sphere but the candidates can touch
         std::vector<Candidate> candidates; // all that were near there
+        double worst = 0.0;                // [m] beyond the allowance, over all turns
     };
     struct Worst {
         double beyond = 0.0, inside = 0.0, any = 0.0; // [m]
@@ -61,10 +69,13 @@ private:
     void search(Leaf& leaf, const dvec3& centre);
     dvec3 centreOf(const Leaf& leaf, const Pose& pose) const;
     void checkGrid() const;
-    void takeAllowances(const Pose& start);
+    void takeAllowances();
+    void audit(const Fixtures& set, const RegionGrid& grid, std::span<const uint32_t> behind);
     Worst judge(Leaf& leaf, const dvec3& centre);
 
     std::vector<Leaf> leaves_;
+    std::vector<dvec3> start_,
+        end_;                       // scratch, a leaf each: about the set's origin, before and after the turn
     std::vector<double> allowed_;   // scratch, a sphere each: allowance for the leaf at hand [m], else 0
     std::vector<Candidate> before_; // scratch
     std::vector<uint8_t> behind_;   // a leaf: flagged in this turn

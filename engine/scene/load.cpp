@@ -21,8 +21,8 @@ std::filesystem::path besideScene(const Scene& scene, const std::string& path) {
 
 Scene loadScene(const std::filesystem::path& file) {
     const YamlNode root = YamlNode::parseFile(file);
-    root.checkKeys(
-        {"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "hand", "haptics", "contact"});
+    root.checkKeys({"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "arm", "hand",
+                    "haptics", "contact"});
     Scene scene;
     scene.file = file;
     if (const auto camera = root.find("camera")) {
@@ -38,9 +38,15 @@ Scene loadScene(const std::filesystem::path& file) {
         scene.holdSeconds = hold->number(Range::notNegative());
     }
     loadFixtures(root.at("fixtures"), scene);
-    loadTool(root.at("tool"), scene);
+    const auto arm = root.find("arm"), tool = root.find("tool");
+    if (tool || !arm) { // an arm is a tool already
+        loadTool(root.at("tool"), scene);
+    }
     if (const auto hand = root.find("hand")) {
         loadHand(*hand, scene);
+    }
+    if (arm) {
+        loadArmSection(*arm, scene);
     }
     if (const auto haptics = root.find("haptics")) {
         loadHaptics(*haptics, scene);

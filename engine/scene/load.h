@@ -12,12 +12,16 @@ void loadCamera(const YamlNode& camera, Scene& scene);
 void loadFilter(const YamlNode& filter, Scene& scene);
 void loadFixtures(const YamlNode& fixtures, Scene& scene);
 void loadTool(const YamlNode& tool, Scene& scene);
+void loadArmSection(const YamlNode& arm, Scene& scene);
 void loadHand(const YamlNode& hand, Scene& scene);
 void loadHaptics(const YamlNode& haptics, Scene& scene);
 void loadContact(const YamlNode& contact, Scene& scene);
 
 // {xyz, quat_xyzw}, each optional.
 Pose loadPose(const YamlNode& node);
+
+// 0 or one bit of the hand's buttons that nothing else has (1 guidance, 2 dead-man open).
+uint32_t loadButtonBit(const YamlNode& node);
 
 // As given when absolute, else taken from the scene file's folder.
 std::filesystem::path besideScene(const Scene& scene, const std::string& path);

@@ -22,15 +22,6 @@ std::vector<std::array<double, 4>> loadSpheres(const YamlNode& node) {
     return spheres;
 }
 
-uint32_t loadClutchBit(const YamlNode& node) {
-    const uint32_t bit = node.integer(0, 1u << 31);
-    // 1 and 2 are taken: guidance and dead-man open.
-    if (bit == 1 || bit == 2 || (bit & (bit - 1)) != 0) {
-        node.refuse("0 (none) or one bit of the buttons: 4, 8, 16, ...");
-    }
-    return bit;
-}
-
 void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
     map.checkKeys({"base_R_device", "scale", "clutch"});
     if (const auto rotation = map.find("base_R_device")) {
@@ -40,7 +31,7 @@ void loadHandMap(const YamlNode& map, Scene::Hand& hand) {
         hand.scale = scale->number(Range::positive());
     }
     if (const auto clutch = map.find("clutch")) {
-        hand.clutchBit = loadClutchBit(*clutch);
+        hand.clutchBit = loadButtonBit(*clutch);
     }
 }
 
@@ -58,6 +49,15 @@ void loadHandLoop(const YamlNode& node, HandLoop& loop) {
 }
 
 } // namespace
+
+uint32_t loadButtonBit(const YamlNode& node) {
+    const uint32_t bit = node.integer(0, 1u << 31);
+    // 1 and 2 are taken: guidance and dead-man open.
+    if (bit == 1 || bit == 2 || (bit & (bit - 1)) != 0) {
+        node.refuse("0 (none) or one bit of the buttons: 4, 8, 16, ...");
+    }
+    return bit;
+}
 
 void loadTool(const YamlNode& tool, Scene& scene) {
     tool.checkKeys({"spheres", "file"});

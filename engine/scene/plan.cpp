@@ -23,6 +23,8 @@ bool mayLeak(const Scene& scene, const Intrinsics& lens) {
 Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     Plan plan;
     plan.spheres = scene.hasForbiddenPoints();
+    plan.arm = scene.arm.has_value();
+    plan.selfFilter = plan.arm && scene.arm->selfFilter && (plan.spheres || scene.hasGuidance());
     plan.moments = scene.hasGuidance();
     plan.cloud = plan.spheres || plan.moments;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
@@ -56,7 +58,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.filterRow = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
-                         (scene.contact.where == Scene::Contact::Where::Auto &&
+                         (scene.contact.where == Scene::Contact::Where::Auto && !plan.arm &&
                           device.kind != DeviceKind::Cpu && toolLeaves >= device.gpuQueryLeaves);
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
@@ -166,6 +168,9 @@ uint32_t Plan::dispatchesPerFrame() const {
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
+    if (scene.arm && scene.contact.where == Scene::Contact::Where::Gpu) {
+        throw BadInput(scene.file.string(), "contact.where", "gpu", "auto or cpu with an arm");
+    }
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
     explainBuffers(plan, camera);
@@ -176,6 +181,16 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     thread("contact", plan.query != Plan::Query::None,
            plan.query != Plan::Query::None ? "contact sets (realtime)" : "nothing to collide with");
     thread("haptic", true, "turns (realtime)");
+    const auto arm = [&](const char* name, bool in, const char* why) {
+        plan.items.push_back({"arm", name, in, why, 0});
+    };
+    arm("joint space", plan.arm,
+        plan.arm ? "joint increments are the unknowns, every link meets the fixtures"
+                 : "no arm: the tool moves freely");
+    arm("self_filter", plan.selfFilter,
+        plan.selfFilter ? "in classify: what the arm's spheres hold is no point"
+        : plan.arm      ? "arm.self_filter is not given: the arm stays in the cloud"
+                        : "no arm");
     return plan;
 }
 

@@ -15,7 +15,7 @@ namespace fathom {
 // Pure data: everything that builds pipelines and buffers reads it and decides nothing itself.
 struct Plan {
     struct Item {
-        std::string kind; // "pass", "buffer", "thread"
+        std::string kind; // "pass", "buffer", "thread", "arm"
         std::string name;
         bool in = false;
         std::string why;
@@ -50,6 +50,8 @@ struct Plan {
     bool byPixel = false;      // spheres: an invocation a pixel, bounds from shared memory; else a sub-patch
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
+    bool arm = false; // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions
+    bool selfFilter = false; // the arm's spheres are taken out of the cloud
     // Contact query.
     enum class Query { None, Cpu, Gpu } query = Query::None;
 
@@ -83,7 +85,8 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
 
 // toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from
 // DeviceFacts::gpuQueryLeaves on, and only on a device that is not a CPU. The answers are equal to the last
-// bit.
+// bit. An arm's leaves move among themselves, so that its query is the CPU's; throws BadInput where the scene
+// asks for the GPU's.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

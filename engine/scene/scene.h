@@ -65,6 +65,33 @@ struct HandLoop {             // the simulated hand that closes the loop (--hand
     double stiffness = 300.0; // [N/m] of the spring to the intended path
 };
 
+// `arm:`, as it is written; names of joints and links are looked up where the URDF is read.
+struct SceneArm {
+    std::filesystem::path urdf, meshes; // meshes: what package:// stands for; empty = about the URDF
+    Pose baseTarm;                      // of the arm's base link
+    std::string base, tip;              // links; empty = the root, the end of the longest chain
+    uint32_t leaves = 24;               // of each box, cylinder or mesh of the URDF
+    struct Joint {                      // what differs from the URDF
+        std::string name;
+        std::optional<double> lower, upper; // [rad], [m]
+        std::optional<double> speed;        // [rad/s], [m/s]
+        std::optional<double> start;        // [rad], [m]; else 0, or the nearest limit
+    };
+    std::vector<Joint> joints;
+    bool freeDirection = false; // the hand's direction means nothing: too few joints, or a hand without one
+    std::optional<double>
+        selfFilter; // [m] by which the links' spheres grow; empty = the arm stays in the cloud
+    struct Finger {
+        std::string joint;
+        std::optional<double> open, closed; // [rad], [m]; else the URDF's lower and upper limit
+    };
+    struct Grasp {
+        std::vector<Finger> fingers;
+        uint32_t button = 8;  // bit of the hand's buttons: closes while it is down
+        double seconds = 1.0; // from open to closed
+    } grasp;
+};
+
 struct Scene {
     std::filesystem::path file; // where it was read, for messages and relative paths; empty = built in
 
@@ -98,7 +125,10 @@ struct Scene {
     struct ToolSource {
         std::vector<std::array<double, 4>> spheres; // tool frame x y z r [m]
         std::filesystem::path file;                 // .sph; empty when spheres are listed
+        bool given() const { return !spheres.empty() || !file.empty(); } // not, only on an arm
     } tool;
+
+    std::optional<SceneArm> arm; // carries the tool; empty = the tool moves freely
 
     struct Hand {
         std::string path = "approach"; // built-in name or CSV file

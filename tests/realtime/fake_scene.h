@@ -71,13 +71,13 @@ public:
 
     std::function<void()> before = [] {};
 
-    bool answer(const Pose& baseTtool, ContactSet& out) override {
+    bool answer(const ToolPlace& place, ContactSet& out) override {
         before();
         const auto set = pool_.newest();
         if (!set) {
             return false;
         }
-        cull_.query(tool_, baseTtool, 0.01, set->host, set->grid, out);
+        cull_.query(tool_, place.pose, 0.01, set->host, set->grid, out);
         return true;
     }
 

@@ -41,7 +41,7 @@ TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a tr
     const uint64_t beforeAny = allocationCount();
     for (int i = 0; i < 1000; ++i) {
         ContactSet& set = crossings.contacts.back();
-        REQUIRE(fake.answers.answer(cycle.pose(), set));
+        REQUIRE(fake.answers.answer(cycle.place(), set));
         query = set.query;
         crossings.contacts.publish();
         news.captureTime = clock.now();

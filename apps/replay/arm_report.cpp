@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/arm_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+// A joint at its speed limit went exactly that far, but for the rounding of a difference of two angles.
+constexpr double kRounding = 1e-12;
+
+// No comma, quote or line break in a column's name.
+std::string column(std::string name) {
+    std::replace_if(
+        name.begin(), name.end(), [](char c) { return c == ',' || c == '"' || c < ' '; }, '_');
+    return name;
+}
+
+} // namespace
+
+ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig)
+    : rig_(rig)
+    , file_(file) {
+    std::string header = "t_s";
+    for (const ArmJoint& joint : rig.model.joints) {
+        header += "," + column(joint.name);
+        sums_.joints.push_back({joint.name, joint.lower, joint.upper, joint.speed, HUGE_VAL, -HUGE_VAL, 0.0});
+    }
+    file_.write(header + ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held\n");
+    for (const std::string& link : rig.model.links) {
+        sums_.links.push_back({link, 0, std::nullopt});
+    }
+    for (const ArmLeaf& leaf : rig.model.leaves) {
+        ++sums_.links[leaf.link].leaves;
+    }
+    sums_.leaves = rig.model.leaves.size();
+}
+
+double ArmReport::violation(const TickRecord& tick) const {
+    double worst = 0.0;
+    for (size_t k = 0; k < rig_.model.count(); ++k) {
+        const ArmJoint& joint = rig_.model.joints[k];
+        const double q = tick.arm.posture.q[k], way = std::abs(q - tick.armStart.q[k]);
+        const double fast = way - joint.speed * rig_.proxy.period - kRounding;
+        worst = std::max({worst, joint.lower - q, q - joint.upper, fast});
+    }
+    return worst;
+}
+
+void ArmReport::add(const TickRecord& tick) {
+    const ArmRecord& arm = tick.arm;
+    const bool moved =
+        tick.state != TickState::Off; // before the first set the arm is held: no turn to tell of
+    const double wrong = violation(tick);
+    row_.add(tick.t);
+    for (size_t k = 0; k < rig_.model.count(); ++k) {
+        const double q = arm.posture.q[k];
+        ReplaySummary::Arm::Joint& sum = sums_.joints[k];
+        sum.least = std::min(sum.least, q);
+        sum.most = std::max(sum.most, q);
+        sum.fastest = std::max(sum.fastest, std::abs(q - tick.armStart.q[k]) / rig_.proxy.period);
+        row_.add(q);
+    }
+    row_.add(arm.posture.grasp);
+    row_.add(moved ? arm.residual : kUnknown);
+    row_.add(moved ? arm.manipulability : kUnknown);
+    row_.add(int64_t{arm.atLimits});
+    row_.add(wrong);
+    row_.add(int64_t{arm.singular});
+    row_.add(int64_t{arm.graspHeld});
+    file_.write(row_.end());
+    sums_.limitViolation = std::max(sums_.limitViolation, wrong);
+    sums_.limitedTicks += arm.atLimits > 0 ? 1 : 0;
+    sums_.singularTicks += arm.singular ? 1 : 0;
+    sums_.graspHeldTicks += arm.graspHeld ? 1 : 0;
+    if (moved) {
+        residuals_.push_back(static_cast<float>(arm.residual));
+    }
+}
+
+ReplaySummary::Arm ArmReport::summary(const std::vector<double>& links) {
+    ReplaySummary::Arm out = sums_;
+    for (size_t i = 0; i < out.links.size() && i < links.size(); ++i) {
+        out.links[i].penetration = links[i];
+    }
+    out.residual = percentilesOf(std::move(residuals_));
+    return out;
+}
+
+} // namespace fathom

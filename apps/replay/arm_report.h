@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run leaves of its arm: arm.csv, one row a tick, and the section `arm` of summary.json.
+#pragma once
+
+#include "apps/replay/csv.h"
+#include "apps/replay/output_file.h"
+#include "apps/replay/summary.h"
+#include "apps/replay/tick_record.h"
+#include "engine/cycle/arm_rig.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fathom {
+
+// One thread. The limits are checked here once more, from the joints alone. arm.csv: t_s, a column a joint
+// [rad], [m], grasp, residual_m, manipulability, at_limits, limit_violation, singular, grasp_held.
+class ArmReport {
+public:
+    ArmReport(const std::filesystem::path& file, const ArmRig& rig);
+
+    void add(const TickRecord& tick);
+    void commit() { file_.commit(); }
+    // links: of ToolAudit::linkPenetration(); empty = not audited.
+    ReplaySummary::Arm summary(const std::vector<double>& links);
+
+private:
+    // [rad], [m] by which joints lie beyond their limits or went faster than they can; 0 = all obeyed.
+    double violation(const TickRecord& tick) const;
+
+    const ArmRig& rig_;
+    OutputFile file_;
+    CsvRow row_;
+    ReplaySummary::Arm sums_;
+    std::vector<float> residuals_;
+};
+
+} // namespace fathom

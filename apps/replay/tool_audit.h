@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The penetration audit of a run's tool: a free one by its poses, an arm by the leaves of all its links.
+#pragma once
+
+#include "engine/cycle/arm_rig.h"
+#include "engine/cycle/turn_record.h"
+#include "engine/reference/penetration_audit.h"
+
+#include <optional>
+#include <vector>
+
+namespace fathom {
+
+// Not for the haptic thread. Places an arm's leaves from its joints by itself.
+class ToolAudit {
+public:
+    // arm: null = the tool moves freely. Both must outlive this.
+    ToolAudit(const Tool& tool, const ArmRig* arm);
+
+    // As PenetrationAudit::tick().
+    void tick(const Fixtures& set, const RegionGrid& grid, const ToolPlace& start, const ToolPlace& end,
+              std::span<const uint32_t> behind);
+
+    const PenetrationAudit& figures() const { return audit_; }
+    // [m] deepest of each link's leaves beyond the allowance, in the order of ArmModel::links; empty without
+    // an arm.
+    std::vector<double> linkPenetration() const;
+
+private:
+    void place(const ArmPosture& posture, std::vector<dvec3>& centres) const;
+
+    const ArmRig* arm_;
+    PenetrationAudit audit_;
+    std::vector<dvec3> start_, end_; // [m] base frame
+};
+
+} // namespace fathom

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/arm_rig.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <sstream>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMostLeaves = 4096; // of a Tool
+
+class RigMaker {
+public:
+    RigMaker(const Scene& scene, const SceneArm& arm)
+        : scene_(scene)
+        , arm_(arm)
+        , rig_(std::make_unique<ArmRig>()) {}
+
+    std::unique_ptr<ArmRig> make(std::span<const Sphere> toolLeaves) {
+        rig_->model = loadArm(arm_.urdf, modelOptions());
+        addTool(toolLeaves);
+        if (rig_->model.leaves.size() > kMostLeaves) {
+            refuse("leaves", std::to_string(rig_->model.leaves.size()) + " of all links",
+                   "at most " + std::to_string(kMostLeaves));
+        }
+        rig_->baseTarm = arm_.baseTarm;
+        rig_->freeDirection = arm_.freeDirection;
+        rig_->graspButton = arm_.grasp.fingers.empty() ? 0 : arm_.grasp.button;
+        rig_->padding = arm_.selfFilter.value_or(0.0);
+        rig_->proxy.stepCap = scene_.haptics.stepCap;
+        rig_->proxy.solves = scene_.haptics.solves;
+        rig_->proxy.period = 1.0 / scene_.haptics.rateHz;
+        rig_->proxy.graspPerTurn = rig_->proxy.period / arm_.grasp.seconds;
+        applyJoints();
+        return std::move(rig_);
+    }
+
+private:
+    [[noreturn]] void refuse(const std::string& field, const std::string& value,
+                             const std::string& allowed) const {
+        throw BadInput(scene_.file.string(), "arm." + field, value, allowed);
+    }
+
+    ArmOptions modelOptions() const {
+        ArmOptions options;
+        options.base = arm_.base;
+        options.tip = arm_.tip;
+        options.meshes = arm_.meshes;
+        options.leavesPerShape = arm_.leaves;
+        for (const auto& finger : arm_.grasp.fingers) {
+            options.fingers.push_back({finger.joint, finger.open, finger.closed});
+        }
+        return options;
+    }
+
+    void addTool(std::span<const Sphere> toolLeaves) {
+        ArmModel& model = rig_->model;
+        for (const Sphere& s : toolLeaves) {
+            model.leaves.push_back({{model.lastTtip.apply(s.centre), s.radius},
+                                    static_cast<uint32_t>(model.count()),
+                                    static_cast<uint32_t>(model.links.size())});
+        }
+        if (!toolLeaves.empty()) {
+            model.links.push_back("tool");
+        }
+    }
+
+    size_t indexOf(const std::string& field, const std::string& name) const {
+        std::string names;
+        for (size_t k = 0; k < rig_->model.count(); ++k) {
+            if (rig_->model.joints[k].name == name) {
+                return k;
+            }
+            names += (names.empty() ? "" : ", ") + rig_->model.joints[k].name;
+        }
+        refuse(field + ".name", "'" + name + "'", names);
+    }
+
+    static std::string text(double value) {
+        std::ostringstream out;
+        out << value;
+        return out.str();
+    }
+
+    void applyJoints() {
+        for (size_t k = 0; k < rig_->model.count(); ++k) {
+            rig_->start[k] = std::clamp(0.0, rig_->model.joints[k].lower, rig_->model.joints[k].upper);
+        }
+        for (size_t i = 0; i < arm_.joints.size(); ++i) {
+            const SceneArm::Joint& wanted = arm_.joints[i];
+            const std::string field = "joints[" + std::to_string(i) + "]";
+            const size_t k = indexOf(field, wanted.name);
+            ArmJoint& joint = rig_->model.joints[k];
+            joint.lower = wanted.lower.value_or(joint.lower);
+            joint.upper = wanted.upper.value_or(joint.upper);
+            joint.speed = wanted.speed.value_or(joint.speed);
+            const std::string range =
+                "lower <= upper, here " + text(joint.lower) + " to " + text(joint.upper);
+            if (joint.lower > joint.upper) {
+                refuse(field, wanted.name, range);
+            }
+            const double start = wanted.start.value_or(std::clamp(0.0, joint.lower, joint.upper));
+            if (start < joint.lower || start > joint.upper) {
+                refuse(field + ".start", text(start), text(joint.lower) + " to " + text(joint.upper));
+            }
+            rig_->start[k] = start;
+        }
+    }
+
+    const Scene& scene_;
+    const SceneArm& arm_;
+    std::unique_ptr<ArmRig> rig_;
+};
+
+} // namespace
+
+ArmFrames ArmRig::framesAt(const ArmPosture& posture) const noexcept {
+    ArmFrames frames;
+    model.place(posture.q, baseTarm, frames, posture.grasp);
+    return frames;
+}
+
+std::vector<Sphere> ArmRig::aboutTip(const ArmPosture& posture) const {
+    const ArmFrames frames = framesAt(posture);
+    const Pose tipTbase = inverse(model.tip(frames));
+    std::vector<Sphere> spheres;
+    for (size_t i = 0; i < model.leaves.size(); ++i) {
+        spheres.push_back({tipTbase.apply(model.centre(frames, i)), model.leaves[i].sphere.radius});
+    }
+    return spheres;
+}
+
+cloud::LinkSpheres ArmRig::inPicture(const ArmPosture& posture) const {
+    const ArmFrames frames = framesAt(posture);
+    cloud::LinkSpheres arm;
+    for (size_t i = 0; i < model.leaves.size(); ++i) {
+        if (i > 0 && model.leaves[i].link != model.leaves[i - 1].link) {
+            arm.ends.push_back(static_cast<uint32_t>(i));
+        }
+        arm.spheres.push_back({model.centre(frames, i), model.leaves[i].sphere.radius + padding});
+    }
+    arm.ends.push_back(static_cast<uint32_t>(model.leaves.size()));
+    return arm;
+}
+
+Tool ArmRig::heldTool() const {
+    const std::vector<Sphere> all = aboutTip({start, 0.0});
+    std::vector<Sphere> held;
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (model.leaves[i].joint == model.count()) {
+            held.push_back(all[i]);
+        }
+    }
+    return Tool(buildSphereTree(held.empty() ? all : held));
+}
+
+std::unique_ptr<ArmRig> makeArmRig(const Scene& scene, std::span<const Sphere> toolLeaves) {
+    return scene.arm ? RigMaker(scene, *scene.arm).make(toolLeaves) : nullptr;
+}
+
+} // namespace fathom

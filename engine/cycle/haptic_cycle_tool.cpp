@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// The part of a turn that moves the tool: which contact set is in force, what the hand asks for, what the
+// free tool or the arm makes of it.
+#include "engine/cycle/haptic_cycle.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+bool HapticCycle::covers(const ContactSet& set) noexcept {
+    return arm_ ? arm_->covers(set) : proxy_->covers(set);
+}
+
+const ContactSet* HapticCycle::chooseSet(const TurnInput& input, TurnRecord& out) noexcept {
+    const ContactSet* offered = input.offered;
+    if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
+        out.adopted = true;
+        return offered;
+    }
+    return input.contacts != nullptr && input.contacts->frame >= 0 ? input.contacts : nullptr;
+}
+
+double HapticCycle::sceneAge(const TurnInput& input, const ContactSet* set) noexcept {
+    // The set in force may be older than the newest fixture set; while it is the same one, the picture may be
+    // newer.
+    const bool newest = set == nullptr || set->generation == input.generation;
+    const double age = input.time - (newest ? input.captureTime : set->captureTime);
+    age_ = input.sourceEnded && hasAge_ ? std::min(age, age_) : age;
+    hasAge_ = true;
+    return age_;
+}
+
+ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set, TurnRecord& out) noexcept {
+    ProxyInput wanted;
+    wanted.target = device_;
+    wanted.metricRadius = watch_.springs().metricRadius;
+    wanted.contacts = set;
+    wanted.deadline = input.deadline;
+    if (!options_.paperGuidance) {
+        // The turn is composed, not added to log(q_dev q^-1): the same to first order, and at rest the torque
+        // is exactly K_r times the lead.
+        const auto lead = guidance_.lead(device_, watch_.springs());
+        wanted.target.position += lead.translation;
+        if (lead.rotation != dvec3(0.0)) {
+            wanted.target.rotation = glm::normalize(rotationExp(lead.rotation) * device_.rotation);
+        }
+    }
+    springEnd_ = wanted.target;
+    if (arm_) {
+        return moveArm(input, wanted, out);
+    }
+    const ProxyTurn moved = proxy_->turn(wanted);
+    tool_ = moved.pose;
+    return moved;
+}
+
+// The arm's tip in place of the tool. With a free direction the hand's means nothing: it is the tip's, so
+// that no spring turns the hand.
+ProxyTurn HapticCycle::moveArm(const TurnInput& input, const ProxyInput& wanted, TurnRecord& out) noexcept {
+    const bool button = (input.buttons & rig_->graspButton) != 0;
+    ArmInput asked;
+    asked.target = wanted.target;
+    asked.metricRadius = rig_->freeDirection ? 0.0 : wanted.metricRadius;
+    asked.contacts = wanted.contacts;
+    asked.grasp = button ? 1.0 : 0.0;
+    asked.deadline = wanted.deadline;
+    const ArmTurn turn = arm_->turn(asked);
+    tool_ = turn.tip;
+    if (rig_->freeDirection) {
+        device_.rotation = springEnd_.rotation = tool_.rotation;
+    }
+    out.arm = {{turn.q, turn.grasp}, turn.residual,  turn.manipulability,
+               turn.atLimits,        turn.graspHeld, turn.singular};
+    ProxyTurn moved;
+    moved.pose = turn.tip;
+    moved.active = turn.active;
+    moved.minGap = turn.minGap;
+    moved.contact = turn.contacts > 0 || turn.atLimits > 0;
+    moved.escape = turn.escape;
+    moved.trapped = turn.trapped;
+    moved.stalled = turn.stalled;
+    moved.solves = turn.solves;
+    moved.infeasible = turn.infeasible;
+    return moved;
+}
+
+void HapticCycle::recordTouches(const ContactSet* set, const ProxyTurn& moved,
+                                TurnRecord& out) const noexcept {
+    for (const ActiveContact& active : moved.active) {
+        const ContactRow& row = active.row;
+        if (out.touchCount == kMostTouches) {
+            return;
+        }
+        Touch& touch = out.touches[out.touchCount++];
+        touch.kind = row.kind;
+        touch.normal = row.normal;
+        touch.point = tool_.position + row.arm - leafRadius(row.leaf) * row.normal;
+        touch.gap = row.gap;
+        touch.multiplier = active.multiplier;
+        touch.leaf = row.leaf;
+        touch.source = row.pair;
+        if (row.kind == ContactRow::Kind::Sphere && set != nullptr) {
+            const uint32_t sphere = set->pairSphere[row.pair];
+            touch.source = set->source[sphere];
+            touch.fixture = set->fixture[sphere];
+        } else if (row.kind != ContactRow::Kind::Behind) {
+            touch.fixture = shapes()[row.pair].fixture;
+        }
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/reference/self_filter.h"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace fathom::reference {
+
+namespace {
+
+constexpr double kSlack = 5e-6; // [m] float32 at metres, and what the shader's spheres are rounded outward by
+
+} // namespace
+
+void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassPicture& picture) {
+    for (int v = 0; v < view.height(); ++v) {
+        for (int u = 0; u < view.width(); ++u) {
+            const double z = view.z(u, v);
+            const size_t i = view.index(u, v);
+            if (z == 0.0 || picture.masks[i] == 0) {
+                continue;
+            }
+            const dvec3 p = view.baseTcamera().apply(view.point(u, v, z));
+            bool inside = false;
+            for (const Sphere& s : spheres) {
+                const double depth = s.radius - glm::distance(p, s.centre);
+                inside = inside || depth >= 0.0;
+                picture.unsure[i] = std::abs(depth) <= kSlack ? 1 : picture.unsure[i];
+            }
+            picture.masks[i] = inside ? 0 : picture.masks[i];
+        }
+    }
+}
+
+} // namespace fathom::reference

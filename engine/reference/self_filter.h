@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Twin of the self-filter in shaders/classify.comp: no pixel whose unfiltered point lies in a sphere of the
+// arm has a class.
+#pragma once
+
+#include "engine/reference/classify.h"
+#include "engine/types/sphere_tree.h"
+
+#include <span>
+
+namespace fathom::reference {
+
+// spheres: base frame [m], padding included; every one is looked at. Points within 5e-6 m of a surface become
+// unsure.
+void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassPicture& picture);
+
+} // namespace fathom::reference

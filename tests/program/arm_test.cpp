@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scenes with an arm that ship, run whole: section VII of the paper in its order, the arm in the loop.
+// And what `arm:` refuses.
+#include "tests/program/refusal.h"
+#include "tests/program/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+using namespace fathom;
+
+namespace {
+
+struct ArmRow {
+    double t = 0.0, grasp = 0.0, residual = 0.0, violation = 0.0;
+    std::vector<double> joints;
+    int limits = 0, held = 0;
+};
+
+std::vector<ArmRow> readArm(const std::filesystem::path& file, size_t joints) {
+    std::ifstream in(file);
+    std::string line;
+    std::getline(in, line);
+    CHECK(line ==
+          "t_s,slew,shoulder,elbow,wrist_roll,grasp,residual_m,manipulability,at_limits,limit_violation,"
+          "singular,grasp_held");
+    std::vector<ArmRow> rows;
+    while (std::getline(in, line)) {
+        std::vector<double> cells;
+        std::istringstream text(line);
+        for (std::string cell; std::getline(text, cell, ',');) {
+            cells.push_back(std::strtod(cell.c_str(), nullptr));
+        }
+        REQUIRE(cells.size() == joints + 8);
+        ArmRow row{cells[0], cells[joints + 1], cells[joints + 2], cells[joints + 5], {}, 0, 0};
+        row.joints.assign(cells.begin() + 1, cells.begin() + 1 + static_cast<std::ptrdiff_t>(joints));
+        row.limits = static_cast<int>(cells[joints + 4]);
+        row.held = static_cast<int>(cells[joints + 7]);
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+struct ArmRun {
+    Replay replay;
+    std::vector<ArmRow> arm;
+
+    const nlohmann::json& summary() const { return replay.summary.at("arm"); }
+    const ArmRow& at(double t) const {
+        return *std::find_if(arm.begin(), arm.end(), [&](const ArmRow& row) { return row.t >= t; });
+    }
+};
+
+// A scene that ships, lockstep, and what holds for every one of them.
+ArmRun runShipped(const std::string& scene) {
+    const TemporaryFolder folder;
+    const std::filesystem::path out = folder.path() / "out";
+    const ProgramRun run = runFathom({"replay", "apps/scenes/" + scene + ".yaml", "--out", out.string()});
+    REQUIRE(run.exitCode == 0);
+    ArmRun result{readReplay(out, run), readArm(out / "arm.csv", 4)};
+    const nlohmann::json& arm = result.summary();
+    double deepest = result.replay.haptic().at("max_penetration_m").get<double>();
+    for (const auto& link : arm.at("links")) {
+        deepest = std::max(deepest, link.at("max_penetration_m").get<double>());
+        CHECK(link.at("leaves").get<int>() > 10);
+    }
+    CHECK(arm.at("links").size() == 7);
+    CHECK(deepest <= 1e-5);
+    CHECK(arm.at("limit_violation_max").get<double>() == 0.0);
+    CHECK(result.arm.size() == result.replay.ticks.size());
+    CHECK(result.replay.haptic().at("trapped_ticks").get<int>() == 0);
+    MESSAGE(scene << ": " << arm.at("leaves") << " leaves, deepest " << deepest * 1e6 << " um, residual p50 "
+                  << arm.at("residual_m").at("p50") << " max " << arm.at("residual_m").at("max")
+                  << " m, turn p50 " << result.replay.haptic().at("turn_us").at("p50") << " p99 "
+                  << result.replay.haptic().at("turn_us").at("p99") << " us");
+    return result;
+}
+
+void refused(const std::string& arm, const std::vector<std::string>& parts, const std::string& contact = "") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    SceneText scene;
+    scene.contact = contact;
+    stage.scene(scene);
+    stage.write("scene.yaml", stage.read("scene.yaml") + "arm: {" + arm + "}\n");
+    std::ifstream urdf("apps/scenes/arm41.urdf");
+    std::ostringstream text;
+    text << urdf.rdbuf();
+    stage.write("arm41.urdf", text.str());
+    CAPTURE(arm);
+    checkRefused(stage, parts);
+}
+
+} // namespace
+
+TEST_CASE(
+    "First a forbidden region: the arm is held off the valve by every link, and stops where joints do") {
+    const ArmRun run = runShipped("arm_valve");
+    const nlohmann::json& arm = run.summary();
+    // Pressed into the region the hand feels it, and the arm stays out.
+    CHECK(glm::length(run.replay.at(3.6).force) > 5.0);
+    CHECK(run.replay.at(3.6).state == "contact");
+    // Out of reach: the elbow stands at its limit, and the hand is held although nothing is touched.
+    CHECK(run.at(13.0).joints[2] == doctest::Approx(-0.05));
+    CHECK(run.at(13.0).limits > 0);
+    CHECK(arm.at("limited_ticks").get<int>() > 500);
+    // Free again at first it follows to the micrometre.
+    CHECK(run.at(0.6).residual < 1e-6);
+}
+
+TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and the jaw closes and opens") {
+    const ArmRun run = runShipped("arm_wetmate");
+    const auto& target = run.replay.summary.at("guidance").at(0).at("target_m");
+    REQUIRE(target.is_array());
+    const dvec3 goal(target.at(0), target.at(1), target.at(2));
+    const double before = glm::distance(run.replay.at(2.95).tool.position, goal);
+    const double pulled = glm::distance(run.replay.at(4.4).tool.position, goal);
+    MESSAGE("jaw to connector: " << before * 1e3 << " mm before guidance, " << pulled * 1e3 << " mm with it");
+    CHECK(run.replay.at(4.4).guidance == 1.0);
+    CHECK(pulled < before - 0.0015); // guidance leads by at most F_g / K_t = 2 mm
+    CHECK(run.at(4.4).grasp == 0.0);
+    CHECK(run.at(6.0).grasp == 1.0);
+    CHECK(run.arm.back().grasp == 0.0);
+}
+
+TEST_CASE("A wrong arm section is one line that names the field, the value and what is allowed") {
+    const std::string urdf = "urdf: arm41.urdf, ";
+    refused("", {"arm.urdf"});
+    refused("urdf: nowhere.urdf", {"arm.urdf", "nowhere.urdf", "an existing URDF file"});
+    refused(urdf + "tipp: x", {"tipp", "did you mean 'tip'"});
+    refused(urdf + "tip: nothing", {"'nothing'", "wrist"});
+    refused(urdf + "joints: [{name: elbo}]", {"arm.joints[0].name", "'elbo'", "slew, shoulder, elbow"});
+    refused(urdf + "joints: [{name: elbow, start: 1}]", {"arm.joints[0].start", "-2.4 to -0.05"});
+    refused(urdf + "joints: [{name: elbow, lower: 1, upper: 0}]", {"arm.joints[0]", "lower <= upper"});
+    refused(urdf + "joints: [{name: elbow}, {name: elbow}]", {"arm.joints[1].name", "each joint once"});
+    refused(urdf + "joints: [{name: elbow, speed: 0}]", {"arm.joints[0].speed", "above 0"});
+    refused(urdf + "self_filter: -1", {"arm.self_filter", "-1", "from 0 to 0.5"});
+    refused(urdf + "direction: any", {"arm.direction", "any", "free"});
+    refused(urdf + "tip: tip, grasp: {fingers: [{joint: thumb}]}", {"'thumb'", "beside the chain"});
+    refused(urdf + "grasp: {fingers: [], button: 4}", {"arm.grasp", "button 4", "hand.map.clutch"});
+    refused(urdf + "tip: tip", {"contact.where", "gpu", "cpu with an arm"}, "{where: gpu}");
+}
