@@ -22,6 +22,7 @@ struct LineFaults {
     bool echo = false;    // the host hears itself
     double latency = 0.0; // [s] of answers
     bool cut = false;     // nothing gets through
+    bool deaf = false;    // the arm hears nothing; the host still hears its echo
 };
 
 // Time is the test's; only the terminal is real, and it is waited for.
@@ -64,7 +65,9 @@ public:
             if (faults.echo) {
                 answers.insert(answers.end(), bytes, bytes + got);
             }
-            arm_.receive(sent, answers);
+            if (!faults.deaf) {
+                arm_.receive(sent, answers);
+            }
         }
         spoil(answers);
         for (uint8_t byte : answers) {
