@@ -13,6 +13,7 @@
 #include "apps/spheres/spheres_command.h"
 #include "apps/stability/stability_command.h"
 #include "engine/types/error.h"
+#include "engine/types/version.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -57,6 +58,7 @@ int run(int argc, char** argv) {
     app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
     app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and turns");
     app.add_flag("-v,--verbose", global.verbose, "log more");
+    app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
     app.fallthrough();
     app.parse_complete_callback(
         [&global] { spdlog::set_level(global.verbose ? spdlog::level::debug : spdlog::level::warn); });

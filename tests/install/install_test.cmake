@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+# Installs the built tree into an empty folder and builds consumer.cpp outside of the sources, once by find_package and once by
+# pkg-config; both must feel the wall. What must lie where is checked, and that no installed file knows where it was built.
+#   cmake -DSOURCE= -DBINARY= -DCXX= -DVERSION= -P install_test.cmake
+cmake_minimum_required(VERSION 3.25)
+set(passed 0)
+set(failed 0)
+
+macro(check what)
+    if(${ARGN})
+        math(EXPR passed "${passed} + 1")
+    else()
+        math(EXPR failed "${failed} + 1")
+        message("ERROR: ${what}")
+    endif()
+endmacro()
+
+execute_process(COMMAND mktemp -d OUTPUT_VARIABLE stage OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+set(root ${stage}/installed)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BINARY} --prefix ${root} OUTPUT_QUIET RESULT_VARIABLE result)
+check("cmake --install ends with ${result}" result EQUAL 0)
+
+# What is where.
+file(GLOB_RECURSE files RELATIVE ${root} ${root}/*)
+foreach(wanted bin/fathom share/fathom/scenes/demo.yaml share/fathom/scenes/task1.csv lib/udev/rules.d/70-fathom.rules
+        share/fathom/limits.d/fathom-limits.conf share/bash-completion/completions/fathom share/man/man1/fathom.1.gz
+        share/man/man5/fathom-scene.5.gz share/doc/fathom/copyright include/fathom/engine/cycle/haptic_cycle.h
+        include/fathom/devices/bridge/fathom_door.h include/fathom/shaders/shared/frame_params.h)
+    check("${wanted} is not installed" wanted IN_LIST files)
+endforeach()
+list(FILTER files INCLUDE REGEX "(cmake|pc|conf|rules|h|yaml)$")
+foreach(file ${files})
+    file(READ ${root}/${file} text)
+    string(FIND "${text}" "${SOURCE}/" at)
+    check("${file} names the folder that it was built from" at EQUAL -1)
+endforeach()
+
+# The program, from there.
+execute_process(COMMAND ${root}/bin/fathom --version OUTPUT_VARIABLE said OUTPUT_STRIP_TRAILING_WHITESPACE)
+check("fathom --version says '${said}'" said STREQUAL "fathom ${VERSION}")
+
+function(must_feel what program)
+    execute_process(COMMAND ${program} ${root}/share/fathom/scenes/task1.yaml OUTPUT_VARIABLE said ERROR_VARIABLE said RESULT_VARIABLE result)
+    # The wall's spheres reach from 0.6 to 0.56, the tool's 10 mm keep it before 0.55; a dimple between spheres is below 0.1 mm.
+    if(said MATCHES "^${VERSION} z 0[.]5[45][0-9]* force -([0-9.]+)" AND CMAKE_MATCH_1 GREATER 4)
+        set(felt TRUE)
+    else()
+        set(felt FALSE)
+    endif()
+    check("${what}: exit ${result}, said '${said}'" felt)
+    set(passed ${passed} PARENT_SCOPE)
+    set(failed ${failed} PARENT_SCOPE)
+endfunction()
+
+# By CMake.
+file(COPY ${CMAKE_CURRENT_LIST_DIR}/consumer.cpp DESTINATION ${stage}/consumer)
+file(WRITE ${stage}/consumer/CMakeLists.txt "cmake_minimum_required(VERSION 3.25)
+project(consumer CXX)
+find_package(fathom ${VERSION} CONFIG REQUIRED)
+add_executable(consumer consumer.cpp)
+target_link_libraries(consumer PRIVATE fathom::cycle)
+")
+execute_process(COMMAND ${CMAKE_COMMAND} -S ${stage}/consumer -B ${stage}/consumer/build -DCMAKE_PREFIX_PATH=${root} -DCMAKE_CXX_COMPILER=${CXX}
+                OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE result)
+if(result EQUAL 0)
+    execute_process(COMMAND ${CMAKE_COMMAND} --build ${stage}/consumer/build OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE result)
+endif()
+check("the consumer does not build by find_package: ${log}" result EQUAL 0)
+must_feel("the consumer built by find_package" ${stage}/consumer/build/consumer)
+
+# By pkg-config.
+file(GLOB_RECURSE pc ${root}/fathom.pc)
+get_filename_component(pc "${pc}" DIRECTORY)
+execute_process(COMMAND ${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${pc} pkg-config --cflags --libs fathom OUTPUT_VARIABLE flags
+                OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE result)
+check("pkg-config ends with ${result}" result EQUAL 0)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+execute_process(COMMAND ${CXX} -O1 ${stage}/consumer/consumer.cpp -o ${stage}/by_pkg_config ${flags} OUTPUT_VARIABLE log ERROR_VARIABLE log
+                RESULT_VARIABLE result)
+check("the consumer does not build by pkg-config: ${log}" result EQUAL 0)
+must_feel("the consumer built by pkg-config" ${stage}/by_pkg_config)
+
+# Manual page and completion know every subcommand and every long option that the program itself tells of.
+execute_process(COMMAND gzip -dc ${root}/share/man/man1/fathom.1.gz OUTPUT_VARIABLE manual)
+string(REPLACE "\\-" "-" manual "${manual}")
+function(words_of result)
+    list(JOIN ARGN " " typed)
+    execute_process(COMMAND bash -c "source ${root}/share/bash-completion/completions/fathom; COMP_WORDS=(${root}/bin/fathom ${typed}); \
+COMP_CWORD=$((\${#COMP_WORDS[@]} - 1)); _fathom; echo \${COMPREPLY[@]}" OUTPUT_VARIABLE words OUTPUT_STRIP_TRAILING_WHITESPACE)
+    separate_arguments(words)
+    set(${result} "${words}" PARENT_SCOPE)
+endfunction()
+execute_process(COMMAND ${root}/bin/fathom --help OUTPUT_VARIABLE help)
+string(REGEX REPLACE "^.*Subcommands:" "" help "${help}")
+string(REGEX MATCHALL "\n  [a-z]+" subcommands "${help}")
+list(TRANSFORM subcommands STRIP)
+list(LENGTH subcommands count)
+check("the program tells of ${count} subcommands" count GREATER_EQUAL 10)
+words_of(commands "''")
+foreach(subcommand ${subcommands})
+    check("the completion does not offer ${subcommand}" subcommand IN_LIST commands)
+    string(FIND "${manual}" ".SS fathom ${subcommand}" at)
+    check("fathom(1) does not tell of ${subcommand}" at GREATER -1)
+    string(REGEX REPLACE "^.*[.]SS fathom ${subcommand}(.*)$" "\\1" section "${manual}")
+    string(REGEX REPLACE "[.]S[SH] .*$" "" section "${section}")
+    execute_process(COMMAND ${root}/bin/fathom ${subcommand} --help OUTPUT_VARIABLE help)
+    string(REGEX MATCHALL "\n  --[a-z-]+" options "${help}")
+    list(TRANSFORM options STRIP)
+    words_of(offered ${subcommand} --)
+    foreach(option ${options})
+        check("the completion of ${subcommand} does not offer ${option}" option IN_LIST offered)
+        string(FIND "${section}" "${option}" at)
+        check("fathom(1) does not tell of ${subcommand} ${option}" at GREATER -1)
+    endforeach()
+endforeach()
+
+file(REMOVE_RECURSE ${stage})
+message("install: ${passed} passed, ${failed} failed")
+if(failed GREATER 0)
+    message(FATAL_ERROR "what is installed is not whole")
+endif()
