@@ -16,6 +16,8 @@
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 
+#include <spdlog/spdlog.h>
+
 namespace fathom {
 
 namespace {
@@ -81,6 +83,9 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
 
 Scene openScene(const std::filesystem::path& file) {
     Scene scene = loadScene(file);
+    for (const std::string& path : scene.outside) {
+        spdlog::warn("{}: '{}' leads out of the scene file's folder", file.string(), path);
+    }
     std::string names;
     for (const DevicePreset& preset : devicePresets()) {
         if (preset.name == scene.haptics.device) {

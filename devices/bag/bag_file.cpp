@@ -115,6 +115,10 @@ void BagFile::readIndex(uint64_t indexAt) {
             chunks.push_back(number<uint64_t>(record.fields, "chunk_pos"));
         }
     }
+    std::sort(chunks.begin(), chunks.end());
+    if (std::adjacent_find(chunks.begin(), chunks.end()) != chunks.end()) {
+        throw Error("the index names a chunk twice"); // each time would cost its messages again
+    }
     for (const uint64_t chunk : chunks) {
         readChunkIndex(chunk, topicOf);
     }

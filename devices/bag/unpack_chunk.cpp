@@ -11,6 +11,8 @@ namespace fathom {
 
 namespace {
 
+constexpr uint64_t kMostLz4 = 255, kMostBz2 = 65536; // to one: what the formats can reach
+
 struct FreeContext {
     void operator()(LZ4F_dctx* context) const noexcept { LZ4F_freeDecompressionContext(context); }
 };
@@ -55,6 +57,11 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
                                  uint32_t size) {
     if (compression == "none") {
         return {packed.begin(), packed.end()};
+    }
+    const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMostLz4 : kMostBz2);
+    if (size > most) { // before memory is taken for it
+        throw Error("a chunk of " + std::to_string(packed.size()) + " bytes cannot hold the " +
+                    std::to_string(size) + " that are told");
     }
     std::vector<uint8_t> out(size);
     size_t got = 0;

@@ -2,12 +2,12 @@
 #include "devices/pcd/pcd_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -18,6 +18,7 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMostWidth = 3840, kMostHeight = 2160;
+constexpr size_t kMostBytes = size_t{1} << 30;
 constexpr size_t kMostBytesOfPoint = 4096;
 
 struct Field {
@@ -256,11 +257,12 @@ bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out) {
 }
 
 PcdCloud readPcd(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
-        throw BadInput(file.string(), "file", "cannot be read", "an organised PCD file");
+    std::optional<std::string> text = readFileAtMost(file, kMostBytes);
+    if (!text || text->size() > kMostBytes) {
+        throw BadInput(file.string(), "file", text ? "over 1 GiB" : "cannot be read",
+                       "an organised PCD file");
     }
-    Source source{file.string(), {std::istreambuf_iterator<char>(in), {}}, 0};
+    Source source{file.string(), {text->begin(), text->end()}, 0};
     const Header header = readHeader(source);
     const Field *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
     const Field* colour = find(header, "rgb") != nullptr ? find(header, "rgb") : find(header, "rgba");

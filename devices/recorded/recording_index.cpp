@@ -3,6 +3,7 @@
 
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
+#include "engine/types/inside.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,8 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
                 "line " + std::to_string(line.number) + " is not 't_rgb rgb/x.png t_depth depth/x.png'";
         } else if (!parseStamp(words[0], entry.colourStamp) || !parseStamp(words[2], entry.depthStamp)) {
             entry.fault = "line " + std::to_string(line.number) + " has a stamp that is no finite number";
+        } else if (!staysInside(words[1]) || !staysInside(words[3])) {
+            entry.fault = "line " + std::to_string(line.number) + " leads out of the recording's folder";
         } else {
             entry.colour = folder / words[1];
             entry.depth = folder / words[3];
@@ -53,6 +56,11 @@ std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* na
         StampedFile entry;
         if (words.size() != 2 || !parseStamp(words[0], entry.stamp)) {
             spdlog::warn("{}: line {} is not 't path': left out", (folder / name).string(), line.number);
+            continue;
+        }
+        if (!staysInside(words[1])) {
+            spdlog::warn("{}: line {} leads out of the recording's folder: left out",
+                         (folder / name).string(), line.number);
             continue;
         }
         entry.file = folder / words[1];

@@ -2,10 +2,10 @@
 #include "devices/recorded/text_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 
 namespace fathom {
 
@@ -29,19 +29,14 @@ bool parseWhole(std::string_view word, T& value) {
 } // namespace
 
 std::string readTextFile(const std::filesystem::path& file) {
-    std::error_code failed;
-    const uint64_t bytes = std::filesystem::file_size(file, failed);
-    std::ifstream in(file, std::ios::binary);
-    if (failed || !in) {
+    std::optional<std::string> text = readFileAtMost(file, kMaxBytes);
+    if (!text) {
         throw BadInput(file.string(), "file", "cannot be read", "a readable text file");
     }
-    if (bytes > kMaxBytes) {
-        throw BadInput(file.string(), "file", std::to_string(bytes) + " bytes", "at most 64 MiB");
+    if (text->size() > kMaxBytes) {
+        throw BadInput(file.string(), "file", "over 64 MiB", "at most 64 MiB");
     }
-    std::string text(bytes, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(bytes));
-    text.resize(static_cast<size_t>(in.gcount()));
-    return text;
+    return std::move(*text);
 }
 
 std::vector<TextLine> readDataLines(const std::filesystem::path& file) {

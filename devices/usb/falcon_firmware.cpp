@@ -2,11 +2,10 @@
 #include "devices/usb/falcon_firmware.h"
 
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 namespace fathom {
@@ -83,16 +82,16 @@ void greet(FtdiPort& port) {
 } // namespace
 
 std::vector<uint8_t> readFalconFirmware(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in) {
+    const std::optional<std::string> text = readFileAtMost(file, kLargest);
+    if (!text) {
         throw BadInput(file.string(), "firmware", "cannot be read", "a file with the Falcon's firmware");
     }
-    const std::vector<char> text{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    if (text.empty() || text.size() > kLargest) {
-        throw BadInput(file.string(), "firmware", std::to_string(text.size()) + " bytes",
-                       "1 to " + std::to_string(kLargest));
+    if (text->empty() || text->size() > kLargest) {
+        throw BadInput(file.string(), "firmware",
+                       text->empty() ? "empty" : "over " + std::to_string(kLargest) + " bytes",
+                       "1 to " + std::to_string(kLargest) + " bytes");
     }
-    return {text.begin(), text.end()};
+    return {text->begin(), text->end()};
 }
 
 void loadFalconFirmware(FtdiPort& port, std::span<const uint8_t> firmware) {

@@ -16,6 +16,7 @@ namespace fathom {
 namespace {
 
 constexpr double kLeastExtent = 1e-3, kMostExtent = 10.0; // [m]
+constexpr uintmax_t kMostBytes = 512u << 20;
 constexpr size_t kMostTriangles = 2'000'000;
 
 std::string metres(double v) {
@@ -59,6 +60,10 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
     const std::string kinds = "a readable STL, OBJ or COLLADA (.dae) mesh";
     if (!std::filesystem::is_regular_file(file)) {
         throw BadInput(file.string(), "mesh", "no such file", kinds);
+    }
+    if (const auto bytes = std::filesystem::file_size(file); bytes > kMostBytes) {
+        throw BadInput(file.string(), "mesh", std::to_string(bytes) + " bytes",
+                       "at most " + std::to_string(kMostBytes));
     }
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);

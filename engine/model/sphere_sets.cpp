@@ -4,6 +4,7 @@
 #include "engine/model/sph_file.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,6 +14,8 @@
 namespace fathom {
 
 namespace {
+
+constexpr size_t kMostBytes = 64u << 20;
 
 std::string lineOf(const YAML::Node& node) {
     return "line " + std::to_string(node.Mark().line + 1);
@@ -90,9 +93,14 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file) {
 }
 
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file) {
+    const std::optional<std::string> text = readFileAtMost(file, kMostBytes);
+    if (!text || text->size() > kMostBytes) {
+        throw BadInput(file.string(), "file", text ? "over 64 MiB" : "cannot be read",
+                       "a readable YAML file");
+    }
     YAML::Node root;
     try {
-        root = YAML::LoadFile(file.string());
+        root = YAML::Load(*text);
     } catch (const YAML::Exception& e) {
         throw BadInput(file.string(), "line " + std::to_string(e.mark.line + 1), e.msg,
                        "a readable YAML file");

@@ -2,16 +2,18 @@
 #include "engine/model/urdf_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <console_bridge/console.h>
-#include <fstream>
-#include <iterator>
+#include <optional>
 #include <urdf_model/pose.h>
 #include <urdf_parser/urdf_parser.h>
 
 namespace fathom {
 
 namespace {
+
+constexpr size_t kMostBytes = 64u << 20;
 
 // Takes what the parser would print, so that it becomes part of one line of ours.
 class Listener : public console_bridge::OutputHandler {
@@ -38,11 +40,13 @@ private:
 } // namespace
 
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(in), {}};
-    if (!in.is_open() || text.empty()) {
-        throw BadInput(file.string(), "file", "cannot be read or empty", "a readable URDF file");
+    const std::optional<std::string> read = readFileAtMost(file, kMostBytes);
+    if (!read || read->empty() || read->size() > kMostBytes) {
+        throw BadInput(file.string(), "file",
+                       read && !read->empty() ? "over 64 MiB" : "cannot be read or empty",
+                       "a readable URDF file");
     }
+    const std::string& text = *read;
     const Listener listener;
     std::shared_ptr<const urdf::ModelInterface> model = urdf::parseURDF(text);
     if (!model) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/scene/load.h"
 
+#include "engine/types/inside.h"
+
 namespace fathom {
 
 Pose loadPose(const YamlNode& node) {
@@ -15,7 +17,10 @@ Pose loadPose(const YamlNode& node) {
     return pose;
 }
 
-std::filesystem::path besideScene(const Scene& scene, const std::string& path) {
+std::filesystem::path besideScene(Scene& scene, const std::string& path) {
+    if (!staysInside(path)) {
+        scene.outside.push_back(path);
+    }
     return (scene.file.parent_path() / path).lexically_normal();
 }
 

@@ -23,7 +23,8 @@ Pose loadPose(const YamlNode& node);
 // 0 or one bit of the hand's buttons that nothing else has (1 guidance, 2 dead-man open).
 uint32_t loadButtonBit(const YamlNode& node);
 
-// As given when absolute, else taken from the scene file's folder.
-std::filesystem::path besideScene(const Scene& scene, const std::string& path);
+// As given when absolute, else taken from the scene file's folder. Notes a path that leads out of it in
+// Scene::outside.
+std::filesystem::path besideScene(Scene& scene, const std::string& path);
 
 } // namespace fathom

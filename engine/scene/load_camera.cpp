@@ -6,7 +6,7 @@ namespace fathom {
 
 namespace {
 
-CameraSource loadSource(const YamlNode& node, const Scene& scene) {
+CameraSource loadSource(const YamlNode& node, Scene& scene) {
     node.checkKeys({"simulated", "recorded", "v4l2"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2");
     const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value());

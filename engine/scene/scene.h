@@ -95,6 +95,8 @@ struct SceneArm {
 struct Scene {
     std::filesystem::path file; // where it was read, for messages and relative paths; empty = built in
 
+    std::vector<std::string> outside; // paths, as written, that lead out of the file's folder: for a warning
+
     CameraSource source;
     double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
     Pose baseTcamera;

@@ -209,6 +209,21 @@ TEST_CASE("A bag that was not closed, is cut off or damaged, or has no depth is 
     }
 }
 
+TEST_CASE("A bag that tells of more than its bytes can hold is refused before memory is taken for it") {
+    const TemporaryFolder folder;
+    for (const char* compression : {"lz4", "bz2"}) {
+        const std::string few(100, 'x');
+        const std::span<const uint8_t> packed(reinterpret_cast<const uint8_t*>(few.data()), few.size());
+        CHECK_THROWS_WITH_AS(unpackChunk(compression, packed, 1u << 30),
+                             "a chunk of 100 bytes cannot hold the 1073741824 that are told", Error);
+    }
+    std::string twice = smallBag().bag("none");
+    const size_t last = twice.rfind(Out().text("op=\x06").bytes) - 4;
+    twice += twice.substr(last); // the chunk's record once more
+    folder.write("a.bag", twice);
+    CHECK(refusal(folder.path() / "a.bag").find("names a chunk twice") != std::string::npos);
+}
+
 TEST_CASE("A bag with any byte changed is refused or read, and never breaks the reader") {
     const TemporaryFolder folder;
     const std::string whole = smallBag().bag("lz4");

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <set>
+#include <spdlog/spdlog.h>
 #include <thread>
 
 using namespace fathom;
@@ -211,4 +212,31 @@ TEST_CASE("without associations the nearest stamps within 20 ms make the pairs, 
     CHECK(third->depth[0] == 1003);
     CHECK((third->colour[0] & 255) == 3);
     CHECK(camera.skipped() == 0);
+}
+
+TEST_CASE("No line of an index leads out of the recording's folder") {
+    const TemporaryFolder folder;
+    const char* lines[] = {"0 rgb/0.png 0 depth/0.png", "0 ../rgb/0.png 0 depth/0.png",
+                           "0 rgb/0.png 0 /etc/hostname", "0 rgb/a/../../../x.png 0 depth/0.png",
+                           "0 rgb/a/../b.png 0 ./depth/0.png"};
+    std::string text;
+    for (const char* line : lines) {
+        text += std::string(line) + "\n";
+    }
+    folder.write("associations.txt", text);
+    const std::vector<IndexLine> index = readIndex(folder.path(), {});
+    REQUIRE(index.size() == 5);
+    for (size_t i = 0; i < 5; ++i) {
+        CAPTURE(lines[i]);
+        const bool leads = index[i].fault.find("leads out of the recording's folder") != std::string::npos;
+        CHECK(leads == (i >= 1 && i <= 3));
+        CHECK(index[i].depth.empty() == leads);
+    }
+    std::filesystem::remove(folder.path() / "associations.txt"); // the other kind of index leaves them out
+    folder.write("depth.txt", "0 depth/0.png\n0.1 ../1.png\n0.2 depth/2.png\n");
+    folder.write("rgb.txt", "0 rgb/0.png\n0.1 rgb/1.png\n0.2 /rgb/2.png\n");
+    const auto level = spdlog::get_level();
+    spdlog::set_level(spdlog::level::off);
+    CHECK(readIndex(folder.path(), {}).size() == 1);
+    spdlog::set_level(level);
 }

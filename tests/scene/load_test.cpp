@@ -192,3 +192,11 @@ TEST_CASE("A flat port under water is read, and one that cannot be is refused") 
     CHECK(refusal(kMinimal + "camera: {port: {distance: 0.02, glass: 1}}\n").find("glass") !=
           std::string::npos);
 }
+
+TEST_CASE("Paths of a scene that lead out of its folder are noted, the others are not") {
+    const SceneFile inside(kMinimal + "hand: {path: sub/../way.csv}\ncamera: {source: {recorded: ./rec}}\n");
+    CHECK(loadScene(inside.path()).outside.empty());
+    const SceneFile outside(kMinimal +
+                            "hand: {path: sub/../../way.csv}\ncamera: {source: {recorded: /rec}}\n");
+    CHECK(loadScene(outside.path()).outside == std::vector<std::string>{"/rec", "sub/../../way.csv"});
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/types/read_file.h"
+
+#include <algorithm>
+#include <fstream>
+
+namespace fathom {
+
+std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most) {
+    constexpr size_t kPiece = 1u << 16;
+    std::error_code ignored;
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file, ignored)) {
+        return std::nullopt;
+    }
+    std::string text;
+    while (in && text.size() <= most) {
+        const size_t before = text.size(), piece = std::min(kPiece, most + 1 - before);
+        text.resize(before + piece);
+        in.read(text.data() + before, static_cast<std::streamsize>(piece));
+        text.resize(before + static_cast<size_t>(in.gcount()));
+    }
+    return text;
+}
+
+} // namespace fathom
