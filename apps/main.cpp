@@ -4,6 +4,7 @@
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
 #include "apps/guard/guard_command.h"
+#include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
 #include "apps/plan/plan_command.h"
 #include "apps/profile/profile_command.h"
@@ -73,6 +74,7 @@ int run(int argc, char** argv) {
     fathom::addOperateCommand(app, global, result);
     fathom::addStabilityCommand(app, global, result);
     fathom::addRecordCommand(app, global, result);
+    fathom::addLatencyCommand(app, global, result);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

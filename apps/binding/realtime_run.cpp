@@ -137,7 +137,10 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
-                spdlog::warn("haptic thread: refused {}; wake-ups will be later", refused);
+                spdlog::warn(
+                    "haptic thread: refused {}; wake-ups will be later (how to permit it: man fathom, "
+                    "PERMISSIONS)",
+                    refused);
             }
             haptic.run(stop_);
         });

@@ -30,6 +30,10 @@ public:
     // of validation messages.
     uint32_t run();
 
+    // After run(): what there was to see.
+    const RunView& view() const { return view_; }
+    const RealtimeRun& engine() const { return *engine_; }
+
 private:
     struct Surface; // surface and swapchain
     void startThreads();

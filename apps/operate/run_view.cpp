@@ -35,6 +35,7 @@ void RunView::take(const TurnRow& row) {
     ++turns_;
     late_ += row.late ? 1 : 0;
     micros_.push_back(static_cast<float>(row.micros));
+    wokenLate_.push_back(static_cast<float>(row.wokenLate * 1e6));
     const TurnRecord& r = row.record;
     trace_.push_back({r.t, glm::vec3(r.wrench.force), glm::vec3(r.wrench.torque), r.frame, r.state,
                       r.guidance > 0.0, row.late});

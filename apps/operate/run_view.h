@@ -52,6 +52,7 @@ public:
     const std::deque<Block>& blocks() const { return blocks_; } // newest first; one a kind, fixture and leaf
     Rates rates() const;
     const std::vector<float>& turnMicros() const { return micros_; } // of the whole run
+    const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // likewise
     uint64_t lateTurns() const { return late_; }
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that had passes
 
@@ -65,7 +66,7 @@ private:
     std::deque<TraceSample> trace_;
     std::deque<double> pictures_; // [s] capture times of the last second
     std::deque<Block> blocks_;
-    std::vector<float> micros_;
+    std::vector<float> micros_, wokenLate_;
     std::vector<double> passMs_;
 };
 

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/latency/latency_command.h"
+
+#include "apps/binding/stop_signals.h"
+#include "apps/latency/latency_report.h"
+#include "apps/latency/latency_run.h"
+
+#include <algorithm>
+#include <iostream>
+
+namespace fathom {
+
+namespace {
+
+struct Request {
+    LatencyOptions run;
+    std::vector<std::string> loads;
+    double soakMinutes = 0.0;
+    std::string out;
+};
+
+int measure(const Request& request, const GlobalOptions& global) {
+    const StopSignals signals;
+    LatencyOptions options = request.run;
+    std::vector<std::string> loads = request.loads;
+    if (request.soakMinutes > 0.0) {
+        options.seconds = request.soakMinutes * 60.0;
+        loads = {"frames"};
+    } else if (loads.empty()) {
+        loads = {"idle", "frames", "window"};
+    }
+    LatencyRun run(options, global, signals.asked());
+    std::cout << "rate         " << run.rateHz() << " turns a second, " << options.seconds << " s a part; "
+              << run.placement() << "\nframes       30 a second on " << run.device() << "\n";
+    std::vector<LatencyPart> parts;
+    for (const std::string& load : loads) {
+        if (!signals.asked().load()) {
+            parts.push_back(load == "idle" ? run.idle() : load == "frames" ? run.frames() : run.window());
+            printLatency(std::cout, parts.back());
+        }
+    }
+    printHistograms(std::cout, parts);
+    if (!request.out.empty()) {
+        writeLatency(request.out, parts, run.rateHz(), run.device());
+    }
+    if (request.soakMinutes > 0.0) {
+        const bool holds = std::all_of(parts.begin(), parts.end(), soakHolds);
+        std::cout << "soak         " << (holds ? "kept" : "MISSED")
+                  << ": no frame lost, memory grown by at most " << kMostGrowth << " MiB\n";
+        return holds ? 0 : 1;
+    }
+    return 0;
+}
+
+} // namespace
+
+void addLatencyCommand(CLI::App& app, const GlobalOptions& global, int& result) {
+    auto request = std::make_shared<Request>();
+    CLI::App* command =
+        app.add_subcommand("latency", "measure how late the haptic thread wakes, and its turn");
+    command->add_option("SCENE", request->run.scene, "scene file (YAML)")->required();
+    command->add_option("--source", request->run.source, "recording folder instead of the scene's camera");
+    command->add_option("--seconds", request->run.seconds, "length of each part (10)")
+        ->check(CLI::Range(0.5, 86400.0));
+    command
+        ->add_option("--load", request->loads, "idle, frames or window; may be given again; all when none is")
+        ->check(CLI::IsMember({"idle", "frames", "window"}));
+    command
+        ->add_option("--soak", request->soakMinutes,
+                     "one run of so many minutes with frames: memory flat, no frame lost")
+        ->check(CLI::Range(0.01, 1440.0));
+    command->add_option("--out", request->out, "the same as JSON, with every bin that counted");
+    command->callback([request, &global, &result] { result = measure(*request, global); });
+}
+
+} // namespace fathom

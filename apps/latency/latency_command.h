@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom latency SCENE`: what this machine gives the haptic thread.
+#pragma once
+
+#include "apps/global_options.h"
+
+#include <CLI/CLI.hpp>
+
+namespace fathom {
+
+// result: 1 when a soak's stated limits do not hold.
+void addLatencyCommand(CLI::App& app, const GlobalOptions& global, int& result);
+
+} // namespace fathom

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// The threads of a realtime run, watched: how late the haptic thread wakes, how long its turn takes, whether
+// memory stays flat.
+#pragma once
+
+#include "apps/global_options.h"
+#include "apps/latency/histogram.h"
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fathom {
+
+// One part: so long under one load.
+struct LatencyPart {
+    std::string
+        load; // idle: one picture, then none; frames: 30 a second; window: frames, and the window drawing
+    double seconds = 0.0;       // that it really took
+    Histogram late;             // [us] wake-ups after they were due
+    Histogram turn;             // [us] compute time of a turn
+    uint64_t frames = 0;        // published
+    uint64_t framesLost = 0;    // that a live camera would have thrown away
+    uint64_t periodsMissed = 0; // without a turn
+    uint64_t recordsLost = 0;
+    std::vector<double> memory; // [MiB] resident, about 100 over the part, after its first 5 %
+    // How much more of it in the last tenth than in the first one, each by its largest; 0 when there are too
+    // few.
+    double memoryGrowth() const;
+};
+
+struct LatencyOptions {
+    std::filesystem::path scene;
+    std::string source; // as of operate; empty = the scene's camera
+    double seconds = 10.0;
+};
+
+// The scene's hand path drives, again and again, through the regions. Keeps one session for idle and frames.
+class LatencyRun {
+public:
+    // Throws BadInput, Error, DeviceLost.
+    LatencyRun(const LatencyOptions& options, const GlobalOptions& global, const std::atomic<bool>& stop);
+    ~LatencyRun();
+
+    LatencyPart idle();
+    LatencyPart frames();
+    // In a window where there is a display, else offscreen.
+    LatencyPart window();
+
+    std::string device() const; // that computes the frames
+    std::string placement() const;
+    double rateHz() const;
+
+private:
+    struct Session;
+    LatencyPart run(const std::string& load, bool moving);
+
+    LatencyOptions options_;
+    GlobalOptions global_;
+    const std::atomic<bool>& stop_;
+    std::unique_ptr<Session> session_;
+};
+
+// [MiB] resident memory of this process; 0 when the system does not tell.
+double residentMemory();
+
+} // namespace fathom
