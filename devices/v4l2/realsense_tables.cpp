@@ -4,6 +4,7 @@
 #include "devices/v4l2/inverse_distortion.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -130,6 +131,12 @@ ColourTable colourLens(std::span<const uint8_t> table, VideoSize size) {
     const dvec3 shift = -0.001 * dvec3(real(bytes, 204), real(bytes, 208), real(bytes, 212));
     // The table's pose maps colour to depth (it is registered from colour to depth).
     colour.colourTdepth = inverse(Pose{shift, glm::normalize(glm::quat_cast(rotation))});
+    const auto& bend = colour.lens.distortion;
+    if (!isFinite(colour.colourTdepth) ||
+        !std::all_of(bend.begin(), bend.end(), [](double k) { return std::isfinite(k); })) {
+        throw Error("calibration table " + std::to_string(kColourTable) +
+                    ": distortion or pose that are no finite numbers");
+    }
     return colour;
 }
 

@@ -102,8 +102,10 @@ std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file) {
     try {
         root = YAML::Load(*text);
     } catch (const YAML::Exception& e) {
-        throw BadInput(file.string(), "line " + std::to_string(e.mark.line + 1), e.msg,
-                       "a readable YAML file");
+        std::string why = e.msg; // quotes what it stumbled over, whatever that is
+        std::replace_if(
+            why.begin(), why.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
+        throw BadInput(file.string(), "line " + std::to_string(e.mark.line + 1), why, "a readable YAML file");
     }
     const YAML::Node section = sectionOf(root);
     if (!section || !section.IsMap()) {

@@ -7,6 +7,7 @@
 #include "engine/types/error.h"
 
 #include <cmath>
+#include <cstring>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -90,6 +91,34 @@ TEST_CASE("A RealSense table of a wrong length, number or checksum is refused") 
     CHECK_THROWS_WITH(realsense::depthLens(table, {640, 480}), doctest::Contains("wrong checksum"));
     const char* nine = "123456789"; // the check value of CRC-32
     CHECK(realsense::crc32({reinterpret_cast<const uint8_t*>(nine), 9}) == 0xcbf43926u);
+}
+
+TEST_CASE("A RealSense colour table with a lens and a pose or distortion that is no number is refused") {
+    std::vector<uint8_t> table(16 + 240, 0);
+    table[2] = 32;
+    table[4] = 240;
+    const auto put = [&table](size_t at, float value) {
+        std::memcpy(table.data() + 16 + at, &value, sizeof value);
+    };
+    const auto seal = [&table] {
+        const uint32_t crc = realsense::crc32(std::span(table).subspan(16));
+        std::memcpy(table.data() + 12, &crc, sizeof crc);
+    };
+    put(0, 1.2f);  // fx
+    put(16, 1.6f); // fy
+    for (size_t i : {0, 4, 8}) {
+        put(168 + 4 * i, 1.0f); // rotation
+    }
+    seal();
+    CHECK(isFinite(realsense::colourLens(table, {640, 480}).colourTdepth));
+    for (const size_t at : {size_t{36}, size_t{168}, size_t{204}, size_t{212}}) {
+        const std::vector<uint8_t> sound = table;
+        put(at, NAN);
+        seal();
+        CAPTURE(at);
+        CHECK_THROWS_WITH(realsense::colourLens(table, {640, 480}), doctest::Contains("no finite numbers"));
+        table = sound;
+    }
 }
 
 TEST_CASE("Coefficients that undistort are turned into coefficients that distort, to a tenth of a pixel") {

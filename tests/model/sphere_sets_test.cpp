@@ -93,6 +93,9 @@ TEST_CASE("a damaged set is refused with its place") {
           "");
     CHECK(refusalOf(".yaml", "collision_spheres: {a: [{center: [0, 0], radius: 1}]}")
               .find("line 1: not a sphere") != std::string::npos);
+    CHECK(refusalOf(".yaml", "a: \"\\\x02\"\n").find_first_of("\n\x02") ==
+          std::string::npos); // it quotes what it got
+    CHECK(refusalOf(".yaml", "a: \"\\\x02\"\n").find("escape") != std::string::npos);
     CHECK(refusalOf(".yaml", "collision_spheres:\n  a:\n    - {center: [0, 0, .nan], radius: 1}")
               .find("line 3") != std::string::npos);
     CHECK(refusalOf(".yaml", "other: 1").find("collision_spheres: missing") != std::string::npos);

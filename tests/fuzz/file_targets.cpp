@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Targets that read files: scenes, recordings, clouds, bags.
+#include "devices/bag/bag_camera.h"
+#include "devices/pcd/pcd_camera.h"
+#include "devices/recorded/hand_csv.h"
+#include "devices/recorded/png_image.h"
+#include "devices/recorded/pose_track.h"
+#include "devices/recorded/recorded_camera.h"
+#include "devices/v4l2/jpeg_image.h"
+#include "engine/scene/scene.h"
+#include "engine/types/error.h"
+#include "tests/fuzz/fuzz_target.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <string_view>
+
+namespace fathom::testing {
+
+namespace {
+
+constexpr uint32_t kMostFrames = 8; // of one input
+
+void need(bool holds) {
+    if (!holds) {
+        std::abort(); // what the reader promises does not hold
+    }
+}
+
+Bytes textOf(std::string_view text) {
+    return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
+}
+
+void drain(Camera& camera) {
+    const CameraInfo& info = camera.info();
+    need(info.depth.width > 0 && info.depth.width <= kMaxImageWidth && info.depth.height <= kMaxImageHeight);
+    for (uint32_t i = 0; i < kMostFrames; ++i) {
+        const auto frame = camera.next();
+        if (!frame) {
+            return;
+        }
+        need((*frame)->depth.size() >= size_t{info.depth.width} * info.depth.height);
+    }
+}
+
+} // namespace
+
+void readScene(Bytes input) {
+    const Scene scene = loadScene(fuzzFile("scene.yaml", input));
+    need(scene.nearZ < scene.farZ && scene.haptics.rateHz > 0.0 && std::isfinite(scene.errorBudget));
+}
+
+void readIndexFile(Bytes input) {
+    RecordingIntrinsics lens;
+    lens.camera.hasColour = true;
+    const auto file = fuzzFile("associations.txt", input);
+    for (const IndexLine& line : readIndex(file.parent_path(), lens)) {
+        need(!line.fault.empty() || (std::isfinite(line.depthStamp) && std::isfinite(line.colourStamp)));
+        need(!line.fault.empty() ||
+             line.depth.lexically_normal().string().starts_with(file.parent_path().string()));
+    }
+    std::filesystem::remove(file);
+}
+
+void readIntrinsicsFile(Bytes input) {
+    const RecordingIntrinsics lens = readIntrinsics(fuzzFile("intrinsics.json", input));
+    need(lens.camera.depth.width > 0 && lens.camera.depth.width <= kMaxImageWidth);
+    need(std::isfinite(lens.camera.depth.fx) && lens.camera.depth.fx > 0.0);
+}
+
+// The first byte says which: a hand's path or the camera's poses.
+void readTracks(Bytes input) {
+    if (input.empty()) {
+        return;
+    }
+    const auto file = fuzzFile("track.txt", input.subspan(1));
+    if (input[0] % 2 == 0) {
+        for (const HandWaypoint& waypoint : readHandCsv(file)) {
+            need(isFinite(waypoint.deviceThandle));
+        }
+    } else {
+        need(isFinite(PoseTrack(file).at(0.5)));
+    }
+}
+
+void readPng(Bytes input) {
+    const auto file = fuzzFile("picture.png", input);
+    const auto size = readPngSize(file);
+    if (!size || uint64_t{size->width} * size->height > 1u << 16) {
+        throw Error("no PNG, or too large to be quick");
+    }
+    std::vector<uint16_t> depth(size_t{size->width} * size->height);
+    std::vector<uint32_t> colour(depth.size());
+    const std::string noDepth = readDepthPng(file, *size, depth),
+                      noColour = readColourPng(file, *size, colour);
+    need(!noDepth.empty() || !noColour.empty()); // never both
+    need(!readDepthPng(file, {size->width + 1, size->height}, depth).empty());
+}
+
+void readJpegPicture(Bytes input) {
+    std::vector<uint32_t> out(16 * 8);
+    const std::string fault = readJpeg(std::as_bytes(input), {16, 8}, out);
+    if (!fault.empty()) {
+        throw Error("refused");
+    }
+}
+
+void readPcdFile(Bytes input) {
+    PcdCamera camera(fuzzFile("cloud.pcd", input));
+    drain(camera);
+}
+
+void readBag(Bytes input) {
+    BagCamera camera(fuzzFile("recording.bag", input));
+    drain(camera);
+}
+
+} // namespace fathom::testing

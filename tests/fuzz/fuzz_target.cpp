@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/fuzz/fuzz_target.h"
+
+#include "engine/types/error.h"
+
+#include <array>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <spdlog/spdlog.h>
+
+#include <unistd.h>
+
+namespace fathom::testing {
+
+namespace {
+
+constexpr std::array kTargets{
+    FuzzTarget{"bag", readBag},          FuzzTarget{"descriptors", readDescriptors},
+    FuzzTarget{"door", readDoor},        FuzzTarget{"falcon", readFalcon},
+    FuzzTarget{"index", readIndexFile},  FuzzTarget{"intrinsics", readIntrinsicsFile},
+    FuzzTarget{"jpeg", readJpegPicture}, FuzzTarget{"mesh", readMesh},
+    FuzzTarget{"pcd", readPcdFile},      FuzzTarget{"pixels", readPixels},
+    FuzzTarget{"png", readPng},          FuzzTarget{"reach", readReach},
+    FuzzTarget{"scene", readScene},      FuzzTarget{"space_mouse", readSpaceMouse},
+    FuzzTarget{"sph", readSphFile},      FuzzTarget{"spheres_yaml", readSpheresYaml},
+    FuzzTarget{"tracks", readTracks},    FuzzTarget{"urdf", readUrdfFile},
+};
+
+// Gone with the process.
+class Folder {
+public:
+    Folder() {
+        const std::filesystem::path memory = "/dev/shm";
+        const auto above =
+            ::access(memory.c_str(), W_OK) == 0 ? memory : std::filesystem::temp_directory_path();
+        path_ = above / ("fathom-fuzz-" + std::to_string(::getpid()));
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path_, ignored);
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
+
+[[noreturn]] void finding(const FuzzTarget& target, const char* what) {
+    std::fprintf(stderr, "finding: target %s: %s\n", target.name, what);
+    std::abort();
+}
+
+} // namespace
+
+std::span<const FuzzTarget> fuzzTargets() {
+    return kTargets;
+}
+
+std::filesystem::path fuzzFile(const std::string& name, Bytes content) {
+    static const Folder folder;
+    const auto file = folder.path() / name;
+    std::ofstream out(file, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+    return file;
+}
+
+bool runFuzzTarget(const FuzzTarget& target, Bytes input) {
+    spdlog::set_level(spdlog::level::off);
+    try {
+        target.read(input);
+        return true;
+    } catch (const Error& e) {
+        if (std::strlen(e.what()) == 0 || std::strchr(e.what(), '\n') != nullptr) {
+            finding(target, (std::string("a refusal that is not one line: ") + e.what()).c_str());
+        }
+    } catch (const std::exception& e) {
+        finding(target, (std::string("an exception that is no refusal: ") + e.what()).c_str());
+    }
+    return false;
+}
+
+} // namespace fathom::testing

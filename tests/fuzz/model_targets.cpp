@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Targets that read shapes: sphere files, arms, meshes.
+#include "engine/model/arm_model.h"
+#include "engine/model/mesh_file.h"
+#include "engine/model/sph_file.h"
+#include "engine/model/sphere_sets.h"
+#include "engine/types/error.h"
+#include "tests/fuzz/fuzz_target.h"
+
+#include <array>
+#include <cstdlib>
+
+namespace fathom::testing {
+
+namespace {
+
+void needSound(const SphereTree& tree) {
+    if (!validate(tree).empty()) {
+        std::abort();
+    }
+}
+
+} // namespace
+
+void readSphFile(Bytes input) {
+    needSound(readSph(fuzzFile("tree.sph", input)));
+}
+
+void readSpheresYaml(Bytes input) {
+    needSound(readSphereTree(fuzzFile("spheres.yaml", input)));
+}
+
+void readUrdfFile(Bytes input) {
+    const auto file = fuzzFile("arm.urdf", input);
+    try {
+        needSound(readSphereTree(file));
+    } catch (const Error&) {
+        // no spheres; it may be an arm all the same
+    }
+    ArmOptions few;
+    few.leavesPerShape = 1; // covering a shape is slow and has no bytes of strangers in it
+    const ArmModel arm = loadArm(file, few);
+    JointVector q{};
+    ArmFrames frames;
+    arm.place(q, {}, frames);
+    for (size_t i = 0; i < arm.leaves.size(); ++i) {
+        if (!isFinite(arm.centre(frames, i))) {
+            std::abort();
+        }
+    }
+}
+
+// The first byte says which kind of file.
+void readMesh(Bytes input) {
+    if (input.empty()) {
+        return;
+    }
+    constexpr std::array kNames{"mesh.stl", "mesh.obj", "mesh.dae"};
+    const LoadedMesh loaded = loadMesh(fuzzFile(kNames[input[0] % kNames.size()], input.subspan(1)));
+    for (const auto& triangle : loaded.mesh.triangles) {
+        for (uint32_t corner : triangle) {
+            if (corner >= loaded.mesh.points.size() || !isFinite(loaded.mesh.points[corner])) {
+                std::abort();
+            }
+        }
+    }
+}
+
+} // namespace fathom::testing

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Targets that read what devices and bridges send: descriptors, tables, pictures, packets.
+#include "devices/bridge/door_socket.h"
+#include "devices/bridge/force_gate.h"
+#include "devices/serial/reach_packet.h"
+#include "devices/usb/falcon_kinematics.h"
+#include "devices/usb/falcon_packet.h"
+#include "devices/usb/space_mouse.h"
+#include "devices/v4l2/extension_unit.h"
+#include "devices/v4l2/pixel_format.h"
+#include "devices/v4l2/realsense_tables.h"
+#include "engine/types/error.h"
+#include "tests/fuzz/fuzz_target.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+
+#include <sys/socket.h>
+
+namespace fathom::testing {
+
+namespace {
+
+constexpr UnitGuid kGuid{0x8a, 0x8a, 0x1d, 0xc9, 0x3f, 0x38, 0x44, 0x4f,
+                         0x8c, 0x1f, 0x4e, 0x2a, 0x3e, 0x6c, 0x1c, 0x15};
+
+void need(bool holds) {
+    if (!holds) {
+        std::abort();
+    }
+}
+
+void needLens(const Intrinsics& lens) {
+    need(std::isfinite(lens.fx) && std::isfinite(lens.fy) && std::isfinite(lens.cx) &&
+         std::isfinite(lens.cy));
+}
+
+// Whatever it says, as a table that arrived whole: the checksum is made right, or it would guard all that is
+// behind.
+std::vector<uint8_t> sealed(Bytes input) {
+    std::vector<uint8_t> table(input.begin(), input.end());
+    if (table.size() > 16) {
+        const uint32_t sum = realsense::crc32(Bytes(table).subspan(16));
+        std::memcpy(table.data() + 12, &sum, sizeof sum);
+    }
+    return table;
+}
+
+} // namespace
+
+// The first byte says which: USB descriptors, a depth table or a colour table.
+void readDescriptors(Bytes input) {
+    if (input.empty()) {
+        return;
+    }
+    const Bytes rest = input.subspan(1);
+    if (input[0] % 3 == 0) {
+        const auto unit = unitOf(kGuid, rest);
+        need(!unit || rest.size() >= 20);
+    } else if (input[0] % 3 == 1) {
+        needLens(realsense::depthLens(sealed(rest), {640, 480}));
+    } else {
+        const realsense::ColourTable table = realsense::colourLens(sealed(rest), {1280, 720});
+        needLens(table.lens);
+        need(isFinite(table.colourTdepth));
+    }
+}
+
+// Format, size and stride come from the driver: a picture of as many bytes as they ask for.
+void readPixels(Bytes input) {
+    if (input.size() < 4) {
+        return;
+    }
+    const auto formats = input[0] % 2 == 0 ? declaredDepthFormats() : colourFormats();
+    const uint32_t fourcc = formats[input[1] % formats.size()];
+    const VideoSize size{1u + input[2] % 17, 1u + input[3] % 7};
+    const Bytes rest = input.subspan(4);
+    const size_t whole = pictureBytes(fourcc, size, 0);
+    std::vector<uint32_t> colour(size_t{size.width} * size.height);
+    if (const auto layout = depthLayout(fourcc); layout && input[0] % 2 == 0) {
+        std::vector<uint16_t> depth(colour.size());
+        if (rest.size() < whole) {
+            throw Error("short");
+        }
+        unpackDepth(*layout, size, 0, std::as_bytes(rest), depth);
+    } else if (!unpackColour(fourcc, size, 0, std::as_bytes(rest), colour).empty()) {
+        throw Error("refused");
+    }
+}
+
+void readFalcon(Bytes input) {
+    FalconStream stream;
+    for (size_t at = 0; at < input.size(); at += 7) { // the stream may break anywhere
+        stream.feed(input.subspan(at, std::min<size_t>(7, input.size() - at)));
+    }
+    need(stream.packets() * kFalconPacket <= input.size());
+}
+
+void readSpaceMouse(Bytes input) {
+    SpaceMouseState state;
+    for (size_t at = 0; at < input.size();) { // a length, then so much of a report
+        const size_t size = std::min<size_t>(input[at] % 16, input.size() - at - 1);
+        takeSpaceMouseReport(input.subspan(at + 1, size), state);
+        const dvec3 axes = spaceMouseAxes(state.shift);
+        need(isFinite(axes) && std::abs(axes.x) <= 1.0 && std::abs(axes.y) <= 1.0 && std::abs(axes.z) <= 1.0);
+        at += 1 + size;
+    }
+}
+
+void readReach(Bytes input) {
+    ReachReader reader;
+    for (uint8_t byte : input) {
+        if (const auto packet = reader.take(byte)) {
+            need(packet->size <= ReachPacket::kMostData);
+            ReachFrame frame;
+            need(encodeReach(*packet, frame) > 0);
+        }
+    }
+}
+
+// As they come out of the socket: a packet for the engine, or a wrench for the device's side. The first byte
+// says which, and whether the header is made right.
+void readDoor(Bytes input) {
+    if (input.size() < 2) {
+        return;
+    }
+    int ends[2];
+    need(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);
+    DoorSocket mine(ends[0]);
+    DoorSocket other(ends[1]);
+    std::vector<uint8_t> packet(input.begin() + 1, input.end());
+    const bool hand = input[0] % 2 == 0;
+    if (input[0] & 2u) {
+        packet.resize(hand ? sizeof(fathom_door_hand) : sizeof(fathom_door_wrench));
+        const fathom_door_header header =
+            doorHeader(hand ? FATHOM_DOOR_HAND : FATHOM_DOOR_WRENCH, packet.size(), 1);
+        std::memcpy(packet.data(), &header, sizeof header);
+    }
+    need(::send(ends[1], packet.data(), packet.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(packet.size()));
+    fathom_door_hand sample{};
+    fathom_door_wrench wrench{};
+    if (hand) {
+        need(mine.receive(sample, FATHOM_DOOR_HAND) != DoorEvent::Packet || packet.size() == sizeof sample);
+    } else if (mine.receive(wrench, FATHOM_DOOR_WRENCH) == DoorEvent::Packet) {
+        ForceGate gate(8.0, 1.0);
+        Wrench w;
+        std::memcpy(&w.force, wrench.force, sizeof wrench.force);
+        std::memcpy(&w.torque, wrench.torque, sizeof wrench.torque);
+        gate.accept(w, wrench.header.time_ns);
+        const Wrench out = gate.at(wrench.header.time_ns + 1000);
+        need(isFinite(out.force) && isFinite(out.torque) && glm::length(out.force) <= 8.0 + 1e-9);
+    }
+}
+
+} // namespace fathom::testing
