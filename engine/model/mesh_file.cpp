@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/mesh_file.h"
 
+#include "engine/model/import_triangles.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <assimp/Importer.hpp>
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
 #include <cmath>
 #include <cstdio>
 
@@ -23,29 +20,6 @@ std::string metres(double v) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g m", v);
     return text;
-}
-
-void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, TriangleMesh& mesh) {
-    const aiMatrix4x4 here = above * node.mTransformation;
-    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
-        const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
-        const auto first = static_cast<uint32_t>(mesh.points.size());
-        for (unsigned v = 0; v < part.mNumVertices; ++v) {
-            const aiVector3D p = here * part.mVertices[v];
-            mesh.points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y),
-                                     static_cast<double>(p.z));
-        }
-        for (unsigned f = 0; f < part.mNumFaces; ++f) {
-            const aiFace& face = part.mFaces[f];
-            if (face.mNumIndices == 3) {
-                mesh.triangles.push_back(
-                    {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
-            }
-        }
-    }
-    for (unsigned c = 0; c < node.mNumChildren; ++c) {
-        addNode(scene, *node.mChildren[c], here, mesh);
-    }
 }
 
 // The file's `up` axis becomes +z by the smallest rotation.
@@ -65,17 +39,10 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
         throw BadInput(file.string(), "mesh", std::to_string(bytes) + " bytes",
                        "at most " + std::to_string(kMostBytes));
     }
-    Assimp::Importer importer;
-    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-    importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
-    if (scene == nullptr || scene->mRootNode == nullptr) {
-        std::string why = importer.GetErrorString();
-        why = why.substr(0, why.find('\n'));
-        throw BadInput(file.string(), "mesh", why.empty() ? "not understood" : why, kinds);
+    auto [mesh, fault] = importTriangles(file);
+    if (!fault.empty()) {
+        throw BadInput(file.string(), "mesh", fault, kinds);
     }
-    TriangleMesh mesh;
-    addNode(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
     if (mesh.triangles.empty() || mesh.triangles.size() > kMostTriangles) {
         throw BadInput(file.string(), "triangles", std::to_string(mesh.triangles.size()),
                        "1 to " + std::to_string(kMostTriangles));
