@@ -18,7 +18,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(FATHOM_SANITIZED)
 #include <sanitizer/common_interface_defs.h>
 #endif
 
@@ -136,7 +136,7 @@ bool run(const FuzzTarget& target, const Input& input) {
 int main(int argc, char** argv) {
     const long mutations = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 1000;
     std::signal(SIGABRT, onAbort);
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(FATHOM_SANITIZED)
     __sanitizer_set_death_callback(keepInput);
 #endif
     size_t passed = 0, failed = 0, runs = 0;
