@@ -6,8 +6,14 @@
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
 
+#include <chrono>
+#include <csignal>
 #include <doctest/doctest.h>
 #include <random>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 using namespace fathom;
 
@@ -137,4 +143,36 @@ TEST_CASE(
     CHECK(camera.next());
     CHECK(camera.next());
     CHECK_FALSE(camera.next());
+}
+
+TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording, every picture of it whole") {
+    const TemporaryFolder folder;
+    const CameraInfo info = someCamera(true);
+    const std::vector<Picture> pictures = somePictures(info, 40);
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        RecordingWriter writer(folder.path() / "rec", info, 2);
+        for (uint32_t i = 0;; ++i) {
+            writer.add(pictures[i % 40].frame(i, true));
+        }
+    }
+    const auto index = folder.path() / "rec/associations.txt";
+    std::error_code ignored;
+    for (int i = 0; i < 3000 && !(std::filesystem::file_size(index, ignored) > 500 && !ignored); ++i) {
+        std::this_thread::sleep_for(
+            std::chrono::milliseconds(10)); // a state, not a time: some frames are there
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    RecordedCamera camera(folder.path() / "rec");
+    uint32_t frames = 0;
+    while (const auto frame = camera.next()) {
+        CHECK(
+            std::equal((*frame)->depth.begin(), (*frame)->depth.end(), pictures[frames % 40].depth.begin()));
+        CHECK((*frame)->baseTcamera.has_value());
+        ++frames;
+    }
+    CHECK(frames >= 5);
+    CHECK(camera.skipped() <= 1); // a line that was cut off is no frame
 }

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults that come from outside, each with its figure: what the hand feels until when, and how it comes back.
+// docs/README.md names them all.
+#include "engine/types/error.h"
+
+#include <doctest/doctest.h>
+#include <limits>
+#include <thread>
+
+#include "tests/realtime/fake_scene.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+struct Fade {
+    double full = 0.0;    // [N] before
+    double untouched = 0; // [s] after the last picture until the force is less than before
+    double gone = -1.0;   // [s] after it until there is none; -1 = there is always some
+    double back = -1.0;   // [s] after a picture has come again until the force is full; -1 = not tried
+    double deepest = 0.0; // [m] penetration
+};
+
+// A hand that presses 10 mm into a wall; pictures every 33 ms, then none for `stall` seconds. By the cycle's
+// own clock.
+Fade stallCamera(double stall, bool comesBack) {
+    HapticRig rig(plainScene(), at(0.0, 0.0, 0.03));
+    rig.show(wallSet(1));
+    Fade fade;
+    uint64_t generation = 1;
+    const auto turn = [&](bool picture) {
+        if (picture) {
+            rig.show(wallSet(++generation));
+        }
+        const double force = forceOf(rig.turn());
+        fade.deepest = std::max(fade.deepest, -rig.gap());
+        return force;
+    };
+    for (int i = 0; i < 330; ++i) {
+        rig.hand.position.z = std::max(0.0, 0.03 - 0.0002 * i);
+        fade.full = turn(i % 33 == 0);
+    }
+    turn(true);
+    fade.untouched = stall;
+    for (int i = 1; i <= static_cast<int>(std::lround(stall * 1000.0)); ++i) {
+        const double force = turn(false);
+        if (force < 0.999 * fade.full) {
+            fade.untouched = std::min(fade.untouched, 0.001 * i);
+        }
+        if (force == 0.0 && fade.gone < 0.0) {
+            fade.gone = 0.001 * i;
+        }
+    }
+    for (int i = 1; comesBack && i <= 1000 && fade.back < 0.0; ++i) {
+        if (turn(i % 33 == 1) > 0.999 * fade.full) {
+            fade.back = 0.001 * i;
+        }
+    }
+    return fade;
+}
+
+void checkSafeEnd(const FakeRun& fake) {
+    CHECK(fake.hand.last.force == dvec3(0.0));
+    CHECK(fake.hand.last.torque == dvec3(0.0));
+    CHECK(fake.run->recordsLost() == 0);
+    CHECK(fake.sink.audit.maxPenetration() <= 1e-5);
+}
+
+} // namespace
+
+TEST_CASE("Drill: a camera that stalls for 100 ms changes no force") {
+    const Fade fade = stallCamera(0.1, true);
+    CHECK(fade.full > 5.0);
+    CHECK(fade.untouched == doctest::Approx(0.1));
+    CHECK(fade.gone < 0.0);
+    CHECK(fade.deepest < 1e-5);
+}
+
+TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 600 ms, and it is back 0.5 s after "
+          "the next picture") {
+    const Fade fade = stallCamera(1.0, true);
+    CHECK(fade.untouched >= 0.1);
+    CHECK(fade.gone > 0.5); // no step: it fades over half a second
+    CHECK(fade.gone <= 0.61);
+    CHECK(fade.back > 0.3);
+    CHECK(fade.back <= 0.51);
+    CHECK(fade.deepest < 1e-5);
+}
+
+TEST_CASE("Drill: a camera that stalls for ever leaves no force, and the tool still obeys the last regions") {
+    const Fade fade = stallCamera(20.0, false);
+    CHECK(fade.gone <= 0.61);
+    CHECK(fade.deepest < 1e-5);
+}
+
+TEST_CASE(
+    "Drill: a clock that leaps, as after a suspended machine, fades or holds the force and never leaps it") {
+    for (const double leap : {0.05, 5.0, 3600.0, -0.5}) {
+        CAPTURE(leap);
+        HapticRig rig(plainScene(), at(0.0, 0.0, 0.03));
+        rig.show(wallSet(1));
+        rig.age = false; // a camera that goes on
+        rig.turns(10);
+        rig.hand = at(0.0, 0.0, 0.0);
+        double before = forceOf(rig.turns(200));
+        const double full = before;
+        CHECK(full > 5.0);
+        rig.age = true; // what is in force was captured before the leap
+        rig.time += leap;
+        double largestStep = 0.0;
+        for (int i = 0; i < 700; ++i) {
+            if (i == 50) {
+                rig.age = false;
+            }
+            const TurnRecord record = rig.turn();
+            CHECK(record.finite);
+            largestStep = std::max(largestStep, std::abs(forceOf(record) - before));
+            before = forceOf(record);
+            CHECK(before <= full + 1e-6);
+            CHECK(rig.gap() > -1e-5);
+        }
+        CHECK(largestStep <= rig.options.slewForce * rig.options.period + 1e-9);
+        CHECK(before == doctest::Approx(full).epsilon(0.01)); // it is back
+    }
+}
+
+TEST_CASE("Drill: with every CPU busy no turn penetrates, periods without a turn are counted, the end is "
+          "zero force") {
+    std::atomic<bool> done{false};
+    std::vector<std::thread> load;
+    for (unsigned i = 0; i < 2 * std::max(2u, std::thread::hardware_concurrency()); ++i) {
+        load.emplace_back([&done] {
+            while (!done.load(std::memory_order_relaxed)) {
+            }
+        });
+    }
+    FakeRun fake(45, wipingPath(1.5));
+    fake.go();
+    done.store(true);
+    for (std::thread& thread : load) {
+        thread.join();
+    }
+    checkSafeEnd(fake);
+    REQUIRE(!fake.sink.rows.empty());
+    uint64_t missed = 0;
+    for (const TurnRow& row : fake.sink.rows) {
+        missed += row.missed;
+    }
+    CHECK(missed == fake.run->periodsMissed());
+    CHECK(fake.sink.rows.size() + missed >= 1495); // every period had a turn or is told of
+    MESSAGE("turns " << fake.sink.rows.size() << ", periods without one " << missed);
+}
+
+TEST_CASE("Drill: a GPU that is lost or out of memory under the passes ends the run with zero force and says "
+          "which") {
+    const auto drill = [](const std::function<void()>& fault) {
+        FakeRun fake(300, pressingPath(10.0));
+        fake.feed.beforePublish = [&fault](uint32_t index) {
+            if (index == 10) {
+                fault();
+            }
+        };
+        fake.go();
+        checkSafeEnd(fake);
+        REQUIRE(fake.run->failure() != nullptr);
+        REQUIRE(!fake.sink.rows.empty());
+        CHECK(fake.sink.rows.back().record.t < 8.0);
+        return fake.run->failure();
+    };
+    CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw DeviceLost("VK_ERROR_DEVICE_LOST"); })),
+                    DeviceLost);
+    CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw Error("VK_ERROR_OUT_OF_DEVICE_MEMORY"); })),
+                    Error);
+    CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw std::bad_alloc(); })), std::bad_alloc);
+}
