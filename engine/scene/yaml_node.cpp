@@ -57,8 +57,8 @@ std::string printable(std::string text) {
 
 } // namespace
 
-YamlNode::YamlNode(YAML::Node node, std::string file, std::string path)
-    : node_(std::move(node))
+YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
+    : node_(node)
     , file_(std::move(file))
     , path_(std::move(path)) {}
 

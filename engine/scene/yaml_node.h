@@ -73,7 +73,7 @@ public:
     std::string value() const; // as it is shown in messages
 
 private:
-    YamlNode(YAML::Node node, std::string file, std::string path);
+    YamlNode(const YAML::Node& node, std::string file, std::string path);
     std::string childPath(std::string_view key) const;
 
     YAML::Node node_;

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <fstream>
+#include <iterator>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -148,4 +150,18 @@ TEST_CASE("real files with traps are read in metres: inches, doubled faces, an o
         CHECK(loaded.facts.closed());
         CHECK((loaded.mesh.high() - loaded.mesh.low()).x == doctest::Approx(0.191).epsilon(0.01));
     }
+}
+
+TEST_CASE("A file that crashes the mesh reader is refused in one line, and so is one that is cut off") {
+    std::ifstream in("tests/fuzz/corpus/mesh/finding-collada", std::ios::binary);
+    const std::string input{std::istreambuf_iterator<char>(in), {}};
+    REQUIRE(input.size() > 100);
+    const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-finding.dae";
+    for (size_t size = 1; size <= input.size(); size += 97) {
+        std::ofstream(file, std::ios::binary) << input.substr(1, size); // the first byte is the target's own
+        CHECK_THROWS_AS(loadMesh(file), BadInput);
+    }
+    std::ofstream(file, std::ios::binary) << input.substr(1);
+    CHECK_THROWS_WITH_AS(loadMesh(file), doctest::Contains("breaks the mesh reader"), BadInput);
+    std::filesystem::remove(file);
 }

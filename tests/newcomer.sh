@@ -1,0 +1,39 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Follows the README as somebody who has nothing: an empty Debian 12 root (debootstrap), this commit in it, then its two commands.
+# Prints how long each took and how much was downloaded. Needs root, debootstrap and the network.
+#   newcomer.sh [demo|test]...      both when none is named; FATHOM_ROOT: where the root is made (removed at the end)
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+[ "$(id -u)" = 0 ] || { echo "newcomer: needs root, for debootstrap and chroot" >&2; exit 2; }
+[ $# -gt 0 ] || set -- demo test
+root=${FATHOM_ROOT:-$(mktemp -d /var/tmp/fathom-newcomer.XXXXXX)}
+mirror=$(awk '/^deb .*bookworm / { for (i = 2; i <= NF; i++) if ($i ~ /^http/) { print $i; exit } }
+              /^URIs:/ { print $2; exit }' /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1)
+leave() {
+    umount "$root/proc" "$root/dev" 2>/dev/null || true
+    rm -rf --one-file-system "$root"
+}
+trap leave EXIT
+since() { echo $(($(date +%s) - $1)); }
+
+start=$(date +%s)
+debootstrap --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
+echo "newcomer: empty root in $(since "$start") s, $(du -sm "$root" | cut -f1) MB"
+git archive --prefix=fathom/ HEAD | tar -x -C "$root"
+cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
+for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -e "$file" ] || cp "$file" "$root/etc/apt/apt.conf.d/"; done
+echo 'Binary::apt::APT::Keep-Downloaded-Packages "true"; APT::Keep-Downloaded-Packages "true";' >"$root/etc/apt/apt.conf.d/90keep"
+rm -f "$root/etc/apt/apt.conf.d/docker-clean"
+mount -t proc proc "$root/proc"
+mount --bind /dev "$root/dev"
+for command in "$@"; do
+    start=$(date +%s)
+    before=$(du -sm "$root/var/cache/apt/archives" | cut -f1)
+    chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 sh -c "cd /fathom && ./run $command" \
+        >"$root.$command.log" 2>&1 || { tail -20 "$root.$command.log"; echo "newcomer: ./run $command failed"; exit 1; }
+    tail -1 "$root.$command.log"
+    echo "newcomer: ./run $command in $(since "$start") s, $(($(du -sm "$root/var/cache/apt/archives" | cut -f1) - before)) MB downloaded"
+    rm -f "$root.$command.log"
+done
+rm -f "$root.log"
