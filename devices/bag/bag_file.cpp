@@ -42,7 +42,7 @@ T number(const std::map<std::string, std::string>& fields, const char* name) {
 
 std::string word(const std::map<std::string, std::string>& fields, const char* name) {
     const auto it = fields.find(name);
-    return it == fields.end() ? "" : it->second;
+    return it == fields.end() ? "" : ByteCursor::printable(it->second);
 }
 
 } // namespace

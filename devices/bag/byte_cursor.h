@@ -40,6 +40,15 @@ public:
         const auto bytes = block();
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
+    // The same with a space for each control character: names that messages quote stay on one line.
+    std::string name() { return printable(text()); }
+    static std::string printable(std::string text) {
+        for (char& c : text) {
+            const auto byte = static_cast<unsigned char>(c);
+            c = byte < 0x20 || byte == 0x7f ? ' ' : c;
+        }
+        return text;
+    }
     bool empty() const { return rest_.empty(); }
     size_t left() const { return rest_.size(); }
 

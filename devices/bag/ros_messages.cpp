@@ -19,7 +19,7 @@ struct Header {
 Header header(ByteCursor& cursor) {
     cursor.word(); // sequence number
     const uint32_t seconds = cursor.word(), nanos = cursor.word();
-    return {seconds + 1e-9 * nanos, cursor.text()};
+    return {seconds + 1e-9 * nanos, cursor.name()};
 }
 
 struct Layout {
@@ -50,7 +50,7 @@ Image image(std::span<const uint8_t> message) {
     out.frame = head.frame;
     out.height = cursor.word();
     out.width = cursor.word();
-    out.encoding = cursor.text();
+    out.encoding = cursor.name();
     out.bigEndian = cursor.value<uint8_t>() != 0;
     out.step = cursor.word();
     out.data = cursor.block();
@@ -63,7 +63,7 @@ Intrinsics cameraInfo(std::span<const uint8_t> message) {
     Intrinsics lens;
     lens.height = cursor.word();
     lens.width = cursor.word();
-    const std::string model = cursor.text();
+    const std::string model = cursor.name();
     const uint32_t count = cursor.word();
     bool straight = true;
     for (uint32_t i = 0; i < count; ++i) {

@@ -35,7 +35,8 @@ std::array<double, 5> readDistortion(const JsonField& lens) {
 // Rays are found by inverting the distortion: a lens that folds the picture over has none.
 bool invertible(const Intrinsics& lens) {
     for (uint32_t i = 0; i < 25; ++i) {
-        const double u = 0.25 * (i % 5) * (lens.width - 1.0), v = 0.25 * (i / 5) * (lens.height - 1.0);
+        const uint32_t column = i % 5, row = i / 5;
+        const double u = 0.25 * column * (lens.width - 1.0), v = 0.25 * row * (lens.height - 1.0);
         const glm::dvec2 ray = lens.ray(u, v);
         const glm::dvec2 back = lens.project({ray.x, ray.y, 1.0});
         if (!(std::abs(back.x - u) < 1e-3) || !(std::abs(back.y - v) < 1e-3)) {

@@ -202,7 +202,7 @@ TEST_CASE("A bag that was not closed, is cut off or damaged, or has no depth is 
     CHECK(refused("").find("version 2.0") != std::string::npos);
     CHECK(refused(smallBag(5.0).bag("lz4")).find("extrinsics: missing") != std::string::npos);
     BagMaker none;
-    none.add("/talk", "std_msgs/String", 1.0, "hello");
+    none.add("/ta\nlk", "std_msgs/String\n", 1.0, "hello");
     CHECK(refused(none.bag("none")).find("no pictures") != std::string::npos);
     for (size_t keep = 0; keep < whole.size(); keep += 97) { // never a crash, never a picture from nowhere
         CHECK_FALSE(refused(whole.substr(0, keep)).empty());
