@@ -8,8 +8,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 [ "$(id -u)" = 0 ] || { echo "newcomer: needs root, for debootstrap and chroot" >&2; exit 2; }
 [ $# -gt 0 ] || set -- demo test
 root=${FATHOM_ROOT:-$(mktemp -d /var/tmp/fathom-newcomer.XXXXXX)}
-mirror=$(awk '/^deb .*bookworm / { for (i = 2; i <= NF; i++) if ($i ~ /^http/) { print $i; exit } }
-              /^URIs:/ { print $2; exit }' /etc/apt/sources.list /etc/apt/sources.list.d/* 2>/dev/null | head -1)
+# The mirror that this machine uses, if it says one for bookworm.
+mirror=$(grep -hsoE '^(URIs:|deb) +http[^ ]*/debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources | awk 'NR == 1 { print $2 }' || true)
 leave() {
     umount "$root/proc" "$root/dev" 2>/dev/null || true
     rm -rf --one-file-system "$root"
