@@ -11,8 +11,8 @@ root=${FATHOM_ROOT:-$(mktemp -d /var/tmp/fathom-newcomer.XXXXXX)}
 # The mirror that this machine uses, if it says one for bookworm.
 mirror=$(grep -hsoE '^(URIs:|deb) +http[^ ]*/debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources | awk 'NR == 1 { print $2 }' || true)
 leave() {
-    umount "$root/proc" "$root/dev" 2>/dev/null || true
-    rm -rf --one-file-system "$root"
+    umount -l "$root/dev" "$root/proc" 2>/dev/null || true
+    rm -rf --one-file-system "$root" "$root".*log
 }
 trap leave EXIT
 since() { echo $(($(date +%s) - $1)); }
