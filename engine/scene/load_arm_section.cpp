@@ -61,7 +61,7 @@ void loadGrasp(const YamlNode& node, SceneArm& arm, uint32_t clutchBit) {
     }
 }
 
-std::filesystem::path existing(const YamlNode& node, const Scene& scene, bool folder) {
+std::filesystem::path existing(const YamlNode& node, Scene& scene, bool folder) {
     const std::filesystem::path path = besideScene(scene, node.text());
     std::error_code ignored;
     if (folder ? !std::filesystem::is_directory(path, ignored)

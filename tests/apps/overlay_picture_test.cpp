@@ -34,13 +34,13 @@ bool hits(const PictureView& view, int u, int v, const dvec3& c, double radius) 
     return glm::dot(c, c) <= radius * radius || (along > 0.0 && squared <= radius * radius);
 }
 
-struct Scene {
+struct Drawn {
     Fixtures set;
     std::vector<uint32_t> colour;
     OverlayInput input;
 };
 
-void fill(Scene& scene) {
+void fill(Drawn& scene) {
     scene.set.frame = 3;
     scene.set.camera = smallCamera();
     scene.colour.assign(scene.set.camera.depth.pixels(), 0xff804020u); // red 0x20, green 0x40, blue 0x80
@@ -155,7 +155,7 @@ TEST_CASE("a point projects to the same pixel as the lens says, through distorti
 
 TEST_CASE("the overlay is red over a region, has the picture's colour outside, and is at least 960 wide") {
     const ScratchFolder folder;
-    Scene scene;
+    Drawn scene;
     fill(scene);
     writeOverlay(folder.path() / "overlay.png", scene.input);
     const Image image(folder.path() / "overlay.png");
@@ -170,7 +170,7 @@ TEST_CASE("the overlay is red over a region, has the picture's colour outside, a
 TEST_CASE(
     "without colour the depth is drawn as grey, without either a plain ground, and a run without a set too") {
     const ScratchFolder folder;
-    Scene scene;
+    Drawn scene;
     fill(scene);
     std::vector<uint16_t> depth(scene.set.camera.depth.pixels());
     for (size_t i = 0; i < depth.size(); ++i) {
@@ -201,7 +201,7 @@ TEST_CASE(
 
 TEST_CASE("an overlay of 60 thousand spheres is timed") {
     const ScratchFolder folder;
-    Scene scene;
+    Drawn scene;
     fill(scene);
     CameraInfo camera;
     camera.depth = {640, 480, 570.0, 570.0, 320.0, 240.0, {}};
