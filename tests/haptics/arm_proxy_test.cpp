@@ -157,7 +157,7 @@ TEST_CASE("new data over a link lets it out by a millimetre a turn and never dee
         world.query(arm, proxy);
         const ArmTurn turn = proxy.turn(still, 0.0, &world.set);
         const double now = world.depth(arm, proxy.frames());
-        CHECK(now <= before + 1e-12);
+        CHECK(now <= std::max(before, 0.0) + 1e-12); // once out, a nanometre of the gap is no depth
         trapped += turn.trapped ? 1 : 0;
         before = now;
     }
