@@ -31,8 +31,12 @@ constexpr size_t kMostBytes = 1 << 16;
 const char* const kLastInput = "fuzz-finding";
 
 const Input* current = nullptr; // for keepInput(), which a signal or a sanitizer calls
+pid_t own = 0;                  // a child that reads a mesh may die of it: that is a refusal, no finding
 
 void keepInput() {
+    if (::getpid() != own) {
+        return;
+    }
     const int file = ::open(kLastInput, O_CREAT | O_TRUNC | O_WRONLY, 0600);
     if (current != nullptr && file >= 0 && ::write(file, current->data(), current->size()) >= 0) {
         constexpr char kTold[] = "the input is in the file fuzz-finding\n";
@@ -134,6 +138,7 @@ bool run(const FuzzTarget& target, const Input& input) {
 } // namespace
 
 int main(int argc, char** argv) {
+    own = ::getpid();
     const long mutations = argc > 1 ? std::strtol(argv[1], nullptr, 10) : 1000;
     std::signal(SIGABRT, onAbort);
 #if defined(FATHOM_SANITIZED)
