@@ -22,7 +22,7 @@ check("cmake --install ends with ${result}" result EQUAL 0)
 
 # What is where.
 file(GLOB_RECURSE files RELATIVE ${root} ${root}/*)
-foreach(wanted bin/fathom share/fathom/scenes/demo.yaml share/fathom/scenes/task1.csv lib/udev/rules.d/70-fathom.rules
+foreach(wanted bin/fathom share/fathom/scenes/demo.yaml share/fathom/scenes/task1.csv share/fathom/scenes/arm41.urdf lib/udev/rules.d/70-fathom.rules
         share/fathom/limits.d/fathom-limits.conf share/bash-completion/completions/fathom share/man/man1/fathom.1.gz
         share/man/man5/fathom-scene.5.gz share/doc/fathom/copyright include/fathom/engine/cycle/haptic_cycle.h
         include/fathom/devices/bridge/fathom_door.h include/fathom/shaders/shared/frame_params.h)
