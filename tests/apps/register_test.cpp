@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registration: known poses come back from points and from tags in drawn pictures.
-#include "apps/register/register_command.h"
+#include "apps/register/point_pairs.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
 #include "tests/apps/scratch_folder.h"

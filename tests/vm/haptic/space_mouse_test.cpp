@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A SpaceMouse through the kernel's own USB and HID stack.
-#include "apps/devices/devices_command.h"
+#include "apps/devices/hand_devices.h"
 #include "devices/usb/device_files.h"
 #include "devices/usb/space_mouse_hand.h"
 #include "engine/types/error.h"

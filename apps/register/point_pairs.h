@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// The same points in the frames of camera and base, from a file.
+#pragma once
+
+#include "apps/register/rigid_fit.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace fathom {
+
+// CSV rows "camera_x,camera_y,camera_z,base_x,base_y,base_z" [m]; lines with # are comments. Throws BadInput.
+std::vector<PointPair> readPointPairs(const std::filesystem::path& file);
+
+} // namespace fathom
