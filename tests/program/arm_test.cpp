@@ -154,5 +154,5 @@ TEST_CASE("A wrong arm section is one line that names the field, the value and w
     refused(urdf + "direction: any", {"arm.direction", "any", "free"});
     refused(urdf + "grasp: {fingers: [{joint: thumb}]}", {"'thumb'", "beside the chain"});
     refused(urdf + "grasp: {fingers: [], button: 4}", {"arm.grasp", "button 4", "hand.map.clutch"});
-    refused(urdf + "leaves: 1", {"contact.where", "gpu", "cpu with an arm"}, "{where: gpu}");
+    refused(urdf + "leaves: 1", {"contact.where", "gpu", "cpu with an arm"}, "where: gpu");
 }
