@@ -25,7 +25,8 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig)
     , file_(file) {
     std::string header = "t_s";
     for (const ArmJoint& joint : rig.model.joints) {
-        header += "," + column(joint.name);
+        header += ',';
+        header += column(joint.name);
         sums_.joints.push_back({joint.name, joint.lower, joint.upper, joint.speed, HUGE_VAL, -HUGE_VAL, 0.0});
     }
     file_.write(header + ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held\n");
