@@ -63,7 +63,7 @@ bool colourOf(uint pixel, vec3 p, out vec3 rgb) {
 
 // No && and no ||, which branch.
 bool inClass(ClassParams c, Hsl colourHere, bool seen, vec3 base) {
-    float inside = kColour == 2 && !seen ? c.boxMax.w : insideGates(colourHere, c);
+    float inside = kColour != 1 && !seen ? c.boxMax.w : insideGates(colourHere, c);
     if (kBox != 0) {
         vec3 box = min(base - c.boxMin.xyz, c.boxMax.xyz - base);
         inside = c.boxMin.w == 0.0 ? inside : min(inside, min(box.x, min(box.y, box.z)) >= 0.0 ? 0.0 : -1.0);

@@ -214,6 +214,27 @@ TEST_CASE("Near and far that fall on a depth unit are inclusive at every unit, a
     }
 }
 
+TEST_CASE("A class that asks for a colour takes nothing of a camera without colour, and one that does not "
+          "takes all") {
+    CameraInfo camera = pinholeCamera(37, 21);
+    camera.hasColour = false;
+    Picture picture = drawnPicture(camera, [](int, int) { return 0.8; });
+    picture.colour.clear();
+    Scene scene = plainScene();
+    scene.fixtures = {forbiddenClass("dark", 0.01), forbiddenClass("grey", 0.01),
+                      forbiddenClass("any hue", 0.01), forbiddenClass("all", 0.02)};
+    scene.fixtures[0].lightness = Band{0, 0.5}; // black, which no colour reads as, lies in it
+    scene.fixtures[1].saturation = Band{0, 0.5};
+    scene.fixtures[2].hue = Band{0, 360};
+    CloudRig rig(scene, camera);
+    const FrameReport report = rig.run(picture);
+    CHECK(report.counts.classPixels[0] == 0);
+    CHECK(report.counts.classPixels[1] == 0);
+    CHECK(report.counts.classPixels[2] == 0);
+    CHECK(report.counts.classPixels[3] == 37 * 21);
+    CHECK(compareMasks(rig).different == 0);
+}
+
 TEST_CASE("A range that holds no depth unit takes no pixel") {
     const CameraInfo camera = pinholeCamera(37, 21, 0.001);
     const Picture picture = drawnPicture(camera, [](int u, int) { return 0.5 + 0.001 * (u % 3); });
