@@ -31,7 +31,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     const auto solids = analyticScene(scene.source.value);
     if (!solids) {
         throw BadInput(scene.file.string(), "camera.source.simulated", scene.source.value,
-                       "tank, sphere, plane, torus, slot, gap, plate, corner, sonar");
+                       "tank, sphere, plane, torus, slot, gap, plate, corner, wetmate, sonar");
     }
     SimulatedCameraOptions options;
     options.baseTscene = scene.baseTcamera;
