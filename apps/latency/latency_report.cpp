@@ -89,6 +89,7 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
                                 {"frames_lost", part.framesLost},
                                 {"periods_missed", part.periodsMissed},
                                 {"records_lost", part.recordsLost},
+                                {"arm_travel", part.armTravel},
                                 {"memory_MiB", part.memory},
                                 {"memory_growth_MiB", part.memoryGrowth()}});
     }

@@ -7,6 +7,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <unistd.h>
@@ -29,6 +30,7 @@ public:
         first_ = false;
         return more ? feed_.fetch() : std::nullopt;
     }
+    void shown(const ToolPlace& place) override { feed_.shown(place); }
     void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
 
 private:
@@ -48,6 +50,9 @@ public:
     void turn(const TurnRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override {
         part_.late.add(row.wokenLate * 1e6);
         part_.turn.add(row.micros);
+        part_.armTravel += first_ ? 0.0 : travel(row.record.arm.posture.q, before_);
+        before_ = row.record.arm.posture.q;
+        first_ = false;
         part_.seconds = row.record.t;
         const double due = seconds_ * (kSettled + static_cast<double>(part_.memory.size()) / kMemorySamples);
         if (row.record.t >= due) {
@@ -61,7 +66,17 @@ public:
     std::atomic<bool> stop{false};
 
 private:
+    static double travel(const JointVector& to, const JointVector& from) {
+        double sum = 0.0;
+        for (size_t k = 0; k < to.size(); ++k) {
+            sum += std::abs(to[k] - from[k]);
+        }
+        return sum;
+    }
+
     LatencyPart& part_;
+    JointVector before_{};
+    bool first_ = true;
     double seconds_;
     const std::atomic<bool>& asked_;
 };
@@ -147,7 +162,7 @@ LatencyPart LatencyRun::run(const std::string& load, bool moving) {
     const HandPath path = s.operate.path();
     operate::PathHand hand(path);
     HapticCycle cycle(s.operate.tool, shapesOf(s.operate.scene), s.haptics,
-                      path.waypoints().front().deviceThandle);
+                      path.waypoints().front().deviceThandle, nullptr, s.operate.arm.get());
     HistogramSink sink(part, options_.seconds, stop_);
     run.run(cycle, hand, 2.0 * options_.seconds, sink, sink.stop); // the sink ends it
     if (run.failure()) {

@@ -3,6 +3,19 @@
 
 namespace fathom::operate {
 
+LiveFeed::LiveFeed(OperateSession& session)
+    : session_(session) {
+    if (session_.arm) {
+        shown({Pose{}, session_.arm->startPosture()});
+    }
+}
+
+void LiveFeed::shown(const ToolPlace& place) {
+    if (session_.plan.selfFilter) {
+        session_.frames.setArm(session_.arm->inPicture(place.arm));
+    }
+}
+
 std::optional<uint32_t> LiveFeed::fetch() {
     next_ = session_.camera->next();
     return next_ ? std::optional((*next_)->index) : std::nullopt;

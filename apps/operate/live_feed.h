@@ -15,10 +15,10 @@ namespace fathom::operate {
 // fetch() and publish() on the frame cadence; the rest from the window.
 class LiveFeed final : public FrameFeed {
 public:
-    explicit LiveFeed(OperateSession& session)
-        : session_(session) {}
+    explicit LiveFeed(OperateSession& session);
 
     std::optional<uint32_t> fetch() override;
+    void shown(const ToolPlace& place) override;
     void publish(double t, PublishedFrame& out) override;
 
     // Takes effect with the next picture. Same classes of points as before.

@@ -118,8 +118,9 @@ void OperatorRun::startThreads() {
                                                   feed_.setScene(scene);
                                                   engine_->setShapes(shapes);
                                               });
-    cycle_ = std::make_unique<HapticCycle>(session_.tool, shapesOf(session_.scene), haptics_, start,
-                                           session_.arm ? &start : nullptr, session_.arm.get());
+    cycle_ =
+        std::make_unique<HapticCycle>(session_.tool, shapesOf(session_.scene), haptics_, start,
+                                      session_.arm && !options_.path ? &start : nullptr, session_.arm.get());
     thread_ = std::thread([this] {
         try {
             engine_->run(*cycle_, *hand_, std::numeric_limits<double>::infinity(), sink_, stop_);

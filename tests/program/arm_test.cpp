@@ -95,6 +95,29 @@ std::string ballArm() {
            joint("elbow", "upper", "fore", "-2.4", "-0.05") + "</robot>";
 }
 
+// The red bump lies about the arm's first ball: with so large a padding nothing of it is left.
+void stageArmInBump(Stage& stage, const std::string& padding) {
+    stage.recording(std::vector<Picture>(3, bumpPicture()));
+    SceneText scene;
+    scene.more = "arm: {urdf: arm41.urdf, base_T_arm: {xyz: [0, 0, 0.57]}, self_filter: " + padding + "}\n";
+    scene.hand = "path: hand.csv";
+    stage.scene(scene);
+    stage.write("arm41.urdf", ballArm());
+    stage.hand({{0.0, {0, 0, 0}}, {0.3, {0, 0.05, 0}}, {1.0, {0, 0, 0}}});
+}
+
+// Spheres in the last set that the window tells of.
+size_t spheresInWindow(const Stage& stage) {
+    const ProgramRun run = runFathom({"operate", (stage / "scene.yaml").string(), "--source",
+                                      (stage / "rec").string(), "--device", "llvmpipe", "--offscreen",
+                                      "640x480", "--seconds", "2", "--state", (stage / "state").string()});
+    INFO(run.err);
+    REQUIRE(run.exitCode == 0);
+    const std::string text = stage.read("state");
+    const size_t from = text.rfind('\n', text.size() - 2);
+    return nlohmann::json::parse(text.substr(from + 1)).at("run").at("spheres").get<size_t>();
+}
+
 void refused(const std::string& arm, const std::vector<std::string>& parts, const std::string& contact = "") {
     Stage stage;
     stage.recording({bumpPicture()});
@@ -137,6 +160,32 @@ TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and
     CHECK(run.at(4.4).grasp == 0.0);
     CHECK(run.at(6.0).grasp == 1.0);
     CHECK(run.arm.back().grasp == 0.0);
+}
+
+TEST_CASE("The window takes the arm out of what the camera sees, as replay does") {
+    for (const std::string padding : {"0.2", "0"}) {
+        Stage stage;
+        stageArmInBump(stage, padding);
+        const ProgramRun run = runFathom(stage.command({"--realtime"}));
+        INFO(run.err);
+        REQUIRE(run.exitCode == 0);
+        const Replay replay = readReplay(stage / "out", run);
+        CAPTURE(padding);
+        CHECK((spheresInWindow(stage) == 0) == (padding == "0.2"));
+        CHECK((replay.frames.back().spheres == 0) == (padding == "0.2"));
+    }
+}
+
+TEST_CASE("latency runs the arm of a scene that has one") {
+    Stage stage;
+    stageArmInBump(stage, "0.2");
+    const ProgramRun run = runFathom({"latency", (stage / "scene.yaml").string(), "--source",
+                                      (stage / "rec").string(), "--device", "llvmpipe", "--seconds", "0.5",
+                                      "--load", "frames", "--out", (stage / "latency.json").string()});
+    INFO(run.err);
+    REQUIRE(run.exitCode == 0);
+    const auto part = nlohmann::json::parse(stage.read("latency.json")).at("parts").at(0);
+    CHECK(part.at("arm_travel").get<double>() > 0.05);
 }
 
 TEST_CASE("A wrong arm section is one line that names the field, the value and what is allowed") {
