@@ -3,6 +3,7 @@
 
 #include "engine/haptics/arm_damping.h"
 #include "engine/haptics/proxy_limits.h"
+#include "engine/haptics/row_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -147,7 +148,7 @@ ArmTurn ArmProxy::turn(const ArmInput& asked) noexcept {
         origin_ = contacts != nullptr ? contacts->origin : frames_[0].position;
         placeLeaves(frames_, leaves_);
         if (contacts != nullptr) {
-            flagBehind(*contacts);
+            proxy::flagBehind(*contacts, leaves_, exempt_, clearance_);
         } else {
             std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
         }

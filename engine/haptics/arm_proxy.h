@@ -107,7 +107,6 @@ private:
     // arm_proxy_rows.cpp: the conditions on the next joint increments.
     void collectRows(const ContactSet* contacts, bool anew, ArmTurn& out) noexcept;
     void gather(const ContactSet& contacts, bool anew) noexcept;
-    void flagBehind(const ContactSet& contacts) noexcept;
     void addPairRows(const ContactSet& contacts) noexcept;
     void addBehindRows(const ContactSet& contacts) noexcept;
     void addShapeRows(ArmTurn& out) noexcept;

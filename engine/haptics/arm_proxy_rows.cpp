@@ -4,6 +4,7 @@
 #include "engine/haptics/arm_proxy.h"
 
 #include "engine/haptics/proxy_limits.h"
+#include "engine/haptics/row_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,11 +14,7 @@ namespace fathom {
 namespace {
 
 using proxy::kSkin;
-
-uint64_t keyOf(ContactRow::Kind kind, uint32_t shape, uint32_t leaf, size_t side) {
-    return (static_cast<uint64_t>(kind) << 60) | (static_cast<uint64_t>(shape) << 40) |
-           (static_cast<uint64_t>(leaf) << 8) | side;
-}
+using proxy::rowKey;
 
 } // namespace
 
@@ -82,24 +79,11 @@ void ArmProxy::collectRows(const ContactSet* contacts, bool anew, ArmTurn& out) 
     if (contacts != nullptr) {
         gather(*contacts, anew);
         out.escape = out.escape || narrow_.smallestGap() < -proxy::kNothing;
-        flagBehind(*contacts);
+        proxy::flagBehind(*contacts, leaves_, exempt_, clearance_);
         addPairRows(*contacts);
         addBehindRows(*contacts);
     }
     addShapeRows(out);
-}
-
-void ArmProxy::flagBehind(const ContactSet& contacts) noexcept {
-    std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
-    for (const ContactSet::Behind& flag : contacts.behind) {
-        // What the query found left, less what was covered since.
-        const dvec3 since = leaves_[flag.leaf] - contacts.leafAtQuery[flag.leaf];
-        const double clearance = flag.clearance - glm::dot(since, flag.towardsCamera);
-        if (clearance > 0.0) {
-            exempt_[flag.leaf] = flag.towardsCamera;
-            clearance_[flag.leaf] = clearance;
-        }
-    }
 }
 
 void ArmProxy::addPairRows(const ContactSet& contacts) noexcept {
@@ -129,7 +113,7 @@ void ArmProxy::addBehindRows(const ContactSet& contacts) noexcept {
         row.arm = leaves_[flag.leaf] + origin_ - tip().position;
         row.leaf = flag.leaf;
         row.gap = -clearance_[flag.leaf];
-        row.key = keyOf(row.kind, 0, flag.leaf, 0);
+        row.key = rowKey(row.kind, 0, flag.leaf, 0);
         addLeafRow(row, std::min(clearance_[flag.leaf], escapeLeft_) + kSkin);
     }
 }
@@ -157,7 +141,7 @@ void ArmProxy::addShapeRows(ArmTurn& out) noexcept {
                 row.gap = sides[k].gap;
                 row.leaf = leaf;
                 row.pair = s;
-                row.key = keyOf(row.kind, s, leaf, k);
+                row.key = rowKey(row.kind, s, leaf, k);
                 addLeafRow(row, (row.gap < 0.0 ? std::min(-row.gap, escapeLeft_) : -row.gap) + kSkin);
             }
         }
@@ -189,7 +173,7 @@ void ArmProxy::addEqualityRows(const Shape& shape, uint32_t index) noexcept {
             row.spin = sign * e.angular;
             row.gap = -std::abs(e.error);
             row.pair = index;
-            row.key = keyOf(row.kind, index, 0, 2 * k + (sign > 0.0 ? 0 : 1));
+            row.key = rowKey(row.kind, index, 0, 2 * k + (sign > 0.0 ? 0 : 1));
             addRow(normal, sign * wanted - 1e-12, {row, false}); // less: rounding must not make two meet
         }
     }

@@ -4,6 +4,7 @@
 #include "engine/haptics/arm_proxy.h"
 
 #include "engine/haptics/proxy_limits.h"
+#include "engine/haptics/row_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -50,15 +51,8 @@ double ArmProxy::shareToCap(const JointVector& dq) noexcept {
 bool ArmProxy::shapesAllow() const noexcept {
     for (const Shape& shape : shapes_) {
         if (shape.isEquality()) {
-            std::array<Equality, kMostEqualities> before, after;
-            const size_t count = equalitiesOf(shape, arm_.tip(frames_), before);
-            equalitiesOf(shape, arm_.tip(nextFrames_), after);
-            for (size_t k = 0; k < count; k += 2) { // the length across, then the angle
-                const double was = std::hypot(before[k].error, before[k + 1].error);
-                if (!(std::hypot(after[k].error, after[k + 1].error) <=
-                      std::max(proxy::kEqualityRest, was))) {
-                    return false;
-                }
+            if (!proxy::equalityAllows(shape, arm_.tip(frames_), arm_.tip(nextFrames_))) {
+                return false;
             }
             continue;
         }

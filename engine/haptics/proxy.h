@@ -115,7 +115,6 @@ private:
     // proxy_rows.cpp: the conditions at the present pose.
     void collectRows(const ContactSet* contacts, const Budget& budget) noexcept;
     void addPairRows(const ContactSet& contacts, const Budget& budget) noexcept;
-    void flagBehind(const ContactSet& contacts) noexcept;
     void addBehindRow(const ContactSet& contacts, uint32_t leaf, const Budget& budget) noexcept;
     void addShapeRows(const Budget& budget) noexcept;
     void addEqualityRows(const Shape& shape, uint32_t index, const Budget& budget) noexcept;

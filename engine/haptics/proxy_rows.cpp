@@ -3,6 +3,7 @@
 #include "engine/haptics/proxy.h"
 
 #include "engine/haptics/proxy_limits.h"
+#include "engine/haptics/row_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +13,7 @@ namespace fathom {
 namespace {
 
 using proxy::kSkin;
-
-uint64_t shapeKey(ContactRow::Kind kind, uint32_t shape, uint32_t leaf, size_t side) {
-    return (static_cast<uint64_t>(kind) << 60) | (static_cast<uint64_t>(shape) << 40) |
-           (static_cast<uint64_t>(leaf) << 8) | side;
-}
+using proxy::rowKey;
 
 } // namespace
 
@@ -53,23 +50,10 @@ void Proxy::collectRows(const ContactSet* contacts, const Budget& budget) noexce
                        std::max(options_.rows.reach * options_.stepCap, checkLimit), checkLimit, firstSolve_);
         trust_.set(*contacts, narrow_.moved());
         touching_ = narrow_.smallestGap() < -proxy::kNothing;
-        flagBehind(*contacts);
+        proxy::flagBehind(*contacts, leaves_, exempt_, clearance_);
         addPairRows(*contacts, budget);
     }
     addShapeRows(budget);
-}
-
-void Proxy::flagBehind(const ContactSet& contacts) noexcept {
-    std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
-    for (const ContactSet::Behind& flag : contacts.behind) {
-        // What the query found left, less what was covered since.
-        const dvec3 since = leaves_[flag.leaf] - contacts.leafAtQuery[flag.leaf];
-        const double clearance = flag.clearance - glm::dot(since, flag.towardsCamera);
-        if (clearance > 0.0) {
-            exempt_[flag.leaf] = flag.towardsCamera;
-            clearance_[flag.leaf] = clearance;
-        }
-    }
 }
 
 void Proxy::addPairRows(const ContactSet& contacts, const Budget& budget) noexcept {
@@ -106,7 +90,7 @@ void Proxy::addBehindRow(const ContactSet& contacts, uint32_t leaf, const Budget
     row.gap = -clearance_[leaf];
     row.offset =
         std::max(kSkin, std::min(clearance_[leaf] + kSkin, budget.travel > kSkin ? budget.depth : 0.0));
-    row.key = shapeKey(row.kind, 0, leaf, 0);
+    row.key = rowKey(row.kind, 0, leaf, 0);
     addRow(row);
 }
 
@@ -135,7 +119,7 @@ void Proxy::addShapeRows(const Budget& budget) noexcept {
                 row.offset = offsetFor(row.gap, budget);
                 row.leaf = leaf;
                 row.pair = s;
-                row.key = shapeKey(row.kind, s, leaf, k);
+                row.key = rowKey(row.kind, s, leaf, k);
                 addRow(row);
             }
         }
@@ -161,7 +145,7 @@ void Proxy::addEqualityRows(const Shape& shape, uint32_t index, const Budget& bu
             // The pair leaves a gap of rounding's size: two rows that meet exactly may seem to contradict.
             row.offset = sign * wanted - 1e-12;
             row.pair = index;
-            row.key = shapeKey(row.kind, index, 0, 2 * k + (sign > 0.0 ? 0 : 1));
+            row.key = rowKey(row.kind, index, 0, 2 * k + (sign > 0.0 ? 0 : 1));
             addRow(row);
         }
     }

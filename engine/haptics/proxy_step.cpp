@@ -4,6 +4,7 @@
 #include "engine/haptics/proxy.h"
 
 #include "engine/haptics/proxy_limits.h"
+#include "engine/haptics/row_rules.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,15 +107,8 @@ void Proxy::tryPose(const ProxyInput& input, const Step& step, double part) noex
 bool Proxy::shapesAllow() noexcept {
     for (const Shape& shape : shapes_) {
         if (shape.isEquality()) {
-            std::array<Equality, kMostEqualities> before, after;
-            const size_t count = equalitiesOf(shape, pose_, before);
-            equalitiesOf(shape, nextPose_, after);
-            for (size_t k = 0; k < count; k += 2) { // the length across, then the angle
-                const double was = std::hypot(before[k].error, before[k + 1].error);
-                if (!(std::hypot(after[k].error, after[k + 1].error) <=
-                      std::max(proxy::kEqualityRest, was))) {
-                    return false;
-                }
+            if (!proxy::equalityAllows(shape, pose_, nextPose_)) {
+                return false;
             }
             continue;
         }

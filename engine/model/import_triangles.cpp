@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <type_traits>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -69,10 +70,12 @@ struct Head {
     uint64_t text = 0, points = 0, triangles = 0;
 };
 
-bool writeAll(int pipe, const void* data, size_t size) {
-    const char* at = static_cast<const char*>(data);
+// All of it through ::read or ::write, in as many calls as that takes.
+template <class Byte>
+bool moveAll(ssize_t (*move)(int, Byte*, size_t), int pipe, Byte* data, size_t size) {
+    auto* at = static_cast<std::conditional_t<std::is_const_v<Byte>, const char, char>*>(data);
     while (size > 0) {
-        const ssize_t done = ::write(pipe, at, size);
+        const ssize_t done = move(pipe, at, size);
         if (done < 0 && errno == EINTR) {
             continue;
         }
@@ -85,20 +88,12 @@ bool writeAll(int pipe, const void* data, size_t size) {
     return true;
 }
 
+bool writeAll(int pipe, const void* data, size_t size) {
+    return moveAll<const void>(::write, pipe, data, size);
+}
+
 bool readAll(int pipe, void* data, size_t size) {
-    char* at = static_cast<char*>(data);
-    while (size > 0) {
-        const ssize_t done = ::read(pipe, at, size);
-        if (done < 0 && errno == EINTR) {
-            continue;
-        }
-        if (done <= 0) {
-            return false;
-        }
-        at += done;
-        size -= static_cast<size_t>(done);
-    }
-    return true;
+    return moveAll<void>(::read, pipe, data, size);
 }
 
 [[noreturn]] void child(const std::filesystem::path& file, int pipe) {
