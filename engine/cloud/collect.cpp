@@ -13,77 +13,81 @@ namespace fathom::cloud {
 
 namespace {
 
-// Pixel, row-major in the picture, of each slot of the patch in the top left corner. The order in which
-// spheres are collected is by pixel.
-std::array<uint32_t, 256> pixelsOfPatch(uint32_t width) {
-    std::array<uint32_t, 256> pixels;
+// Pixel, row-major in the picture, of each slot of the patch in the top left corner; held points behind them,
+// which count on from the last pixel. The order in which spheres are collected is by pixel.
+std::array<uint32_t, 512> sourcesOfPatch(uint32_t width, uint32_t pixels) {
+    std::array<uint32_t, 512> sources;
     for (uint32_t slot = 0; slot < 256; ++slot) {
         const uint32_t sub = slot >> 4, p = slot & 15;
-        pixels[slot] = ((sub >> 2) * 4 + (p >> 2)) * width + (sub & 3) * 4 + (p & 3);
+        sources[slot] = ((sub >> 2) * 4 + (p >> 2)) * width + (sub & 3) * 4 + (p & 3);
+        sources[256 + slot] = sources[slot] + pixels;
     }
-    return pixels;
+    return sources;
 }
 
-// Counts what one patch has of each class.
-class PatchTally {
-public:
-    explicit PatchTally(FrameCounts& counts)
-        : counts_(counts) {}
-    void add(uint32_t patch, uint32_t c) {
-        if (patch != patch_) {
-            finish();
-            patch_ = patch;
-        }
-        ++counts_.classSpheres[c];
-        present_ |= 1u << c;
-    }
-    void finish() {
-        counts_.patches += present_ != 0;
-        for (; present_ != 0; present_ &= present_ - 1) {
-            ++counts_.classPatches[static_cast<size_t>(std::countr_zero(present_))];
-        }
-    }
-
-private:
-    FrameCounts& counts_;
-    uint32_t patch_ = ~0u, present_ = 0;
+// One sphere of a patch: layer * 256 + slot, and its class.
+struct Placed {
+    glm::vec4 sphere;
+    uint32_t place, fixture;
 };
 
-// Writes the host's columns, which are large enough already, in order.
+// Writes the host's columns, which are large enough already, in order of patches.
 class SphereColumns {
 public:
     SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
                   FrameCounts& counts)
         : set_(set)
-        , rows_(rows)
+        , counts_(counts)
         , across_(layout.across)
         , width_(set.host.camera.depth.width)
-        , pixels_(set.host.camera.depth.pixels())
-        , inPatch_(pixelsOfPatch(width_))
-        , tally_(counts) {}
-
-    // key: patch * 512 + layer * 256 + slot in the patch.
-    void put(const glm::vec4& s, uint32_t key, uint32_t c) {
-        RegionSpheres& out = set_.host.spheres;
-        const uint32_t patch = key >> 9, corner = (patch / across_ * width_ + patch % across_) * 16;
-        out.x[next_] = s.x, out.y[next_] = s.y, out.z[next_] = s.z;
-        out.radius[next_] = s.w;
-        out.source[next_] = corner + inPatch_[key & 255] + ((key & 256) != 0 ? pixels_ : 0);
-        out.fixture[next_] = static_cast<uint8_t>(rows_[c]);
-        if (!set_.keys.empty()) {
-            set_.keys[next_] = key;
-        }
-        ++next_;
-        tally_.add(patch, c);
+        , sources_(sourcesOfPatch(width_, static_cast<uint32_t>(set.host.camera.depth.pixels()))) {
+        std::copy(rows.begin(), rows.end(), rows_.begin());
     }
-    void finish() { tally_.finish(); }
+
+    // All n > 0 spheres of a patch; at(i) is the i-th, as Placed.
+    template <class At>
+    void put(uint32_t patch, uint32_t n, const At& at) {
+        RegionSpheres& out = set_.host.spheres;
+        // In variables of their own: a byte that is written might be any of them otherwise.
+        float *const x = &out.x[next_], *const y = &out.y[next_], *const z = &out.z[next_],
+                     *const radius = &out.radius[next_];
+        uint32_t* const source = &out.source[next_];
+        uint8_t* const fixture = &out.fixture[next_];
+        const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
+        uint32_t last = 0, from = 0; // a run of one class is counted at its end
+        for (uint32_t i = 0; i < n; ++i) {
+            const Placed p = at(i);
+            x[i] = p.sphere.x, y[i] = p.sphere.y, z[i] = p.sphere.z, radius[i] = p.sphere.w;
+            source[i] = corner + sources_[p.place];
+            fixture[i] = static_cast<uint8_t>(rows_[p.fixture]);
+            if (p.fixture != last) {
+                here_[last] += i - from;
+                last = p.fixture, from = i;
+            }
+        }
+        here_[last] += n - from;
+        for (uint32_t i = 0; i < n && !set_.keys.empty(); ++i) {
+            set_.keys[next_ + i] = patch * 512 + at(i).place;
+        }
+        next_ += n;
+        tally();
+    }
 
 private:
+    void tally() {
+        ++counts_.patches;
+        for (size_t c = 0; c < counts_.classSpheres.size(); ++c) {
+            counts_.classSpheres[c] += here_[c];
+            counts_.classPatches[c] += here_[c] != 0;
+        }
+        here_.fill(0);
+    }
+
     FixtureSet& set_;
-    const std::vector<uint32_t>& rows_;
-    uint32_t across_, width_, pixels_;
-    std::array<uint32_t, 256> inPatch_;
-    PatchTally tally_;
+    FrameCounts& counts_;
+    uint32_t across_, width_;
+    std::array<uint32_t, 512> sources_;
+    std::array<uint32_t, shared::kMaxClasses> rows_{}, here_{}; // here_: spheres of each class in the patch
     size_t next_ = 0;
 };
 
@@ -92,29 +96,40 @@ void makeRoom(FixtureSet& set, const Plan& plan, size_t spheres) {
     set.keys.resize(plan.query == Plan::Query::Gpu ? spheres : 0);
 }
 
+// A tag is patch << 12 | layer << 11 | slot << 3 | class.
 void takePacked(const FixtureSet& set, uint32_t count, SphereColumns& columns) {
     const auto packed = set.device.packed.as<glm::vec4>();
     const auto tags = set.device.tags.as<uint32_t>();
-    for (uint32_t i = 0; i < count; ++i) {
-        columns.put(packed[i], tags[i] >> 3, tags[i] & 7);
+    for (uint32_t begin = 0, end = 0; begin < count; begin = end) {
+        const uint32_t patch = tags[begin] >> 12;
+        while (end < count && tags[end] >> 12 == patch) {
+            ++end;
+        }
+        columns.put(patch, end - begin, [&](uint32_t i) {
+            const uint32_t tag = tags[begin + i];
+            return Placed{packed[begin + i], tag >> 3 & 511, tag & 7};
+        });
     }
 }
 
 void takeSlots(const FixtureSet& set, const WorkBuffers& work, bool hold, const PatchLayout& layout,
                SphereColumns& columns) {
     const auto listed = set.device.listed.as<uint32_t>();
-    const auto spheres = slotSpheres(work, set.device).as<glm::vec4>(),
-               held = slotHeld(work, set.device).as<glm::vec4>();
+    const std::array<std::span<const glm::vec4>, 2> layers{slotSpheres(work, set.device).as<glm::vec4>(),
+                                                           slotHeld(work, set.device).as<glm::vec4>()};
     const auto classes = work.classes.as<uint32_t>();
+    std::array<uint16_t, 512> places; // that hold a sphere
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
-        for (uint32_t layer = 0; listed[patch] != 0 && layer < (hold ? 2u : 1u); ++layer) {
-            const auto from = (layer == 0 ? spheres : held).subspan(patch * 256, 256);
-            for (uint32_t slot = 0; slot < 256; ++slot) {
-                if (from[slot].w >= 0.0f) {
-                    columns.put(from[slot], patch * 512 + layer * 256 + slot,
-                                classes[patch * 256 + slot] >> (8 * layer) & 255);
-                }
-            }
+        uint32_t n = 0;
+        for (uint32_t place = 0; listed[patch] != 0 && place < (hold ? 512u : 256u); ++place) {
+            places[n] = static_cast<uint16_t>(place);
+            n += layers[place >> 8][patch * 256 + (place & 255)].w >= 0.0f ? 1u : 0u;
+        }
+        if (n > 0) {
+            columns.put(patch, n, [&](uint32_t i) {
+                const uint32_t layer = places[i] >> 8u, slot = patch * 256u + (places[i] & 255u);
+                return Placed{layers[layer][slot], places[i], classes[slot] >> (8 * layer) & 255};
+            });
         }
     }
 }
@@ -222,7 +237,6 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene
         } else {
             takeSlots(set, work, plan.hold, layout, columns);
         }
-        columns.finish();
         takeForbiddenBits(set, layout, counts);
     }
     if (plan.moments) {

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/region_grid.h"
 
+#include "engine/contact/clones.h"
+
+#include <array>
+#include <bit>
+#include <cstring>
 #include <limits>
+#include <numeric>
 
 namespace fathom {
 
@@ -11,14 +17,81 @@ constexpr double kSmallestCell = 0.005;   // [m]
 constexpr uint64_t kMostCells = 4u << 20; // 16 MiB of cell starts
 constexpr uint64_t kFewestCells = 4096;   // below this clearing costs nothing
 constexpr uint64_t kCellsPerSphere = 8;   // clearing and summing stay cheaper than sorting the spheres
-constexpr uint32_t kNoCell = std::numeric_limits<uint32_t>::max();
-
-bool hasPlace(float x, float y, float z, float radius) {
-    return std::isfinite(x) && std::isfinite(y) && std::isfinite(z) && std::isfinite(radius);
-}
+constexpr size_t kLanes = 8;              // of running bounds and sums
+using Lanes = float __attribute__((vector_size(4 * kLanes)));
 
 int64_t cellsAlong(double extent, double size) {
     return static_cast<int64_t>(extent / size) + 1;
+}
+
+bool isFinite(float v) {
+    return (std::bit_cast<uint32_t>(v) & 0x7f800000u) != 0x7f800000u;
+}
+
+// How many of n spheres have a number that is not finite.
+FATHOM_CLONES uint32_t countPlaceless(const float* x, const float* y, const float* z, const float* radius,
+                                      size_t n) noexcept {
+    uint32_t count = 0;
+    for (size_t i = 0; i < n; ++i) {
+        count +=
+            static_cast<uint32_t>(!isFinite(x[i]) | !isFinite(y[i]) | !isFinite(z[i]) | !isFinite(radius[i]));
+    }
+    return count;
+}
+
+FATHOM_CLONES void boundsOf(const float* v, size_t n, float& lo, float& hi) noexcept {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    Lanes low = Lanes{} + kInfinity, high = Lanes{} - kInfinity;
+    size_t i = 0;
+    for (; i + kLanes <= n; i += kLanes) {
+        Lanes some;
+        std::memcpy(&some, v + i, sizeof some);
+        low = some < low ? some : low;
+        high = some > high ? some : high;
+    }
+    lo = kInfinity, hi = -kInfinity;
+    for (size_t l = 0; l < kLanes; ++l) {
+        lo = std::min(lo, low[l]), hi = std::max(hi, high[l]);
+    }
+    for (; i < n; ++i) {
+        lo = std::min(lo, v[i]), hi = std::max(hi, v[i]);
+    }
+}
+
+FATHOM_CLONES double sumOf(const float* v, size_t n) noexcept {
+    std::array<double, kLanes> sums{};
+    size_t i = 0;
+    for (; i + kLanes <= n; i += kLanes) {
+        for (size_t l = 0; l < kLanes; ++l) {
+            sums[l] += static_cast<double>(v[i + l]);
+        }
+    }
+    for (; i < n; ++i) {
+        sums[0] += static_cast<double>(v[i]);
+    }
+    return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+// RegionGrid::cellOf for one axis of a column: cell[i] = cell[i] * count + its cell. NaN falls into the
+// first.
+FATHOM_CLONES void addAxis(const float* v, size_t n, double lo, double perMetre, int32_t count,
+                           uint32_t* cell) noexcept {
+    const double last = count - 1;
+    for (size_t i = 0; i < n; ++i) {
+        double at = (static_cast<double>(v[i]) - lo) * perMetre;
+        at = at > 0.0 ? at : 0.0;
+        at = at < last ? at : last;
+        cell[i] = cell[i] * static_cast<uint32_t>(count) + static_cast<uint32_t>(static_cast<int32_t>(at));
+    }
+}
+
+// Counts to running ends.
+void sumUp(std::span<uint32_t> begins) noexcept {
+    uint32_t sum = 0;
+    for (uint32_t& begin : begins) {
+        sum += begin;
+        begin = sum;
+    }
 }
 
 } // namespace
@@ -29,11 +102,48 @@ void RegionGrid::build(const RegionSpheres& spheres) {
 
 void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
                        std::span<const float> radius) {
-    const double meanRadius = measure(x, y, z, radius);
-    if (x_.empty()) {
+    if (countPlaceless(x.data(), y.data(), z.data(), radius.data(), x.size()) == 0) {
+        buildOf({x, y, z, radius});
+        return;
+    }
+    std::array<std::vector<float>, 4> kept;
+    std::vector<uint32_t> from;
+    for (size_t i = 0; i < x.size(); ++i) {
+        if (isFinite(x[i]) && isFinite(y[i]) && isFinite(z[i]) && isFinite(radius[i])) {
+            kept[0].push_back(x[i]), kept[1].push_back(y[i]), kept[2].push_back(z[i]);
+            kept[3].push_back(radius[i]);
+            from.push_back(static_cast<uint32_t>(i));
+        }
+    }
+    buildOf({kept[0], kept[1], kept[2], kept[3]});
+    for (uint32_t& index : order_) {
+        index = from[index];
+    }
+}
+
+void RegionGrid::buildOf(const Columns& columns) {
+    const size_t n = columns[0].size();
+    for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) {
+        column->resize(n);
+    }
+    order_.resize(n);
+    if (n == 0) {
+        maxRadius_ = 0.0;
         nx_ = ny_ = nz_ = 0;
         return;
     }
+    std::array<float, 4> lo, hi;
+    for (size_t a = 0; a < 4; ++a) {
+        boundsOf(columns[a].data(), n, lo[a], hi[a]);
+    }
+    lo_ = dvec3(lo[0], lo[1], lo[2]);
+    hi_ = dvec3(hi[0], hi[1], hi[2]);
+    maxRadius_ = std::max(0.0f, hi[3]);
+    chooseCells(sumOf(columns[3].data(), n) / static_cast<double>(n));
+    layOut(columns);
+}
+
+void RegionGrid::chooseCells(double meanRadius) {
     const dvec3 extent = hi_ - lo_;
     const double most = static_cast<double>(
         std::min(kMostCells, std::max<uint64_t>(kFewestCells, kCellsPerSphere * x_.size())));
@@ -46,72 +156,30 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
     nx_ = cellsAlong(extent.x, size_);
     ny_ = cellsAlong(extent.y, size_);
     nz_ = cellsAlong(extent.z, size_);
-    layOut(x, y, z, radius);
 }
 
-double RegionGrid::measure(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                           std::span<const float> radius) {
-    float lo[3], hi[3];
-    std::fill_n(lo, 3, std::numeric_limits<float>::infinity());
-    std::fill_n(hi, 3, -std::numeric_limits<float>::infinity());
-    float largest = 0.0f;
-    double radii = 0.0;
-    size_t count = 0;
-    for (size_t i = 0; i < x.size(); ++i) {
-        if (!hasPlace(x[i], y[i], z[i], radius[i])) {
-            continue;
-        }
-        const float p[3] = {x[i], y[i], z[i]};
-        for (int a = 0; a < 3; ++a) {
-            lo[a] = std::min(lo[a], p[a]);
-            hi[a] = std::max(hi[a], p[a]);
-        }
-        largest = std::max(largest, radius[i]);
-        radii += radius[i];
-        ++count;
+void RegionGrid::layOut(const Columns& columns) {
+    const size_t n = columns[0].size();
+    cellBegin_.assign(static_cast<size_t>(nx_ * ny_ * nz_) + 1, 0);
+    cell_.assign(n, 0);
+    uint32_t *const cell = cell_.data(), *const begin = cellBegin_.data(), *const order = order_.data();
+    addAxis(columns[2].data(), n, lo_.z, perMetre_, static_cast<int32_t>(nz_), cell);
+    addAxis(columns[1].data(), n, lo_.y, perMetre_, static_cast<int32_t>(ny_), cell);
+    addAxis(columns[0].data(), n, lo_.x, perMetre_, static_cast<int32_t>(nx_), cell);
+    for (size_t i = 0; i < n; ++i) {
+        ++begin[cell[i]];
     }
-    maxRadius_ = largest;
-    lo_ = dvec3(lo[0], lo[1], lo[2]);
-    hi_ = dvec3(hi[0], hi[1], hi[2]);
-    for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) {
-        column->resize(count);
+    sumUp(cellBegin_);
+    for (size_t i = n; i-- > 0;) { // backwards: keeps the order of the input within a cell
+        order[--begin[cell[i]]] = static_cast<uint32_t>(i);
     }
-    order_.resize(count);
-    return count > 0 ? radii / static_cast<double>(count) : 0.0;
-}
-
-void RegionGrid::layOut(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                        std::span<const float> radius) {
-    const size_t cells = static_cast<size_t>(nx_ * ny_ * nz_);
-    cellBegin_.assign(cells + 1, 0);
-    cell_.resize(x.size());
-    for (size_t i = 0; i < x.size(); ++i) {
-        if (!hasPlace(x[i], y[i], z[i], radius[i])) {
-            cell_[i] = kNoCell;
-            continue;
-        }
-        const int64_t cx = cellOf(x[i], lo_.x, perMetre_, nx_);
-        const int64_t cy = cellOf(y[i], lo_.y, perMetre_, ny_);
-        const int64_t cz = cellOf(z[i], lo_.z, perMetre_, nz_);
-        cell_[i] = static_cast<uint32_t>((cz * ny_ + cy) * nx_ + cx);
-        ++cellBegin_[cell_[i]];
-    }
-    uint32_t sum = 0;
-    for (uint32_t& begin :
-         cellBegin_) { // running end of each cell; the scatter below walks it back to its begin
-        sum += begin;
-        begin = sum;
-    }
-    for (size_t i = x.size(); i-- > 0;) { // backwards: keeps the order of the input within a cell
-        if (cell_[i] == kNoCell) {
-            continue;
-        }
-        const uint32_t slot = --cellBegin_[cell_[i]];
-        x_[slot] = x[i];
-        y_[slot] = y[i];
-        z_[slot] = z[i];
-        radius_[slot] = radius[i];
-        order_[slot] = static_cast<uint32_t>(i);
+    const float *const x = columns[0].data(), *const y = columns[1].data(), *const z = columns[2].data(),
+                       *const radius = columns[3].data();
+    float *const toX = x_.data(), *const toY = y_.data(), *const toZ = z_.data(),
+                 *const toRadius = radius_.data();
+    for (size_t slot = 0; slot < n; ++slot) {
+        const uint32_t i = order[slot];
+        toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
     }
 }
 

@@ -6,6 +6,7 @@
 #include "engine/contact/fixtures.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -67,11 +68,10 @@ private:
             cell + 1 == count ? 0.0 : v - (lo + static_cast<double>(cell + 1) * size_ + slack);
         return std::max({0.0, below, above});
     }
-    // Bounds and largest radius; sizes the columns. Returns the mean radius [m].
-    double measure(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                   std::span<const float> radius);
-    void layOut(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                std::span<const float> radius);
+    using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite
+    void buildOf(const Columns& columns);
+    void chooseCells(double meanRadius);
+    void layOut(const Columns& columns);
 
     std::vector<float> x_, y_, z_, radius_;
     std::vector<uint32_t> order_;
