@@ -70,25 +70,28 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     Situation now;
     now.sane = isFinite(input.deviceThandle) && std::isfinite(input.time);
     now.off = input.forcesOff || (input.buttons & kDeadManOpen) != 0;
-    now.clutch = (input.buttons & options_.clutchBit) != 0;
-    if (now.sane) {
-        handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
-        device_ = map_.map(handle_, now.clutch);
-    }
     const ContactSet* set = chooseSet(input, out);
     now.running = set != nullptr || !options_.needsContacts;
     out.frame = set != nullptr ? set->frame : now.running ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
     now.stale = out.sceneAge > options_.staleAfter;
-    guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0, now.off || !now.running,
-                   options_.period);
+    now.held = followed_ && (!armFollows_ || !now.sane || now.off || !now.running || now.stale);
+    now.clutch = (input.buttons & options_.clutchBit) != 0 || now.held;
+    if (now.sane) {
+        handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
+        device_ = map_.map(handle_, now.clutch);
+    }
+    guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
+                   now.off || !now.running || now.held, options_.period);
 
     ProxyTurn moved;
     moved.minGap = kNotKnown;
     springEnd_ = device_;
-    if (now.running && now.sane) {
+    out.arm.posture = place().arm;
+    if (now.running && now.sane && !now.held) {
         moved = moveTool(input, set, out);
     }
+    held_ = now.held;
     stepRamps(now, moved.trapped);
     const double period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
     finishWrench(springWrench(), period, now, out);
@@ -210,7 +213,7 @@ TurnState HapticCycle::stateOf(const Situation& now, const ProxyTurn& moved) con
     if (!now.running) {
         return TurnState::Off;
     }
-    if (now.off) {
+    if (now.off || now.held) {
         return ramps_.power > 0.0 ? TurnState::Fading : TurnState::Off;
     }
     if (moved.trapped) {
@@ -226,10 +229,12 @@ TurnState HapticCycle::stateOf(const Situation& now, const ProxyTurn& moved) con
 }
 
 // An arm stands still while anything is wrong, and after that until tool and hand have met again or were
-// re-indexed.
+// re-indexed. Where one follows, the tool never left it.
 void HapticCycle::holdArm(const Situation& now, bool trapped, TurnRecord& out) noexcept {
-    const bool wrong = !now.sane || !now.running || now.off || now.stale || trapped || !out.finite;
-    const bool met = now.clutch || glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
+    const bool wrong =
+        !now.sane || !now.running || now.off || now.stale || trapped || !out.finite || now.held;
+    const bool met =
+        now.clutch || followed_ || glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
     armHold_ = wrong || (armHold_ && !met);
     out.armHold = armHold_;
 }

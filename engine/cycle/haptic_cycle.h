@@ -25,6 +25,10 @@ namespace fathom {
 // - Trapped: the tool is held, the force ramps out over 0.2 s, and back when a way is found. The clutch ramps
 // the same way.
 // - Scene older than staleAfter: the force fades over 0.5 s, and back when a frame comes.
+// - A real arm that follows the tool (follow()) and stands still, or has to for forces off, an old scene or a
+// broken
+//   sample: the tool is held, the force ramps out over 0.2 s; then the tool is put where the arm was measured
+//   and the hand is re-indexed to it, so that both go on from there.
 // - A number that is not finite, anywhere: zero wrench in that turn, counted; the next one slews up from
 // zero.
 class HapticCycle {
@@ -37,6 +41,10 @@ public:
                 const Pose& start, const Pose* tool0 = nullptr, const ArmRig* arm = nullptr);
 
     TurnRecord turn(const TurnInput& input) noexcept;
+
+    // Before a turn, where a real arm follows; from the first call on the rules above hold. True when the
+    // tool was put where the arm is: then pose() and place() are new.
+    bool follow(const ArmFollow& told) noexcept;
 
     // Other authored shapes from the next turn on; those beyond what the constructor made room for are left
     // out. On the haptic thread, between turns.
@@ -71,6 +79,7 @@ private:
         bool clutch = false;
         bool running = false; // there is a set, or none is needed
         bool stale = false;
+        bool held = false; // a real arm stands still
     };
 
     const ContactSet* chooseSet(const TurnInput& input, TurnRecord& out) noexcept;
@@ -116,7 +125,11 @@ private:
     double age_ = 0.0;
     bool hasAge_ = false;
     bool armHold_ = true;
-    bool arming_ = true; // forces come back after having been off, as softly as the options say
+    bool followed_ = false;   // by a real arm
+    bool armFollows_ = false; // that says it does
+    bool held_ = false;       // Situation::held of the last turn
+    bool placed_ = false;     // the tool was put where no set in force may cover it
+    bool arming_ = true;      // forces come back after having been off, as softly as the options say
     uint64_t notFinite_ = 0;
 };
 

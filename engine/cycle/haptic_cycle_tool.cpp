@@ -15,9 +15,25 @@ const ContactSet* HapticCycle::chooseSet(const TurnInput& input, TurnRecord& out
     const ContactSet* offered = input.offered;
     if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
         out.adopted = true;
+        placed_ = false;
         return offered;
     }
-    return input.contacts != nullptr && input.contacts->frame >= 0 ? input.contacts : nullptr;
+    const bool usable = input.contacts != nullptr && input.contacts->frame >= 0;
+    return usable && (!placed_ || covers(*input.contacts)) ? input.contacts : nullptr;
+}
+
+bool HapticCycle::follow(const ArmFollow& told) noexcept {
+    followed_ = arm_.has_value();
+    armFollows_ = told.follows;
+    if (!followed_ || !told.known || !held_ || ramps_.power > 0.0) {
+        return false;
+    }
+    arm_->setPosture(told.posture);
+    placed_ = true;
+    tool_ = arm_->tip();
+    map_.align(handle_, tool_);
+    device_ = springEnd_ = toolBefore_ = deviceBefore_ = tool_;
+    return true;
 }
 
 double HapticCycle::sceneAge(const TurnInput& input, const ContactSet* set) noexcept {

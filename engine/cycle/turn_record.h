@@ -74,6 +74,13 @@ struct ToolPlace {
     ArmPosture arm;
 };
 
+// What a real arm that goes where the tool's arm does tells before a turn.
+struct ArmFollow {
+    bool follows = false; // false: it stands still, for whatever reason
+    bool known = false;   // `posture` was measured lately
+    ArmPosture posture;
+};
+
 // What a turn did to an arm; all zero without one.
 struct ArmRecord {
     ArmPosture posture;          // after the turn

@@ -55,13 +55,22 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
     , violations_(kMostViolations)
     , rows_(kMostRows) {
     for (size_t k = 0; k < n_; ++k) {
-        q_[k] =
-            std::clamp(std::isfinite(start[k]) ? start[k] : 0.0, arm.joints[k].lower, arm.joints[k].upper);
+        q_[k] = std::clamp(0.0, arm.joints[k].lower, arm.joints[k].upper);
     }
-    start_ = q_;
     shapes_.reserve(std::max(Proxy::kSpareShapes, shapes_.size()));
-    arm_.place(q_, base_, frames_, grasp_);
+    setPosture({start, grasp_});
     origin_ = frames_[0].position;
+    placeLeaves(frames_, leaves_);
+}
+
+void ArmProxy::setPosture(const ArmPosture& posture) noexcept {
+    for (size_t k = 0; k < n_; ++k) {
+        const double q = std::isfinite(posture.q[k]) ? posture.q[k] : q_[k];
+        q_[k] = std::clamp(q, arm_.joints[k].lower, arm_.joints[k].upper);
+    }
+    grasp_ = std::isfinite(posture.grasp) ? std::clamp(posture.grasp, 0.0, 1.0) : grasp_;
+    start_ = q_;
+    arm_.place(q_, base_, frames_, grasp_);
     placeLeaves(frames_, leaves_);
 }
 

@@ -76,6 +76,9 @@ public:
     }
 
     bool covers(const ContactSet& contacts) noexcept;
+    // Stands there from now on, clamped to the joint limits, whatever lies there; what is not finite stays as
+    // it is. A set in force may not cover it any more: ask covers().
+    void setPosture(const ArmPosture& posture) noexcept;
     // As Proxy::setShapes().
     void setShapes(std::span<const Shape> shapes) noexcept;
     std::span<const Shape> shapes() const noexcept { return shapes_; }

@@ -34,6 +34,10 @@ public:
     void tick(const Fixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
               std::span<const dvec3> end, std::span<const uint32_t> behind = {});
 
+    // Before a turn whose tool was put somewhere by something else than the engine (a real arm that stood
+    // still): its allowances are the depths at that turn's start.
+    void retake() { anySet_ = false; }
+
     // [m] largest depth of one leaf beyond its allowance, so far.
     double leafPenetration(size_t leaf) const { return leaves_[leaf].worst; }
     double maxPenetration() const { return maxPenetration_; } // [m] largest depth beyond the allowance

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// The haptic cycle with a real arm behind it: what the pilot's tool does when that arm stands still.
+#include "engine/cycle/haptic_cycle.h"
+
+#include "tests/cycle/haptic_rig.h"
+#include "tests/haptics/arm_rig.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// The tip of a stretched arm is at x = 1 m; a ball bars its way along y.
+struct FollowRig {
+    FollowRig() {
+        rig.model = makeArm(4, 8);
+        rig.freeDirection = true;
+        rig.proxy.stepCap = 0.002;
+        addSphere(world.fixtures, {0.95, 0.16, 0.0}, 0.05);
+        world.grid.build(world.fixtures.spheres);
+        cycle =
+            std::make_unique<HapticCycle>(ballTool(), std::span<const Shape>{}, options, hand, &hand, &rig);
+    }
+
+    TurnRecord turn() {
+        placed = cycle->follow(told);
+        start = cycle->place();
+        auto offered = std::make_unique<ContactSet>();
+        world.cull.query(rig.toolAt(asked.arm), Pose{}, 0.01, world.fixtures, world.grid, *offered);
+        offered->frame = 0;
+        TurnInput input;
+        input.time = input.captureTime = time;
+        input.deviceThandle = hand;
+        input.buttons = buttons;
+        input.contacts = inForce.get();
+        input.offered = offered.get();
+        input.frame = 0;
+        input.generation = offered->generation;
+        input.sourceEnded = true;
+        const TurnRecord record = cycle->turn(input);
+        if (record.adopted) {
+            inForce = std::move(offered);
+        }
+        asked = cycle->place(); // the answer comes a turn late
+        time += options.period;
+        return record;
+    }
+    TurnRecord turns(int count) {
+        TurnRecord record;
+        for (int i = 0; i < count; ++i) {
+            record = turn();
+        }
+        return record;
+    }
+    double depth() const { return world.depth(rig.model, rig.framesAt(cycle->place().arm)); }
+
+    ArmRig rig;
+    World world;
+    HapticOptions options = makeHapticOptions(plainScene(), ballTool());
+    Pose hand = at(0, 0, 0);
+    ArmFollow told{true, true, {}};
+    ToolPlace asked, start;
+    std::unique_ptr<HapticCycle> cycle;
+    std::unique_ptr<ContactSet> inForce;
+    double time = 0.0;
+    uint32_t buttons = 0;
+    bool placed = false;
+};
+
+double force(const TurnRecord& record) {
+    return glm::length(record.wrench.force);
+}
+
+// Until the ball holds it and the hand is 5 mm further.
+FollowRig pressed() {
+    FollowRig follow;
+    follow.turns(5);
+    for (int i = 0; i < 400; ++i) {
+        follow.hand.position.y += 0.0002;
+        follow.turn();
+    }
+    return follow;
+}
+
+} // namespace
+
+TEST_CASE("An arm that follows moves as the tool does, and the pilot feels what bars its way") {
+    FollowRig follow = pressed();
+    const TurnRecord record = follow.turns(50);
+    CHECK(record.state == TurnState::Contact);
+    CHECK(force(record) > 2.0);
+    CHECK_FALSE(record.armHold);
+    CHECK_FALSE(follow.placed);
+    CHECK(follow.depth() <= 1e-9);
+}
+
+TEST_CASE("An arm that stands still holds the tool at once, and the force is gone after 0.2 s") {
+    for (const int why : {0, 1}) {
+        FollowRig follow = pressed();
+        const double full = force(follow.turns(50));
+        const ArmPosture before = follow.cycle->place().arm;
+        (why == 0 ? follow.told.follows = false : (follow.buttons = kDeadManOpen) != 0);
+        follow.told.known = false; // silent, too
+        double last = full;
+        for (int i = 0; i < 400; ++i) {
+            follow.hand.position += dvec3(0.0005, 0.0005, 0.0);
+            const TurnRecord record = follow.turn();
+            CHECK(record.armHold);
+            CHECK(record.state == (i < 198 ? TurnState::Fading : i > 202 ? TurnState::Off : record.state));
+            CHECK(record.arm.posture.q == before.q);
+            CHECK(force(record) <= last + 1e-12);
+            CHECK(last - force(record) < 0.05 * full); // soft
+            last = force(record);
+        }
+        CHECK(last == 0.0);
+    }
+}
+
+TEST_CASE("Forces off hold an arm that follows, and it does not leap to a hand that went elsewhere") {
+    FollowRig follow = pressed();
+    follow.turns(50);
+    follow.told.posture = follow.cycle->place().arm;
+    follow.buttons = kDeadManOpen;
+    follow.turns(300);
+    follow.hand.position += dvec3(-0.2, -0.3, 0.1);
+    CHECK(follow.turns(10).armHold);
+    const Pose tool = follow.cycle->pose();
+    follow.buttons = 0;
+    const TurnRecord record = follow.turns(300);
+    CHECK_FALSE(record.armHold);
+    CHECK(glm::distance(record.tool.position, tool.position) < 1e-6);
+    CHECK(force(record) < 1e-3);
+    follow.hand.position.y -= 0.005; // from here on it goes with the hand
+    CHECK(glm::distance(follow.turns(200).tool.position, tool.position) ==
+          doctest::Approx(0.005).epsilon(0.02));
+}
+
+TEST_CASE("The tool goes on from where the arm was measured, also inside a region, and only leaves it") {
+    FollowRig follow = pressed();
+    follow.told.posture = follow.cycle->place().arm;
+    follow.told.posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
+    follow.told.follows = false;
+    follow.turns(300);
+    CHECK(follow.placed);
+    CHECK(follow.cycle->place().arm.q == follow.told.posture.q);
+    double deepest = follow.depth();
+    CHECK(deepest > 0.004);
+    follow.told.follows = true;
+    for (int i = 0; i < 500; ++i) {
+        const TurnRecord record = follow.turn();
+        CHECK(follow.depth() <= deepest + 1e-9);
+        CHECK(force(record) < 20.0);
+        deepest = std::max(0.0, follow.depth());
+    }
+    CHECK(deepest < 1e-6);
+}
+
+TEST_CASE("A tool put far from where contacts are known waits until they are known there") {
+    FollowRig follow = pressed();
+    follow.told = {false, true, follow.cycle->place().arm};
+    follow.turns(300);
+    CHECK(follow.placed);
+    follow.told.posture.q = {-0.6, 0.3, 0.2, -0.1}; // all that is known of contacts is about where it was
+    follow.told.follows = true;
+    const TurnRecord first = follow.turn();
+    CHECK_FALSE(first.adopted);
+    CHECK(first.armHold);
+    CHECK(first.arm.posture.q == follow.told.posture.q);
+    const TurnRecord then = follow.turns(3);
+    CHECK(follow.inForce != nullptr);
+    CHECK_FALSE(then.armHold);
+}
+
+TEST_CASE("A measured posture that is not finite or beyond the limits leaves the tool inside them") {
+    FollowRig follow = pressed();
+    const ArmPosture before = follow.cycle->place().arm;
+    follow.told = {false, true, {}};
+    follow.told.posture.q = {kNotKnown, 9.0, -9.0, 0.1};
+    follow.turns(300);
+    const ArmPosture now = follow.cycle->place().arm;
+    CHECK(now.q == JointVector{before.q[0], 1.2, -1.2, 0.1});
+}
