@@ -2,6 +2,7 @@
 // Everything that passes between the threads of a realtime run, and nothing else does. Design 2.
 #pragma once
 
+#include "apps/binding/posture_track.h"
 #include "devices/haptic_device.h"
 #include "engine/contact/contact_set.h"
 #include "engine/cycle/frame_cycle.h"
@@ -82,7 +83,7 @@ struct Crossings {
 
     Latest<SceneNews> scene;             // frame -> haptic
     Latest<ToolPlace> proxy;             // haptic -> contact
-    Latest<ToolPlace> shown;             // haptic -> frame: where the arm is, for the self-filter
+    PostureTrack postures;               // haptic -> frame: where the arm was, for the self-filter
     Latest<ShapeList> shapes;            // window -> haptic
     LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, in force and offered
     Ring<TurnRow> turns;                 // haptic -> writer

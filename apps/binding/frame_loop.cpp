@@ -102,8 +102,8 @@ PublishedFrame* FrameLoop::emptyFrame() {
 
 void FrameLoop::publish(double t) {
     PublishedFrame* frame = emptyFrame();
-    if (crossings_.shown.refresh()) {
-        feed_.shown(crossings_.shown.front());
+    if (const auto posture = crossings_.postures.nearest(clock_.timeAt(t))) {
+        feed_.shown({Pose{}, *posture});
     }
     feed_.publish(t, *frame);
     frame->t = t;

@@ -23,7 +23,8 @@ public:
     // When that picture was taken, of a source whose pictures come by themselves (a live camera): it is
     // waited for in fetch(), and paced by nobody. Nothing: the loop paces the source.
     virtual std::optional<RunClock::Time> captured() const { return std::nullopt; }
-    // Where the tool, and its arm, were last, before publish(). Not called before the first turn.
+    // Where the arm was when the picture was taken, as near as is known, before publish(); the pose is not
+    // given. Not called without an arm or before the first turn.
     virtual void shown(const ToolPlace&) {}
     // That picture, captured at t [s], becomes the newest fixture set. Fills everything in `out` but its t. A
     // picture that is the same again makes no set: `changed` false, the set and the colour in `out` are left

@@ -98,12 +98,12 @@ double HapticLoop::turn(double due) noexcept {
         inForce_ = std::move(offered_);
         offered_ = {};
     }
-    const ToolPlace place = cycle_.place();
-    crossings_.proxy.back() = place;
+    crossings_.proxy.back() = cycle_.place();
     crossings_.proxy.publish();
-    crossings_.shown.back() = place;
-    crossings_.shown.publish();
     const double over = clock_.now();
+    if (cycle_.onArm()) {
+        crossings_.postures.add(clock_.timeAt(over), record.arm.posture);
+    }
     report(record, sample, start, due, began,
            std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over);
     if (trace_ != nullptr) {

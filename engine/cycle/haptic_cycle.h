@@ -55,6 +55,7 @@ public:
     const Pose& pose() const { return tool_; } // base_T_tool: what the next contact query asks about
     // Pose and, on an arm, posture.
     ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
+    bool onArm() const { return arm_.has_value(); }
     const Springs& springs() const {
         return watch_.springs();
     } // in force: those of the options, or less while turns are slow

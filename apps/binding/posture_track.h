@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where an arm was, and when: the last quarter of a second and more, written by one thread, read by another,
+// without locks.
+#pragma once
+
+#include "engine/model/arm_model.h"
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cstdint>
+#include <optional>
+
+namespace fathom {
+
+// One writer, one reader; both noexcept and wait-free. A slot that is being written while it is read is seen
+// by its stamp and left out (a seqlock each; Boehm, Can seqlocks get along with programming language memory
+// models?, 2012).
+class PostureTrack {
+public:
+    using Time = std::chrono::steady_clock::time_point;
+    static constexpr size_t kKept = 256;
+    static constexpr std::chrono::milliseconds kApart{2}; // what comes sooner is left out: 0.5 s are kept
+
+    // Writer, in the order of time.
+    void add(Time time, const ArmPosture& posture) noexcept;
+
+    // Reader: the posture nearest to that time; nothing before the first one.
+    std::optional<ArmPosture> nearest(Time time) const noexcept;
+
+private:
+    static constexpr size_t kWords = kMostJoints + 1; // joints, grasp
+    struct Slot {
+        std::atomic<uint64_t> stamp{0}; // odd while it is written
+        std::atomic<int64_t> time{0};   // [ns]
+        std::array<std::atomic<uint64_t>, kWords> words{};
+    };
+    static int64_t nanoseconds(Time time) noexcept {
+        return std::chrono::duration_cast<std::chrono::nanoseconds>(time.time_since_epoch()).count();
+    }
+    bool read(const Slot& slot, int64_t& time, ArmPosture& out) const noexcept;
+
+    std::array<Slot, kKept> slots_;
+    std::atomic<uint64_t> written_{0};
+    Time last_{}; // writer's
+};
+
+} // namespace fathom
