@@ -2,7 +2,7 @@
 // Everything that passes between the threads of a realtime run, and nothing else does. Design 2.
 #pragma once
 
-#include "apps/binding/posture_track.h"
+#include "apps/binding/arm_link.h"
 #include "devices/haptic_device.h"
 #include "engine/contact/contact_set.h"
 #include "engine/cycle/frame_cycle.h"
@@ -50,6 +50,9 @@ struct TurnRow {
     double micros = 0.0;     // [us] compute time of the turn
     bool late = false;       // ended more than one period after its start was due
     uint32_t missed = 0;     // periods before this one in which no turn ran
+    bool driven = false;     // a real arm follows
+    bool placed = false;     // the turn started from where that arm was measured
+    ArmTold told;            // by it, before the turn
 };
 
 // Contact cadence to writer: one answer. Its leaves behind a surface are exempt from the promise that the
@@ -90,6 +93,7 @@ struct Crossings {
     Ring<QueryNote> queries;             // contact -> writer
     Ring<PublishedFrame*> frames;        // frame -> writer
     Ring<PublishedFrame*> emptied;       // writer -> frame
+    ArmLink* arm = nullptr;              // haptic <-> a real arm's thread; null = there is none
     std::atomic<bool> hapticDone{false}; // the last wrench is written
 
     static constexpr uint64_t kFramesInFlight =

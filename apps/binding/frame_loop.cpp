@@ -102,7 +102,8 @@ PublishedFrame* FrameLoop::emptyFrame() {
 
 void FrameLoop::publish(double t) {
     PublishedFrame* frame = emptyFrame();
-    if (const auto posture = crossings_.postures.nearest(clock_.timeAt(t))) {
+    const PostureTrack& track = crossings_.arm != nullptr ? crossings_.arm->measured : crossings_.postures;
+    if (const auto posture = track.nearest(clock_.timeAt(t))) {
         feed_.shown({Pose{}, *posture});
     }
     feed_.publish(t, *frame);

@@ -6,6 +6,12 @@
 
 namespace fathom {
 
+namespace {
+
+constexpr double kArmSilence = 0.1; // [s]
+
+} // namespace
+
 HapticLoop::HapticLoop(HapticCycle& cycle, HapticDevice& hand, Crossings& crossings, const RunClock& clock,
                        const Ends& ends, CadenceTrace* trace)
     : cycle_(cycle)
@@ -47,6 +53,7 @@ void HapticLoop::run(const std::atomic<bool>& stop) noexcept {
         slot = next;
     }
     hand_.write(Wrench{}, period_);
+    tellArm({}, true);
     crossings_.hapticDone.store(true, std::memory_order_release);
 }
 
@@ -56,6 +63,28 @@ void HapticLoop::offerNewest() noexcept {
     offered_ = crossings_.contacts.newest();
     if (offered_ && inForce_ && offered_->query == inForce_->query) {
         offered_ = {};
+    }
+}
+
+// Of a real arm, where one follows: what it told last. A thread of its own that has stopped is a silent arm.
+void HapticLoop::hearArm(TurnRow& row) noexcept {
+    if (crossings_.arm == nullptr) {
+        return;
+    }
+    crossings_.arm->told.refresh();
+    row.driven = true;
+    row.told = crossings_.arm->told.front();
+    if (clock_.now() - clock_.at(row.told.at) > kArmSilence) {
+        row.told.state = ArmState::Silent;
+        row.told.known = false;
+    }
+    row.placed = cycle_.follow({!isFault(row.told.state), row.told.known, row.told.posture});
+}
+
+void HapticLoop::tellArm(const TurnRecord& record, bool off) noexcept {
+    if (crossings_.arm != nullptr) {
+        crossings_.arm->wish.back() = {record.arm.posture, record.armHold, off, clock_.timeAt(clock_.now())};
+        crossings_.arm->wish.publish();
     }
 }
 
@@ -89,11 +118,14 @@ double HapticLoop::turn(double due) noexcept {
     // The end of the period that the clock is in: after a late wake-up that is not the one that was due.
     const Until until{&clock_, (std::floor(began / period_) + 1.0) * period_};
     const TurnInput input = inputFor(began, sample, until);
+    TurnRow row;
+    hearArm(row);
     const ToolPlace start = cycle_.place();
     const auto turnBegan = std::chrono::steady_clock::now();
     const TurnRecord record = cycle_.turn(input);
     const auto turnOver = std::chrono::steady_clock::now();
     hand_.write(record.deviceWrench, input.measuredPeriod > 0.0 ? input.measuredPeriod : period_);
+    tellArm(record, (sample.buttons & kDeadManOpen) != 0);
     if (record.adopted) {
         inForce_ = std::move(offered_);
         offered_ = {};
@@ -105,7 +137,7 @@ double HapticLoop::turn(double due) noexcept {
         crossings_.postures.add(clock_.timeAt(over), record.arm.posture);
     }
     report(record, sample, start, due, began,
-           std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over);
+           std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over, row);
     if (trace_ != nullptr) {
         trace_->turn(turnBegan, turnOver, began - due);
     }
@@ -115,8 +147,7 @@ double HapticLoop::turn(double due) noexcept {
 }
 
 void HapticLoop::report(const TurnRecord& record, const HandSample& hand, const ToolPlace& start, double due,
-                        double began, double took, double over) noexcept {
-    TurnRow row;
+                        double began, double took, double over, TurnRow& row) noexcept {
     row.record = record;
     row.hand = hand;
     row.start = start.pose;

@@ -37,9 +37,11 @@ private:
     };
     bool ended(double t) const noexcept;
     void offerNewest() noexcept;
+    void hearArm(TurnRow& row) noexcept;
+    void tellArm(const TurnRecord& record, bool off) noexcept;
     TurnInput inputFor(double now, const HandSample& sample, const Until& until) const noexcept;
     void report(const TurnRecord& record, const HandSample& hand, const ToolPlace& start, double due,
-                double began, double took, double over) noexcept;
+                double began, double took, double over, TurnRow& row) noexcept;
 
     HapticCycle& cycle_;
     HapticDevice& hand_;

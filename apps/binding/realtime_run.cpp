@@ -94,6 +94,7 @@ RealtimeRun::RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const Real
     : options_(options)
     , crossings_(turnCapacity(options.hapticPeriod))
     , frames_(frames, crossings_, clock_, options.framePeriod, options.trace) {
+    crossings_.arm = options.arm;
     if (contacts != nullptr) {
         contact_.emplace(*contacts, crossings_, clock_, 0.5 * options.hapticPeriod, options.trace);
     }

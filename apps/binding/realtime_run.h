@@ -23,6 +23,7 @@ struct RealtimeOptions {
     double framePeriod = 1.0 / 30.0; // [s]
     double staleAfter = 0.1;         // [s] scene age that is worth a warning
     CadenceTrace* trace = nullptr;
+    ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
     std::function<void(double t, uint64_t frames, uint64_t turns)>
         progress; // on the writer thread, now and then
 };

@@ -68,7 +68,8 @@ std::string capabilityOf(const DeviceFile& file) {
     case DeviceFile::Kind::SpaceMouse:
         return axesOf("none") + "; --hand-device spacemouse:" + file.node.string();
     case DeviceFile::Kind::SerialPort:
-        return "may be opened; a manipulator could be there: which one, no port can tell";
+        return "may be opened; a manipulator could be there: which one, no port can tell; --arm " +
+               file.node.string();
     case DeviceFile::Kind::Camera:
     case DeviceFile::Kind::Closed:
         break;

@@ -18,6 +18,12 @@ std::string print(const char* form, double value) {
     return text;
 }
 
+std::string print(const char* form, const char* word) {
+    char text[128];
+    std::snprintf(text, sizeof text, form, word);
+    return text;
+}
+
 } // namespace
 
 const char* levelName(Level level) {
@@ -80,6 +86,9 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
             "New data lies over the tool: it is let out", r.t);
         set(r.marginPassive < kMarginNoise, Level::Caution, "passive", "Springs beyond the passive bound",
             r.t);
+        const ArmState arm = run.turn().driven ? run.turn().told.state : ArmState::Follows;
+        set(isFault(arm), Level::Warning, "arm",
+            print("Arm %s: it stands still, and so does the tool", armStateName(arm)), r.t);
         set(glm::distance(r.tool.position, r.device.position) > 0.10, Level::Advisory, "apart",
             "Hand and tool are over 100 mm apart", r.t);
         set(console.frozen, Level::Advisory, "frozen", "Fixtures are frozen: the camera moves nothing", r.t);

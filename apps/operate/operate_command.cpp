@@ -15,6 +15,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
     command->add_option("scene", options->scene, "scene file (YAML)")->required();
     command->add_option("--source", options->source, "recording folder instead of the scene's camera");
     command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard");
+    command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
         ->check(CLI::NonNegativeNumber);

@@ -15,6 +15,7 @@ struct OperateOptions {
     std::string source;     // recording folder; empty = the scene's camera
     bool path = false;      // the scene's hand path drives, not mouse and keyboard
     std::string offscreen;  // WxH: the same frames without a surface; empty = a window
+    std::string arm;        // serial line of the scene's real arm; empty = nothing moves
     double seconds = 0.0;   // ends by itself; 0 = when the window is closed
     double textScale = 1.0; // 0.75 .. 2
     std::string state;      // file of JSON lines: what the window shows, for who watches it from outside

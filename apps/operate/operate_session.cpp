@@ -85,6 +85,7 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
     : scene(withSpareClasses(openScene(options.scene)))
     , camera(endless(scene, options, stop))
     , arm(openArm(scene))
+    , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
     , instance(gpu::Validation{options.validate, false}, extensions)
     , device(instance, global.device, drawing)

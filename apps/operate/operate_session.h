@@ -2,6 +2,7 @@
 // Everything that the operator's window runs on, built in order: scene, camera, tool, device, plan, cycles.
 #pragma once
 
+#include "apps/binding/arm_thread.h"
 #include "apps/operate/operate_command.h"
 #include "devices/camera.h"
 #include "devices/simulated/hand_path.h"
@@ -27,8 +28,9 @@ struct OperateSession {
 
     Scene scene; // with spare classes
     std::unique_ptr<Camera> camera;
-    std::unique_ptr<ArmRig> arm; // null = the tool moves freely
-    Tool tool;                   // on an arm, what its tip carries
+    std::unique_ptr<ArmRig> arm;        // null = the tool moves freely
+    std::unique_ptr<ArmThread> realArm; // null = nothing but pictures moves
+    Tool tool;                          // on an arm, what its tip carries
     gpu::Instance instance;
     gpu::Device device;
     Plan plan;

@@ -101,6 +101,10 @@ void OperatorRun::startThreads() {
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
     o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
+    if (session_.realArm) {                                 // the scene's start is where it stands
+        session_.arm->start = session_.realArm->ready(signals_.asked()).q;
+        o.arm = &session_.realArm->link();
+    }
     engine_ = std::make_unique<RealtimeRun>(
         feed_, session_.plan.query != Plan::Query::None ? &answers_ : nullptr, o);
     if (!engine_->firstFrame()) {

@@ -58,7 +58,8 @@ json turnOf(const RunView& run) {
             {"scene_age_s", known(r.sceneAge)},
             {"pictures", run.scene().number},
             {"spheres", run.scene().set.spheres.size()},
-            {"generation", run.scene().set.generation}};
+            {"generation", run.scene().set.generation},
+            {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)}};
 }
 
 json fixturesOf(const Scene* scene) {

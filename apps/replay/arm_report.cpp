@@ -20,7 +20,7 @@ std::string column(std::string name) {
 
 } // namespace
 
-ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig)
+ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const std::string& realArm)
     : rig_(rig)
     , file_(file) {
     std::string header = "t_s";
@@ -29,7 +29,15 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig)
         header += column(joint.name);
         sums_.joints.push_back({joint.name, joint.lower, joint.upper, joint.speed, HUGE_VAL, -HUGE_VAL, 0.0});
     }
-    file_.write(header + ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held\n");
+    header += ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held";
+    if (!realArm.empty()) {
+        sums_.driven.emplace().description = realArm;
+        header += ",real_arm";
+        for (const ArmJoint& joint : rig.model.joints) {
+            header += ",measured_" + column(joint.name);
+        }
+    }
+    file_.write(header + "\n");
     for (const std::string& link : rig.model.links) {
         sums_.links.push_back({link, 0, std::nullopt});
     }
@@ -71,6 +79,9 @@ void ArmReport::add(const TickRecord& tick) {
     row_.add(wrong);
     row_.add(int64_t{arm.singular});
     row_.add(int64_t{arm.graspHeld});
+    if (sums_.driven) {
+        addDriven(tick);
+    }
     file_.write(row_.end());
     sums_.limitViolation = std::max(sums_.limitViolation, wrong);
     sums_.limitedTicks += arm.atLimits > 0 ? 1 : 0;
@@ -81,12 +92,38 @@ void ArmReport::add(const TickRecord& tick) {
     }
 }
 
+void ArmReport::addDriven(const TickRecord& tick) {
+    const ArmTold& told = tick.told;
+    ReplaySummary::Arm::Driven& driven = *sums_.driven;
+    row_.add(std::string(armStateName(told.state)));
+    for (size_t k = 0; k < rig_.model.count(); ++k) {
+        row_.add(told.known ? told.posture.q[k] : kUnknown);
+    }
+    ++turns_[static_cast<size_t>(told.state)];
+    driven.lastState = armStateName(told.state);
+    driven.damaged = std::max(driven.damaged, told.damaged);
+    driven.reopened = told.reopened;
+    if (told.known) {
+        driven.oldest = std::max(driven.oldest, told.age);
+    }
+    if (told.state == ArmState::Follows) {
+        const double lag = glm::distance(rig_.tipAt(told.posture).position, tick.tool.position);
+        tipLags_.push_back(static_cast<float>(lag));
+    }
+}
+
 ReplaySummary::Arm ArmReport::summary(const std::vector<double>& links) {
     ReplaySummary::Arm out = sums_;
     for (size_t i = 0; i < out.links.size() && i < links.size(); ++i) {
         out.links[i].penetration = links[i];
     }
     out.residual = percentilesOf(std::move(residuals_));
+    for (size_t i = 0; out.driven && i < kArmStates; ++i) {
+        out.driven->turns.emplace_back(armStateName(static_cast<ArmState>(i)), turns_[i]);
+    }
+    if (out.driven) {
+        out.driven->tipLag = percentilesOf(std::move(tipLags_));
+    }
     return out;
 }
 

@@ -14,10 +14,12 @@
 namespace fathom {
 
 // One thread. The limits are checked here once more, from the joints alone. arm.csv: t_s, a column a joint
-// [rad], [m], grasp, residual_m, manipulability, at_limits, limit_violation, singular, grasp_held.
+// [rad], [m], grasp, residual_m, manipulability, at_limits, limit_violation, singular, grasp_held; where a
+// real arm follows also real_arm (its state) and measured_ with every joint's name.
 class ArmReport {
 public:
-    ArmReport(const std::filesystem::path& file, const ArmRig& rig);
+    // realArm: what follows, in words; empty = nothing does.
+    ArmReport(const std::filesystem::path& file, const ArmRig& rig, const std::string& realArm = "");
 
     void add(const TickRecord& tick);
     void commit() { file_.commit(); }
@@ -27,12 +29,14 @@ public:
 private:
     // [rad], [m] by which joints lie beyond their limits or went faster than they can; 0 = all obeyed.
     double violation(const TickRecord& tick) const;
+    void addDriven(const TickRecord& tick);
 
     const ArmRig& rig_;
     OutputFile file_;
     CsvRow row_;
     ReplaySummary::Arm sums_;
-    std::vector<float> residuals_;
+    std::vector<float> residuals_, tipLags_;
+    std::array<uint64_t, kArmStates> turns_{}; // by state of a real arm
 };
 
 } // namespace fathom

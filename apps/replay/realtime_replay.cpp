@@ -132,6 +132,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     o.framePeriod = LockstepReplay::kFramePeriod;
     o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
+    o.arm = session_.realArm ? &session_.realArm->link() : nullptr;
     o.progress = [this](double t, uint64_t frames, uint64_t turns) {
         progress_.update({frames, 0, turns, t});
     };
@@ -148,6 +149,11 @@ void RealtimeReplay::spool() {
 }
 
 ReplayRecorder::Ending RealtimeReplay::run() {
+    if (session_.realArm) { // the scene's start is where it stands
+        const ArmPosture stands = session_.realArm->ready(signals_.asked());
+        session_.arm->start = stands.q;
+        feed_->shown({Pose{}, stands});
+    }
     if (!run_->firstFrame()) {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
     }
@@ -229,7 +235,10 @@ void RealtimeReplay::query(const QueryNote& note) {
 void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                           std::span<const uint32_t> behind) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
-    recorder_.tick(tickOf(row.record, row.startArm, row.micros, row.late));
+    TickRecord tick = tickOf(row.record, row.startArm, row.micros, row.late);
+    tick.driven = row.driven;
+    tick.told = row.told;
+    recorder_.tick(tick);
     if (view_) {
         view_->turn(row);
     }
@@ -245,6 +254,9 @@ void RealtimeReplay::audit(const TurnRow& row, const PublishedFrame* obeyed, boo
         return;
     }
     audited_ = audited_ && obeyedKnown;
+    if (row.placed) {
+        audit_.retake();
+    }
     if (obeyed != nullptr && audited_) {
         audit_.tick(obeyed->fixtures, obeyed->grid, {row.start, row.startArm},
                     {row.record.tool, row.record.arm.posture}, behind);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/replay_command.h"
 
+#include "apps/binding/arm_thread.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
 #include "apps/replay/budgets.h"
@@ -87,6 +88,16 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
     }
 }
 
+void print(const ReplaySummary::Arm::Driven& driven) {
+    std::cout << "real arm     " << driven.description << ": at the end " << driven.lastState << "; turns";
+    for (const auto& [state, turns] : driven.turns) {
+        std::cout << (&state == &driven.turns.front().first ? " " : ", ") << turns << " " << state;
+    }
+    std::cout << "\n  line      " << driven.damaged << " frames damaged, opened again " << driven.reopened
+              << " times, feedback up to " << driven.oldest * 1e3 << " ms old\n";
+    printPart("  tip behind", driven.tipLag, "m");
+}
+
 void print(const LiveHand& hand) {
     const LiveHandFigures f = hand.figures();
     std::cout << "hand         " << hand.description() << ": " << axesOf(hand.preset()) << "\n  samples   "
@@ -121,7 +132,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     ReplaySession session(options, global, 2);
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures,
-                            session.arm.get());
+                            session.arm.get(), session.realArm ? session.realArm->description() : "");
     RealtimeReplay replay(session, options, recorder, placement, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
@@ -134,6 +145,12 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     if (session.liveHand) {
         print(*session.liveHand);
     }
+    if (summary.arm && summary.arm->driven) {
+        print(*summary.arm->driven);
+    }
+    if (session.realArm && session.realArm->gone()) {
+        throw DeviceLost(session.realArm->description() + ": gone");
+    }
     return summary;
 }
 
@@ -143,6 +160,9 @@ int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
     }
     if (!options.viewDoor.empty() && !options.realtime) {
         throw BadInput("replay", "--view-door", options.viewDoor, "together with --realtime");
+    }
+    if (!options.arm.empty() && !options.realtime) {
+        throw BadInput("replay", "--arm", options.arm, "together with --realtime");
     }
     const ReplaySummary summary =
         options.realtime ? runRealtime(options, global) : runLockstep(options, global);
@@ -169,6 +189,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
         ->excludes("--operator", "--hand");
     command->add_option("--view-door", options->viewDoor,
                         "a socket where observers get every turn and fixture set (devices/bridge)");
+    command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
         ->check(CLI::NonNegativeNumber);
     command->add_option("--query", options->query, "where contacts are found")

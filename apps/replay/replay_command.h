@@ -18,6 +18,7 @@ struct ReplayOptions {
     bool hand = false;       // close the loop with the simulated hand
     std::string handDevice;  // live device (apps/binding/open_hand.h); empty = none
     std::string viewDoor;    // socket for observers (devices/bridge); empty = none
+    std::string arm;         // serial line of the scene's real arm; empty = nothing moves
     double seconds = 0.0;    // that a run with a live device lasts at least
     bool realtime = false;
     bool saveFixtures = false;

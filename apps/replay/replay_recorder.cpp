@@ -41,14 +41,14 @@ FrameRecord recordOf(const FrameReport& report, double t, const std::vector<std:
 } // namespace
 
 ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
-                               bool saveFixtures, const ArmRig* arm)
+                               bool saveFixtures, const ArmRig* arm, const std::string& realArm)
     : out_(prepared(std::move(out), saveFixtures))
     , scene_(scene)
     , saveFixtures_(saveFixtures)
     , haptics_(out_ / "haptics.csv")
     , frames_(out_ / "frames.csv", passes)
     , arm_(arm)
-    , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm) : nullptr)
+    , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm, realArm) : nullptr)
     , passes_(std::move(passes))
     , sums_(scene.fixtures.size()) {
     for (const FixtureClass& f : scene.fixtures) {

@@ -22,9 +22,9 @@ namespace fathom {
 class ReplayRecorder {
 public:
     // fixture sets are saved as fixtures/NNNNNN.ply when saveFixtures. Throws Error that names what cannot be
-    // written.
+    // written. realArm: what follows the arm, in words; empty = nothing does.
     ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
-                   bool saveFixtures, const ArmRig* arm = nullptr);
+                   bool saveFixtures, const ArmRig* arm = nullptr, const std::string& realArm = "");
 
     // A used frame, at t [s] of the run, with the set it made; unchanged frames too.
     void frame(const FrameReport& report, double t, const Fixtures& set);

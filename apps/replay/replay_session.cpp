@@ -54,6 +54,7 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
     , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(openReplayCamera(scene, options))
     , arm(openArm(scene))
+    , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
     , device(instance, global.device)
     , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))

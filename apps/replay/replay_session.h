@@ -2,6 +2,7 @@
 // Everything a replay runs on, built in order from the options: scene, camera, tool, device, plan, cycles.
 #pragma once
 
+#include "apps/binding/arm_thread.h"
 #include "apps/replay/replay_command.h"
 #include "devices/camera.h"
 #include "devices/haptic_device.h"
@@ -22,8 +23,9 @@ struct ReplaySession {
     Scene scene;
     std::unique_ptr<LiveHand> liveHand; // null = scripted or simulated
     std::unique_ptr<Camera> camera;
-    std::unique_ptr<ArmRig> arm; // null = the tool moves freely
-    Tool tool;                   // on an arm, what its tip carries
+    std::unique_ptr<ArmRig> arm;        // null = the tool moves freely
+    std::unique_ptr<ArmThread> realArm; // null = nothing but pictures moves
+    Tool tool;                          // on an arm, what its tip carries
     gpu::Instance instance;
     gpu::Device device;
     Plan plan;

@@ -88,6 +88,20 @@ Json guidanceJson(const std::vector<ReplaySummary::GuidanceRow>& rows) {
     return list;
 }
 
+Json drivenJson(const ReplaySummary::Arm::Driven& driven) {
+    Json turns = Json::object();
+    for (const auto& [state, count] : driven.turns) {
+        turns[state] = count;
+    }
+    return {{"arm", driven.description},
+            {"last_state", driven.lastState},
+            {"turns", turns},
+            {"frames_damaged", driven.damaged},
+            {"reopened", driven.reopened},
+            {"feedback_age_max_s", number(driven.oldest)},
+            {"tip_lag_m", times(driven.tipLag)}};
+}
+
 Json armJson(const ReplaySummary::Arm& arm) {
     Json joints = Json::array(), links = Json::array();
     for (const auto& j : arm.joints) {
@@ -146,6 +160,9 @@ std::string toJson(const ReplaySummary& summary) {
     json["guidance"] = guidanceJson(summary.guidance);
     if (summary.arm) {
         json["arm"] = armJson(*summary.arm);
+        if (summary.arm->driven) {
+            json["arm"]["driven"] = drivenJson(*summary.arm->driven);
+        }
     }
     json["device"] = summary.device;
     json["lockstep"] = summary.lockstep;

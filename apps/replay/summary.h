@@ -79,6 +79,14 @@ struct ReplaySummary {
         double limitViolation = 0.0; // [rad], [m] worst, of places and speeds
         Percentiles residual;        // [m] what the arm could not follow
         uint64_t limitedTicks = 0, singularTicks = 0, graspHeldTicks = 0;
+        struct Driven { // a real arm that follows
+            std::string description, lastState;
+            std::vector<std::pair<std::string, uint64_t>> turns; // in each state of armStateName()
+            uint64_t damaged = 0, reopened = 0;                  // frames; times that the line came back
+            double oldest = 0.0;                                 // [s] of the feedback that was used
+            Percentiles tipLag; // [m] measured tip from the tool, while it follows
+        };
+        std::optional<Driven> driven; // empty = nothing follows
     };
     std::optional<Arm> arm; // empty = the tool moves freely
 

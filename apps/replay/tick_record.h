@@ -3,6 +3,7 @@
 // reads.
 #pragma once
 
+#include "apps/binding/arm_link.h"
 #include "engine/cycle/turn_record.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
@@ -50,6 +51,8 @@ struct TickRecord {
     bool infeasible = false;      // some solve had no feasible step
     ArmRecord arm;                // all zero without an arm
     ArmPosture armStart;          // that the turn started from
+    bool driven = false;          // a real arm follows
+    ArmTold told;                 // by it, before the turn
 };
 
 // A pass of the frame cadence and the time it took [ms]; kUnknown when the device gives no timestamps.

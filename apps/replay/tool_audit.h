@@ -21,6 +21,7 @@ public:
     void tick(const Fixtures& set, const RegionGrid& grid, const ToolPlace& start, const ToolPlace& end,
               std::span<const uint32_t> behind);
 
+    void retake() { audit_.retake(); } // as PenetrationAudit::retake()
     const PenetrationAudit& figures() const { return audit_; }
     // [m] deepest of each link's leaves beyond the allowance, in the order of ArmModel::links; empty without
     // an arm.

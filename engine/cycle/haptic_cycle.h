@@ -128,7 +128,7 @@ private:
     bool armHold_ = true;
     bool followed_ = false;   // by a real arm
     bool armFollows_ = false; // that says it does
-    bool held_ = false;       // Situation::held of the last turn
+    bool held_ = true;        // Situation::held of the last turn
     bool placed_ = false;     // the tool was put where no set in force may cover it
     bool arming_ = true;      // forces come back after having been off, as softly as the options say
     uint64_t notFinite_ = 0;

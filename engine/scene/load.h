@@ -13,6 +13,7 @@ void loadFilter(const YamlNode& filter, Scene& scene);
 void loadFixtures(const YamlNode& fixtures, Scene& scene);
 void loadTool(const YamlNode& tool, Scene& scene);
 void loadArmSection(const YamlNode& arm, Scene& scene);
+SceneArm::Driver loadArmDriver(const YamlNode& driver);
 void loadHand(const YamlNode& hand, Scene& scene);
 void loadHaptics(const YamlNode& haptics, Scene& scene);
 void loadContact(const YamlNode& contact, Scene& scene);

@@ -75,7 +75,7 @@ std::filesystem::path existing(const YamlNode& node, Scene& scene, bool folder) 
 
 void loadArmSection(const YamlNode& node, Scene& scene) {
     node.checkKeys({"urdf", "meshes", "base_T_arm", "base", "tip", "leaves", "joints", "direction",
-                    "self_filter", "grasp"});
+                    "self_filter", "grasp", "driver"});
     SceneArm arm;
     arm.urdf = existing(node.at("urdf"), scene, false);
     if (const auto meshes = node.find("meshes")) {
@@ -102,6 +102,9 @@ void loadArmSection(const YamlNode& node, Scene& scene) {
     arm.selfFilter = loadOptional(node, "self_filter", Range::between(0.0, 0.5));
     if (const auto grasp = node.find("grasp")) {
         loadGrasp(*grasp, arm, scene.hand.clutchBit);
+    }
+    if (const auto driver = node.find("driver")) {
+        arm.driver = loadArmDriver(*driver);
     }
     scene.arm = std::move(arm);
 }

@@ -90,6 +90,24 @@ struct SceneArm {
         uint32_t button = 8;  // bit of the hand's buttons: closes while it is down
         double seconds = 1.0; // from open to closed
     } grasp;
+    struct Driver { // the real arm; it moves only where a command is given its serial line
+        enum class Protocol { ReachAlpha5, Eca5e } protocol = Protocol::ReachAlpha5;
+        uint32_t baud = 115200;
+        bool rs485 = false; // the kernel is asked to switch the direction
+        struct Axis {       // q = zero + sign * what the axis reads
+            std::string axis, joint;
+            double sign = 1.0; // 1 or -1
+            double zero = 0.0; // [rad] the joint where the axis reads 0; of an ECA at its clockwise stop
+        };
+        std::vector<Axis> axes; // each joint of the chain once
+        struct Jaws {           // what the axis of the jaws reads: [m] of a Reach, [rad] of an ECA
+            double open = 0.0, closed = 0.0;
+        };
+        std::optional<Jaws> jaws; // empty = they are left alone
+        std::optional<double>
+            current; // of any motor, longer than a moment: held. [A]; of an ECA its raw byte
+    };
+    std::optional<Driver> driver;
 };
 
 struct Scene {

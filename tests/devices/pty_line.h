@@ -25,17 +25,19 @@ struct LineFaults {
     bool deaf = false;    // the arm hears nothing; the host still hears its echo
 };
 
-// Time is the test's; only the terminal is real, and it is waited for.
+// Time is the test's; only the terminal is real, and what is written to it is waited for unless `live`:
+// somebody else reads there.
 class PtyLine {
 public:
-    explicit PtyLine(ArmSimulator& arm)
+    explicit PtyLine(ArmSimulator& arm, bool live = false)
         : arm_(arm)
-        , master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK)) {
+        , live_(live)
+        , master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
         if (master_ < 0 || ::grantpt(master_) != 0 || ::unlockpt(master_) != 0) {
             throw std::runtime_error("no pseudo-terminal");
         }
         name_ = ::ptsname(master_);
-        slave_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY);
+        slave_ = ::open(name_.c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
         termios raw{};
         ::tcgetattr(slave_, &raw);
         ::cfmakeraw(&raw);
@@ -55,7 +57,7 @@ public:
     void exchange(double now) {
         std::vector<uint8_t> answers;
         uint8_t bytes[256];
-        for (pollfd wait{master_, POLLIN, 0}; ::poll(&wait, 1, 1) > 0;) {
+        for (pollfd wait{master_, POLLIN, 0}; ::poll(&wait, 1, live_ ? 0 : 1) > 0;) {
             const ssize_t got = ::read(master_, bytes, sizeof bytes);
             if (got <= 0) {
                 break;
@@ -78,7 +80,7 @@ public:
             due.push_back(waiting_.front().byte);
             waiting_.pop_front();
         }
-        if (!due.empty() && ::write(master_, due.data(), due.size()) > 0) {
+        if (!due.empty() && ::write(master_, due.data(), due.size()) > 0 && !live_) {
             pollfd there{slave_, POLLIN, 0};
             ::poll(&there, 1, 200);
         }
@@ -102,6 +104,7 @@ private:
     }
 
     ArmSimulator& arm_;
+    bool live_;
     int master_, slave_ = -1;
     std::string name_;
     std::deque<Waiting> waiting_;

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/arm_axes.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+namespace fathom {
+
+namespace {
+
+using Driver = SceneArm::Driver;
+
+constexpr double kSlidingLag = 0.05; // [m]
+// In the drivers' order; the last one is the jaws'.
+constexpr std::array<const char*, 5> kReachAxes{"base", "shoulder", "elbow", "wrist", "jaws"};
+constexpr std::array<const char*, 5> kEcaAxes{"shoulder", "slew", "elbow", "wrist", "gripper"};
+
+std::span<const char* const> namesOf(Driver::Protocol protocol) {
+    return protocol == Driver::Protocol::ReachAlpha5 ? kReachAxes : kEcaAxes;
+}
+
+[[noreturn]] void refuse(const Scene& scene, size_t row, const char* field, const std::string& value,
+                         const std::string& allowed) {
+    throw BadInput(scene.file.string(), "arm.driver.axes[" + std::to_string(row) + "]." + field,
+                   "'" + value + "'", allowed);
+}
+
+size_t axisNamed(const Scene& scene, size_t row, const Driver& driver) {
+    const auto names = namesOf(driver.protocol);
+    std::string listed;
+    for (size_t i = 0; i + 1 < names.size(); ++i) {
+        if (driver.axes[row].axis == names[i]) {
+            return i;
+        }
+        listed.append(listed.empty() ? "" : ", ").append(names[i]);
+    }
+    refuse(scene, row, "axis", driver.axes[row].axis, listed);
+}
+
+size_t jointNamed(const Scene& scene, size_t row, const Driver& driver, const ArmRig& rig) {
+    std::string listed;
+    for (size_t k = 0; k < rig.model.count(); ++k) {
+        if (driver.axes[row].joint == rig.model.joints[k].name) {
+            return k;
+        }
+        listed += (listed.empty() ? "" : ", ") + rig.model.joints[k].name;
+    }
+    refuse(scene, row, "joint", driver.axes[row].joint, listed);
+}
+
+} // namespace
+
+ArmPosture ArmAxes::postureOf(const ArmFeedback& feedback) const noexcept {
+    ArmPosture posture;
+    for (size_t k = 0; k < joints.size(); ++k) {
+        posture.q[k] = joints[k].zero + joints[k].sign * feedback.position[joints[k].axis];
+    }
+    posture.grasp = std::numeric_limits<double>::quiet_NaN();
+    if (jaws) {
+        const double share = (feedback.position[jaws->axis] - jaws->open) / (jaws->closed - jaws->open);
+        posture.grasp = std::clamp(share, 0.0, 1.0);
+    }
+    return posture;
+}
+
+void ArmAxes::command(const ArmPosture& posture, ArmCommand& out) const noexcept {
+    for (size_t k = 0; k < joints.size(); ++k) {
+        out.position[joints[k].axis] = joints[k].sign * (posture.q[k] - joints[k].zero);
+    }
+    if (jaws) {
+        out.position[jaws->axis] = jaws->open + posture.grasp * (jaws->closed - jaws->open);
+    }
+}
+
+double ArmAxes::lag(const ArmPosture& wanted, const ArmPosture& measured) const noexcept {
+    double most = 0.0;
+    for (size_t k = 0; k < joints.size(); ++k) {
+        most = std::max(most, std::abs(wanted.q[k] - measured.q[k]) / joints[k].mostLag);
+    }
+    return most;
+}
+
+ArmAxes armAxes(const Scene& scene, const ArmRig& rig) {
+    if (!scene.arm || !scene.arm->driver) {
+        throw BadInput(scene.file.string(), "arm.driver", "missing", "a driver, where --arm names a line");
+    }
+    const Driver& driver = *scene.arm->driver;
+    ArmAxes axes;
+    axes.joints.resize(rig.model.count());
+    std::vector<bool> found(rig.model.count(), false);
+    for (size_t row = 0; row < driver.axes.size(); ++row) {
+        const size_t axis = axisNamed(scene, row, driver), k = jointNamed(scene, row, driver, rig);
+        axes.joints[k] = {axis, driver.axes[row].sign, driver.axes[row].zero};
+        axes.joints[k].mostLag = rig.model.joints[k].slides ? kSlidingLag : axes.joints[k].mostLag;
+        found[k] = true;
+    }
+    for (size_t k = 0; k < found.size(); ++k) {
+        if (!found[k]) {
+            throw BadInput(scene.file.string(), "arm.driver.axes",
+                           "joint '" + rig.model.joints[k].name + "' has none", "an axis for every joint");
+        }
+    }
+    if (driver.jaws) {
+        axes.jaws =
+            ArmAxes::Jaws{namesOf(driver.protocol).size() - 1, driver.jaws->open, driver.jaws->closed};
+    }
+    return axes;
+}
+
+} // namespace fathom

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which axis of an arm's driver is which joint of the scene's arm, and what it reads there.
+#pragma once
+
+#include "devices/arm.h"
+#include "engine/cycle/arm_rig.h"
+#include "engine/scene/scene.h"
+
+#include <optional>
+#include <vector>
+
+namespace fathom {
+
+// Immutable after armAxes(). Functions are noexcept and do not allocate.
+struct ArmAxes {
+    struct Joint { // q = zero + sign * position
+        size_t axis = 0;
+        double sign = 1.0, zero = 0.0;
+        double mostLag = 0.35; // [rad], [m] behind what is asked for, longer than a moment: held
+    };
+    struct Jaws {
+        size_t axis = 0;
+        double open = 0.0, closed = 0.0;
+    };
+    std::vector<Joint> joints; // of the chain, base to tip
+    std::optional<Jaws> jaws;
+
+    ArmPosture
+    postureOf(const ArmFeedback& feedback) const noexcept; // without jaws the grasp is NaN: not known
+    // Writes the positions of these axes; others stay as they are.
+    void command(const ArmPosture& posture, ArmCommand& out) const noexcept;
+    // Farthest that a joint is from where it should be, over its mostLag.
+    double lag(const ArmPosture& wanted, const ArmPosture& measured) const noexcept;
+};
+
+// Throws BadInput naming the scene's field: axes or joints that there are not, joints without an axis.
+ArmAxes armAxes(const Scene& scene, const ArmRig& rig);
+
+} // namespace fathom

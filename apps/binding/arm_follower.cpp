@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/arm_follower.h"
+
+#include <cmath>
+
+namespace fathom {
+
+bool ArmFollower::home(double now) noexcept {
+    command_.position = device_.feedback().position;
+    command_.hold = device_.feedback().homed;
+    device_.step(now, command_);
+    return device_.feedback().homed && !device_.feedback().stale;
+}
+
+ArmState ArmFollower::stateOf(bool asked) const noexcept {
+    const ArmFeedback& feedback = device_.feedback();
+    return feedback.stale        ? ArmState::Silent
+           : !feedback.homed     ? ArmState::NotHomed
+           : feedback.overloaded ? ArmState::Overloaded
+           : behind_             ? ArmState::Behind
+           : asked               ? ArmState::Follows
+                                 : ArmState::Held;
+}
+
+ArmTold ArmFollower::exchange(double now, const ArmWish& wish, double wishAge) noexcept {
+    const bool asked = !wish.hold && wishAge <= kWishStale;
+    if (wish.off) {
+        device_.reset();
+    }
+    // A hold while the positions mean nothing: homing in the middle of a run would go to the stops blindly.
+    command_.hold = !asked || behind_ || !device_.feedback().homed;
+    if (command_.hold) {
+        command_.position = device_.feedback().position; // also of axes that nobody moves
+    } else {
+        axes_.command(wish.posture, command_);
+    }
+    device_.step(now, command_);
+    const ArmFeedback& feedback = device_.feedback();
+    ArmTold told;
+    told.posture = axes_.postureOf(feedback);
+    told.known = feedback.homed && !feedback.stale;
+    told.age = feedback.age;
+    told.damaged = feedback.damaged;
+    told.lag = told.known ? axes_.lag(wish.posture, told.posture) : 0.0;
+    const bool lags = told.known && asked && told.lag > 1.0;
+    lagging_ = !lags ? 0.0 : lagging_ > 0.0 ? lagging_ : now;
+    behind_ =
+        behind_ ? !(told.known && told.lag < kBehindOver) : lagging_ > 0.0 && now - lagging_ > kBehindTime;
+    told.state = stateOf(asked);
+    return told;
+}
+
+} // namespace fathom

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/arm_thread.h"
+
+#include "devices/serial/eca_arm.h"
+#include "devices/serial/reach_arm.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <spdlog/spdlog.h>
+
+namespace fathom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr auto kPause = std::chrono::milliseconds(2);
+constexpr double kNoAnswer = 5.0, kHomingTime = 300.0; // [s]
+constexpr double kRetry = 0.5;                         // [s] between looks for a line that is gone
+constexpr double kLastWords = 0.2;                     // [s] of telling it to stand still
+constexpr double kQuiet = 2.0;                         // [s] between two lines of the log
+constexpr double kOutside = 0.02; // [rad], [m] beyond a limit that calibration may be off by
+
+double secondsAt(Clock::time_point time) {
+    return std::chrono::duration<double>(time.time_since_epoch()).count();
+}
+
+std::unique_ptr<ArmDevice> deviceFor(const SceneArm::Driver& driver, SerialPort& port) {
+    if (driver.protocol == SceneArm::Driver::Protocol::ReachAlpha5) {
+        ReachOptions options;
+        options.mostCurrent = driver.current.value_or(options.mostCurrent);
+        return std::make_unique<ReachArm>(port, options);
+    }
+    EcaOptions options;
+    if (driver.current) {
+        options.mostCurrent = static_cast<uint8_t>(*driver.current);
+        options.stopCurrent = std::min(options.stopCurrent, options.mostCurrent);
+    }
+    return std::make_unique<EcaArm>(port, options);
+}
+
+} // namespace
+
+std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port) {
+    if (rig == nullptr) {
+        throw BadInput(scene.file.string(), "arm", "missing",
+                       "an arm with a driver, where --arm names a line");
+    }
+    return std::make_unique<ArmThread>(scene, *rig, port);
+}
+
+ArmThread::Line::Line(const SceneArm::Driver& driver, const std::string& name)
+    : port(name, driver.baud, driver.rs485)
+    , device(deviceFor(driver, port)) {}
+
+ArmThread::ArmThread(const Scene& scene, const ArmRig& rig, std::string port)
+    : joints_(rig.model.joints)
+    , axes_(armAxes(scene, rig))
+    , port_(std::move(port)) {
+    driver_ = *scene.arm->driver;
+    open();
+}
+
+ArmThread::~ArmThread() {
+    stop_.store(true);
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+    standStill();
+}
+
+void ArmThread::open() {
+    follower_.reset();
+    line_.reset();
+    line_ = std::make_unique<Line>(driver_, port_);
+    follower_ = std::make_unique<ArmFollower>(*line_->device, axes_);
+}
+
+std::string ArmThread::description() const {
+    const bool reach = driver_.protocol == SceneArm::Driver::Protocol::ReachAlpha5;
+    return std::string(reach ? "Reach Alpha 5" : "ECA 5E Micro") + " on " + port_;
+}
+
+ArmPosture ArmThread::inLimits(ArmPosture posture) const {
+    for (size_t k = 0; k < joints_.size(); ++k) {
+        const double q = posture.q[k];
+        posture.q[k] = std::clamp(q, joints_[k].lower, joints_[k].upper);
+        if (!(std::abs(q - posture.q[k]) <= kOutside)) {
+            throw BadInput("--arm " + port_, "joint " + joints_[k].name, std::to_string(q),
+                           std::to_string(joints_[k].lower) + " to " + std::to_string(joints_[k].upper) +
+                               "; signs and zeros are in arm.driver.axes");
+        }
+    }
+    return posture;
+}
+
+ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
+    const double began = secondsAt(Clock::now());
+    double heard = began;
+    bool told = false;
+    for (double now = began;; now = secondsAt(Clock::now())) {
+        const bool ready = follower_->home(now);
+        const ArmFeedback& feedback = line_->device->feedback();
+        heard = feedback.stale ? heard : now;
+        if (ready) {
+            const ArmPosture posture = inLimits(axes_.postureOf(feedback));
+            thread_ = std::thread([this] { run(); });
+            return posture;
+        }
+        if (!told && !feedback.stale) {
+            spdlog::warn("{}: homing, each joint goes to its stop; nothing looks at what is in its way",
+                         description());
+            told = true;
+        }
+        if (stop.load()) {
+            throw Error(description() + ": stopped before it was ready");
+        }
+        if (line_->port.gone() || now - heard > kNoAnswer) {
+            throw DeviceLost(description() + (line_->port.gone() ? ": the line is gone" : ": no answer"));
+        }
+        if (feedback.overloaded || now - began > kHomingTime) {
+            throw DeviceLost(description() +
+                             (feedback.overloaded ? ": a motor draws too much" : ": no stop was found"));
+        }
+        std::this_thread::sleep_for(kPause);
+    }
+}
+
+void ArmThread::reopen(double now) noexcept {
+    follower_.reset();
+    line_.reset(); // closes the dead one
+    if (now < nextTry_) {
+        return;
+    }
+    nextTry_ = now + kRetry;
+    try {
+        open();
+        ++reopened_;
+    } catch (const std::exception&) { // not there yet
+        line_.reset();
+    }
+}
+
+ArmTold ArmThread::exchange(double now) noexcept {
+    ArmTold told;
+    if (!line_ || line_->port.gone()) {
+        reopen(now);
+    }
+    if (line_) {
+        link_.wish.refresh();
+        const ArmWish& wish = link_.wish.front();
+        told = follower_->exchange(now, wish, now - secondsAt(wish.at));
+    }
+    const bool gone = !line_ || line_->port.gone();
+    told.state = gone ? ArmState::Gone : told.state;
+    told.known = told.known && !gone;
+    told.reopened = reopened_;
+    gone_.store(gone, std::memory_order_relaxed);
+    return told;
+}
+
+void ArmThread::note(const ArmTold& told, double now) {
+    if (told.state == noted_ || (now < quietUntil_ && told.state != ArmState::Gone)) {
+        return;
+    }
+    if (isFault(told.state)) {
+        spdlog::warn("{}: {}: it is held, the tool stands still, forces go", description(),
+                     armStateName(told.state));
+        quietUntil_ = now + kQuiet;
+    } else if (isFault(noted_)) {
+        spdlog::warn("{}: can follow again", description());
+    }
+    noted_ = told.state;
+}
+
+void ArmThread::run() noexcept {
+    while (!stop_.load(std::memory_order_relaxed)) {
+        const Clock::time_point time = Clock::now();
+        const double now = secondsAt(time);
+        ArmTold told = exchange(now);
+        told.at = time;
+        const double taken = now - told.age;
+        if (told.known && taken > measuredAt_) {
+            measuredAt_ = taken;
+            ArmPosture posture = told.posture;
+            posture.grasp = std::isfinite(posture.grasp) ? posture.grasp : link_.wish.front().posture.grasp;
+            const std::chrono::duration<double> age(told.age);
+            link_.measured.add(time - std::chrono::duration_cast<Clock::duration>(age), posture);
+        }
+        link_.told.back() = told;
+        link_.told.publish();
+        try {
+            note(told, now);
+        } catch (...) { // a log that cannot be written stops no arm
+        }
+        std::this_thread::sleep_until(time + kPause);
+    }
+}
+
+void ArmThread::standStill() noexcept {
+    if (!line_) {
+        return;
+    }
+    const double end = secondsAt(Clock::now()) + kLastWords;
+    for (double now = end - kLastWords; now < end && !line_->port.gone(); now = secondsAt(Clock::now())) {
+        line_->device->step(now, ArmCommand{});
+        std::this_thread::sleep_for(kPause);
+    }
+}
+
+} // namespace fathom

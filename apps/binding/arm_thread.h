@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// The thread that speaks to a real arm over its serial line, from its first answer to the last command: stand
+// still.
+#pragma once
+
+#include "apps/binding/arm_follower.h"
+#include "devices/serial/serial_port.h"
+
+#include <atomic>
+#include <memory>
+#include <string>
+#include <thread>
+
+namespace fathom {
+
+// What --arm takes.
+inline constexpr const char* kArmHelp =
+    "the serial line of the real arm that the scene's arm.driver describes: it moves";
+
+class ArmThread;
+
+// rig: of the scene. Throws BadInput where the scene has no arm or no driver, and as ArmThread.
+std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port);
+
+// Made, homed and started by one thread; then the haptic thread speaks to it through link() alone.
+class ArmThread {
+public:
+    // Opens the line, moves nothing. Throws BadInput: no driver in the scene, no such line.
+    ArmThread(const Scene& scene, const ArmRig& rig, std::string port);
+    ArmThread(const ArmThread&) = delete;
+    ArmThread& operator=(const ArmThread&) = delete;
+    // Tells the arm to stand still, several times, and closes the line.
+    ~ArmThread();
+
+    // Waits for the arm to answer and homes it, which moves it where encoders are relative; starts the
+    // thread. Returns where it stands, inside the joint limits. Throws DeviceLost (no answer, a motor that
+    // draws too much, no stop found), BadInput (a joint beyond its limits), Error (`stop`).
+    ArmPosture ready(const std::atomic<bool>& stop);
+
+    ArmLink& link() { return link_; }
+    std::string description() const; // protocol and line
+    // Any thread: the line is gone and has not come back.
+    bool gone() const { return gone_.load(std::memory_order_relaxed); }
+
+private:
+    struct Line { // port and what speaks on it
+        Line(const SceneArm::Driver& driver, const std::string& port);
+        SerialPort port;
+        std::unique_ptr<ArmDevice> device;
+    };
+    void open();
+    void run() noexcept;
+    void reopen(double now) noexcept;
+    ArmTold exchange(double now) noexcept;
+    void note(const ArmTold& told, double now);
+    void standStill() noexcept;
+    ArmPosture inLimits(ArmPosture posture) const;
+
+    SceneArm::Driver driver_;
+    std::vector<ArmJoint> joints_;
+    ArmAxes axes_;
+    std::string port_;
+    std::unique_ptr<Line> line_; // null while it is gone
+    std::unique_ptr<ArmFollower> follower_;
+    ArmLink link_;
+    std::atomic<bool> stop_{false}, gone_{false};
+    std::thread thread_;
+    double nextTry_ = 0.0, measuredAt_ = 0.0, quietUntil_ = 0.0; // [s]
+    uint64_t reopened_ = 0;
+    ArmState noted_ = ArmState::Held;
+};
+
+} // namespace fathom

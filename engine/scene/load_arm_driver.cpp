@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Section `arm.driver` of a scene file: how a real arm is spoken to.
+#include "engine/scene/load.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+namespace {
+
+using Driver = SceneArm::Driver;
+
+void loadAxes(const YamlNode& list, Driver& driver) {
+    for (const YamlNode& row : list.list()) {
+        row.checkKeys({"axis", "joint", "sign", "zero"});
+        Driver::Axis axis;
+        axis.axis = row.at("axis").text();
+        axis.joint = row.at("joint").text();
+        for (const Driver::Axis& before : driver.axes) {
+            if (before.axis == axis.axis || before.joint == axis.joint) {
+                row.refuse(axis.axis + " and " + axis.joint + " again", "each axis and each joint once");
+            }
+        }
+        if (const auto sign = row.find("sign")) {
+            axis.sign = sign->number(Range::between(-1.0, 1.0));
+            if (axis.sign != 1.0 && axis.sign != -1.0) {
+                sign->refuse("1 or -1");
+            }
+        }
+        if (const auto zero = row.find("zero")) {
+            axis.zero = zero->number(Range::between(-10.0, 10.0));
+        }
+        driver.axes.push_back(axis);
+    }
+}
+
+} // namespace
+
+SceneArm::Driver loadArmDriver(const YamlNode& node) {
+    node.checkKeys({"protocol", "baud", "rs485", "axes", "jaws", "current"});
+    Driver driver;
+    driver.protocol = node.at("protocol")
+                          .choice<Driver::Protocol>({{"reach_alpha5", Driver::Protocol::ReachAlpha5},
+                                                     {"eca_5e", Driver::Protocol::Eca5e}});
+    const bool reach = driver.protocol == Driver::Protocol::ReachAlpha5;
+    if (const auto baud = node.find("baud")) {
+        driver.baud = baud->integer(9600, 230400);
+    }
+    if (const auto rs485 = node.find("rs485")) {
+        driver.rs485 = rs485->boolean();
+    }
+    loadAxes(node.at("axes"), driver);
+    if (const auto jaws = node.find("jaws")) {
+        jaws->checkKeys({"open", "closed"});
+        const Range range = reach ? Range::between(-0.1, 0.2) : Range::between(-10.0, 10.0);
+        driver.jaws = Driver::Jaws{jaws->at("open").number(range), jaws->at("closed").number(range)};
+        if (driver.jaws->open == driver.jaws->closed) {
+            jaws->refuse("open " + jaws->at("open").value() + ", closed " + jaws->at("closed").value(),
+                         "two different numbers");
+        }
+    }
+    if (const auto current = node.find("current")) {
+        driver.current = current->number(reach ? Range{0.0, 10.0, true} : Range::between(1.0, 255.0));
+    }
+    return driver;
+}
+
+} // namespace fathom

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/arm_follower.h"
+
+#include "apps/binding/haptic_loop.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <thread>
+
+#include "tests/haptics/arm_rig.h"
+#include "tests/realtime/fake_scene.h"
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// Goes at once where it is told, unless `stuck`.
+struct FakeArm final : ArmDevice {
+    ArmFeedback state;
+    ArmCommand last;
+    bool stuck = false;
+    int resets = 0;
+
+    FakeArm() {
+        state.homed = true;
+        state.stale = state.holding = false;
+        state.age = 0.01;
+    }
+    void step(double, const ArmCommand& command) noexcept override {
+        last = command;
+        if (!command.hold && !stuck) {
+            state.position = command.position;
+        }
+    }
+    const ArmFeedback& feedback() const noexcept override { return state; }
+    void reset() noexcept override {
+        ++resets;
+        state.overloaded = false;
+    }
+};
+
+ArmAxes threeAxes() {
+    ArmAxes axes;
+    axes.joints = {{2, -1.0, 0.5}, {0, 1.0, 0.0}, {1, 1.0, -0.25}};
+    axes.jaws = ArmAxes::Jaws{4, 0.02, 0.0};
+    return axes;
+}
+
+ArmWish wish(double a, double b, double c, double grasp = 0.0) {
+    ArmWish w;
+    w.posture.q = {a, b, c};
+    w.posture.grasp = grasp;
+    w.hold = w.off = false;
+    return w;
+}
+
+} // namespace
+
+TEST_CASE("Joints become axes and axes joints, by sign and zero, and the grasp becomes the way of the jaws") {
+    FakeArm arm;
+    ArmFollower follower(arm, threeAxes());
+    const ArmTold told = follower.exchange(1.0, wish(0.1, 0.2, 0.3, 0.25), 0.0);
+    CHECK(told.state == ArmState::Follows);
+    CHECK(arm.state.position[2] == doctest::Approx(0.4));
+    CHECK(arm.state.position[0] == doctest::Approx(0.2));
+    CHECK(arm.state.position[1] == doctest::Approx(0.55));
+    CHECK(arm.state.position[4] == doctest::Approx(0.015));
+    CHECK(told.posture.q[0] == doctest::Approx(0.1));
+    CHECK(told.posture.q[2] == doctest::Approx(0.3));
+    CHECK(told.posture.grasp == doctest::Approx(0.25));
+    CHECK(told.lag < 1e-9);
+}
+
+TEST_CASE("An arm without jaws of ours tells no grasp, and its jaws stay where they are") {
+    FakeArm arm;
+    arm.state.position[4] = 0.011;
+    ArmAxes axes = threeAxes();
+    axes.jaws.reset();
+    ArmFollower follower(arm, axes);
+    ArmWish hold = wish(0, 0, 0);
+    hold.hold = true;
+    follower.exchange(1.0, hold, 0.0);
+    CHECK(std::isnan(follower.exchange(1.1, wish(0, 0, 0, 1.0), 0.0).posture.grasp));
+    CHECK(arm.state.position[4] == 0.011);
+}
+
+TEST_CASE(
+    "It stands still where it is told to, where nobody has wished lately and where nothing means anything") {
+    FakeArm arm;
+    ArmFollower follower(arm, threeAxes());
+    ArmWish held = wish(1, 1, 1);
+    held.hold = true;
+    CHECK(follower.exchange(1.0, held, 0.0).state == ArmState::Held);
+    CHECK(arm.last.hold);
+    CHECK(follower.exchange(1.1, wish(1, 1, 1), 0.2).state == ArmState::Held);
+    CHECK(arm.last.hold);
+    arm.state.homed = false; // lost in the middle of a run: it is never homed there
+    const ArmTold lost = follower.exchange(1.2, wish(1, 1, 1), 0.0);
+    CHECK(lost.state == ArmState::NotHomed);
+    CHECK_FALSE(lost.known);
+    CHECK(arm.last.hold);
+    arm.state.homed = true;
+    arm.state.stale = true;
+    CHECK(follower.exchange(1.3, wish(1, 1, 1), 0.0).state == ArmState::Silent);
+    arm.state.stale = false;
+    CHECK(follower.exchange(1.4, wish(0, 0, 0), 0.0).state == ArmState::Follows);
+    CHECK_FALSE(arm.last.hold);
+}
+
+TEST_CASE("A motor that drew too much holds until forces are off") {
+    FakeArm arm;
+    ArmFollower follower(arm, threeAxes());
+    arm.state.overloaded = true;
+    CHECK(follower.exchange(1.0, wish(0, 0, 0), 0.0).state == ArmState::Overloaded);
+    CHECK(arm.resets == 0);
+    ArmWish off = wish(0, 0, 0);
+    off.off = off.hold = true;
+    CHECK(follower.exchange(1.1, off, 0.0).state == ArmState::Held);
+    CHECK(arm.resets == 1);
+}
+
+TEST_CASE("An arm that stays far behind is held until the tool is where it is") {
+    FakeArm arm;
+    ArmFollower follower(arm, threeAxes());
+    follower.exchange(1.0, wish(0, 0, 0), 0.0);
+    arm.stuck = true;
+    ArmState state = ArmState::Follows;
+    double heldAt = 0.0;
+    for (double now = 1.0; now < 2.0; now += 0.01) { // 0.5 rad of 0.35 behind
+        state = follower.exchange(now, wish(0.5, 0, 0), 0.0).state;
+        heldAt = heldAt == 0.0 && state == ArmState::Behind ? now : heldAt;
+    }
+    CHECK(heldAt == doctest::Approx(1.0 + ArmFollower::kBehindTime).epsilon(0.03));
+    CHECK(state == ArmState::Behind);
+    CHECK(arm.last.hold);
+    arm.stuck = false;
+    CHECK(follower.exchange(2.0, wish(0.2, 0, 0), 0.0).state == ArmState::Behind); // not near enough yet
+    follower.exchange(2.1, wish(0.05, 0, 0), 0.0);
+    CHECK(follower.exchange(2.2, wish(0.05, 0, 0), 0.0).state == ArmState::Follows);
+}
+
+TEST_CASE("A haptic turn with a real arm behind it wishes what it did, and holds when its "
+          "thread is gone") {
+    FakeRun fake(2, pressingPath(1.0));
+    ArmRig rig;
+    rig.model = makeArm(4, 4);
+    rig.freeDirection = true;
+    HapticOptions options = fake.options;
+    options.needsContacts = false;
+    const Pose start = at(0, 0, 0);
+    HapticCycle cycle(fake.tool, {}, options, start, &start, &rig);
+    Crossings crossings(4096);
+    ArmLink link;
+    crossings.arm = &link;
+    RunClock clock;
+    HapticLoop loop(cycle, fake.hand, crossings, clock, {}, nullptr);
+    TurnRow row;
+    for (int i = 0; i < 40; ++i) {
+        link.told.back().state = ArmState::Held;
+        link.told.back().known = true;
+        link.told.back().posture = cycle.place().arm;
+        link.told.back().at = clock.timeAt(clock.now());
+        link.told.publish();
+        loop.turn(clock.now());
+        REQUIRE(crossings.turns.pop(row));
+    }
+    CHECK(row.driven);
+    CHECK_FALSE(row.record.armHold);
+    REQUIRE(link.wish.refresh());
+    CHECK_FALSE(link.wish.front().hold);
+    CHECK(link.wish.front().posture.q == row.record.arm.posture.q);
+    std::this_thread::sleep_for(std::chrono::milliseconds(150)); // no word from the arm's thread
+    loop.turn(clock.now());
+    REQUIRE(crossings.turns.pop(row));
+    CHECK(row.told.state == ArmState::Silent);
+    CHECK(row.record.armHold);
+    REQUIRE(link.wish.refresh());
+    CHECK(link.wish.front().hold);
+}
