@@ -27,7 +27,7 @@ struct SceneNews {
     double captureTime = 0.0; // of the newest picture that shows it
     bool sourceEnded = false; // there will be no more: the last frame stays in force and does not age
     bool live = false;        // pictures come by themselves: the hand's path alone ends the run
-    bool cameraGone = false;  // there may be more: the last frame ages
+    bool gone = false; // the camera, or the device of the passes; there may be more: the last frame ages
     uint32_t guidanceCount = 0;
     std::array<GuidancePose, shared::kMaxClasses> guidance;
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <spdlog/spdlog.h>
 #include <thread>
+#include <utility>
 
 namespace fathom {
 
@@ -22,7 +23,8 @@ FrameLoop::FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& cloc
     , crossings_(crossings)
     , clock_(clock)
     , period_(period)
-    , trace_(trace) {}
+    , trace_(trace)
+    , retry_(kFirstRetry) {}
 
 bool FrameLoop::first() {
     const std::optional<uint32_t> index = feed_.fetch();
@@ -41,17 +43,17 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
          pause = std::min(2.0 * pause, kLongestRetry)) {
         try {
             const std::optional<uint32_t> index = feed_.fetch();
-            if (news_.cameraGone) {
+            if (news_.gone) {
                 spdlog::warn("camera is back");
-                news_.cameraGone = false;
+                news_.gone = false;
                 origin_ = clock_.now() - period_ * ((index ? *index : firstIndex_) - firstIndex_);
             }
             ended_ = !index;
             return index;
         } catch (const DeviceLost& e) {
-            if (!news_.cameraGone) {
+            if (!news_.gone) {
                 spdlog::warn("camera is gone ({}): the scene ages, forces fade", e.what());
-                news_.cameraGone = true;
+                news_.gone = true;
                 tell();
             }
             clock_.sleepUntil(clock_.now() + pause, stop);
@@ -63,7 +65,8 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
 void FrameLoop::run(const std::atomic<bool>& stop) {
     while (const std::optional<uint32_t> index = fetch(stop)) {
         if (const std::optional<RunClock::Time> taken = feed_.captured()) {
-            publish(std::max(clock_.at(*taken), news_.captureTime)); // not before the run's own start
+            publishOrRenew(std::max(clock_.at(*taken), news_.captureTime),
+                           stop); // not before the run's own start
             continue;
         }
         const double due = origin_ + period_ * (*index - firstIndex_);
@@ -71,7 +74,7 @@ void FrameLoop::run(const std::atomic<bool>& stop) {
         if (stop.load(std::memory_order_relaxed)) {
             return;
         }
-        publish(clock_.now());
+        publishOrRenew(clock_.now(), stop);
         countLost(due);
     }
     if (ended_) {
@@ -88,8 +91,51 @@ void FrameLoop::countLost(double due) {
     }
 }
 
+void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
+    try {
+        publish(t);
+        retry_ = kFirstRetry;
+        return;
+    } catch (const DeviceLost& e) {
+        if (!feed_.renewable()) {
+            throw;
+        }
+        spdlog::warn("GPU is gone ({}): the scene ages, forces fade; it is looked for", e.what());
+    } catch (const OutOfMemory& e) {
+        if (!feed_.renewable()) {
+            throw;
+        }
+        spdlog::warn("GPU is out of memory ({}): the scene ages, forces fade; it is opened again", e.what());
+    }
+    news_.gone = true;
+    tell();
+    renew(stop);
+}
+
+// More and more seldom, until a picture has gone through again.
+void FrameLoop::renew(const std::atomic<bool>& stop) {
+    while (!stop.load(std::memory_order_relaxed)) {
+        clock_.sleepUntil(clock_.now() + retry_, stop);
+        retry_ = std::min(2.0 * retry_, kLongestRetry);
+        try {
+            feed_.renew();
+            spdlog::warn("GPU is back");
+            news_.gone = false;
+            tell();
+            return;
+        } catch (const DeviceLost& e) {
+            spdlog::debug("GPU: {}", e.what());
+        } catch (const OutOfMemory& e) {
+            spdlog::debug("GPU: {}", e.what());
+        }
+    }
+}
+
 PublishedFrame* FrameLoop::emptyFrame() {
-    PublishedFrame* frame = nullptr;
+    PublishedFrame* frame = std::exchange(spare_, nullptr);
+    if (frame != nullptr) {
+        return frame;
+    }
     while (!crossings_.emptied.pop(frame)) {
         if (owned_.size() < Crossings::kFramesInFlight) {
             owned_.push_back(std::make_unique<PublishedFrame>());
@@ -106,7 +152,9 @@ void FrameLoop::publish(double t) {
     if (const auto posture = track.nearest(clock_.timeAt(t))) {
         feed_.shown({Pose{}, *posture});
     }
+    spare_ = frame; // if nothing comes of it
     feed_.publish(t, *frame);
+    spare_ = nullptr;
     frame->t = t;
     if (frame->changed) {
         const Fixtures& set = frame->fixtures;

@@ -30,6 +30,11 @@ public:
     // picture that is the same again makes no set: `changed` false, the set and the colour in `out` are left
     // alone.
     virtual void publish(double t, PublishedFrame& out) = 0;
+    // Whether the device under publish() can be made anew when that threw DeviceLost or OutOfMemory; else
+    // these end the run.
+    virtual bool renewable() const { return false; }
+    // Makes it anew. Throws the same while it is not there: asked again later.
+    virtual void renew() {}
 };
 
 // The source's pictures come at period x (index - first index), by the clock: a picture counts as captured
@@ -52,6 +57,8 @@ public:
 private:
     std::optional<uint32_t> fetch(const std::atomic<bool>& stop);
     void publish(double t);
+    void publishOrRenew(double t, const std::atomic<bool>& stop);
+    void renew(const std::atomic<bool>& stop);
     void tell();
     PublishedFrame* emptyFrame();
     void countLost(double due);
@@ -62,6 +69,8 @@ private:
     double period_;
     CadenceTrace* trace_;
     std::deque<std::unique_ptr<PublishedFrame>> owned_; // all there are, wherever they are now
+    PublishedFrame* spare_ = nullptr;                   // one whose picture came to nothing
+    double retry_;                                      // [s] until a lost device is asked for again
     SceneNews news_;
     uint32_t firstIndex_ = 0;
     double origin_ = 0.0; // [s] when the first picture would have been due

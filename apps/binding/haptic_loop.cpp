@@ -30,7 +30,7 @@ bool HapticLoop::Until::passed(const void* context) noexcept {
 bool HapticLoop::ended(double t) const noexcept {
     const SceneNews& news = crossings_.scene.front();
     const bool frames =
-        news.live || news.cameraGone || (news.sourceEnded && t >= news.captureTime + ends_.framePeriod);
+        news.live || news.gone || (news.sourceEnded && t >= news.captureTime + ends_.framePeriod);
     return frames && t >= ends_.pathDuration;
 }
 

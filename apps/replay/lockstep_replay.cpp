@@ -42,16 +42,16 @@ void LockstepReplay::fetch() {
 
 void LockstepReplay::processNext() {
     lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
-    if (session_.plan.selfFilter) { // the picture shows the arm where it is now
-        session_.frames.setArm(
+    if (session_.cycles.plan().selfFilter) { // the picture shows the arm where it is now
+        session_.cycles.frames().setArm(
             session_.arm->inPicture(cycle_ ? cycle_->place().arm : session_.arm->startPosture()));
     }
-    ready_ = session_.frames.process(std::move(*next_));
+    ready_ = session_.cycles.frames().process(std::move(*next_));
     if (trace_ != nullptr) {
         trace_->frame(*ready_);
     }
     next_.reset();
-    const auto set = session_.frames.sets().newest();
+    const auto set = session_.cycles.frames().sets().newest();
     if (!ready_->unchanged) {
         kept_.push_back(std::make_unique<Kept>(Kept{set->host, set->grid}));
     }
@@ -80,7 +80,7 @@ void LockstepReplay::query(double) {
     if (published_) {
         auto answer = std::make_unique<ContactSet>();
         const auto start = std::chrono::steady_clock::now();
-        session_.contact.query(*session_.frames.sets().newest(), cycle_->place(), *answer);
+        session_.cycles.answer(cycle_->place(), *answer);
         recorder_.query(micros(start));
         if (trace_ != nullptr) {
             trace_->query(start, std::chrono::steady_clock::now(), answer->size());
@@ -107,7 +107,7 @@ void LockstepReplay::dropOldSets() {
 
 void LockstepReplay::audit(const TurnRecord& record, const ToolPlace& start) {
     const Kept* obeyed = inForce_ ? keptSet(inForce_->generation) : nullptr;
-    if (obeyed == nullptr || !session_.plan.spheres) {
+    if (obeyed == nullptr || !session_.cycles.plan().spheres) {
         return;
     }
     std::vector<uint32_t> behind;
@@ -166,7 +166,7 @@ ReplayRecorder::Ending LockstepReplay::run() {
     const bool builtIn = options_.operatorCsv.empty() && session_.scene.hand.builtIn;
     pathStart_ = builtIn ? nextTime_ : 0.0;
     processNext(); // early: the built-in path needs the first set; it is in force from its own time on
-    path_.emplace(openHandPath(session_, options_, *session_.frames.sets().newest()));
+    path_.emplace(openHandPath(session_, options_, *session_.cycles.frames().sets().newest()));
     hand_ = openHand(*path_, session_, options_);
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
                    session_.arm.get());
@@ -182,17 +182,17 @@ ReplayRecorder::Ending LockstepReplay::run() {
 
     ReplayRecorder::Ending ending;
     ending.skipped = session_.camera->skipped();
-    ending.contact = session_.contact.statistics();
+    ending.contact = session_.cycles.queryStatistics();
     ending.where = session_.where();
     ending.maxPenetration = audit_.figures().maxPenetration();
     ending.maxEscapeDepth = audit_.figures().maxEscapeDepth();
     ending.stiffness = cycle_->springs().stiffness;
     ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
-    ending.device = session_.device.facts().name;
+    ending.device = session_.cycles.facts().name;
     ending.title = session_.title();
     ending.forceLimit = haptics_.forceLimit;
     ending.torqueLimit = haptics_.torqueLimit;
-    ending.camera = session_.frames.camera();
+    ending.camera = session_.cycles.camera();
     ending.colour = lastColour_;
     ending.lastSet = &kept_.back()->fixtures;
     ending.leaves = session_.tool.leaves();

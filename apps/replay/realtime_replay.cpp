@@ -34,14 +34,14 @@ class RealtimeReplay::Feed final : public FrameFeed {
 public:
     explicit Feed(ReplaySession& session)
         : session_(session) {
-        if (session_.plan.selfFilter) {
-            session_.frames.setArm(session_.arm->inPicture(session_.arm->startPosture()));
+        if (session_.cycles.plan().selfFilter) {
+            session_.cycles.frames().setArm(session_.arm->inPicture(session_.arm->startPosture()));
         }
     }
 
     void shown(const ToolPlace& place) override {
-        if (session_.plan.selfFilter) {
-            session_.frames.setArm(session_.arm->inPicture(place.arm));
+        if (session_.cycles.plan().selfFilter) {
+            session_.cycles.frames().setArm(session_.arm->inPicture(place.arm));
         }
     }
 
@@ -62,7 +62,7 @@ public:
     void publish(double t, PublishedFrame& out) override {
         next_->retime(t);
         colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
-        out.report = session_.frames.process(std::move(*next_));
+        out.report = session_.cycles.frames().process(std::move(*next_));
         next_.reset();
         if (const auto taken = captured()) {
             using Millis = std::chrono::duration<float, std::milli>;
@@ -70,12 +70,15 @@ public:
         }
         out.changed = !out.report.unchanged;
         if (out.changed) { // a copy for the writer: the set itself goes round among the cadences
-            const auto set = session_.frames.sets().newest();
+            const auto set = session_.cycles.frames().sets().newest();
             out.fixtures = set->host;
             out.grid = set->grid;
             out.colour.swap(colour_);
         }
     }
+
+    bool renewable() const override { return true; }
+    void renew() override { session_.cycles.renew(); }
 
     std::vector<float> exposureMs; // [ms] from a live picture's exposure to its published set
 
@@ -86,19 +89,14 @@ private:
     std::vector<uint32_t> colour_;
 };
 
-// The contact cycle on a lease of the newest fixture set.
+// Contact answers over the newest fixture set.
 class RealtimeReplay::Answers final : public ContactAnswers {
 public:
     explicit Answers(ReplaySession& session)
         : session_(session) {}
 
     bool answer(const ToolPlace& place, ContactSet& out) override {
-        const auto set = session_.frames.sets().newest();
-        if (!set) {
-            return false;
-        }
-        session_.contact.query(*set, place, out);
-        return true;
+        return session_.cycles.answer(place, out);
     }
 
 private:
@@ -116,7 +114,8 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , audit_(session.tool, session.arm.get())
     , view_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
     , feed_(std::make_unique<Feed>(session))
-    , answers_(session.plan.query != Plan::Query::None ? std::make_unique<Answers>(session) : nullptr)
+    , answers_(session.cycles.plan().query != Plan::Query::None ? std::make_unique<Answers>(session)
+                                                                : nullptr)
     , run_(std::make_unique<RealtimeRun>(*feed_, answers_.get(), runOptions(trace))) {
     if (options.source.empty() && session.scene.source.kind == CameraSource::Kind::Simulated) {
         spool();
@@ -157,7 +156,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     if (!run_->firstFrame()) {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
     }
-    const HandPath path = openHandPath(session_, options_, *session_.frames.sets().newest());
+    const HandPath path = openHandPath(session_, options_, *session_.cycles.frames().sets().newest());
     if (session_.liveHand) {
         runLive(path);
     } else {
@@ -174,6 +173,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     figures_.periodsMissed = run_->periodsMissed();
     figures_.staleTurns = run_->staleTurns();
     figures_.recordsLost = run_->recordsLost();
+    figures_.renewals = session_.cycles.renewals();
     figures_.stopped = signals_.asked().load();
     return ending();
 }
@@ -192,7 +192,7 @@ ReplayRecorder::Ending RealtimeReplay::ending() {
     ReplayRecorder::Ending ending;
     ending.exposureMs = figures_.live ? std::optional(figures_.exposureMs) : std::nullopt;
     ending.skipped = session_.camera->skipped();
-    ending.contact = session_.contact.statistics();
+    ending.contact = session_.cycles.queryStatistics();
     ending.where = session_.where();
     if (audited_ && figures_.recordsLost == 0) {
         ending.maxPenetration = audit_.figures().maxPenetration();
@@ -201,12 +201,12 @@ ReplayRecorder::Ending RealtimeReplay::ending() {
     }
     ending.stiffness = cycle_->springs().stiffness;
     ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
-    ending.device = session_.device.facts().name;
+    ending.device = session_.cycles.facts().name;
     ending.lockstep = false;
     ending.title = session_.title();
     ending.forceLimit = haptics_.forceLimit;
     ending.torqueLimit = haptics_.torqueLimit;
-    ending.camera = session_.frames.camera();
+    ending.camera = session_.cycles.camera();
     if (const PublishedFrame* last = run_->lastFrame()) {
         ending.colour = last->colour;
         ending.lastSet = &last->fixtures;
@@ -250,7 +250,7 @@ void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool
 
 void RealtimeReplay::audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                            std::span<const uint32_t> behind) {
-    if (!session_.plan.spheres) {
+    if (!session_.cycles.plan().spheres) {
         return;
     }
     audited_ = audited_ && obeyedKnown;

@@ -27,6 +27,7 @@ struct RealtimeFigures {
     uint64_t periodsMissed = 0;  // without a turn
     uint64_t staleTurns = 0;     // with a scene old enough for forces to fade
     uint64_t recordsLost = 0;    // the writer fell behind
+    uint32_t renewals = 0;       // times that the device was made anew
     bool stopped = false;        // by a signal
 };
 

@@ -69,7 +69,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
 
 void printBudgets(const ReplaySummary& summary, const ReplaySession& session) {
     for (const BudgetFigure& f :
-         budgetFigures(summary, session.camera->info().depth, session.device.facts().kind)) {
+         budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind)) {
         std::cout << "budget       " << f.what << " " << f.measured << " of " << f.budget << " " << f.unit
                   << (f.holds() ? ", kept\n" : ", MISSED\n");
     }
@@ -83,6 +83,9 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
               << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
               << f.framesLost << (f.live ? " lost" : " that a live camera would have lost")
               << "; scene too old in " << f.staleTurns << " turns\n";
+    if (f.renewals > 0) {
+        std::cout << "  device    lost and made anew " << f.renewals << " times\n";
+    }
     if (f.recordsLost > 0) {
         std::cout << "  records   " << f.recordsLost << " lost: the writer could not keep up\n";
     }
@@ -106,15 +109,16 @@ void print(const LiveHand& hand) {
 }
 
 std::unique_ptr<CadenceTrace> openTrace(const ReplaySession& session, const GlobalOptions& global) {
-    return global.trace.empty() ? nullptr
-                                : std::make_unique<CadenceTrace>(global.trace, session.frames.passNames());
+    return global.trace.empty()
+               ? nullptr
+               : std::make_unique<CadenceTrace>(global.trace, session.cycles.frames().passNames());
 }
 
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
     ReplaySession session(options, global, 2);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures,
-                            session.arm.get());
+    ReplayRecorder recorder(options.out, session.scene, session.cycles.frames().passNames(),
+                            options.saveFixtures, session.arm.get());
     LockstepReplay replay(session, options, recorder, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {
@@ -131,8 +135,9 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
         placement.rest); // before the device: a software device's workers inherit it
     ReplaySession session(options, global, 2);
     const auto trace = openTrace(session, global);
-    ReplayRecorder recorder(options.out, session.scene, session.frames.passNames(), options.saveFixtures,
-                            session.arm.get(), session.realArm ? session.realArm->description() : "");
+    ReplayRecorder recorder(options.out, session.scene, session.cycles.frames().passNames(),
+                            options.saveFixtures, session.arm.get(),
+                            session.realArm ? session.realArm->description() : "");
     RealtimeReplay replay(session, options, recorder, placement, trace.get());
     const ReplaySummary summary = recorder.finish(replay.run());
     if (trace) {

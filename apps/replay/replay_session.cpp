@@ -56,17 +56,18 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
     , arm(openArm(scene))
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
-    , device(instance, global.device)
-    , plan(makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts()))
-    , frames(device, scene, camera->info(), plan, readers)
-    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach, arm.get()) {}
+    , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), readers},
+             [this](const DeviceFacts& facts) {
+                 return makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
+             }) {}
 
 std::string ReplaySession::title() const {
     return scene.file.stem().string() + ", " + camera->description();
 }
 
 std::string ReplaySession::where() const {
-    return plan.query == Plan::Query::None ? "none" : (plan.query == Plan::Query::Cpu ? "cpu" : "gpu");
+    const Plan::Query query = cycles.plan().query;
+    return query == Plan::Query::None ? "none" : (query == Plan::Query::Cpu ? "cpu" : "gpu");
 }
 
 HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options,

@@ -8,8 +8,7 @@
 #include "devices/haptic_device.h"
 #include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
-#include "engine/cycle/contact_cycle.h"
-#include "engine/cycle/frame_cycle.h"
+#include "engine/cycle/device_cycles.h"
 
 #include <memory>
 
@@ -27,10 +26,7 @@ struct ReplaySession {
     std::unique_ptr<ArmThread> realArm; // null = nothing but pictures moves
     Tool tool;                          // on an arm, what its tip carries
     gpu::Instance instance;
-    gpu::Device device;
-    Plan plan;
-    FrameCycle frames;
-    ContactCycle contact;
+    DeviceCycles cycles;
 
     std::string title() const; // scene, source
     std::string where() const; // of the contact query

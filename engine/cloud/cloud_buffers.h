@@ -55,6 +55,7 @@ struct UploadBuffers {
 
 // Device side of one fixture set. Readback buffers are what the CPU copies from.
 struct SetBuffers {
+    SetBuffers() = default; // none
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
     gpu::Buffer packed;     // vec4 a sphere, without gaps: in the order of RegionSpheres; empty without pack

@@ -17,6 +17,7 @@ struct FixtureSet {
                                 // empty without a GPU query
     SetBuffers device;
 
+    FixtureSet() = default; // of the host alone
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)
         : device(gpu, plan, layout) {}
 };

@@ -11,14 +11,22 @@ constexpr double kNothingToTouch = 1000.0; // [m] certified where no region exis
 
 } // namespace
 
-ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
-                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm)
+ContactCycle::ContactCycle(const Tool& tool, double reach, const ArmRig* arm)
     : tool_(tool)
     , arm_(arm)
-    , reach_(reach)
-    , where_(plan.query) {
+    , reach_(reach) {}
+
+ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
+                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm)
+    : ContactCycle(tool, reach, arm) {
+    use(device, plan, layout, pool);
+}
+
+void ContactCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
+                       cloud::FixturePool& pool) {
+    where_ = plan.query;
     if (where_ == Plan::Query::Gpu) {
-        gpu_.emplace(device, plan, layout, pool, tool);
+        gpu_.emplace(device, plan, layout, pool, tool_);
     }
 }
 
@@ -28,11 +36,13 @@ void ContactCycle::query(const cloud::FixtureSet& set, const ToolPlace& place, C
     } else {
         ask(tool_, set, place.pose, out);
     }
+    out.query = ++queries_; // one row of numbers, whoever answers
 }
 
 void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool,
                        ContactSet& out) {
-    switch (where_) {
+    const bool onHost = !gpu_ || !set.device.nodes; // the device or the set's part of it is gone
+    switch (where_ == Plan::Query::Gpu && onHost ? Plan::Query::Cpu : where_) {
     case Plan::Query::None:
         fillContactSet(tool, baseTtool, kNothingToTouch, set.host, {}, out);
         out.pairBegin.assign(tool.leafCount() + 1, 0);
@@ -57,7 +67,9 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
 }
 
 QueryStatistics ContactCycle::statistics() const {
-    return where_ == Plan::Query::Gpu ? gpuLoop_.statistics() : cpu_.statistics();
+    const QueryStatistics onCpu = cpu_.statistics(), onGpu = gpuLoop_.statistics();
+    return {onCpu.queries + onGpu.queries, onCpu.overflows + onGpu.overflows,
+            std::max(onCpu.spheresMax, onGpu.spheresMax), std::max(onCpu.pairsMax, onGpu.pairsMax)};
 }
 
 } // namespace fathom

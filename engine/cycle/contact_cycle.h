@@ -16,9 +16,16 @@ namespace fathom {
 // One thread. Both ways give equal sets.
 class ContactCycle {
 public:
-    // arm: null = the tool moves freely; else what is asked about is the whole arm, by its posture.
+    // arm: null = the tool moves freely; else what is asked about is the whole arm, by its posture. Without
+    // a device the CPU answers, whatever the plan says.
+    ContactCycle(const Tool& tool, double reach, const ArmRig* arm);
+    // The same, and use().
     ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
                  const Tool& tool, double reach, const ArmRig* arm = nullptr);
+
+    // What the plan wants of a device, from the next query on; and no device any more.
+    void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
+    void dropDevice() { gpu_.reset(); }
 
     // Without forbidden points the set is empty and its reach unlimited.
     void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
@@ -34,11 +41,12 @@ private:
     const Tool& tool_;
     const ArmRig* arm_;
     double reach_;
-    Plan::Query where_;
+    Plan::Query where_ = Plan::Query::Cpu;
     CullCpu cpu_;
     QueryLoop gpuLoop_;
     std::optional<cloud::TreeQuery> gpu_;
     BehindTracker behind_;
+    uint64_t queries_ = 0;
 };
 
 } // namespace fathom

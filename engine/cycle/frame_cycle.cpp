@@ -46,9 +46,25 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
 }
 
 FrameCycle::~FrameCycle() {
-    if (ticket_ != 0) {
-        timeline_.wait(ticket_); // nothing is freed under the device's feet
+    try {
+        if (ticket_ != 0) {
+            timeline_.wait(ticket_); // nothing is freed under the device's feet
+        }
+    } catch (const Error&) {
+        // A device that is lost is at nothing any more.
     }
+}
+
+void FrameCycle::goOnFrom(const Mark& mark) {
+    generation_ = mark.generation;
+    if (mark.origin) {
+        placeOrigin(*mark.origin);
+    }
+}
+
+void FrameCycle::placeOrigin(const dvec3& origin) {
+    origin_ = origin; // positions stay small however far away the base frame is
+    params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
 }
 
 void FrameCycle::clearMemory() {
@@ -115,12 +131,11 @@ void FrameCycle::upload(Frame frame) {
     f.unchanged = lastSource_ == frame->sourceNumber;
     f.slot = nextSlot_;
     if (!origin_) {
-        origin_ = f.pose.position; // positions stay small however far away the base frame is
-        params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
-        lastCapture_ = frame->captureTime;
+        placeOrigin(f.pose.position);
     }
     if (!f.unchanged && plan_.cloud) {
-        cloud::setFrame(params_, f.pose, *origin_, frame->captureTime, lastCapture_);
+        cloud::setFrame(params_, f.pose, *origin_, frame->captureTime,
+                        lastCapture_.value_or(frame->captureTime));
         cloud::uploadFrame(uploads_[f.slot], frame, params_);
         uploadArm(f.slot, *origin_);
         nextSlot_ = (nextSlot_ + 1) % cloud::kUploads;

@@ -39,6 +39,14 @@ public:
                uint32_t readers);
     ~FrameCycle();
 
+    // Where a cycle on another device goes on: generations count up from here, positions keep their origin.
+    struct Mark {
+        uint64_t generation = 0;
+        std::optional<dvec3> origin;
+    };
+    Mark mark() const { return {generation_, origin_}; }
+    void goOnFrom(const Mark& mark); // before the first frame
+
     // One frame through, start to end.
     FrameReport process(Frame frame);
     // Other gates, radii, roles and boxes for the frames from now on. The scene must have as many classes of
@@ -72,6 +80,7 @@ private:
         Pose pose;
     };
 
+    void placeOrigin(const dvec3& origin);
     void warmUp();
     void clearMemory();
     void uploadArm(uint32_t slot, const dvec3& origin) const;
@@ -98,7 +107,7 @@ private:
     uint64_t ticket_ = 0; // timeline value of the last submission
     uint64_t generation_ = 0;
     std::optional<uint64_t> lastSource_;
-    double lastCapture_ = 0.0;
+    std::optional<double> lastCapture_; // [s]
     cloud::FrameCounts lastCounts_;
     uint32_t dispatches_ = 0;
     std::vector<uint8_t> leakWarned_;

@@ -16,7 +16,7 @@ void check(VkResult result, const char* call) {
         throw DeviceLost(text);
     }
     if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY || result == VK_ERROR_OUT_OF_HOST_MEMORY) {
-        throw Error(text + ": out of memory");
+        throw OutOfMemory(text + ": out of memory");
     }
     throw Error(text);
 }

@@ -24,6 +24,12 @@ public:
     int exitCode() const noexcept override { return 2; }
 };
 
+// A GPU, or the host for it, has no memory left.
+class OutOfMemory : public Error {
+public:
+    using Error::Error;
+};
+
 // A GPU, camera or haptic device that worked is gone.
 class DeviceLost : public Error {
 public:

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <limits>
 #include <thread>
+#include <utility>
 
 #include "tests/realtime/fake_scene.h"
 
@@ -152,8 +153,43 @@ TEST_CASE("Drill: with every CPU busy no turn penetrates, periods without a turn
     MESSAGE("turns " << fake.sink.rows.size() << ", periods without one " << missed);
 }
 
-TEST_CASE("Drill: a GPU that is lost or out of memory under the passes ends the run with zero force and says "
-          "which") {
+TEST_CASE(
+    "Drill: a GPU that is lost or out of memory is made anew while the force fades, and comes back with it") {
+    for (const bool lost : {true, false}) {
+        FakeRun fake(75, pressingPath(3.0));
+        int refusals = 2;
+        bool fails = true;
+        fake.feed.beforePublish = [&](uint32_t index) {
+            if (index == 15 && std::exchange(fails, false)) {
+                lost ? throw DeviceLost("VK_ERROR_DEVICE_LOST")
+                     : throw OutOfMemory("VK_ERROR_OUT_OF_DEVICE_MEMORY");
+            }
+        };
+        fake.feed.onRenew = [&] {
+            if (refusals-- > 0) {
+                throw DeviceLost("not there yet");
+            }
+        };
+        fake.go();
+        REQUIRE(fake.run->failure() == nullptr);
+        CHECK(fake.feed.renewed == 1);
+        CHECK(fake.feed.published == 75);
+        CHECK(fake.sink.audit.maxPenetration() <= 1e-5);
+        // Retries after 0.1, 0.2 and 0.4 s: for longer than the force takes to fade.
+        double least = 1e9, last = 0.0;
+        for (const TurnRow& row : fake.sink.rows) {
+            const double force = glm::length(row.record.wrench.force);
+            least = row.record.t > 0.4 ? std::min(least, force) : least;
+            last = force;
+        }
+        CHECK(least == 0.0);
+        CHECK(last > 1.0);
+    }
+}
+
+TEST_CASE(
+    "Drill: a GPU that is lost or out of memory and cannot be made anew ends the run with zero force and "
+    "says which") {
     const auto drill = [](const std::function<void()>& fault) {
         FakeRun fake(300, pressingPath(10.0));
         fake.feed.beforePublish = [&fault](uint32_t index) {
@@ -170,7 +206,7 @@ TEST_CASE("Drill: a GPU that is lost or out of memory under the passes ends the 
     };
     CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw DeviceLost("VK_ERROR_DEVICE_LOST"); })),
                     DeviceLost);
-    CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw Error("VK_ERROR_OUT_OF_DEVICE_MEMORY"); })),
-                    Error);
+    CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw OutOfMemory("VK_ERROR_OUT_OF_DEVICE_MEMORY"); })),
+                    OutOfMemory);
     CHECK_THROWS_AS(std::rethrow_exception(drill([] { throw std::bad_alloc(); })), std::bad_alloc);
 }

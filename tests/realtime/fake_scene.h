@@ -29,8 +29,15 @@ public:
 
     std::function<void(uint32_t)> beforeFetch = [](uint32_t) {};
     std::function<void(uint32_t)> beforePublish = [](uint32_t) {};
-    uint32_t published = 0;
+    std::function<void()> onRenew; // empty: the device cannot be made anew
+    uint32_t published = 0, renewed = 0;
     std::vector<double> captured;
+
+    bool renewable() const override { return static_cast<bool>(onRenew); }
+    void renew() override {
+        onRenew();
+        ++renewed;
+    }
 
     std::optional<uint32_t> fetch() override {
         beforeFetch(index_);

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/device_cycles.h"
+
+#include "engine/types/error.h"
+
+#include <spdlog/spdlog.h>
+
+namespace fathom {
+
+DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
+    : parts_(parts)
+    , device_(std::make_unique<gpu::Device>(parts.instance, parts.selector))
+    , contact_(parts.tool, parts.scene.contact.reach, parts.arm) {
+    facts_ = device_->facts();
+    plan_ = makePlan(facts_);
+    frames_ = openFrames(*device_);
+    contact_.use(*device_, plan_, frames_->layout(), frames_->sets());
+}
+
+std::unique_ptr<FrameCycle> DeviceCycles::openFrames(gpu::Device& device) const {
+    auto frames =
+        std::make_unique<FrameCycle>(device, parts_.scene, parts_.camera, plan_, parts_.readers + 1);
+    frames->goOnFrom(mark_);
+    return frames;
+}
+
+// From the borrowers to the owner. The set that is in force stays, on the host.
+void DeviceCycles::close() {
+    const std::lock_guard lock(mutex_);
+    if (frames_) {
+        if (const auto newest = frames_->sets().newest()) {
+            stale_.emplace();
+            stale_->host = newest->host;
+            stale_->grid = newest->grid;
+        }
+        mark_ = frames_->mark();
+    }
+    contact_.dropDevice();
+    frames_.reset();
+    device_.reset();
+}
+
+void DeviceCycles::renew() {
+    close();
+    try { // without the lock: this takes seconds, in which the CPU answers
+        device_ = std::make_unique<gpu::Device>(parts_.instance, parts_.selector);
+        if (device_->facts().name != facts_.name) {
+            throw DeviceLost(facts_.name + " is not there; " + device_->facts().name +
+                             " would need another plan");
+        }
+        auto frames = openFrames(*device_);
+        const std::lock_guard lock(mutex_);
+        contact_.use(*device_, plan_, frames->layout(), frames->sets());
+        frames_ = std::move(frames);
+        ++renewals_;
+    } catch (const OutOfMemory&) {
+        throw;
+    } catch (const Error& e) { // a driver that is being started anew may say anything
+        throw DeviceLost(e.what());
+    }
+}
+
+bool DeviceCycles::answer(const ToolPlace& place, ContactSet& out) {
+    const std::lock_guard lock(mutex_);
+    const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();
+    if (newest) {
+        stale_.reset();
+    } else if (!stale_) {
+        return false;
+    }
+    const cloud::FixtureSet& set = newest ? *newest : *stale_;
+    try {
+        contact_.query(set, place, out);
+    } catch (const DeviceLost& e) {
+        spdlog::warn("contact query: {}: the CPU answers", e.what());
+        contact_.dropDevice();
+        contact_.query(set, place, out);
+    } catch (const OutOfMemory& e) {
+        spdlog::warn("contact query: {}: the CPU answers", e.what());
+        contact_.dropDevice();
+        contact_.query(set, place, out);
+    }
+    return true;
+}
+
+} // namespace fathom

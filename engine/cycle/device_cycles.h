@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The compute device with the frame cycle and the contact cycle on it: what has to be made anew together when
+// the device is lost.
+#pragma once
+
+#include "engine/cycle/contact_cycle.h"
+#include "engine/cycle/frame_cycle.h"
+
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+
+namespace fathom {
+
+// While there is no device the newest set's host copy and the CPU query stand in (design 10). The frame
+// cadence calls everything but answer(), which is the contact cadence's; these two may meet.
+class DeviceCycles {
+public:
+    // What is referred to must outlive this. arm: null = the tool moves freely.
+    struct Parts {
+        const gpu::Instance& instance;
+        std::string selector; // as of gpu::Device
+        const Scene& scene;
+        CameraInfo camera;
+        const Tool& tool;
+        const ArmRig* arm = nullptr;
+        uint32_t readers = 1; // leases on fixture sets held at once, by others than answer()
+    };
+    using MakePlan = std::function<Plan(const DeviceFacts&)>;
+
+    // Throws BadInput, Error, DeviceLost.
+    DeviceCycles(const Parts& parts, const MakePlan& makePlan);
+
+    const Plan& plan() const { return plan_; }
+    const DeviceFacts& facts() const { return facts_; }
+    const CameraInfo& camera() const { return parts_.camera; }
+    // Not between a renew() that threw and one that did not.
+    FrameCycle& frames() { return *frames_; }
+    const FrameCycle& frames() const { return *frames_; }
+    QueryStatistics queryStatistics() const { return contact_.statistics(); } // after the run
+
+    // Fills `out` for the newest fixture set; false when there was none yet. A device that is lost or has no
+    // memory left for the query is no error here: the CPU answers from then on, until renew().
+    bool answer(const ToolPlace& place, ContactSet& out);
+
+    // After frames() threw DeviceLost or OutOfMemory: gives the device back and opens the same one again.
+    // Origin and generations go on; points that a scene holds in memory are forgotten. Throws DeviceLost or
+    // OutOfMemory while there is none: to be tried again.
+    void renew();
+    uint32_t renewals() const { return renewals_; }
+
+private:
+    std::unique_ptr<FrameCycle> openFrames(gpu::Device& device) const;
+    void close();
+
+    Parts parts_;
+    DeviceFacts facts_;
+    Plan plan_;
+    std::unique_ptr<gpu::Device> device_;
+    std::unique_ptr<FrameCycle> frames_; // null while there is no device
+    std::mutex mutex_;                   // an answer, or the exchange of what answers are made from
+    ContactCycle contact_;
+    FrameCycle::Mark mark_;                  // where a new frame cycle goes on
+    std::optional<cloud::FixtureSet> stale_; // host copy of the last set of a device that is gone
+    uint32_t renewals_ = 0;
+};
+
+} // namespace fathom

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// A device that is made anew under running cycles: what is in force stays, what follows goes on from it.
+#include "engine/cycle/device_cycles.h"
+
+#include "devices/simulated/analytic_scene.h"
+#include "devices/simulated/simulated_camera.h"
+#include "tests/support/vulkan.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using fathom::test::vulkan;
+
+namespace {
+
+constexpr uint32_t kPictures = 4;
+
+Scene redValve(Scene::Contact::Where where) {
+    Scene scene;
+    FixtureClass red;
+    red.name = "red";
+    red.hue = Band{345, 20};
+    red.saturation = Band{0.4, 1};
+    scene.fixtures = {red};
+    scene.contact.where = where;
+    scene.holdSeconds = 0.0; // what a device remembered goes with it
+    return scene;
+}
+
+SimulatedCameraOptions pictures(uint32_t count) {
+    SimulatedCameraOptions o;
+    o.width = 160, o.height = 120;
+    o.frames = count;
+    return o;
+}
+
+struct Rig {
+    Scene scene;
+    SimulatedCamera camera{*analyticScene("tank"), pictures(kPictures)};
+    Tool tool{buildSphereTree(std::vector<Sphere>{{dvec3(0.0), 0.01}, {dvec3(0.02, 0.0, 0.0), 0.01}})};
+    DeviceCycles cycles;
+
+    explicit Rig(Scene::Contact::Where where)
+        : scene(redValve(where))
+        , cycles({vulkan().instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
+                 [this](const DeviceFacts& facts) { return makePlan(scene, camera.info(), 2, facts); }) {}
+
+    FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }
+    // At the first sphere of the newest set.
+    ToolPlace place() {
+        const auto set = cycles.frames().sets().newest();
+        const RegionSpheres& s = set->host.spheres;
+        REQUIRE(s.size() > 0);
+        return {Pose{set->host.origin + dvec3(s.x[0], s.y[0], s.z[0]), dquat(1.0, 0.0, 0.0, 0.0)}, {}};
+    }
+};
+
+} // namespace
+
+TEST_CASE("A device that is made anew goes on with the origin and the generations, and equal pictures give "
+          "equal sets") {
+    Rig rig(Scene::Contact::Where::Cpu), undisturbed(Scene::Contact::Where::Cpu);
+    for (uint32_t i = 0; i < kPictures; ++i) {
+        rig.next();
+        undisturbed.next();
+        {
+            const auto a = rig.cycles.frames().sets().newest(),
+                       b = undisturbed.cycles.frames().sets().newest();
+            CHECK(a->host.generation == b->host.generation);
+            CHECK(a->host.origin == b->host.origin);
+            CHECK(a->host.spheres.x == b->host.spheres.x);
+            CHECK(a->host.spheres.radius == b->host.spheres.radius);
+            CHECK(a->host.spheres.source == b->host.spheres.source);
+        }
+        if (i < 2) {
+            rig.cycles.renew();
+            CHECK_FALSE(rig.cycles.frames().sets().newest());
+        }
+    }
+    CHECK(rig.cycles.renewals() == 2);
+}
+
+TEST_CASE("Until the first picture on the new device the CPU answers over the last set, and query numbers "
+          "only grow") {
+    for (const auto where : {Scene::Contact::Where::Cpu, Scene::Contact::Where::Gpu}) {
+        Rig rig(where);
+        ContactSet before, between, after;
+        CHECK_FALSE(rig.cycles.answer({}, before)); // no picture yet
+        rig.next();
+        const ToolPlace place = rig.place();
+        REQUIRE(rig.cycles.answer(place, before));
+        REQUIRE(before.size() > 0);
+        rig.cycles.renew();
+        REQUIRE(rig.cycles.answer(place, between));
+        CHECK(between.generation == before.generation);
+        CHECK(between.x == before.x);
+        CHECK(between.radius == before.radius);
+        CHECK(between.pairSphere == before.pairSphere);
+        CHECK(between.query > before.query);
+        rig.next();
+        REQUIRE(rig.cycles.answer(place, after));
+        CHECK(after.generation == before.generation + 1);
+        CHECK(after.query > between.query);
+        CHECK(rig.cycles.queryStatistics().queries == 3);
+    }
+}

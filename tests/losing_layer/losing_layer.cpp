@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// A Vulkan layer that loses a device: from a submission on, the first device that an application opened
+// answers VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some of the openings that follow fail.
+// Below the program, so that what runs is the program as it ships.
+//   FATHOM_LOSE_AT       submission of the first device, from 1, that is the first to fail
+//   FATHOM_LOSE_BY       "memory": out of memory instead of lost
+//   FATHOM_LOSE_OPENINGS openings of a device that fail afterwards
+#include <cstdlib>
+#include <cstring>
+#include <map>
+#include <mutex>
+#include <vulkan/vk_layer.h>
+#include <vulkan/vulkan.h>
+
+namespace {
+
+struct NextDevice {
+    VkDevice handle = VK_NULL_HANDLE;
+    PFN_vkDeviceWaitIdle idle = nullptr;
+    PFN_vkGetDeviceProcAddr address = nullptr;
+    PFN_vkDestroyDevice destroy = nullptr;
+    PFN_vkQueueSubmit submit = nullptr;
+    PFN_vkWaitSemaphores wait = nullptr;
+    bool first = false, lost = false;
+    long submissions = 0;
+};
+
+std::mutex mutex;
+std::map<void*, NextDevice> devices; // by the loader's dispatch table, which queues share with their device
+PFN_vkGetInstanceProcAddr nextInstance = nullptr;
+long opened = 0, refused = 0;
+
+long number(const char* name) {
+    const char* text = std::getenv(name);
+    return text == nullptr ? 0 : std::strtol(text, nullptr, 10);
+}
+
+VkResult lossOf() {
+    const char* by = std::getenv("FATHOM_LOSE_BY");
+    return by != nullptr && std::strcmp(by, "memory") == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY
+                                                           : VK_ERROR_DEVICE_LOST;
+}
+
+void* keyOf(void* handle) {
+    return *static_cast<void**>(handle);
+}
+
+template <class Call>
+Call find(PFN_vkGetDeviceProcAddr address, VkDevice device, const char* name) {
+    return reinterpret_cast<Call>(address(device, name));
+}
+
+template <class Link>
+Link* linkOf(const void* chain, VkStructureType type) {
+    for (auto* at = static_cast<const VkBaseInStructure*>(chain); at != nullptr; at = at->pNext) {
+        auto* link = reinterpret_cast<Link*>(const_cast<VkBaseInStructure*>(at));
+        if (at->sType == type && link->function == VK_LAYER_LINK_INFO) {
+            return link;
+        }
+    }
+    return nullptr;
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info,
+                                              const VkAllocationCallbacks* memory, VkInstance* instance) {
+    auto* link =
+        linkOf<VkLayerInstanceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO);
+    if (link == nullptr) {
+        return VK_ERROR_INITIALIZATION_FAILED;
+    }
+    nextInstance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto create =
+        reinterpret_cast<PFN_vkCreateInstance>(nextInstance(VK_NULL_HANDLE, "vkCreateInstance"));
+    return create(info, memory, instance);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
+                                            const VkAllocationCallbacks* memory, VkDevice* device) {
+    auto* link = linkOf<VkLayerDeviceCreateInfo>(info->pNext, VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO);
+    const std::lock_guard lock(mutex);
+    if (link == nullptr || (opened > 0 && refused++ < number("FATHOM_LOSE_OPENINGS"))) {
+        return VK_ERROR_INITIALIZATION_FAILED;
+    }
+    const PFN_vkGetInstanceProcAddr instance = link->u.pLayerInfo->pfnNextGetInstanceProcAddr;
+    const PFN_vkGetDeviceProcAddr address = link->u.pLayerInfo->pfnNextGetDeviceProcAddr;
+    link->u.pLayerInfo = link->u.pLayerInfo->pNext;
+    const auto create = reinterpret_cast<PFN_vkCreateDevice>(instance(VK_NULL_HANDLE, "vkCreateDevice"));
+    const VkResult result = create(physical, info, memory, device);
+    if (result == VK_SUCCESS) {
+        NextDevice& next = devices[keyOf(*device)];
+        next.handle = *device;
+        next.idle = find<PFN_vkDeviceWaitIdle>(address, *device, "vkDeviceWaitIdle");
+        next.address = address;
+        next.destroy = find<PFN_vkDestroyDevice>(address, *device, "vkDestroyDevice");
+        next.submit = find<PFN_vkQueueSubmit>(address, *device, "vkQueueSubmit");
+        next.wait = find<PFN_vkWaitSemaphores>(address, *device, "vkWaitSemaphores");
+        next.first = opened++ == 0;
+    }
+    return result;
+}
+
+VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCallbacks* memory) {
+    const std::lock_guard lock(mutex);
+    void* key = keyOf(device);
+    devices[key].destroy(device, memory);
+    devices.erase(key);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo* infos,
+                                      VkFence fence) {
+    PFN_vkQueueSubmit pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        NextDevice& device = devices[keyOf(queue)];
+        const long at = number("FATHOM_LOSE_AT");
+        if (!device.lost && device.first && at > 0 && ++device.submissions >= at) {
+            device.idle(device.handle); // what is lost is at nothing any more: its memory may go
+            device.lost = true;
+        }
+        if (device.lost) {
+            return lossOf();
+        }
+        pass = device.submit;
+    }
+    return pass(queue, count, infos, fence);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info,
+                                              uint64_t timeout) {
+    PFN_vkWaitSemaphores pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        if (devices[keyOf(device)].lost && lossOf() == VK_ERROR_DEVICE_LOST) {
+            return VK_ERROR_DEVICE_LOST;
+        }
+        pass = devices[keyOf(device)].wait;
+    }
+    return pass(device, info, timeout);
+}
+
+template <class Call>
+PFN_vkVoidFunction plain(Call call) {
+    return reinterpret_cast<PFN_vkVoidFunction>(call);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceAddress(VkDevice device, const char* name) {
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
+        return plain(deviceAddress);
+    }
+    if (std::strcmp(name, "vkDestroyDevice") == 0) {
+        return plain(destroyDevice);
+    }
+    if (std::strcmp(name, "vkWaitSemaphores") == 0) {
+        return plain(waitSemaphores);
+    }
+    if (std::strcmp(name, "vkQueueSubmit") == 0) {
+        return plain(submit);
+    }
+    const std::lock_guard lock(mutex);
+    return devices[keyOf(device)].address(device, name);
+}
+
+VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceAddress(VkInstance instance, const char* name) {
+    if (std::strcmp(name, "vkGetInstanceProcAddr") == 0) {
+        return plain(instanceAddress);
+    }
+    if (std::strcmp(name, "vkCreateInstance") == 0) {
+        return plain(createInstance);
+    }
+    if (std::strcmp(name, "vkCreateDevice") == 0) {
+        return plain(createDevice);
+    }
+    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
+        return plain(deviceAddress);
+    }
+    return nextInstance == nullptr ? nullptr : nextInstance(instance, name);
+}
+
+} // namespace
+
+extern "C" __attribute__((visibility("default"))) VKAPI_ATTR VkResult VKAPI_CALL
+vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface* version) {
+    version->loaderLayerInterfaceVersion = 2;
+    version->pfnGetInstanceProcAddr = instanceAddress;
+    version->pfnGetDeviceProcAddr = deviceAddress;
+    version->pfnGetPhysicalDeviceProcAddr = nullptr;
+    return VK_SUCCESS;
+}

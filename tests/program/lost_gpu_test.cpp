@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// A GPU that is lost under the running program (a layer below it says so): the hand goes on with what is
+// known, the device is opened again, the pictures go on.
+#include "tests/program/stage.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+using namespace fathom;
+
+namespace {
+
+// The layer and what it is told, for as long as this lives.
+class Losing {
+public:
+    Losing(int submission, const std::string& by, int refusedOpenings) {
+        set("VK_ADD_LAYER_PATH", LOSING_LAYER);
+        set("VK_INSTANCE_LAYERS", "VK_LAYER_FATHOM_losing");
+        set("FATHOM_LOSE_AT", std::to_string(submission));
+        set("FATHOM_LOSE_BY", by);
+        set("FATHOM_LOSE_OPENINGS", std::to_string(refusedOpenings));
+    }
+    ~Losing() {
+        for (const std::string& name : names_) {
+            ::unsetenv(name.c_str());
+        }
+    }
+    Losing(const Losing&) = delete;
+    Losing& operator=(const Losing&) = delete;
+
+private:
+    void set(const std::string& name, const std::string& value) {
+        ::setenv(name.c_str(), value.c_str(), 1);
+        names_.push_back(name);
+    }
+    std::vector<std::string> names_;
+};
+
+// 4 s of pictures and of a hand that presses into the bump all the time.
+void setPressing(const Stage& stage, const std::string& where = "cpu") {
+    stage.recording(std::vector<Picture>(120, bumpPicture()));
+    SceneText scene;
+    scene.contact = "where: " + where;
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.5, {0.0, 0.0, 0.52}}, {4.0, {0.0, 0.0, 0.52}}});
+}
+
+double deepest(const Replay& replay) {
+    return replay.haptic().at("max_penetration_m").get<double>();
+}
+
+} // namespace
+
+TEST_CASE("A GPU that is lost or out of memory is opened again while the hand goes on, and pictures follow") {
+    for (const bool lost : {true, false}) {
+        CAPTURE(lost);
+        Stage stage;
+        setPressing(stage, lost ? "gpu" : "cpu"); // where contacts are asked for
+        const Losing losing(lost ? 400 : 30, lost ? "lost" : "memory", 2);
+        const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
+        CAPTURE(run.err);
+        REQUIRE(run.exitCode == 0);
+        CHECK(run.err.find("GPU is ") != std::string::npos);
+        CHECK(run.err.find("GPU is back") != std::string::npos);
+        CHECK(run.out.find("lost and made anew 1 times") != std::string::npos);
+        const Replay replay = readReplay(stage / "out", run);
+        CHECK(deepest(replay) <= 1e-5);
+        REQUIRE(!replay.frames.empty());
+        CHECK(replay.frames.back().index == 119); // to the end
+        CHECK(replay.frames.size() == 119);       // all but the one that went down with the device
+        CHECK(replay.frames.back().spheres == replay.frames.front().spheres);
+        CHECK(replay.ticks.back().t > 3.9);
+    }
+}
+
+TEST_CASE(
+    "A GPU that never comes back leaves the hand with the last regions until its path ends, without force") {
+    Stage stage;
+    setPressing(stage);
+    const Losing losing(30, "lost", 1000000);
+    const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    const Replay replay = readReplay(stage / "out", run);
+    CHECK(deepest(replay) <= 1e-5);
+    CHECK(replay.frames.back().index < 30);
+    CHECK(replay.ticks.back().t > 3.9);
+    CHECK(glm::length(replay.ticks.back().force) == 0.0); // faded
+    const bool touched = std::any_of(replay.ticks.begin(), replay.ticks.end(),
+                                     [](const Tick& tick) { return glm::length(tick.force) > 1.0; });
+    CHECK(touched);
+    CHECK(run.out.find("made anew") == std::string::npos);
+}
+
+TEST_CASE(
+    "In lockstep a lost GPU ends the run with exit code 3 and one line, and leaves the old results alone") {
+    Stage stage;
+    setPressing(stage);
+    const Losing losing(30, "lost", 0);
+    const ProgramRun run = runFathom(stage.command({"--device", "llvmpipe"}));
+    CHECK(run.exitCode == 3);
+    CHECK(run.errorLines().size() == 1);
+}
