@@ -27,7 +27,8 @@ std::string idText(uint16_t vendor, uint16_t product) {
 std::string placeOf(libusb_device* device) {
     std::array<uint8_t, 8> ports{};
     const int count = libusb_get_port_numbers(device, ports.data(), static_cast<int>(ports.size()));
-    std::string text = "usb " + std::to_string(libusb_get_bus_number(device));
+    std::string text = "usb ";
+    text += std::to_string(libusb_get_bus_number(device));
     for (int i = 0; i < count; ++i) {
         text += (i == 0 ? "-" : ".") + std::to_string(ports[static_cast<size_t>(i)]);
     }
