@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # Runs a command on Debian's own kernel in a virtual machine whose root is this machine's own (read only below a scratch layer), so
 # that the program and its libraries need no installing. Exits as the command does.
-#   run_in_vm.sh [-m "MODULE [OPTION...]"]... [-e NAME=VALUE]... [-o DIR] [-t SECONDS] -- COMMAND [ARGUMENT...]
+#   run_in_vm.sh [-m "MODULE [OPTION...]"]... [-e NAME=VALUE]... [-o DIR] [-t SECONDS] [-i] -- COMMAND [ARGUMENT...]
 # -m loads a kernel module; -o: files that the command leaves in $FATHOM_VM_OUT come back into DIR, with kernel.log.
+# -i: the guest's clock counts its instructions, 2 ns each, and skips what it sleeps. What runs there then sees a processor of the
+# same speed however slow or busy this machine is; SECONDS stay those of this machine.
 # Exit 77: no virtual machine can start here, the reason is printed; 125: the guest did not finish (the kernel's last words follow).
 # Environment: FATHOM_VM_CACHE (the kernel, default build/vm), FATHOM_VM_MIB (memory, default 2048), FATHOM_VM_ACCEL (tcg or kvm).
 # Nothing reaches the network but one apt-get download of the kernel's package, which is unpacked and never installed.
@@ -16,18 +18,19 @@ skip() {
     exit 77
 }
 
-modules=() variables=() out="" seconds=170
-while getopts "m:e:o:t:" option; do
+modules=() variables=() out="" seconds=170 counted=""
+while getopts "m:e:o:t:i" option; do
     case $option in
     m) modules+=("$OPTARG") ;;
     e) variables+=("$OPTARG") ;;
     o) out=$OPTARG ;;
     t) seconds=$OPTARG ;;
-    *) sed -n '5,8p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
+    i) counted=yes ;;
+    *) sed -n '5,10p' "${BASH_SOURCE[0]}" >&2; exit 2 ;;
     esac
 done
 shift $((OPTIND - 1))
-[ $# -gt 0 ] || { sed -n '5,8p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+[ $# -gt 0 ] || { sed -n '5,10p' "${BASH_SOURCE[0]}" >&2; exit 2; }
 
 for tool in qemu-system-x86_64 busybox cpio modprobe depmod dpkg-deb apt-get flock; do
     command -v $tool >/dev/null || PATH=$PATH:/usr/sbin:/sbin command -v $tool >/dev/null || skip "$tool is not installed"
@@ -56,10 +59,11 @@ flock -u 9
 # A nested kernel module without VMX or SVM opens, too, but runs a stock kernel far slower than plain emulation does. With
 # emulation one processor is steadier than two.
 accel=${FATHOM_VM_ACCEL:-tcg}
-if [ -z "${FATHOM_VM_ACCEL:-}" ] && [ -w /dev/kvm ] && grep -qwE 'vmx|svm' /proc/cpuinfo; then
+if [ -z "${FATHOM_VM_ACCEL:-}$counted" ] && [ -w /dev/kvm ] && grep -qwE 'vmx|svm' /proc/cpuinfo; then
     accel=kvm
 fi
 machine=(-accel tcg,tb-size=256 -cpu max,la57=off -smp 1)
+[ -n "$counted" ] && accel=tcg && machine+=(-icount shift=1,sleep=off)
 [ "$accel" = kvm ] && machine=(-accel kvm -cpu host -smp 2)
 
 share=$(mktemp -d "$cache/share.XXXXXX")
