@@ -4,8 +4,10 @@
 
 #include "engine/types/camera_info.h"
 #include "engine/types/frame.h"
+#include "engine/types/sphere_tree.h"
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace fathom {
@@ -26,6 +28,8 @@ public:
     virtual bool live() const { return false; }
     // Live: pictures that never came, or that a newer one overtook, so far.
     virtual uint64_t lost() const { return 0; }
+    // Of a simulated one: draws these spheres, base frame [m], from its next picture on. Others draw nothing.
+    virtual void showArm(std::span<const Sphere>) {}
     // [s] from picture to picture, when the source knows.
     virtual std::optional<double> framePeriod() const { return std::nullopt; }
     // One word and a name, e.g. "recorded FOLDER".

@@ -31,6 +31,10 @@ std::unique_ptr<Camera> endless(const Scene& scene, const OperateOptions& option
     const auto source =
         options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source);
     if (!source && scene.source.kind == CameraSource::Kind::Simulated) {
+        if (scene.source.showsArm) {
+            std::fprintf(stderr,
+                         "fathom: the simulated camera's pictures are taken beforehand: no arm in them\n");
+        }
         auto camera =
             std::make_unique<ShuttleCamera>(openCamera(scene, source), kShuttled, stop, [](size_t taken) {
                 std::fprintf(stderr, "\rfathom: rendering the simulated camera, picture %zu of %zu", taken,

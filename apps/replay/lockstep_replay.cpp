@@ -31,6 +31,12 @@ LockstepReplay::LockstepReplay(ReplaySession& session, const ReplayOptions& opti
     , audit_(session.tool, session.arm.get()) {}
 
 void LockstepReplay::fetch() {
+    if (session_.arm) { // a picture that shows the arm is taken now, a frame before it is due
+        taken_ = cycle_ ? cycle_->place().arm : session_.arm->startPosture();
+        if (session_.scene.source.showsArm) {
+            session_.camera->showArm(session_.arm->toolAt(taken_).leaves());
+        }
+    }
     next_ = session_.camera->next();
     if (next_) {
         nextTime_ = (*next_)->index * kFramePeriod;
@@ -42,9 +48,10 @@ void LockstepReplay::fetch() {
 
 void LockstepReplay::processNext() {
     lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
-    if (session_.cycles.plan().selfFilter) { // the picture shows the arm where it is now
-        session_.cycles.frames().setArm(
-            session_.arm->inPicture(cycle_ ? cycle_->place().arm : session_.arm->startPosture()));
+    if (session_.cycles.plan()
+            .selfFilter) { // the arm as the picture shows it, or as it is when the picture is due
+        const bool now = cycle_ && !session_.scene.source.showsArm;
+        session_.cycles.frames().setArm(session_.arm->inPicture(now ? cycle_->place().arm : taken_));
     }
     ready_ = session_.cycles.frames().process(std::move(*next_));
     if (trace_ != nullptr) {

@@ -58,6 +58,7 @@ private:
     ToolAudit audit_;
 
     std::optional<Frame> next_;        // fetched, not yet due
+    ArmPosture taken_;                 // of the arm, when next_ was fetched
     std::optional<FrameReport> ready_; // processed, not yet due
     double nextTime_ = 0.0;            // [s] of next_ or ready_
     double lastFrameTime_ = 0.0;       // [s] of the newest frame in force

@@ -7,6 +7,8 @@
 #include "apps/replay/turn_to_tick.h"
 #include "engine/types/error.h"
 
+#include <spdlog/spdlog.h>
+
 namespace fathom {
 
 namespace {
@@ -140,6 +142,9 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
 
 // On all CPUs: nothing else runs yet.
 void RealtimeReplay::spool() {
+    if (session_.scene.source.showsArm) {
+        spdlog::warn("the simulated camera's pictures are taken beforehand: they do not show the arm");
+    }
     const CpuConfinement everywhere(placement_.all);
     session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(),
                                                       signals_.asked(), [&](uint64_t frames) {

@@ -63,10 +63,19 @@ glm::vec3 Water::seenThrough(const glm::vec3& colour, float range) const noexcep
 
 RayCaster::RayCaster(AnalyticScene scene, bool water)
     : scene_(std::move(scene))
+    , own_(scene_.solids.size())
     , water_(water && scene_.underwater)
     , texture_(stains()) {
     const TangentGrid lampGrid{-2.5, -2.5, 5.0 / 192, 5.0 / 192, 192, 192};
     lampView_.build(scene_, {kLamp, dquat(1.0, 0.0, 0.0, 0.0)}, lampGrid);
+}
+
+void RayCaster::setVisitors(std::span<const Sphere> spheres) {
+    const Paint steel{linearColour(150, 154, 158), 0.2f, 0.0f};
+    scene_.solids.resize(own_);
+    for (const Sphere& s : spheres) {
+        scene_.solids.push_back(sphereAt(s.centre, s.radius, steel));
+    }
 }
 
 void RayCaster::setView(const Pose& sceneTcamera, const Intrinsics& intrinsics) {

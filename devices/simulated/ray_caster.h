@@ -38,6 +38,9 @@ class RayCaster {
 public:
     RayCaster(AnalyticScene scene, bool water);
 
+    // Spheres in front of, among or behind the scene's own solids, scene frame; seen from the next setView()
+    // on. They take no light away from anything. Their Solid indices follow those of the scene.
+    void setVisitors(std::span<const Sphere> spheres);
     void setView(const Pose& sceneTcamera, const Intrinsics& intrinsics);
 
     // Nearest surface along the ray of a pixel inside the picture, -0.5 .. size - 0.5.
@@ -61,6 +64,7 @@ private:
     float brightness(const Solid& solid, const dvec3& point) const noexcept;
 
     AnalyticScene scene_;
+    size_t own_; // solids of the scene itself; then come visitors
     bool water_;
     Water waterModel_;
     dvec3 origin_{0.0}; // [m] of the camera, scene frame

@@ -98,6 +98,15 @@ Pose SimulatedCamera::poseAt(uint32_t frame) const {
     return options_.baseTscene * sceneTcamera(frame);
 }
 
+void SimulatedCamera::showArm(std::span<const Sphere> spheres) {
+    const Pose sceneTbase = inverse(options_.baseTscene);
+    std::vector<Sphere> seen;
+    for (const Sphere& s : spheres) {
+        seen.push_back({sceneTbase.apply(s.centre), s.radius});
+    }
+    caster_.setVisitors(seen);
+}
+
 std::optional<Frame> SimulatedCamera::next() {
     if (nextFrame_ >= options_.frames) {
         return std::nullopt;

@@ -46,6 +46,7 @@ public:
     // leases live.
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return 0; }
+    void showArm(std::span<const Sphere> spheres) override;
     std::string description() const override { return "simulated " + caster_.scene().name; }
 
     const AnalyticScene& scene() const { return caster_.scene(); }

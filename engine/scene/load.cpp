@@ -50,6 +50,9 @@ Scene loadScene(const std::filesystem::path& file) {
     if (const auto hand = root.find("hand")) {
         loadHand(*hand, scene);
     }
+    if (scene.source.showsArm && !arm) {
+        root.at("camera").at("source").at("arm").refuse("false without a section arm");
+    }
     if (arm) {
         loadArmSection(*arm, scene);
     }

@@ -7,7 +7,7 @@ namespace fathom {
 namespace {
 
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
-    node.checkKeys({"simulated", "recorded", "v4l2"});
+    node.checkKeys({"simulated", "recorded", "v4l2", "arm"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2");
     const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value());
     if (given != 1) {
@@ -16,7 +16,16 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
     if (simulated) {
         constexpr std::string_view kScenes[] = {"tank", "sphere", "plane",  "torus", "slot",
                                                 "gap",  "plate",  "corner", "sonar", "wetmate"};
-        return {CameraSource::Kind::Simulated, std::string(kScenes[simulated->oneOf(kScenes)])};
+        CameraSource source{CameraSource::Kind::Simulated, std::string(kScenes[simulated->oneOf(kScenes)])};
+        const auto arm = node.find("arm");
+        source.showsArm = arm && arm->boolean();
+        if (source.showsArm && source.value == "sonar") {
+            arm->refuse("false: the simulated sonar draws none");
+        }
+        return source;
+    }
+    if (const auto arm = node.find("arm")) {
+        arm->refuse("nothing: only a simulated camera draws an arm");
     }
     if (recorded) {
         return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};

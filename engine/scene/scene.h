@@ -57,6 +57,7 @@ struct FixtureClass {
 struct CameraSource {
     enum class Kind { Simulated, Recorded, V4l2 } kind = Kind::Simulated;
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
+    bool showsArm = false;      // a simulated camera draws the scene's arm, in lockstep
 };
 
 struct HandLoop {             // the simulated hand that closes the loop (--hand)
