@@ -2,6 +2,7 @@
 #include "apps/register/register_command.h"
 
 #include "apps/binding/open_source.h"
+#include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
@@ -17,22 +18,17 @@ namespace fathom {
 namespace {
 
 struct RegisterOptions {
-    std::string scene, source, points, tags, out;
+    std::string scene, source, points, tags, board, out;
     uint32_t frames = 30;
 };
 
-std::vector<PointPair> seenTags(const RegisterOptions& options) {
-    const auto camera = openCamera(
-        openScene(options.scene),
-        options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
-    if (!camera->info().hasColour) {
-        throw BadInput(camera->description(), "colour", "none", "a camera with colour, or --points");
-    }
-    TagFinder finder(camera->info(), readTagPlaces(options.tags));
+template <class Finder>
+std::vector<PointPair> seenBy(Finder& finder, Camera& camera, const RegisterOptions& options,
+                              const std::string& what) {
     std::vector<PointPair> pairs;
     uint32_t frames = 0, with = 0;
     for (; frames < options.frames; ++frames) {
-        const std::optional<Frame> frame = camera->next();
+        const std::optional<Frame> frame = camera.next();
         if (!frame) {
             break;
         }
@@ -40,13 +36,27 @@ std::vector<PointPair> seenTags(const RegisterOptions& options) {
         with += found.empty() ? 0 : 1;
         pairs.insert(pairs.end(), found.begin(), found.end());
     }
-    std::cout << "# " << pairs.size() / 4 << " sights of known tags in " << with << " of " << frames
-              << " pictures of " << camera->description() << "\n";
+    std::cout << "# " << pairs.size() << " corners of " << what << " in " << with << " of " << frames
+              << " pictures of " << camera.description() << "\n";
     if (pairs.empty()) {
-        throw BadInput(camera->description(), "tags", "none seen",
-                       "a tag of " + options.tags + " in colour and depth");
+        throw BadInput(camera.description(), what, "none seen", what + " in colour and depth");
     }
     return pairs;
+}
+
+std::vector<PointPair> seenTargets(const RegisterOptions& options) {
+    const auto camera = openCamera(
+        openScene(options.scene),
+        options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
+    if (!camera->info().hasColour) {
+        throw BadInput(camera->description(), "colour", "none", "a camera with colour, or --points");
+    }
+    if (!options.board.empty()) {
+        BoardFinder finder(camera->info(), readBoardPlace(options.board));
+        return seenBy(finder, *camera, options, "the board of " + options.board);
+    }
+    TagFinder finder(camera->info(), readTagPlaces(options.tags));
+    return seenBy(finder, *camera, options, "a tag of " + options.tags);
 }
 
 std::string asYaml(const RigidFit& fit) {
@@ -61,13 +71,19 @@ std::string asYaml(const RigidFit& fit) {
 }
 
 void runRegister(const RegisterOptions& options) {
-    if (options.points.empty() == options.tags.empty()) {
-        throw BadInput("register", "--points, --tags", options.points.empty() ? "neither" : "both",
+    const std::string* from = nullptr;
+    int given = 0;
+    for (const std::string* file : {&options.points, &options.tags, &options.board}) {
+        given += file->empty() ? 0 : 1;
+        from = file->empty() ? from : file;
+    }
+    if (given != 1) {
+        throw BadInput("register", "--points, --tags, --board", given == 0 ? "none" : "several",
                        "one of them");
     }
-    const bool fromTags = !options.tags.empty();
-    const std::vector<PointPair> pairs = fromTags ? seenTags(options) : readPointPairs(options.points);
-    const RigidFit fit = fitRigid(pairs, fromTags ? options.tags : options.points);
+    const bool fromPoints = from == &options.points;
+    const std::vector<PointPair> pairs = fromPoints ? readPointPairs(options.points) : seenTargets(options);
+    const RigidFit fit = fitRigid(pairs, *from);
     const std::string yaml = asYaml(fit);
     std::cout << "# " << pairs.size() << " pairs of points; root of the mean square distance "
               << 1e3 * fit.sigma << " mm, largest " << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n"
@@ -91,6 +107,9 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
     command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--tags", options->tags,
                         "AprilTags 36h11 in the base frame: CSV id,size_m,x,y,z,qx,qy,qz,qw");
+    command->add_option(
+        "--board", options->board,
+        "a chessboard in the base frame: CSV columns,rows,square_m,x,y,z,qx,qy,qz,qw; inner corners");
     command->add_option(
         "--points", options->points,
         "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");

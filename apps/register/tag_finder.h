@@ -41,7 +41,6 @@ private:
         std::array<glm::dvec2, 4> pixels; // of the colour picture, in order of the tag's corners
     };
     std::vector<Corners> detect(const Frame& frame);
-    std::vector<dvec3> depthInside(const Frame& frame, const Corners& corners) const;
 
     CameraInfo camera_;
     std::map<int, TagPlace> places_;
