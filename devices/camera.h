@@ -30,6 +30,10 @@ public:
     virtual uint64_t lost() const { return 0; }
     // Of a simulated one: draws these spheres, base frame [m], from its next picture on. Others draw nothing.
     virtual void showArm(std::span<const Sphere>) {}
+    // A recording: how many pictures it has, bad ones included; 0 where one cannot choose. seek() makes
+    // `index` the next one that next() looks at; false where that is not possible.
+    virtual uint32_t pictures() const { return 0; }
+    virtual bool seek(uint32_t) { return false; }
     // [s] from picture to picture, when the source knows.
     virtual std::optional<double> framePeriod() const { return std::nullopt; }
     // One word and a name, e.g. "recorded FOLDER".

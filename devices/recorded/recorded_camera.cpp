@@ -122,6 +122,10 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
 // Named at once in a recording that has shown a good frame; before that when one comes. Should none come, the
 // one refusal says it all.
 void RecordedCamera::skip(uint32_t index, const std::string& fault) {
+    if (index < named_) { // seen before a seek()
+        return;
+    }
+    named_ = index + 1;
     ++skipped_;
     unnamed_.push_back("frame " + std::to_string(index) + " skipped: " + fault);
     if (firstFault_.empty()) {
@@ -134,6 +138,15 @@ void RecordedCamera::nameSkipped() {
         spdlog::warn("{}: {}", folder_.string(), line);
     }
     unnamed_.clear();
+}
+
+bool RecordedCamera::seek(uint32_t index) {
+    if (index >= index_.size()) {
+        return false;
+    }
+    cursor_ = index;
+    lastStamp_.reset();
+    return true;
 }
 
 std::optional<Frame> RecordedCamera::next() {
@@ -149,13 +162,14 @@ std::optional<Frame> RecordedCamera::next() {
         const std::string fault = read(index_[index], *slot);
         if (fault.empty()) {
             lastStamp_ = index_[index].depthStamp;
+            any_ = true;
             nameSkipped();
             return lease(index, *slot);
         }
         skip(index, fault);
     }
     slot->release();
-    if (lastStamp_) {
+    if (any_) {
         nameSkipped();
     } else {
         throw BadInput(folder_.string(), "frames",

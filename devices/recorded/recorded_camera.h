@@ -29,6 +29,8 @@ public:
     // alive.
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
+    uint32_t pictures() const override { return static_cast<uint32_t>(index_.size()); }
+    bool seek(uint32_t index) override;
     std::string description() const override { return "recorded " + folder_.string(); }
 
 private:
@@ -47,7 +49,9 @@ private:
     std::vector<float> axisShare_; // z of a unit step along each ray; empty = pictures hold z
     uint32_t cursor_ = 0;          // next data line
     uint32_t skipped_ = 0;
-    std::optional<double> lastStamp_; // [s] of the last delivered frame
+    uint32_t named_ = 0;              // lines before this one are counted
+    bool any_ = false;                // a frame was good
+    std::optional<double> lastStamp_; // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;
     std::vector<std::string> unnamed_; // skipped frames that the log has not named yet
 };
