@@ -80,6 +80,12 @@ void FrameCycle::clearMemory() {
     timeline_.wait(ticket_);
 }
 
+void FrameCycle::forget() {
+    clearMemory();
+    lastSource_.reset();
+    lastCapture_.reset();
+}
+
 void FrameCycle::setScene(const Scene& scene) {
     if (cloud::classRows(scene) != cloud::classRows(scene_)) {
         throw Error("a scene in force keeps its classes of points: only their gates, radii and roles change");

@@ -52,6 +52,9 @@ public:
     // Other gates, radii, roles and boxes for the frames from now on. The scene must have as many classes of
     // points as before, and the same plan; throws Error otherwise.
     void setScene(const Scene& scene);
+    // What earlier pictures left (held points) is gone, and the next one may be of any time: for who jumps
+    // about in a recording. Waits for the device; no frame in flight.
+    void forget();
     // Where the arm is in the pictures from the next upload() on. Nothing happens without a self-filter in
     // the plan.
     void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
