@@ -31,6 +31,18 @@ struct Pick {
     int row = -1;       // of the class whose gates are re-picked; -1 = a new one
 };
 
+// Where one is in a recording; of a run that is not one, `on` is false and nothing else counts.
+struct TimeLine {
+    bool on = false, playing = false;
+    bool dragged = false;    // the pilot holds the head
+    double t = 0.0;          // [s] shown
+    double duration = 0.0;   // [s]
+    double speed = 1.0;      // of playing
+    uint32_t picture = 0;    // shown, from 0
+    uint32_t pictures = 0;   // there are
+    bool wholeMemory = true; // held points of earlier pictures are there, too
+};
+
 struct Console {
     bool forces = false, guidance = false, clutch = false, frozen = false;
     bool spaceIsLarge = false; // the 3D view is the large one
@@ -43,6 +55,7 @@ struct Console {
     double textScale = 1.0;
     Tab tab = Tab::Fixtures, shownTab = Tab::Help;
     Orbit orbit;
+    TimeLine timeLine;
     Pick pick;
     ShapeKind placing = ShapeKind::None; // the next click on the cloud puts one there
 

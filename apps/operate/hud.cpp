@@ -128,7 +128,9 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     figure(input, print("%.0f Hz", rates.hapticHz), "haptic rate");
     figure(input, print("%.2f ms", rates.worstPeriodMs), "worst period, 1 s",
            slow ? colour::kCaution : colour::kText);
-    figure(input, print("%.1f Hz", rates.cameraHz), "camera rate");
+    if (!console.timeLine.on) { // of a recording, pictures come as one looks
+        figure(input, print("%.1f Hz", rates.cameraHz), "camera rate");
+    }
     const bool stale = record.sceneAge > input.haptics.staleAfter;
     figure(input, std::isfinite(record.sceneAge) ? print("%.0f ms", record.sceneAge * 1e3) : "none",
            "scene age", stale ? colour::kWarning : colour::kText);
@@ -136,8 +138,15 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
            record.contacts > 0 ? colour::kTouch : colour::kText);
     figure(input, print("%.0f %%", 100.0 * input.unknownShare), "not seen");
     figure(input, print("%.0f Hz", input.windowHz), "window");
-    figure(input, console.recording ? "\xe2\x97\x8f REC" : "\xe2\x96\xa0 idle", "recorder",
-           console.recording ? colour::kWarning : colour::kQuiet);
+    if (console.timeLine.on) {
+        figure(input,
+               (console.timeLine.playing ? "\xe2\x96\xb6 " : "\xe2\x96\xa0 ") +
+                   print("%.2f s", console.timeLine.t),
+               "recording", colour::kPicked);
+    } else {
+        figure(input, console.recording ? "\xe2\x97\x8f REC" : "\xe2\x96\xa0 idle", "recorder",
+               console.recording ? colour::kWarning : colour::kQuiet);
+    }
     if (console.frozen) {
         figure(input, "FROZEN", "fixtures", colour::kCaution);
     }

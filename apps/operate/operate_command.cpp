@@ -2,6 +2,7 @@
 #include "apps/operate/operate_command.h"
 
 #include "apps/operate/operator_run.h"
+#include "apps/operate/playback_run.h"
 #include "engine/types/error.h"
 
 #include <iostream>
@@ -12,7 +13,11 @@ namespace fathom {
 void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     auto options = std::make_shared<OperateOptions>();
     CLI::App* command = app.add_subcommand("operate", "the operator's window on a live or recorded camera");
-    command->add_option("scene", options->scene, "scene file (YAML)")->required();
+    command
+        ->add_option("scene", options->scene,
+                     "scene file (YAML), or the folder of a recording with its scene.yaml")
+        ->required();
+    command->add_option("--recording", options->recording, "look back at this recording, by a time line");
     command->add_option("--source", options->source, "recording folder instead of the scene's camera");
     command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard");
     command->add_option("--arm", options->arm, kArmHelp);
@@ -25,8 +30,15 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
     command->add_flag("--validate", options->validate, "Vulkan validation; a message ends in exit code 1");
     command->callback([options, &global, &result] {
-        operate::OperatorRun run(*options, global);
-        const uint32_t messages = run.run();
+        if (std::filesystem::is_directory(options->scene)) {
+            options->recording = options->recording.empty() ? options->scene.string() : options->recording;
+            options->scene /= "scene.yaml";
+        }
+        if (!options->recording.empty() && !options->source.empty()) {
+            throw BadInput("operate", "--source", options->source, "nothing beside a recording");
+        }
+        const uint32_t messages = options->recording.empty() ? operate::OperatorRun(*options, global).run()
+                                                             : operate::PlaybackRun(*options, global).run();
         if (messages != 0) {
             std::cerr << "fathom: " << messages << " validation messages\n";
             result = 1;

@@ -13,6 +13,7 @@ namespace fathom {
 struct OperateOptions {
     std::filesystem::path scene;
     std::string source;     // recording folder; empty = the scene's camera
+    std::string recording;  // folder to look back at; empty = a run
     bool path = false;      // the scene's hand path drives, not mouse and keyboard
     std::string offscreen;  // WxH: the same frames without a surface; empty = a window
     std::string arm;        // serial line of the scene's real arm; empty = nothing moves

@@ -28,6 +28,9 @@ FixtureClass spareClass(Role role) {
 
 std::unique_ptr<Camera> endless(const Scene& scene, const OperateOptions& options,
                                 const std::atomic<bool>& stop) {
+    if (!options.recording.empty()) { // once, and where one likes
+        return openCamera(scene, options.recording);
+    }
     const auto source =
         options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source);
     if (!source && scene.source.kind == CameraSource::Kind::Simulated) {

@@ -43,26 +43,6 @@ float percentile(std::vector<float> values, double share) {
 
 } // namespace
 
-struct OperatorRun::Surface {
-    Surface(const Window& window, OperateSession& session)
-        : instance(session.instance)
-        , handle(window.makeSurface(session.instance)) {
-        try {
-            swapchain = std::make_unique<Swapchain>(session.device, handle);
-        } catch (...) {
-            vkDestroySurfaceKHR(instance.handle(), handle, nullptr);
-            throw;
-        }
-    }
-    ~Surface() {
-        swapchain.reset();
-        vkDestroySurfaceKHR(instance.handle(), handle, nullptr);
-    }
-    const gpu::Instance& instance;
-    VkSurfaceKHR handle;
-    std::unique_ptr<Swapchain> swapchain;
-};
-
 OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& global)
     : options_(options)
     , placement_(ThreadPlacement::ofThisProcess())
@@ -70,18 +50,14 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , confined_(placement_.rest) // before the device: a software device's workers inherit it
     , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
                window_.extensions(), signals_.asked())
-    , surface_(window_.offscreen() ? nullptr : std::make_unique<Surface>(window_, session_))
     , haptics_(softly(session_.scene, session_.tool))
     , feed_(session_)
     , answers_(session_)
     , sink_(recorder_)
     , view_(sink_)
     , log_(options.state) {
-    console_.textScale = lettersScale_ = options.textScale;
-    letters_ = loadLetters(console_.textScale);
-    applyTheme(console_.textScale);
-    painter_ = std::make_unique<Painter>(session_.instance, session_.device,
-                                         surface_ ? surface_->swapchain.get() : nullptr);
+    console_.textScale = options.textScale;
+    canvas_ = std::make_unique<Canvas>(window_, session_, options.textScale, options.shots);
     startThreads();
     window_.onForcesOff = [this] {
         hand_->setForces(false); // at once, whatever the rest of this frame does
@@ -92,8 +68,6 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
 
 OperatorRun::~OperatorRun() {
     endThreads();
-    painter_.reset();
-    surface_.reset();
 }
 
 void OperatorRun::startThreads() {
@@ -155,7 +129,7 @@ HudInput OperatorRun::hudInput() const {
                  session_.scene,
                  haptics_,
                  session_.frames.passNames(),
-                 letters_,
+                 canvas_->letters(),
                  session_.title(),
                  screen_.unknownShare(),
                  windowHz_,
@@ -192,30 +166,16 @@ void OperatorRun::frame() {
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     listen();
     alarms_.step(console_, view_, haptics_, editor_->scene());
-    ImGui::Render();
-    if (!window_.minimised()) {
-        painter_->draw(window_.size(), screen_.layers(), ImGui::GetDrawData(),
-                       [this] { return feed_.busy(); });
-    }
-    if (!shotWanted_.empty()) {
-        shoot(shotWanted_);
-        shotWanted_.clear();
-    }
-    if (lettersScale_ != console_.textScale) {
-        lettersScale_ = console_.textScale;
-        letters_ = loadLetters(lettersScale_);
-        applyTheme(lettersScale_);
-        painter_->uploadFonts();
-    }
+    canvas_->finishFrame(console_, screen_.layers(), [this] { return feed_.busy(); });
     log_.write(console_, view_, extras());
 }
 
 StateExtras OperatorRun::extras() const {
     StateExtras extras;
     extras.mode = modeOf(console_, view_).word;
-    extras.windowFrames = painter_->drawn();
-    extras.yielded = painter_->yielded();
-    extras.swapchains = surface_ ? surface_->swapchain->remade() : 0;
+    extras.windowFrames = canvas_->painter().drawn();
+    extras.yielded = canvas_->painter().yielded();
+    extras.swapchains = canvas_->swapchains();
     const VkExtent2D size = window_.size();
     extras.width = size.width;
     extras.height = size.height;
@@ -235,8 +195,8 @@ void OperatorRun::report() const {
     const std::vector<float>& us = view_.turnMicros();
     const double time = std::max(1e-3, seconds() - started_);
     std::printf("window       %.1f frames a second, %llu left out for passes on the shared queue\n",
-                static_cast<double>(painter_->drawn()) / time,
-                static_cast<unsigned long long>(painter_->yielded()));
+                static_cast<double>(canvas_->painter().drawn()) / time,
+                static_cast<unsigned long long>(canvas_->painter().yielded()));
     std::printf("turn         p50 %.2f p99 %.2f max %.2f us, %zu turns, %llu ended over one period late, "
                 "%llu periods without one\n",
                 static_cast<double>(percentile(us, 0.5)), static_cast<double>(percentile(us, 0.99)),

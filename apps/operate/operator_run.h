@@ -4,6 +4,7 @@
 
 #include "apps/binding/realtime_run.h"
 #include "apps/binding/stop_signals.h"
+#include "apps/operate/canvas.h"
 #include "apps/operate/live_feed.h"
 #include "apps/operate/pilot_hand.h"
 #include "apps/operate/recorder.h"
@@ -11,7 +12,6 @@
 #include "apps/operate/state_log.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/traces_panel.h"
-#include "apps/operate/window.h"
 
 #include <memory>
 #include <thread>
@@ -35,15 +35,12 @@ public:
     const RealtimeRun& engine() const { return *engine_; }
 
 private:
-    struct Surface; // surface and swapchain
     void startThreads();
     void endThreads();
     void frame();
     void listen();         // what the frame's keys and clicks asked for
-    void click(ImVec2 at); // in the large view
     void followRecorder(); // starts or stops as the console says
     void exportTraces();
-    void shoot(const std::string& name);
     StateExtras extras() const;
     HudInput hudInput() const;
     bool wantsToEnd() const;
@@ -55,7 +52,6 @@ private:
     Window window_;
     CpuConfinement confined_;
     OperateSession session_;
-    std::unique_ptr<Surface> surface_;
     HapticOptions haptics_;
     LiveFeed feed_;
     LiveAnswers answers_;
@@ -73,15 +69,13 @@ private:
     std::thread thread_;
 
     Console console_;
-    Letters letters_;
-    std::unique_ptr<Painter> painter_;
+    std::unique_ptr<Canvas> canvas_;
     RunView view_;
     Screen screen_;
     TracesPanel traces_;
     Alarms alarms_;
     StateLog log_;
-    double lettersScale_ = 1.0, started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
-    std::string shotWanted_;
+    double started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
     uint32_t recordings_ = 0;
 };
 

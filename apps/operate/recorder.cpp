@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/recorder.h"
 
+#include "apps/operate/turn_log.h"
 #include "devices/recorded/intrinsics_output.h"
 #include "devices/recorded/png_output.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iomanip>
 
@@ -39,7 +41,8 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
         }
     };
     open(hand_, "hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button");
-    open(wrench_, "wrench.csv", "t_s,fx,fy,fz,tx,ty,tz,contacts,state");
+    open(wrench_, kWrenchFile, wrenchHead());
+    open(touches_, kTouchesFile, touchesHead());
     if (camera.hasColour) {
         open(index_, "associations.txt", "# t_rgb rgb t_depth depth");
     } else {
@@ -48,6 +51,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     open(poses_, "poses.txt", "# t tx ty tz qx qy qz qw");
     waiting_.clear();
     turns_.clear();
+    numbers_.clear();
     lastCapture_ = lastWritten_ = -1.0;
     lost_ = pictures_ = 0;
     ending_ = false;
@@ -69,7 +73,7 @@ void Recorder::stop() {
     if (thread_.joinable()) {
         thread_.join();
     }
-    for (std::ofstream* file : {&hand_, &wrench_, &index_, &poses_}) {
+    for (std::ofstream* file : {&hand_, &wrench_, &touches_, &index_, &poses_}) {
         file->close();
     }
 }
@@ -90,7 +94,10 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
         turns_.clear();
     }
     lastCapture_ = frame.t;
-    ++pictures_;
+    numbers_.emplace_back(frame.report.index, pictures_++);
+    if (numbers_.size() > kMostWaiting) {
+        numbers_.pop_front();
+    }
     waiting_.push_back({set.depth, frame.colour, set.baseTcamera});
     more_.notify_one();
 }
@@ -121,10 +128,13 @@ void Recorder::putTurn(const TurnRow& row, double t) {
     put(hand_, hand.position);
     hand_ << "," << hand.rotation.w << "," << hand.rotation.x << "," << hand.rotation.y << ","
           << hand.rotation.z << "," << row.hand.buttons << "\n";
-    wrench_ << t;
-    put(wrench_, row.record.wrench.force);
-    put(wrench_, row.record.wrench.torque);
-    wrench_ << "," << row.record.contacts << "," << static_cast<int>(row.record.state) << "\n";
+    writeTurn(wrench_, touches_, t, pictureOf(row.record.frame), row.record);
+}
+
+int64_t Recorder::pictureOf(int64_t frame) const {
+    const auto at = std::find_if(numbers_.rbegin(), numbers_.rend(),
+                                 [&](const auto& number) { return number.first <= frame; });
+    return at == numbers_.rend() ? -1 : static_cast<int64_t>(at->second);
 }
 
 void Recorder::writePictures() {

@@ -14,7 +14,8 @@
 
 namespace fathom::operate {
 
-// A TUM RGB-D folder with hand.csv (raw poses and buttons), wrench.csv (what the hand felt) and scene.yaml.
+// A TUM RGB-D folder with hand.csv (raw poses and buttons), wrench.csv and touches.csv (what the hand felt,
+// turn_log.h) and scene.yaml.
 // Frame j of a replay comes at j / 30 s, so the times of hand and wrench are bent to that, frame by frame.
 // PNG files are written on a thread of this object's own; pictures that it cannot keep up with are counted in
 // lost().
@@ -44,6 +45,7 @@ private:
     void writePictures();
     void flushTurns(double from, double to, double start, double scale);
     void putTurn(const TurnRow& row, double t);
+    int64_t pictureOf(int64_t frame) const; // of this recording; -1 = from before it
 
     std::filesystem::path folder_;
     CameraInfo camera_;
@@ -52,10 +54,11 @@ private:
     std::mutex mutex_; // of everything below; window, writer and PNG thread
     std::condition_variable more_;
     std::deque<Picture> waiting_;
-    std::deque<TurnRow> turns_; // since the last picture
+    std::deque<TurnRow> turns_;                        // since the last picture
+    std::deque<std::pair<int64_t, uint64_t>> numbers_; // of late pictures: index in the run, in the recording
     double lastCapture_ = -1.0, lastWritten_ = -1.0;
     bool ending_ = false;
-    std::ofstream hand_, wrench_, index_, poses_;
+    std::ofstream hand_, wrench_, touches_, index_, poses_;
     std::thread thread_;
 };
 

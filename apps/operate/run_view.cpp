@@ -30,6 +30,16 @@ bool RunView::refresh() {
     return fresh;
 }
 
+void RunView::rewind() {
+    turn_ = {};
+    turns_ = late_ = 0;
+    trace_.clear();
+    pictures_.clear();
+    blocks_.clear();
+    micros_.clear();
+    wokenLate_.clear();
+}
+
 void RunView::take(const TurnRow& row) {
     turn_ = row;
     ++turns_;
@@ -83,7 +93,7 @@ Rates RunView::rates() const {
     }
     rates.hapticHz = now > later ? static_cast<double>(count - 1) / (now - later) : 0.0;
     rates.worstPeriodMs = worst * 1e3;
-    if (pictures_.size() > 1) {
+    if (pictures_.size() > 1 && pictures_.back() > pictures_.front()) {
         rates.cameraHz = static_cast<double>(pictures_.size() - 1) / (pictures_.back() - pictures_.front());
     }
     return rates;

@@ -41,6 +41,10 @@ public:
     explicit RunView(SnapshotSink& sink)
         : sink_(sink) {}
 
+    // Of a recording: all turns and pictures go, and these come in their place, as they were.
+    void rewind();
+    void take(const TurnRow& row);
+
     // Takes over all that has come; true when there is a new picture.
     bool refresh();
 
@@ -57,7 +61,6 @@ public:
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that had passes
 
 private:
-    void take(const TurnRow& row);
     void noteBlocks(const TurnRow& row);
 
     SnapshotSink& sink_;

@@ -42,7 +42,7 @@ dvec3 middleOf(const Fixtures& set) {
 
 } // namespace
 
-Screen::Rooms Screen::arrange(ImVec2 size, double scale) {
+Screen::Rooms Screen::arrange(ImVec2 size, double scale, bool timeLine) {
     constexpr int kGap = 6;
     const int width = static_cast<int>(size.x), height = static_cast<int>(size.y);
     const int head = static_cast<int>(58 * scale), right = std::min(static_cast<int>(376 * scale), width / 2);
@@ -51,7 +51,9 @@ Screen::Rooms Screen::arrange(ImVec2 size, double scale) {
     const int left = width - right - kGap, inset = std::max(60, std::min(right * 9 / 16, height / 3));
     Rooms rooms;
     rooms.head = {0, 0, width, head};
-    rooms.large = {0, head + kGap, left, height - head - traces - 2 * kGap};
+    const int strip = timeLine ? static_cast<int>(76 * scale) + kGap : 0;
+    rooms.large = {0, head + kGap, left, height - head - traces - strip - 2 * kGap};
+    rooms.timeLine = {0, height - traces - strip, left, std::max(0, strip - kGap)};
     rooms.traces = {0, height - traces, left, traces};
     rooms.inset = {left + kGap, head + kGap, right, inset};
     rooms.gauges = {left + kGap, head + inset + 2 * kGap, right, gauges};
@@ -141,6 +143,10 @@ void Screen::drawHint(Console& console, const ScreenInput& input) const {
     std::string hint = console.forces
                            ? "Space: forces off   G: guidance   drag, wheel, arrows: tool   F1: all keys"
                            : "A: arm the forces   drag, wheel, arrows: tool   Tab: 3D   F1: all keys";
+    if (console.timeLine.on) {
+        hint = "A recording.   drag the time line   Space: play   arrows: pictures, with Shift turns   [ ]: "
+               "speed   Tab: 3D   F1: all keys";
+    }
     if (input.hud.noDevice) {
         hint = "No haptic device: mouse and keyboard drive.   " + hint;
     }
@@ -201,7 +207,7 @@ void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, c
 }
 
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
-    const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale);
+    const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale, console.timeLine.on);
     makePictures(console, editor, input, rooms);
     drawViews(console, editor, input, rooms);
     drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
@@ -216,9 +222,11 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     drawTabs(console, editor, alarms, input, rooms.tabs);
     listenForFixtures(console, editor, input.run.scene());
     drawHint(console, input);
-    console.places["traces room"] = {static_cast<float>(rooms.traces.x), static_cast<float>(rooms.traces.y),
-                                     static_cast<float>(rooms.traces.width),
-                                     static_cast<float>(rooms.traces.height)};
+    for (const auto& [name, room] :
+         {std::pair("traces room", &rooms.traces), std::pair("time line room", &rooms.timeLine)}) {
+        console.places[name] = {static_cast<float>(room->x), static_cast<float>(room->y),
+                                static_cast<float>(room->width), static_cast<float>(room->height)};
+    }
 }
 
 std::optional<glm::uvec2> Screen::colourPixelAt(ImVec2 at) const {

@@ -33,9 +33,9 @@ public:
 
 private:
     struct Rooms {
-        PixelRect head, large, inset, gauges, tabs, traces;
+        PixelRect head, large, inset, gauges, tabs, traces, timeLine;
     };
-    static Rooms arrange(ImVec2 size, double scale);
+    static Rooms arrange(ImVec2 size, double scale, bool timeLine);
     void makePictures(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                       const Rooms& rooms);
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input,

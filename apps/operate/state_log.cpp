@@ -35,6 +35,15 @@ json consoleOf(const Console& c) {
             {"picked", c.pick.taken},
             {"notice", c.notice},
             {"shots", c.shots},
+            {"time_line",
+             {{"on", c.timeLine.on},
+              {"t", c.timeLine.t},
+              {"duration", c.timeLine.duration},
+              {"picture", c.timeLine.picture},
+              {"pictures", c.timeLine.pictures},
+              {"playing", c.timeLine.playing},
+              {"speed", c.timeLine.speed},
+              {"whole_memory", c.timeLine.wholeMemory}}},
             {"places", c.places}};
 }
 

@@ -39,6 +39,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"W", "why did it stop?"},
         KeyHelp{"Q", "acknowledge alarms"},
         KeyHelp{"R", "record, stop"},
+        KeyHelp{"of a recording", "Space plays; arrows: a picture, with Shift a turn; Home, End; [ ]: speed"},
         KeyHelp{"F12", "screenshot"},
         KeyHelp{"Ctrl +, Ctrl -", "larger, smaller letters"},
         KeyHelp{"F1", "this list"},

@@ -261,10 +261,13 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
                        record.guidance > 0.0 && record.guidanceClass == static_cast<int>(i));
         }
     }
-    if (!input.run.anyTurn() || !isFinite(record.tool) || !isFinite(record.device)) {
+    if (!input.run.anyTurn() || !isFinite(record.device)) {
         return;
     }
     toolAt(list, input, record.device, true);
+    if (!isFinite(record.tool)) { // a recording that does not tell it
+        return;
+    }
     toolAt(list, input, record.tool, false);
     const auto hand = input.port.of(record.device.position), tool = input.port.of(record.tool.position);
     if (hand && tool) {

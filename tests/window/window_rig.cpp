@@ -90,7 +90,7 @@ WindowRig::WindowRig(const std::vector<std::string>& extra) {
     scene.tool = "spheres: [[0, 0, 0, 0.01], [0, 0, -0.03, 0.012]]";
     folder_.write("scene.yaml", "# a comment that saving must keep\n" + scene.text());
     startDisplay();
-    startProgram(extra);
+    startProgram(folder_.path() / "scene.yaml", extra);
 }
 
 void WindowRig::startDisplay() {
@@ -113,17 +113,19 @@ void WindowRig::startDisplay() {
     display_ = ":" + display_;
 }
 
-void WindowRig::startProgram(const std::vector<std::string>& extra) {
-    std::vector<std::string> words{FATHOM_PROGRAM,
-                                   "operate",
-                                   (folder_.path() / "scene.yaml").string(),
-                                   "--device",
-                                   "llvmpipe",
-                                   "--validate",
-                                   "--state",
-                                   (folder_.path() / "state.jsonl").string(),
-                                   "--folder",
-                                   folder_.path().string()};
+void WindowRig::reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra) {
+    const int code = close();
+    CHECK_MESSAGE(code == 0, output());
+    std::filesystem::remove(folder_.path() / "state.jsonl");
+    startProgram(scene, extra);
+}
+
+void WindowRig::startProgram(const std::filesystem::path& scene, const std::vector<std::string>& extra) {
+    std::vector<std::string> words{FATHOM_PROGRAM, "operate",
+                                   scene.string(), "--device",
+                                   "llvmpipe",     "--validate",
+                                   "--state",      (folder_.path() / "state.jsonl").string(),
+                                   "--folder",     folder_.path().string()};
     words.insert(words.end(), extra.begin(), extra.end());
     program_ = ::fork();
     if (program_ == 0) {

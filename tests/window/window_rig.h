@@ -50,6 +50,8 @@ public:
     void xdo(const std::string& words) const;        // xdotool; $W is the window
     Screenshot shoot(const std::string& keep) const; // F12; `keep`: name under the kept pictures
 
+    // Ends the program (exit code checked) and starts it anew on this scene or recording.
+    void reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra = {});
     int close(); // asks the program to end; its exit code, -1 for a crash or when it had to be killed
     std::string output() const; // stdout and stderr so far
     const std::filesystem::path& folder() const { return folder_.path(); }
@@ -57,7 +59,7 @@ public:
 
 private:
     void startDisplay();
-    void startProgram(const std::vector<std::string>& extra);
+    void startProgram(const std::filesystem::path& scene, const std::vector<std::string>& extra);
 
     TemporaryFolder folder_;
     std::string display_, window_;

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/past_scene.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kMostLead = 90.0; // pictures, however long points are held
+
+} // namespace
+
+PastScene::PastScene(OperateSession& session)
+    : session_(session)
+    , pictures_(session.camera->pictures())
+    , lead_(
+          static_cast<uint32_t>(std::min(kMostLead, std::ceil(session.scene.holdSeconds / kPeriod) + 1.0))) {
+    if (pictures_ == 0) {
+        throw BadInput(session.camera->description(), "recording",
+                       "its pictures come one after the other only", "a recording folder (TUM RGB-D)");
+    }
+}
+
+bool PastScene::process(uint32_t index, PublishedFrame& out) {
+    session_.camera->seek(index);
+    std::optional<Frame> frame = session_.camera->next();
+    if (!frame) {
+        return false;
+    }
+    out.t = (*frame)->index * kPeriod;
+    frame->retime(out.t);
+    out.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
+    out.report = session_.frames.process(std::move(*frame));
+    out.changed = true;
+    return true;
+}
+
+void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
+    index = std::min(index, pictures_ - 1);
+    if (any_ && index == asked_ && (whole_ || !whole)) {
+        return;
+    }
+    const bool follows = any_ && whole_ && index > shown_ && index - shown_ <= lead_;
+    uint32_t first = index;
+    if (follows) {
+        first = shown_ + 1;
+    } else {
+        session_.frames.forget();
+        first = whole ? index - std::min(index, lead_) : index;
+    }
+    PublishedFrame picture;
+    bool good = false;
+    for (uint32_t i = first; i <= index; ++i) {
+        const bool more = process(i, picture);
+        good = good || more;
+        i = more ? std::max(i, picture.report.index) : index; // a bad picture gives the next good one
+    }
+    asked_ = index;
+    any_ = true;
+    whole_ = whole || follows || first == 0;
+    if (good) {
+        shown_ = picture.report.index;
+        const auto set = session_.frames.sets().newest();
+        sink.frame(picture, set->host);
+    }
+}
+
+void PastScene::setScene(const Scene& scene) {
+    session_.frames.setScene(scene);
+    any_ = false;
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// The pictures of a recording through the passes again, any of them at any time.
+#pragma once
+
+#include "apps/operate/operate_session.h"
+#include "apps/operate/snapshots.h"
+
+namespace fathom::operate {
+
+// Thread: the window's; no other uses the session's frame cycle.
+class PastScene {
+public:
+    // Throws BadInput when one cannot choose among the session's pictures.
+    explicit PastScene(OperateSession& session);
+
+    static constexpr double kPeriod = 1.0 / 30.0; // [s] from picture to picture, as in `replay`
+
+    uint32_t pictures() const { return pictures_; }
+    // Leaves picture `index` (or the next good one) and its fixtures in `sink`. whole: with the points that
+    // are held from pictures before it, which takes a run through those; otherwise of this picture alone.
+    // Nothing when that is what is shown already.
+    void show(uint32_t index, bool whole, SnapshotSink& sink);
+    bool whole() const { return whole_; }
+    uint32_t shown() const { return shown_; } // the picture's own index
+    // Other fixtures, of the same classes of points; the next show() makes the picture anew.
+    void setScene(const Scene& scene);
+
+private:
+    bool process(uint32_t index, PublishedFrame& out);
+
+    OperateSession& session_;
+    uint32_t pictures_, lead_;
+    uint32_t asked_ = 0, shown_ = 0;
+    bool any_ = false, whole_ = false;
+};
+
+} // namespace fathom::operate

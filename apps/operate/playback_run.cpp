@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/playback_run.h"
+
+#include "apps/operate/view_click.h"
+#include "apps/operate/why_panel.h"
+#include "devices/recorded/hand_csv.h"
+#include "engine/haptics/hand_map.h"
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <limits>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kFramePeriod = 1.0 / 60.0; // [s] of the window, at best
+constexpr uint32_t kDeadManBit = 2;
+
+double seconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::optional<HandPath> handOf(const std::filesystem::path& folder) {
+    const auto file = folder / "hand.csv";
+    return std::filesystem::exists(file) ? std::optional(HandPath(readHandCsv(file))) : std::nullopt;
+}
+
+// Without what was felt: the device's pose as the hand's map gives it, clutch and all; no tool.
+TurnLog mappedHand(const HandPath& hand, const Scene& scene) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    TurnLog log;
+    HandMap map(scene.hand.baseRdevice, scene.hand.scale);
+    for (const HandWaypoint& w : hand.waypoints()) {
+        Moment moment;
+        moment.t = w.t;
+        moment.device = map.map(w.deviceThandle, (w.buttons & scene.hand.clutchBit) != 0);
+        moment.tool.position = dvec3(kNone);
+        moment.marginPassive = moment.marginUncoupled = kNone;
+        log.moments.push_back(moment);
+    }
+    return log;
+}
+
+// What is known of each turn, the hand from its own file where wrench.csv is without poses.
+TurnLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
+                const Scene& scene) {
+    TurnLog log = readTurnLog(folder);
+    if (!hand || log.poses) {
+        return log;
+    }
+    TurnLog mapped = mappedHand(*hand, scene);
+    if (log.moments.empty()) {
+        return mapped;
+    }
+    for (Moment& moment : log.moments) {
+        const auto at = std::upper_bound(mapped.moments.begin(), mapped.moments.end(), moment.t,
+                                         [](double t, const Moment& m) { return t < m.t; });
+        moment.device = (at == mapped.moments.begin() ? at : at - 1)->device;
+        moment.tool.position = dvec3(std::numeric_limits<double>::quiet_NaN());
+    }
+    return log;
+}
+
+double durationOf(const PastScene& past, const TurnLog& log) {
+    const double pictures = past.pictures() * PastScene::kPeriod;
+    return log.moments.empty() ? pictures : std::max(pictures, log.moments.back().t);
+}
+
+} // namespace
+
+PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& global)
+    : options_(options)
+    , window_(options.offscreen, "Fathom, recording " + options.recording)
+    , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
+               window_.extensions(), signals_.asked())
+    , canvas_(std::make_unique<Canvas>(window_, session_, options.textScale, options.shots))
+    , haptics_(makeHapticOptions(session_.scene, session_.tool))
+    , hand_(handOf(options.recording))
+    , log_(turnsOf(options.recording, hand_, session_.scene))
+    , past_(session_)
+    , sink_(nothing_)
+    , view_(sink_)
+    , editor_(session_.scene,
+              [this](const Scene& scene, const std::vector<Shape>&) {
+                  past_.setScene(scene);
+                  shown_ = -1.0;
+              })
+    , steering_(Pose{}, session_.scene.hand)
+    , panel_(log_, durationOf(past_, log_))
+    , state_(options.state) {
+    console_.textScale = options.textScale;
+    console_.timeLine.on = true;
+    console_.timeLine.pictures = past_.pictures();
+    console_.timeLine.duration = durationOf(past_, log_);
+    if (log_.moments.empty()) {
+        console_.tell("no hand.csv or wrench.csv there: pictures only");
+    }
+}
+
+uint32_t PlaybackRun::run() {
+    double last = started_ = seconds();
+    while (!wantsToEnd()) {
+        window_.beginFrame(std::clamp(kFramePeriod - (seconds() - last), 0.0, kFramePeriod));
+        const double now = seconds(), dt = now - last;
+        windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
+        last = now;
+        frame(dt);
+    }
+    state_.write(console_, view_, extras(), true);
+    return session_.instance.messages();
+}
+
+bool PlaybackRun::wantsToEnd() const {
+    return window_.closed() || console_.quit || signals_.asked().load() ||
+           (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
+}
+
+void PlaybackRun::frame(double dt) {
+    followTime(dt);
+    const bool fresh = view_.refresh();
+    const HudInput hud{view_,
+                       session_.scene,
+                       haptics_,
+                       session_.frames.passNames(),
+                       canvas_->letters(),
+                       options_.recording,
+                       screen_.unknownShare(),
+                       windowHz_,
+                       false};
+    alarms_ = Alarms(); // of this moment, none is latched
+    alarms_.step(console_, view_, haptics_, editor_.scene());
+    screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh});
+    const auto& room = console_.places["traces room"];
+    traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
+    const auto& strip = console_.places["time line room"];
+    panel_.draw(console_, canvas_->letters(), {strip[0], strip[1]}, {strip[2], strip[3]});
+    listen();
+    canvas_->finishFrame(console_, screen_.layers(), [] { return false; });
+    state_.write(console_, view_, extras());
+}
+
+void PlaybackRun::listen() {
+    if (steering_.step(console_, screen_.large(), 0.0)) {
+        clickInView(console_, editor_, screen_, view_.scene(), ImGui::GetIO().MousePos);
+    }
+    panel_.listen(console_);
+    console_.recording = console_.frozen = false; // of a run only
+    if (console_.exportCsv) {
+        console_.exportCsv = false;
+        try {
+            traces_.exportCsv(view_, std::filesystem::path(options_.shots) / "traces.csv");
+            console_.tell("traces written");
+        } catch (const Error& e) {
+            console_.tell(e.what());
+        }
+    }
+}
+
+void PlaybackRun::followTime(double dt) {
+    TimeLine& line = console_.timeLine;
+    if (line.playing) {
+        line.t += dt * line.speed;
+        line.playing = line.t < line.duration;
+    }
+    line.t = std::clamp(line.t, 0.0, line.duration);
+    const auto picture = static_cast<uint32_t>(line.t / PastScene::kPeriod + 1e-6);
+    past_.show(picture, !line.dragged, sink_);
+    line.picture = past_.shown();
+    line.wholeMemory = past_.whole();
+    if (line.t != shown_) {
+        shown_ = line.t;
+        showMoment();
+    }
+}
+
+uint32_t PlaybackRun::buttonsAt(double t) const {
+    return hand_ ? hand_->at(t).buttons : kDeadManBit;
+}
+
+// The ten seconds before this moment, so that traces and blocks are as they were.
+void PlaybackRun::showMoment() {
+    constexpr double kSame = 1e-9; // [s]
+    view_.rewind();
+    const double t = console_.timeLine.t;
+    const auto& moments = log_.moments;
+    const auto after = [&](double when) {
+        return static_cast<size_t>(
+            std::upper_bound(moments.begin(), moments.end(), when,
+                             [](double value, const Moment& m) { return value < m.t; }) -
+            moments.begin());
+    };
+    const size_t end = after(t + kSame);
+    TurnRow row;
+    for (size_t i = after(t - RunView::kSpan); i < end; ++i) {
+        row.record = log_.recordAt(i);
+        view_.take(row);
+    }
+    const uint32_t buttons = buttonsAt(t);
+    console_.forces = (buttons & kDeadManBit) == 0;
+    console_.guidance = (buttons & kGuidanceButton) != 0;
+}
+
+StateExtras PlaybackRun::extras() const {
+    StateExtras extras;
+    extras.mode = modeOf(console_, view_).word;
+    extras.windowFrames = canvas_->painter().drawn();
+    extras.swapchains = canvas_->swapchains();
+    const VkExtent2D size = window_.size();
+    extras.width = size.width;
+    extras.height = size.height;
+    extras.validationMessages = session_.instance.messages();
+    extras.unknownShare = screen_.unknownShare();
+    extras.alarms = alarms_.inWords();
+    extras.scene = &editor_.scene();
+    extras.shapes = editor_.shapes().size();
+    extras.selected = editor_.selectedPoints();
+    if (!view_.blocks().empty()) {
+        extras.why = whyBlocked(view_.blocks().front(), editor_.scene(), view_.scene().set);
+    }
+    return extras;
+}
+
+} // namespace fathom::operate

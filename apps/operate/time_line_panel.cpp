@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/time_line_panel.h"
+
+#include "apps/operate/past_scene.h"
+
+#include <GLFW/glfw3.h>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <imgui.h>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kTurn = 0.001; // [s] of a step where no turn tells more
+constexpr double kSlowest = 1.0 / 16.0, kFastest = 4.0;
+
+void stepPictures(TimeLine& line, int by) {
+    const auto now = static_cast<int64_t>(std::floor(line.t / PastScene::kPeriod + 1e-6));
+    line.t = static_cast<double>(std::max<int64_t>(0, now + by)) * PastScene::kPeriod;
+    line.playing = false;
+}
+
+// To the next or the previous recorded turn.
+void stepTurns(TimeLine& line, const std::vector<double>& times, int by) {
+    constexpr double kSame = 1e-9; // [s]
+    line.playing = false;
+    if (by > 0) {
+        const auto next = std::upper_bound(times.begin(), times.end(), line.t + kSame);
+        line.t = next == times.end() ? line.t + kTurn : *next;
+    } else {
+        const auto here = std::lower_bound(times.begin(), times.end(), line.t - kSame);
+        line.t = here == times.begin() ? line.t - kTurn : *(here - 1);
+    }
+}
+
+} // namespace
+
+TimeLinePanel::TimeLinePanel(const TurnLog& log, double duration)
+    : columns_(kColumns) {
+    for (const Moment& moment : log.moments) {
+        times_.push_back(moment.t);
+        const double share = duration > 0.0 ? moment.t / duration : 0.0;
+        const auto at =
+            static_cast<size_t>(std::clamp(share, 0.0, 1.0) * static_cast<double>(kColumns - 1) + 0.5);
+        const auto force = static_cast<float>(glm::length(moment.wrench.force));
+        Column& column = columns_[at];
+        column.any = true;
+        column.force = std::max(column.force, std::isfinite(force) ? force : 0.0f);
+        column.contact = column.contact || moment.contacts > 0;
+        column.guided = column.guided || moment.guidance > 0.0;
+        most_ = std::max(most_, column.force);
+    }
+}
+
+void TimeLinePanel::listen(Console& console) const {
+    TimeLine& line = console.timeLine;
+    const ImGuiIO& io = ImGui::GetIO();
+    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, true); };
+    if (!io.WantTextInput && !io.KeyCtrl) {
+        if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) {
+            line.playing = !line.playing;
+            line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
+        }
+        for (const auto& [key, by] : {std::pair(GLFW_KEY_LEFT, -1), std::pair(GLFW_KEY_RIGHT, 1)}) {
+            if (pressed(key)) {
+                io.KeyShift ? stepTurns(line, times_, by) : stepPictures(line, by);
+            }
+        }
+        if (pressed(GLFW_KEY_HOME)) {
+            line.t = 0.0;
+        }
+        if (pressed(GLFW_KEY_END)) {
+            line.t = line.duration;
+        }
+        if (pressed(GLFW_KEY_LEFT_BRACKET)) {
+            line.speed = std::max(kSlowest, 0.5 * line.speed);
+        }
+        if (pressed(GLFW_KEY_RIGHT_BRACKET)) {
+            line.speed = std::min(kFastest, 2.0 * line.speed);
+        }
+    }
+    line.t = std::clamp(line.t, 0.0, line.duration);
+}
+
+void TimeLinePanel::draw(Console& console, const Letters& letters, ImVec2 at, ImVec2 size) const {
+    ImGui::SetNextWindowPos(at);
+    ImGui::SetNextWindowSize(size);
+    ImGui::Begin("time line", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoNavInputs);
+    ImGui::PushFont(letters.small);
+    drawButtons(console);
+    drawStrip(console);
+    ImGui::PopFont();
+    ImGui::End();
+}
+
+void TimeLinePanel::drawButtons(Console& console) const {
+    TimeLine& line = console.timeLine;
+    const auto button = [&](const char* label, const char* name) {
+        const bool hit = ImGui::SmallButton(label);
+        markPlace(console, name);
+        ImGui::SameLine(0.0f, 5.0f);
+        return hit;
+    };
+    if (button("|<", "to begin")) {
+        line.t = 0.0;
+    }
+    if (button("< picture", "back")) {
+        stepPictures(line, -1);
+    }
+    if (button(line.playing ? "Pause (Space)" : "\xe2\x96\xb6 Play (Space)", "play")) {
+        line.playing = !line.playing;
+        line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
+    }
+    if (button("picture >", "forth")) {
+        stepPictures(line, 1);
+    }
+    if (button(">|", "to end")) {
+        line.t = line.duration;
+    }
+    char text[160];
+    std::snprintf(text, sizeof text, "%.3f of %.3f s   picture %u of %u   speed %.3g   most %.2f N%s", line.t,
+                  line.duration, line.picture + 1, line.pictures, line.speed, double{most_},
+                  line.wholeMemory ? "" : "   this picture alone");
+    ImGui::TextDisabled("  %s", text);
+}
+
+// Force as it was felt, contact yellow, guidance blue, a tick a picture, and the head.
+void TimeLinePanel::drawStrip(Console& console) const {
+    TimeLine& line = console.timeLine;
+    const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();
+    ImGui::InvisibleButton("strip", {std::max(16.0f, room.x), std::max(12.0f, room.y)});
+    markPlace(console, "time line");
+    line.dragged = ImGui::IsItemActive();
+    if (line.dragged && line.duration > 0.0) {
+        const double share = (double{ImGui::GetIO().MousePos.x} - double{at.x}) / double{room.x};
+        line.t = std::clamp(share, 0.0, 1.0) * line.duration;
+        line.playing = false;
+    }
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const float low = at.y + room.y, step = room.x / static_cast<float>(kColumns);
+    list.AddRectFilled(at, {at.x + room.x, low}, IM_COL32(12, 16, 23, 255), 4.0f);
+    for (size_t i = 0; i < kColumns; ++i) {
+        const Column& column = columns_[i];
+        const float x = at.x + step * static_cast<float>(i);
+        const float tall = most_ > 0.0f ? (room.y - 8.0f) * column.force / most_ : 0.0f;
+        list.AddRectFilled({x, low - 4.0f - tall}, {x + step + 0.5f, low - 4.0f},
+                           column.contact ? colour::kTouch : colour::kForce);
+        if (column.any) {
+            list.AddRectFilled({x, low - 4.0f}, {x + step + 0.5f, low},
+                               column.guided ? colour::kGuidance : IM_COL32(52, 66, 88, 255));
+        }
+    }
+    const float apart = room.x / static_cast<float>(std::max(1u, line.pictures));
+    for (uint32_t i = 0; apart > 4.0f && i < line.pictures; ++i) {
+        const float x = at.x + apart * static_cast<float>(i);
+        list.AddLine({x, at.y}, {x, at.y + 4.0f}, IM_COL32(120, 134, 156, 160));
+    }
+    const double share = line.duration > 0.0 ? line.t / line.duration : 0.0;
+    const float head = at.x + room.x * static_cast<float>(share);
+    list.AddLine({head, at.y}, {head, low}, colour::kPicked, 2.0f);
+    list.AddTriangleFilled({head - 6.0f, at.y}, {head + 6.0f, at.y}, {head, at.y + 9.0f}, colour::kPicked);
+}
+
+} // namespace fathom::operate

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The time line of a recording: a head to drag over the force that was felt, buttons, keys.
+#pragma once
+
+#include "apps/operate/console.h"
+#include "apps/operate/theme.h"
+#include "apps/operate/turn_log.h"
+
+#include <vector>
+
+namespace fathom::operate {
+
+// A recording in a few hundred columns.
+class TimeLinePanel {
+public:
+    TimeLinePanel(const TurnLog& log, double duration);
+
+    // Thread: the window's; inside an ImGui frame. Changes console.timeLine only.
+    void listen(Console& console) const; // keys
+    void draw(Console& console, const Letters& letters, ImVec2 at, ImVec2 size) const;
+
+private:
+    void drawButtons(Console& console) const;
+    void drawStrip(Console& console) const;
+
+    static constexpr size_t kColumns = 1024;
+    struct Column {
+        float force = 0.0f; // [N] largest
+        bool contact = false, guided = false, any = false;
+    };
+    std::vector<Column> columns_;
+    std::vector<double> times_; // [s] of turns
+    float most_ = 0.0f;         // [N]
+};
+
+} // namespace fathom::operate

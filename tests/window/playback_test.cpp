@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/program/run_fathom.h"
+#include "tests/window/felt.h"
+#include "tests/window/window_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <doctest/doctest.h>
+#include <fstream>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+bool isRed(int r, int g, int b) {
+    return r > 110 && r > 2 * g && r > 2 * b;
+}
+
+// Two seconds without a hand's motion, then against the bump. Returns the folder.
+std::filesystem::path recordAPush(WindowRig& rig) {
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    rig.xdo("mousemove --window $W 300 300");
+    const auto turns = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 1500; }));
+    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
+        rig.wheel(8);
+    }
+    REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
+    const auto pushed = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > pushed + 1500; }));
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
+    }));
+    return rig.folder() / "recording-1";
+}
+
+// The yellow square is red from this picture on.
+void paintRedFrom(const std::filesystem::path& folder, uint32_t first) {
+    const Picture picture = bumpPicture().paint({4, 16, 14, 30}, kRed);
+    std::vector<uint8_t> bytes;
+    for (const Paint3& paint : picture.colour) {
+        bytes.insert(bytes.end(), {paint.r, paint.g, paint.b});
+    }
+    for (uint32_t i = first;; ++i) {
+        char name[32];
+        std::snprintf(name, sizeof name, "rgb/%06u.png", i);
+        if (!std::filesystem::exists(folder / name)) {
+            return;
+        }
+        writePng(folder / name, picture.width, picture.height, 8, 2, bytes); // RGB
+    }
+}
+
+// Drags the head there; the share of the recording.
+void dragTo(WindowRig& rig, double share) {
+    const double now = rig.state()["console"]["time_line"]["t"].get<double>() /
+                       rig.state()["console"]["time_line"]["duration"].get<double>();
+    rig.drag("time line", {now, 0.5}, {share, 0.5});
+    REQUIRE(rig.await([&](const json& s) {
+        const json& line = s["console"]["time_line"];
+        return std::abs(line["t"].get<double>() - share * line["duration"].get<double>()) < 0.02 &&
+               line["whole_memory"] == true;
+    }));
+}
+
+double lineTime(const json& s) {
+    return s["console"]["time_line"]["t"];
+}
+
+} // namespace
+
+TEST_CASE(
+    "Dragging the time line of a recording shows picture, regions, tool, hand and force of that moment") {
+    WindowRig rig;
+    const std::filesystem::path folder = recordAPush(rig);
+    const std::vector<Felt> felt = feltIn(folder / "wrench.csv", 1, 7);
+    REQUIRE(firstContact(felt) > 0.5);
+    const auto last = static_cast<uint32_t>(felt.back().t * 30.0);
+    paintRedFrom(folder, last - 8);
+    rig.reopen(folder);
+    REQUIRE(rig.state()["console"]["time_line"]["on"] == true);
+    CHECK(rig.state()["console"]["time_line"]["pictures"].get<uint32_t>() >= last);
+
+    dragTo(rig, 0.1);
+    const json early = rig.state();
+    CHECK(early["run"]["contacts"] == 0);
+    CHECK(early["run"]["force_N"] == 0.0);
+    CHECK(early["console"]["time_line"]["picture"] == static_cast<int>(lineTime(early) * 30.0 + 1e-6));
+    const auto square = [&] {
+        const auto camera = rig.place("camera");
+        return std::array<double, 4>{camera[0] + camera[2] * 5 / 64, camera[1] + camera[3] * 17 / 48,
+                                     camera[2] * 8 / 64, camera[3] * 12 / 48};
+    };
+    CHECK(rig.shoot("playback-early").share(square(), isRed) < 0.3);
+
+    dragTo(rig, 0.985);
+    const json late = rig.state();
+    const auto at = std::lower_bound(felt.begin(), felt.end(), late["run"]["t"].get<double>() - 1e-7,
+                                     [](const Felt& f, double t) { return f.t < t; });
+    REQUIRE(at != felt.end());
+    CHECK(lineTime(late) - at->t < 0.01);
+    CHECK(late["run"]["force_N"].get<double>() == doctest::Approx(at->force).epsilon(1e-6));
+    CHECK(late["run"]["force_N"] > 1.0);
+    CHECK(late["run"]["device"][2].get<double>() > late["run"]["tool"][2].get<double>() + 0.001);
+    CHECK(late["mode"] == "CONTACT");
+    CHECK(late["why"].get<std::string>().find("'red'") != std::string::npos);
+    CHECK(late["run"]["spheres"].get<int>() >= early["run"]["spheres"].get<int>() + 100);
+    CHECK(rig.shoot("playback").share(square(), isRed) > 0.6);
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+}
+
+TEST_CASE("A recording is stepped by pictures and turns, and plays until it is told to stop") {
+    WindowRig rig;
+    const std::filesystem::path folder = recordAPush(rig);
+    rig.reopen(rig.folder() / "scene.yaml", {"--recording", folder.string()});
+    const auto picture = [](const json& s) { return s["console"]["time_line"]["picture"].get<int>(); };
+    for (int i = 1; i <= 3; ++i) {
+        rig.key("Right");
+        CHECK(rig.await([&](const json& s) { return picture(s) == i; }));
+    }
+    rig.key("Left");
+    CHECK(rig.await([&](const json& s) { return picture(s) == 2; }));
+    const double before = lineTime(rig.state());
+    rig.key("shift+Right");
+    REQUIRE(rig.await([&](const json& s) { return lineTime(s) > before; }));
+    CHECK(lineTime(rig.state()) < before + 0.01); // a turn, not a picture
+    rig.key("End");
+    REQUIRE(rig.await([&](const json& s) { return lineTime(s) == s["console"]["time_line"]["duration"]; }));
+    rig.key("Home");
+    REQUIRE(rig.await([&](const json& s) { return lineTime(s) == 0.0; }));
+    rig.key("space");
+    REQUIRE(rig.await(
+        [&](const json& s) { return lineTime(s) > 0.3 && s["console"]["time_line"]["playing"] == true; }));
+    rig.click("play");
+    REQUIRE(rig.await([&](const json& s) { return s["console"]["time_line"]["playing"] == false; }));
+    const double stopped = lineTime(rig.state());
+    rig.key("Tab"); // the window goes on, the recording does not
+    REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
+    CHECK(lineTime(rig.state()) == stopped);
+    CHECK(rig.close() == 0);
+}
+
+TEST_CASE("What is no recording is refused in one line with exit code 2") {
+    const TemporaryFolder folder;
+    folder.write("recording/hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button\n");
+    const ProgramRun none =
+        runFathom({"operate", (folder.path() / "recording").string(), "--offscreen", "640x480"});
+    CHECK(none.exitCode == 2);
+    REQUIRE(none.errorLines().size() == 1);
+    CHECK(none.errorLines()[0].find("scene.yaml") != std::string::npos);
+    writeRecording(folder.path() / "recording", {bumpPicture()});
+    folder.write("recording/hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button\n0,0,0,0,1,0,0,0,0\n");
+    folder.write("recording/scene.yaml", SceneText{}.text());
+    folder.write("recording/wrench.csv", "t_s,fx,fy,fz,tx,ty,tz,contacts,state\n0,0,0,zero,0,0,0,0,0\n");
+    const ProgramRun damaged = runFathom({"operate", (folder.path() / "recording").string(), "--offscreen",
+                                          "640x480", "--device", "llvmpipe"});
+    CHECK(damaged.exitCode == 2);
+    REQUIRE(damaged.errorLines().size() == 1);
+    CHECK(damaged.errorLines()[0].find("wrench.csv: line 2, column 4: 'zero'") != std::string::npos);
+}
