@@ -62,6 +62,7 @@ struct Console {
     int editedRow = -1; // whose slider is being dragged: the fixture changes when it is let go
     float editedMillimetres = 0.0f;
 
+    std::string hovered;      // words about the block that the mouse points at
     std::string notice;       // one line about the last thing done, with
     double noticeUntil = 0.0; // [s] of ImGui's clock
     void tell(std::string words);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/screen.h"
 
+#include "apps/operate/hover.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/why_panel.h"
 
@@ -120,7 +121,11 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
             drawCameraFrustum(list, *port, input.run.scene().set);
             drawBounds(list, *port, space_.bounds());
         }
-        drawMarks(list, {*port, input.run, input.tool, editor.scene(), editor.shapes(), large});
+        const MarksInput marks{*port, input.run, input.tool, editor.scene(), editor.shapes(), large};
+        drawMarks(list, marks);
+        if (large) {
+            drawHover(console, list, marks);
+        }
         const char* name = port == &*cameraPort_    ? "camera"
                            : console.treeLevel >= 0 ? "3D, tree bounds"
                                                     : "3D";

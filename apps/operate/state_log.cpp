@@ -118,7 +118,8 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
                  {"fixtures", fixturesOf(extras.scene)},
                  {"shapes", extras.shapes},
                  {"selected", extras.selected},
-                 {"why", extras.why}};
+                 {"why", extras.why},
+                 {"hovered", console.hovered}};
     out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;
     if (!out_) {
         throw Error(name_ + ": cannot be written");

@@ -36,7 +36,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Ctrl Z, Ctrl Y", "undo, redo of fixtures"},
         KeyHelp{"Ctrl S", "save the fixtures to the scene file"},
         KeyHelp{"P, E", "hold the traces; write them as CSV"},
-        KeyHelp{"W", "why did it stop?"},
+        KeyHelp{"W", "why did it stop? Or point at the contact"},
         KeyHelp{"Q", "acknowledge alarms"},
         KeyHelp{"R", "record, stop"},
         KeyHelp{"of a recording", "Space plays; arrows: a picture, with Shift a turn; Home, End; [ ]: speed"},

@@ -162,17 +162,6 @@ TEST_CASE("A colour is picked by a click, previewed, added, obeyed, undone, done
     silent(rig);
 }
 
-TEST_CASE("A shape is placed by a click on the cloud and stops the tool") {
-    WindowRig rig;
-    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
-    rig.click("place sphere");
-    rig.click("camera", 0.2, 0.2);
-    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
-    CHECK(rig.state()["fixtures"].size() == 3);
-    rig.shoot("shape");
-    silent(rig);
-}
-
 TEST_CASE("Frozen fixtures keep their set while pictures go on") {
     WindowRig rig;
     rig.key("f");

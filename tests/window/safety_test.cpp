@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// What keeps the pilot safe and tells why: alarms, forces off, shapes that stop the tool.
+#include "tests/window/window_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <thread>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+bool alarm(const json& s, const std::string& words) {
+    const json& alarms = s["alarms"];
+    return std::any_of(alarms.begin(), alarms.end(),
+                       [&](const json& a) { return a.get<std::string>().find(words) != std::string::npos; });
+}
+
+bool isAdvisory(int r, int g, int b) {
+    return std::abs(r - 110) < 24 && std::abs(g - 214) < 24 && std::abs(b - 235) < 24;
+}
+
+glm::dvec3 vec(const json& v) {
+    return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+}
+
+// Holds a key until the hand is there.
+void hold(WindowRig& rig, const std::string& key, const std::function<bool(const glm::dvec3& hand)>& there) {
+    rig.keyDown(key);
+    CHECK(rig.await([&](const json& s) { return there(vec(s["run"]["device"])); }));
+    rig.keyUp(key);
+}
+
+// A point of the wall, 600 mm away, under a share of the picture.
+glm::dvec3 wallAt(double u, double v) {
+    return 0.6 * glm::dvec3((u * kWidth - 0.5 - kCx) / kFocal, (v * kHeight - 0.5 - kCy) / kFocal, 1.0);
+}
+
+void close(WindowRig& rig) {
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+}
+
+} // namespace
+
+TEST_CASE(
+    "An alarm stays after its cause has gone, until it is acknowledged, and comes again with its cause") {
+    WindowRig rig;
+    rig.key("f");
+    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
+    rig.key("f");
+    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY latched frozen"); }));
+    const auto turns = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 700; }));
+    CHECK(alarm(rig.state(), "ADVISORY latched frozen"));
+    rig.click("tab Alarms");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["tab"] == 2; }));
+    const auto button = rig.place("acknowledge");
+    const std::array<double, 4> list{button[0], button[1] + button[3], 330.0, 120.0};
+    CHECK(rig.shoot("alarms").share(list, isAdvisory) > 0.0015);
+    rig.key("q");
+    REQUIRE(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
+    CHECK(rig.shoot("alarms-none").share(list, isAdvisory) < 0.0003);
+    rig.key("f");
+    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
+    rig.click("acknowledge"); // while it lasts: quiet, but there
+    REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active acknowledged frozen"); }));
+    rig.key("f");
+    CHECK(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
+    close(rig);
+}
+
+TEST_CASE("The space bar turns forces off while text is typed, when letters are text and no keys") {
+    WindowRig rig;
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    rig.keyDown("ctrl");
+    rig.click("radius red");
+    rig.keyUp("ctrl");
+    rig.key("g"); // text: no guidance
+    rig.key("space");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
+    rig.key("a"); // text: not armed
+    const auto turns = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 500; }));
+    CHECK(rig.state()["console"]["forces"] == false);
+    CHECK(rig.state()["console"]["guidance"] == false);
+    CHECK(rig.state()["run"]["force_N"] == 0.0);
+    rig.key("Escape"); // leaves the field
+    rig.key("a");
+    CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    close(rig);
+}
+
+TEST_CASE(
+    "A shape that is placed by a click stops the tool, which keys drive at it, and an undo lets it on") {
+    constexpr double kU = 0.2, kV = 0.2, kRadius = 0.05, kLeaf = 0.01;
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    rig.click("place sphere");
+    rig.click("camera", kU, kV);
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
+    CHECK(rig.state()["fixtures"].size() == 3);
+    const glm::dvec3 centre = wallAt(kU, kV);
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    hold(rig, "Left", [&](const glm::dvec3& hand) { return hand.x < centre.x + 0.01; });
+    hold(rig, "Up", [&](const glm::dvec3& hand) { return hand.y < centre.y + 0.01; });
+    hold(rig, "Page_Up", [&](const glm::dvec3& hand) { return hand.z > centre.z - 0.04; });
+    REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.5; }));
+    const json stopped = rig.state();
+    const double apart = glm::distance(vec(stopped["run"]["tool"]), centre);
+    CHECK(apart > kRadius + kLeaf - 0.012); // a pixel of the picture is 10 mm wide
+    CHECK(apart < kRadius + kLeaf + 0.012);
+    CHECK(glm::distance(vec(stopped["run"]["device"]), centre) < apart - 0.005); // the hand went on
+    CHECK(stopped["why"].get<std::string>().find("'sphere 1', an authored shape") != std::string::npos);
+    rig.key("w");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["tab"] == 1; }));
+    rig.shoot("shape");
+    rig.key("ctrl+z");
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 0; }));
+    CHECK(rig.await(
+        [](const json& s) { return glm::distance(vec(s["run"]["tool"]), vec(s["run"]["device"])) < 0.001; }));
+    close(rig);
+}
+
+TEST_CASE("Pointing at the contact tells class, region sphere, depth and frame; elsewhere it tells nothing") {
+    WindowRig rig;
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    rig.xdo("mousemove --window $W 300 300");
+    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
+        rig.wheel(8);
+    }
+    REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.2; }));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500)); // the tool comes to rest
+    const auto at = rig.place("contact");
+    const auto beside = [&](double x, double y) {
+        return std::array<double, 4>{at[0] + x, at[1] + y, 260.0, 40.0};
+    };
+    rig.xdo("mousemove --window $W 300 80");
+    REQUIRE(rig.await([](const json& s) { return s["hovered"] == ""; }));
+    const auto dark = [](int r, int g, int b) { return r < 40 && g < 40 && b < 50; };
+    const double before = rig.shoot("no-hover").share(beside(30, 24), dark);
+    rig.xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + 3)) + " " +
+            std::to_string(std::lround(at[1] + 3)));
+    REQUIRE(rig.await([](const json& s) { return s["hovered"] != ""; }));
+    const auto words = rig.state()["hovered"].get<std::string>();
+    for (const char* part : {"'red'", "region sphere of pixel (", "mm beyond", "since frame"}) {
+        CAPTURE(part);
+        CHECK(words.find(part) != std::string::npos);
+    }
+    CHECK(rig.shoot("hover").share(beside(30, 24), dark) > before + 0.4);
+    rig.xdo("mousemove --window $W 300 80");
+    CHECK(rig.await([](const json& s) { return s["hovered"] == ""; }));
+    close(rig);
+}
