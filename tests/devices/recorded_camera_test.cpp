@@ -240,3 +240,27 @@ TEST_CASE("No line of an index leads out of the recording's folder") {
     CHECK(readIndex(folder.path(), {}).size() == 1);
     spdlog::set_level(level);
 }
+
+TEST_CASE("any picture of a recording can be asked for, and a bad one is counted once") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 5);
+    std::filesystem::remove(folder.path() / "depth/1.png");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.pictures() == 5);
+    const auto next = [&] {
+        const std::optional<Frame> frame = camera.next();
+        return frame ? static_cast<int>((*frame)->depth[0]) : 0;
+    };
+    REQUIRE(camera.seek(3));
+    CHECK(next() == 1003);
+    CHECK(next() == 1004);
+    CHECK(next() == 0);
+    for (int round = 0; round < 3; ++round) {
+        REQUIRE(camera.seek(1)); // back in time; the next good one
+        CHECK(next() == 1002);
+        CHECK(camera.skipped() == 1);
+    }
+    REQUIRE(camera.seek(0));
+    CHECK(next() == 1000);
+    CHECK_FALSE(camera.seek(5));
+}
