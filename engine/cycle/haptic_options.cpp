@@ -36,6 +36,8 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.proxy.solves = haptics.solves;
     options.forceLimit = haptics.forceLimit.value_or(options.device.forceLimit);
     options.torqueLimit = haptics.torqueLimit.value_or(options.device.torqueLimit) * torqueShare;
+    options.guidance.force = haptics.pullForce;
+    options.guidance.torque = haptics.pullTorque;
     options.needsContacts = scene.hasForbiddenPoints();
     return options;
 }

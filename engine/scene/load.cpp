@@ -27,7 +27,7 @@ std::filesystem::path besideScene(Scene& scene, const std::string& path) {
 Scene loadScene(const std::filesystem::path& file) {
     const YamlNode root = YamlNode::parseFile(file);
     root.checkKeys({"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "arm", "hand",
-                    "haptics", "contact"});
+                    "haptics", "contact", "pilots", "pilot", "window"});
     Scene scene;
     scene.file = file;
     if (const auto camera = root.find("camera")) {
@@ -61,6 +61,21 @@ Scene loadScene(const std::filesystem::path& file) {
     }
     if (const auto contact = root.find("contact")) {
         loadContact(*contact, scene);
+    }
+    if (const auto pilots = root.find("pilots")) {
+        loadPilots(*pilots, scene);
+    }
+    if (const auto pilot = root.find("pilot")) {
+        std::string names;
+        for (const Scene::Pilot& p : scene.pilots) {
+            names += (names.empty() ? "" : ", ") + p.name;
+        }
+        if (!scene.choosePilot(pilot->text())) {
+            pilot->refuse(names.empty() ? "none: the file has no pilots" : names);
+        }
+    }
+    if (const auto window = root.find("window")) {
+        loadWindow(*window, scene);
     }
     return scene;
 }

@@ -16,7 +16,12 @@ void loadArmSection(const YamlNode& arm, Scene& scene);
 SceneArm::Driver loadArmDriver(const YamlNode& driver);
 void loadHand(const YamlNode& hand, Scene& scene);
 void loadHaptics(const YamlNode& haptics, Scene& scene);
+void loadPilots(const YamlNode& pilots, Scene& scene); // after hand and haptics
+void loadWindow(const YamlNode& window, Scene& scene);
 void loadContact(const YamlNode& contact, Scene& scene);
+
+// Stiffness and limits: what a pilot may have otherwise. The caller has checked the keys.
+void loadFeel(const YamlNode& node, Scene::Haptics& haptics);
 
 // {xyz, quat_xyzw}, each optional.
 Pose loadPose(const YamlNode& node);

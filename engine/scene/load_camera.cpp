@@ -84,7 +84,11 @@ void loadBeam(const YamlNode& node, Scene& scene) {
 } // namespace
 
 void loadCamera(const YamlNode& camera, Scene& scene) {
-    camera.checkKeys({"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam"});
+    camera.checkKeys(
+        {"source", "near", "far", "base_T_camera", "registration_sigma", "port", "beam", "attenuation"});
+    if (const auto attenuation = camera.find("attenuation")) {
+        scene.attenuation = attenuation->vec3(Range::between(0.0, 20.0));
+    }
     if (const auto source = camera.find("source")) {
         scene.source = loadSource(*source, scene);
     }

@@ -38,21 +38,36 @@ void loadLimits(const YamlNode& limits, Scene::Haptics& haptics) {
 
 } // namespace
 
+void loadFeel(const YamlNode& node, Scene::Haptics& haptics) {
+    if (const auto stiffness = node.find("stiffness")) {
+        haptics.stiffness = loadUnless(*stiffness, "auto", Range::positive());
+    }
+    if (const auto stiffness = node.find("rotational_stiffness")) {
+        haptics.rotationalStiffness = loadUnless(*stiffness, "auto", Range::positive());
+    }
+    if (const auto limits = node.find("limits")) {
+        loadLimits(*limits, haptics);
+    }
+    if (const auto pull = node.find("guidance_pull")) {
+        pull->checkKeys({"force", "torque"});
+        if (const auto force = pull->find("force")) {
+            haptics.pullForce = force->number(Range::notNegative());
+        }
+        if (const auto torque = pull->find("torque")) {
+            haptics.pullTorque = torque->number(Range::notNegative());
+        }
+    }
+}
+
 void loadHaptics(const YamlNode& node, Scene& scene) {
     node.checkKeys({"rate_hz", "device", "stiffness", "rotational_stiffness", "guidance", "step_cap",
-                    "solves", "delay", "limits"});
+                    "solves", "delay", "limits", "guidance_pull"});
     Scene::Haptics& haptics = scene.haptics;
     if (const auto rate = node.find("rate_hz")) {
         haptics.rateHz = rate->number(Range::between(100.0, 10000.0));
     }
     if (const auto device = node.find("device")) {
         haptics.device = device->text();
-    }
-    if (const auto stiffness = node.find("stiffness")) {
-        haptics.stiffness = loadUnless(*stiffness, "auto", Range::positive());
-    }
-    if (const auto stiffness = node.find("rotational_stiffness")) {
-        haptics.rotationalStiffness = loadUnless(*stiffness, "auto", Range::positive());
     }
     if (const auto guidance = node.find("guidance")) {
         using Mode = Scene::Haptics::GuidanceMode;
@@ -67,9 +82,7 @@ void loadHaptics(const YamlNode& node, Scene& scene) {
     if (const auto delay = node.find("delay")) {
         haptics.delay = delay->integer(0, 64);
     }
-    if (const auto limits = node.find("limits")) {
-        loadLimits(*limits, haptics);
-    }
+    loadFeel(node, haptics);
 }
 
 void loadContact(const YamlNode& node, Scene& scene) {

@@ -20,4 +20,16 @@ bool Scene::usesColour() const {
                        [](const FixtureClass& f) { return f.isPoints() && f.usesColour(); });
 }
 
+bool Scene::choosePilot(const std::string& name) {
+    const auto at =
+        std::find_if(pilots.begin(), pilots.end(), [&](const Pilot& p) { return p.name == name; });
+    if (at == pilots.end()) {
+        return false;
+    }
+    pilot = name;
+    haptics = at->haptics;
+    hand.scale = at->scale;
+    return true;
+}
+
 } // namespace fathom

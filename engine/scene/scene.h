@@ -47,6 +47,8 @@ struct FixtureClass {
     // Shapes.
     ShapeKind shape = ShapeKind::None;
     bool keepIn = false; // role keep_in: stay inside the shape
+    // Points: stay where they were when this was set, for as long as a run goes on (no key of a file).
+    bool frozen = false;
     Pose baseTshape;
     dvec3 size{0.0}; // [m] box: edge lengths; sphere: x = radius; cylinder: x = radius, y = length
 
@@ -124,6 +126,9 @@ struct Scene {
         double distance = 0.0; // [m] from the lens to the water
         double index = 1.34;   // sea water
     };
+    // [1/m] of linear light along the ray from point to lens: red, green, blue (Beer and Lambert). Colours
+    // are put right by it before any gate looks at them; empty = taken as they are.
+    std::optional<dvec3> attenuation;
     std::optional<Port> port;               // the camera looks through a flat port, calibrated in air
     struct Beam {                           // in place of what the sensor tells of itself, BeamSigma
         double range = 0.0, perMetre = 0.0; // [m], [m/m]
@@ -173,7 +178,26 @@ struct Scene {
         double slewTorque = 50.0;                      // [N m/s]
         double lowpassHz = 0.0;                        // 0 = off
         uint32_t delay = 0;                            // whole turns from a wrench to the hand
+        double pullForce = 2.0, pullTorque = 0.1;      // [N], [N m] most that guidance is felt as
     } haptics;
+
+    // What a pilot wants to have otherwise: the scene's own haptics and scale with some things changed.
+    struct Pilot {
+        std::string name;
+        Haptics haptics;
+        double scale = 1.0; // of the hand's map
+    };
+    std::vector<Pilot> pilots;
+    std::string pilot; // in force: name of one of them; empty = there are none
+    // Puts that one's haptics and scale in force; false when there is none of that name.
+    bool choosePilot(const std::string& name);
+
+    struct Window { // the operator's
+        double textScale = 1.0;
+        bool spaceIsLarge = false;                       // the 3D view is the large one
+        double yaw = 0.55, pitch = 0.45, distance = 1.3; // [rad], [m] of the eye in it
+    };
+    std::optional<Window> window;
 
     struct Contact {
         enum class Where { Auto, Cpu, Gpu } where = Where::Auto;

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sections `pilots` and `window` of a scene file.
+#include "engine/scene/load.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+namespace {
+
+constexpr size_t kMostPilots = 32;
+
+Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
+    row.checkKeys({"name", "stiffness", "rotational_stiffness", "limits", "guidance_pull", "scale"});
+    Scene::Pilot pilot{row.at("name").text(), scene.haptics, scene.hand.scale};
+    const auto sameName = [&](const Scene::Pilot& other) { return other.name == pilot.name; };
+    if (std::any_of(scene.pilots.begin(), scene.pilots.end(), sameName)) {
+        row.at("name").refuse("a name that no earlier pilot has");
+    }
+    loadFeel(row, pilot.haptics);
+    if (const auto scale = row.find("scale")) {
+        pilot.scale = scale->number(Range::positive());
+    }
+    return pilot;
+}
+
+} // namespace
+
+void loadPilots(const YamlNode& pilots, Scene& scene) {
+    const std::vector<YamlNode> rows = pilots.list();
+    if (rows.empty() || rows.size() > kMostPilots) {
+        pilots.refuse(std::to_string(rows.size()) + " pilots", "1 to " + std::to_string(kMostPilots));
+    }
+    for (const YamlNode& row : rows) {
+        scene.pilots.push_back(loadPilot(row, scene));
+    }
+    scene.choosePilot(scene.pilots.front().name);
+}
+
+void loadWindow(const YamlNode& window, Scene& scene) {
+    window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance"});
+    Scene::Window& w = scene.window.emplace();
+    if (const auto scale = window.find("text_scale")) {
+        w.textScale = scale->number(Range::between(0.75, 2.0));
+    }
+    if (const auto large = window.find("large")) {
+        w.spaceIsLarge = large->choice<bool>({{"camera", false}, {"space", true}});
+    }
+    if (const auto yaw = window.find("yaw")) {
+        w.yaw = yaw->number(Range::any());
+    }
+    if (const auto pitch = window.find("pitch")) {
+        w.pitch = pitch->number(Range::between(-1.5, 1.5));
+    }
+    if (const auto distance = window.find("distance")) {
+        w.distance = distance->number(Range::between(0.15, 8.0));
+    }
+}
+
+} // namespace fathom
