@@ -17,6 +17,7 @@ layout(constant_id = 7) const uint kGather = 0;     // 1: a group counts its pix
 layout(constant_id = 8) const uint kFour = 0;       // 1: the width is a multiple of four: a texel of depth is four pixels
 layout(constant_id = 9) const uint kRange = 0;      // 1: some class asks for the range
 layout(constant_id = 10) const uint kArm = 0;       // 1: what the arm's spheres hold is no point of any class
+layout(constant_id = 11) const uint kWater = 0;     // 1: colours are put right for what water took of them
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
@@ -59,6 +60,11 @@ bool colourOf(uint pixel, vec3 p, out vec3 rgb) {
     }
     rgb = vec3(texelFetch(colours, at.y * int(params.colourSize.x) + at.x).xyz);
     return true;
+}
+
+// What the point's colour is without the water before it, in whole bytes as the gates want them (Beer and Lambert).
+vec3 withoutWater(vec3 rgb, vec3 p) {
+    return kWater != 0 ? floor(min(rgb * exp(params.water.xyz * length(p)), vec3(255.0)) + 0.5) : rgb;
 }
 
 // No && and no ||, which branch.
@@ -109,7 +115,7 @@ uint classBits(uvec2 at, uint pixel, float z) {
     vec3 p = vec3(rayOf(at) * z, z);
     vec3 rgb = vec3(0.0);
     bool seen = kColour != 0 && colourOf(pixel, p, rgb);
-    Hsl colourHere = hslOf(rgb);
+    Hsl colourHere = hslOf(withoutWater(rgb, p));
     vec3 base = kBox != 0 || kArm != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     float range = kRange != 0 ? length(p) : 0.0;
     uint mask = 0;

@@ -26,17 +26,17 @@ uint32_t groupOf(const Plan& plan) {
 } // namespace
 
 ClassifyPass::ClassifyPass(const CloudContext& c)
-    : pipeline_(
-          c.device,
-          {"classify",
-           classify_spv,
-           11,
-           true,
-           0,
-           std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
-                      c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box}, uint32_t{c.plan.groupCounts},
-                      uint32_t{inFours(c)}, uint32_t{c.plan.range}, uint32_t{c.plan.selfFilter}},
-           {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kColourTexels}}})
+    : pipeline_(c.device,
+                {"classify",
+                 classify_spv,
+                 11,
+                 true,
+                 0,
+                 std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
+                            c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
+                            uint32_t{c.plan.groupCounts}, uint32_t{inFours(c)}, uint32_t{c.plan.range},
+                            uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water}},
+                 {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kColourTexels}}})
     , work_(c.work)
     , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {
     for (uint32_t u = 0; u < kUploads; ++u) {

@@ -16,6 +16,7 @@ using glm::vec4;
 // nature.
 constexpr double kIsolation = 0.020; // [m]
 constexpr double kIsolationPixels = 3.0;
+constexpr double kGamma = 2.2; // of stored bytes
 
 vec4 lensOf(const Intrinsics& lens) {
     return {lens.fx, lens.fy, lens.cx, lens.cy};
@@ -127,6 +128,10 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
     p.noise = {constant, depthSigma(1.0) - constant, 3.0, 0.0};
     if (camera.beam) {
         p.beam = {camera.beam->range, camera.beam->perMetre, camera.beam->across(), 0.0};
+    }
+    if (scene.attenuation) {
+        // Stored bytes are about light^(1 / 2.2): a metre takes the 2.2nd part of the logarithm from them.
+        p.water = vec4(glm::vec3(*scene.attenuation / kGamma), 0.0f);
     }
     setRows(p.colourTdepth, camera.colourTdepth);
     return p;

@@ -109,6 +109,19 @@ Hsl hslOf(uint32_t rgba) {
     return c;
 }
 
+ClearColour withoutWater(uint32_t rgba, const dvec3& attenuation, double range) {
+    constexpr double kGamma = 2.2, kSlack = 1e-3; // [bytes]
+    ClearColour clear{rgba & 0xff000000u, false};
+    for (int i = 0; i < 3; ++i) {
+        const double stored = (rgba >> (8 * i) & 255) / 255.0;
+        const double light = std::pow(stored, kGamma) * std::exp(attenuation[i] * range);
+        const double byte = std::min(255.0, 255.0 * std::pow(light, 1.0 / kGamma));
+        clear.rgba |= static_cast<uint32_t>(std::floor(byte + 0.5)) << (8 * i);
+        clear.unsure = clear.unsure || std::abs(byte - std::floor(byte) - 0.5) < kSlack;
+    }
+    return clear;
+}
+
 ClassPicture classify(const FrameView& view, const CellPicture* cells) {
     const std::vector<const FixtureClass*> classes = pointClasses(view.scene());
     ClassPicture out{std::vector<uint32_t>(view.pixels(), 0), std::vector<uint8_t>(view.pixels(), 0)};
@@ -119,7 +132,12 @@ ClassPicture classify(const FrameView& view, const CellPicture* cells) {
                 continue;
             }
             const dvec3 p = view.point(u, v, z), base = view.baseTcamera().apply(p);
-            const Seen seen = lookUp(view, cells, u, v, p);
+            Seen seen = lookUp(view, cells, u, v, p);
+            if (view.scene().attenuation && seen.colour) {
+                const ClearColour clear =
+                    withoutWater(*seen.colour, *view.scene().attenuation, glm::length(p));
+                seen = {clear.rgba, seen.unsure || clear.unsure};
+            }
             const size_t i = view.index(u, v);
             for (size_t c = 0; c < classes.size(); ++c) {
                 const FixtureClass& f = *classes[c];

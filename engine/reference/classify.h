@@ -13,6 +13,14 @@ struct Hsl {
 };
 Hsl hslOf(uint32_t rgba); // 0xAABBGGRR
 
+// What the water between took of a colour given back: linear light is the stored byte to the power of 2.2 and
+// falls as exp(-attenuation [1/m] x range [m]). unsure: some byte is within 1e-3 of the next.
+struct ClearColour {
+    uint32_t rgba = 0;
+    bool unsure = false;
+};
+ClearColour withoutWater(uint32_t rgba, const dvec3& attenuation, double range);
+
 struct ClassPicture {
     std::vector<uint32_t> masks;
     std::vector<uint8_t> unsure; // 1: a coordinate, a depth or a picture position lies within 1e-6 m (1e-3

@@ -28,6 +28,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.moments = scene.hasGuidance();
     plan.cloud = plan.spheres || plan.moments;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
+    plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
     plan.beam = plan.spheres && camera.beam.has_value();
     plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof wants one radius a class
@@ -72,7 +73,10 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("occlusion", plan.occlusion,
          "colour is not registered to depth: parallax hides points from the colour camera",
          !scene.usesColour() ? "no class asks for colour" : "colour is registered to depth");
-    pass("classify", plan.cloud, "there are classes of points", "the scene has no class of points");
+    pass("classify", plan.cloud,
+         std::string("there are classes of points") +
+             (plan.water ? ", colours put right for water before their gates" : ""),
+         "the scene has no class of points");
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +

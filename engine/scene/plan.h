@@ -50,7 +50,8 @@ struct Plan {
     bool byPixel = false;      // spheres: an invocation a pixel, bounds from shared memory; else a sub-patch
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
-    bool arm = false; // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions
+    bool arm = false;   // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions
+    bool water = false; // colours are put right for what water took of them
     bool selfFilter = false; // the arm's spheres are taken out of the cloud
     // Contact query.
     enum class Query { None, Cpu, Gpu } query = Query::None;

@@ -13,8 +13,8 @@ struct ClassParams {
     vec4 satLight; // saturation lo, hi; lightness lo, hi [1/510]
     vec4 boxMin;   // base axes about the origin [m]; w = 1: has a box
     vec4 boxMax;   // w = 0: points whose colour is not seen pass, -1: they do not
-    vec4 role; // region radius with 3 registration sigma [m]; 1 = forbidden; 1 = guidance; row of
-               // Scene::fixtures
+    vec4 role;     // region radius with 3 registration sigma [m]; 1 = forbidden; 1 = guidance; row of
+                   // Scene::fixtures
 };
 FATHOM_SIZE(ClassParams, 80);
 
@@ -39,8 +39,9 @@ struct FrameParams {
     ClassParams classes[8];
     vec4 beam;      // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
     vec4 ranges[8]; // a class: least and largest range [m]; 1 = asks for it; -
+    vec4 water;     // red, green, blue of stored bytes: logarithm of what a metre takes of them [1/m]; -
 };
-FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 144);
+FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 160);
 
 // Zeroed at the start of a frame. Integer counters only: their sums do not depend on the order.
 struct FrameCounters {
