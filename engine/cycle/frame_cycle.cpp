@@ -201,6 +201,9 @@ FrameReport FrameCycle::finish() {
         cloud::FixtureSet& set = pool_.back();
         lastCounts_ = cloud::collect(set, work_, scene_, plan_, layout_);
         lastCounts_.valid = valid;
+        if (plan_.query != Plan::Query::Gpu) {
+            frozen_.apply(set.host, scene_);
+        }
         if (plan_.spheres) {
             set.grid.build(set.host.spheres);
         }

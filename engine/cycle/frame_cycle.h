@@ -5,6 +5,7 @@
 
 #include "engine/cloud/collect.h"
 #include "engine/cloud/fixture_set.h"
+#include "engine/cloud/frozen_classes.h"
 #include "engine/cloud/self_filter.h"
 #include "engine/cycle/frame_passes.h"
 #include "engine/gpu/device.h"
@@ -49,8 +50,8 @@ public:
 
     // One frame through, start to end.
     FrameReport process(Frame frame);
-    // Other gates, radii, roles and boxes for the frames from now on. The scene must have as many classes of
-    // points as before, and the same plan; throws Error otherwise.
+    // Other gates, radii, roles, boxes and frozen classes for the frames from now on. The scene must have as
+    // many classes of points as before, and the same plan; throws Error otherwise.
     void setScene(const Scene& scene);
     // What earlier pictures left (held points) is gone, and the next one may be of any time: for who jumps
     // about in a recording. Waits for the device; no frame in flight.
@@ -103,6 +104,7 @@ private:
     gpu::Timeline timeline_;
 
     cloud::LinkSpheres arm_;
+    cloud::FrozenClasses frozen_;
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
     std::optional<InFlight> uploaded_, submitted_;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame cycle that is sent back and forth in time.
-#include "tests/support/cloud_cases.h"
 #include "tests/support/cloud_rig.h"
 
 #include <doctest/doctest.h>

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// One class stays where it was while the others follow the picture.
+#include "engine/types/error.h"
+#include "tests/support/cloud_rig.h"
+
+#include <doctest/doctest.h>
+#include <set>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+// Left half red, right half blue, at one depth.
+Picture halves(const CameraInfo& camera, double z) {
+    Picture picture = drawnPicture(
+        camera, [&](int, int) { return z; }, 0xff2020c0);
+    for (size_t i = 0; i < picture.colour.size(); ++i) {
+        picture.colour[i] = i % camera.depth.width < camera.depth.width / 2 ? 0xff2020c0 : 0xffc02020;
+    }
+    return picture;
+}
+
+Scene redAndBlue() {
+    Scene scene = plainScene();
+    scene.fixtures[0].hue = Band{345, 15};
+    FixtureClass blue = forbiddenClass("blue", 0.03);
+    blue.hue = Band{225, 255};
+    scene.fixtures.push_back(blue);
+    return scene;
+}
+
+// z of every sphere of a row of the scene [m], smallest and largest.
+std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
+    std::pair<double, double> span{1e9, -1e9};
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        if (set.spheres.fixture[i] == row) {
+            const double z = set.origin.z + double{set.spheres.z[i]};
+            span = {std::min(span.first, z), std::max(span.second, z)};
+        }
+    }
+    return span;
+}
+
+} // namespace
+
+TEST_CASE(
+    "A frozen class keeps its spheres while another follows the picture, and follows it again when let go") {
+    const CameraInfo camera = pinholeCamera(100, 60);
+    Scene scene = redAndBlue();
+    CloudRig rig(scene, camera);
+    rig.run(halves(camera, 1.0));
+    const size_t all = rig.host().spheres.size();
+    scene.fixtures[0].frozen = true;
+    rig.cycle().setScene(scene);
+    for (double z : {1.0, 1.1, 1.3}) {
+        rig.run(halves(camera, z));
+        CAPTURE(z);
+        CHECK(depths(rig.host(), 0).first == doctest::Approx(1.0).epsilon(1e-5));
+        CHECK(depths(rig.host(), 0).second == doctest::Approx(1.0).epsilon(1e-5));
+        CHECK(depths(rig.host(), 1).first == doctest::Approx(z).epsilon(1e-5));
+        CHECK(rig.host().spheres.size() == all);
+        CHECK(rig.set().grid.size() == all);
+        const auto& sources = rig.host().spheres.source;
+        CHECK(std::set<uint32_t>(sources.begin(), sources.end()).size() == all);
+    }
+    scene.fixtures[0].frozen = false;
+    rig.cycle().setScene(scene);
+    rig.run(halves(camera, 1.3));
+    CHECK(depths(rig.host(), 0).first == doctest::Approx(1.3).epsilon(1e-5));
+}
+
+TEST_CASE("A frozen guidance class keeps its target") {
+    const CameraInfo camera = pinholeCamera(100, 60);
+    Scene scene = redAndBlue();
+    scene.fixtures[1].role = Role::Guidance;
+    CloudRig rig(scene, camera);
+    rig.run(halves(camera, 1.0));
+    scene.fixtures[1].frozen = true;
+    rig.cycle().setScene(scene);
+    rig.run(halves(camera, 1.0));
+    rig.run(halves(camera, 1.4));
+    REQUIRE(rig.host().guidance.size() == 1);
+    CHECK(rig.host().guidance[0].position.z == doctest::Approx(1.0).epsilon(1e-4));
+}
