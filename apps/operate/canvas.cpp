@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 
 #include <imgui.h>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -44,6 +45,9 @@ Canvas::~Canvas() {
 
 void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy) {
     ImGui::Render();
+    if (std::exchange(console.remake, false) && surface_) {
+        surface_->swapchain->lose();
+    }
     if (!window_.minimised()) {
         painter_->draw(window_.size(), layers, ImGui::GetDrawData(), busy);
     }
@@ -72,12 +76,6 @@ void Canvas::shoot(Console& console) {
 
 uint32_t Canvas::swapchains() const {
     return surface_ ? surface_->swapchain->remade() : 0;
-}
-
-void Canvas::loseSwapchain() {
-    if (surface_) {
-        surface_->swapchain->lose();
-    }
 }
 
 } // namespace fathom::operate

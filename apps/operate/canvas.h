@@ -28,7 +28,6 @@ public:
     const Letters& letters() const { return letters_; }
     const Painter& painter() const { return *painter_; }
     uint32_t swapchains() const; // made so far
-    void loseSwapchain();        // as a driver would; nothing offscreen
 
 private:
     struct Surface; // surface and swapchain

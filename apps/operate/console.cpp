@@ -16,6 +16,19 @@ void Console::tell(std::string words) {
     noticeUntil = ImGui::GetTime() + kShown;
 }
 
+void Console::takeSettings(const Scene& scene, double chosenTextScale) {
+    const Scene::Window kept = scene.window.value_or(Scene::Window{});
+    textScale = chosenTextScale > 0.0 ? chosenTextScale : kept.textScale;
+    spaceIsLarge = kept.spaceIsLarge;
+    orbit.yaw = kept.yaw;
+    orbit.pitch = kept.pitch;
+    orbit.distance = kept.distance;
+}
+
+Scene::Window Console::settings() const {
+    return {textScale, spaceIsLarge, orbit.yaw, orbit.pitch, orbit.distance};
+}
+
 void markPlace(Console& console, const std::string& name) {
     const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
     console.places[name] = {a.x, a.y, b.x - a.x, b.y - a.y};

@@ -49,6 +49,7 @@ struct Console {
     bool paused = false;       // traces
     bool recording = false;
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
+    bool remake = false; // the window's images
     bool undo = false, redo = false, save = false, addPicked = false;
     uint32_t shots = 0; // screenshots written
     int treeLevel = -1; // shown in the 3D view; -1 = none
@@ -59,6 +60,10 @@ struct Console {
     Pick pick;
     ShapeKind placing = ShapeKind::None; // the next click on the cloud puts one there
 
+    std::string pilotWanted; // of the scene's; empty = as it is
+
+    int editedBoxRow = -1; // whose box is being dragged
+    Box editedBox;
     int editedRow = -1; // whose slider is being dragged: the fixture changes when it is let go
     float editedMillimetres = 0.0f;
 
@@ -66,6 +71,9 @@ struct Console {
     std::string notice;       // one line about the last thing done, with
     double noticeUntil = 0.0; // [s] of ImGui's clock
     void tell(std::string words);
+    // What the scene file keeps of this, and back. textScale: 0 = the file's.
+    void takeSettings(const Scene& scene, double chosenTextScale);
+    Scene::Window settings() const;
 
     // Where things were drawn last, by name: for those who drive the window from outside.
     std::map<std::string, std::array<float, 4>> places; // x, y, width, height

@@ -21,6 +21,17 @@ bool inBand(const std::optional<Band>& band, double value) {
                                           : value >= band->lo || value <= band->hi);
 }
 
+// The colour of a depth pixel as the gates see it.
+uint32_t colourFor(const Scene& scene, const SceneSnapshot& snapshot, uint32_t u, uint32_t v, uint32_t rgba) {
+    const CameraInfo& camera = snapshot.set.camera;
+    const uint16_t raw = snapshot.set.depth[static_cast<size_t>(v) * camera.depth.width + u];
+    if (!scene.attenuation || raw == 0) {
+        return rgba;
+    }
+    const double range = raw * camera.metresPerUnit * glm::length(dvec3(camera.depth.ray(u, v), 1.0));
+    return reference::withoutWater(rgba, *scene.attenuation, range).rgba;
+}
+
 bool selects(const FixtureClass& gates, uint32_t rgba) {
     const reference::Hsl hsl = reference::hslOf(rgba);
     return (!gates.hue || !hsl.grey) && inBand(gates.hue, hsl.hue) &&
@@ -68,8 +79,11 @@ void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm:
          ++v) {
         for (uint32_t u = pixel.x - std::min(pixel.x, kPatch);
              u <= std::min(lens.width - 1, pixel.x + kPatch); ++u) {
-            const reference::Hsl hsl =
-                reference::hslOf(snapshot.colour[static_cast<size_t>(v) * lens.width + u]);
+            const CameraInfo& camera = snapshot.set.camera;
+            const uint32_t rgba = colourFor(scene_, snapshot, u * camera.depth.width / lens.width,
+                                            v * camera.depth.height / lens.height,
+                                            snapshot.colour[static_cast<size_t>(v) * lens.width + u]);
+            const reference::Hsl hsl = reference::hslOf(rgba);
             const double weight = hsl.grey ? 0.0 : hsl.saturation;
             x += weight * std::cos(glm::radians(hsl.hue));
             y += weight * std::sin(glm::radians(hsl.hue));
@@ -111,7 +125,8 @@ void FixtureEditor::preview(Console& console, const SceneSnapshot& snapshot) {
     for (uint32_t v = 0; v < camera.depth.height; ++v) {
         for (uint32_t u = 0; u < camera.depth.width; ++u) {
             const size_t at = static_cast<size_t>(v) * camera.depth.width + u;
-            const uint32_t rgba = snapshot.colour[colourPixel(camera, u, v)];
+            const uint32_t rgba =
+                colourFor(scene_, snapshot, u, v, snapshot.colour[colourPixel(camera, u, v)]);
             const reference::Hsl hsl = reference::hslOf(rgba);
             if (!hsl.grey && hsl.saturation > 0.08) {
                 hues_[static_cast<size_t>(hsl.hue / 5.0) % hues_.size()] +=
@@ -192,6 +207,11 @@ void FixtureEditor::enact(Scene next) {
     future_.clear();
     scene_ = std::move(next);
     tell();
+}
+
+void FixtureEditor::keep(const Scene::Window& window, const std::string& pilot) {
+    scene_.window = window;
+    scene_.choosePilot(pilot);
 }
 
 bool FixtureEditor::undo() {

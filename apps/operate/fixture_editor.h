@@ -34,7 +34,10 @@ public:
     bool remove(size_t row);
     bool undo();
     bool redo();
-    // Writes `fixtures:` of the scene file anew and leaves the rest of it; returns what happened in words.
+    // What a pilot or the window is set to: part of the file, no part of the history.
+    void keep(const Scene::Window& window, const std::string& pilot);
+    // Writes `fixtures:`, `pilot:` and `window:` of the scene file anew and leaves the rest of it; returns
+    // what happened in words.
     std::string save() const;
     std::string text() const; // of the scene file with the fixtures in force
 

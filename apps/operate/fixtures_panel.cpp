@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The panel of fixtures: what there is, what a picked colour would add, shapes to place.
 #include "apps/operate/fixture_editor.h"
+#include "apps/operate/holding_panel.h"
 #include "apps/operate/operate_session.h"
 #include "apps/operate/theme.h"
 
@@ -97,7 +98,7 @@ bool sizeSlider(Console& console, FixtureClass& now, int row) {
     return done;
 }
 
-void row(Console& console, FixtureEditor& editor, size_t i) {
+void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot& snapshot) {
     const FixtureClass before = editor.scene().fixtures[i];
     FixtureClass now = before;
     ImGui::PushID(static_cast<int>(i));
@@ -120,6 +121,9 @@ void row(Console& console, FixtureEditor& editor, size_t i) {
         done = sizeSlider(console, now, static_cast<int>(i)) || done;
     } else {
         ImGui::NewLine();
+    }
+    if (now.isPoints()) {
+        done = drawHolding(console, now, static_cast<int>(i), snapshot) || done;
     }
     if (gone) {
         editor.remove(i);
@@ -169,6 +173,7 @@ void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnaps
         console.tell("done again");
     }
     if (control(GLFW_KEY_S) || console.save) {
+        editor.keep(console.settings(), editor.scene().pilot);
         console.tell(editor.save());
     }
     console.undo = console.redo = console.save = console.addPicked = false;
@@ -194,9 +199,10 @@ void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& 
         pickPanel(console, editor, snapshot);
     }
     placeButtons(console);
+    drawPilots(console, editor.scene());
     for (size_t i = 0; i < editor.scene().fixtures.size(); ++i) {
         if (!isSpare(editor.scene().fixtures[i])) {
-            row(console, editor, i);
+            row(console, editor, i, snapshot);
         }
     }
 }

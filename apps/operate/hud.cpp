@@ -163,7 +163,7 @@ void drawGauges(Console& console, const HudInput& input) {
           "Stability margin, passive " + marginText(record.marginPassive) + (passive ? "" : "  NOT PASSIVE"));
     words(input.letters.small, colour::kQuiet,
           "uncoupled " + marginText(record.marginUncoupled) + ", device preset " +
-              input.scene.haptics.device);
+              input.scene.haptics.device + (input.scene.pilot.empty() ? "" : ", pilot " + input.scene.pilot));
     passes(input);
     (void)console;
 }

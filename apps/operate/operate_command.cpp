@@ -24,6 +24,8 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
     command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
         ->check(CLI::NonNegativeNumber);
+    command->add_option("--pilot", options->pilot,
+                        "whose stiffness, limits and scale: one of the scene's pilots");
     command->add_option("--text-scale", options->textScale, "size of letters")->check(CLI::Range(0.75, 2.0));
     command->add_option("--state", options->state,
                         "write what the window shows to this file, a JSON object a line");

@@ -17,8 +17,9 @@ struct OperateOptions {
     bool path = false;      // the scene's hand path drives, not mouse and keyboard
     std::string offscreen;  // WxH: the same frames without a surface; empty = a window
     std::string arm;        // serial line of the scene's real arm; empty = nothing moves
+    std::string pilot;      // one of the scene's pilots; empty = the one that the file says
     double seconds = 0.0;   // ends by itself; 0 = when the window is closed
-    double textScale = 1.0; // 0.75 .. 2
+    double textScale = 0.0; // 0.75 .. 2; 0 = the scene's
     std::string state;      // file of JSON lines: what the window shows, for who watches it from outside
     std::string shots;      // folder of screenshots (F12), recordings and exports; empty = the working folder
     bool validate = false;  // Vulkan validation; a message ends in exit code 1

@@ -5,6 +5,7 @@
 #include "apps/binding/open_source.h"
 #include "apps/operate/repeating_camera.h"
 #include "devices/recorded/hand_csv.h"
+#include "engine/types/error.h"
 #include "shaders/shared/frame_params.h"
 
 #include <cstdio>
@@ -60,9 +61,27 @@ std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scen
 
 // Radii may change while it runs: what the scene at first could leave out for its radii stays in.
 Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device) {
-    Plan plan = makePlan(scene, camera, static_cast<uint32_t>(tool.leafCount()), device);
+    Scene editable = scene;
+    if (editable.contact.where == Scene::Contact::Where::Auto) {
+        editable.contact.where = Scene::Contact::Where::Cpu; // frozen classes are the host's only
+    }
+    Plan plan = makePlan(editable, camera, static_cast<uint32_t>(tool.leafCount()), device);
     plan.leaks = plan.spheres;
     return plan;
+}
+
+// As the file has it, or with another pilot.
+Scene sceneFor(const OperateOptions& options) {
+    Scene scene = openScene(options.scene);
+    if (!options.pilot.empty() && !scene.choosePilot(options.pilot)) {
+        std::string names;
+        for (const Scene::Pilot& pilot : scene.pilots) {
+            names += (names.empty() ? "" : ", ") + pilot.name;
+        }
+        throw BadInput(scene.file.string(), "--pilot", options.pilot,
+                       names.empty() ? "none: the scene has no pilots" : names);
+    }
+    return scene;
 }
 
 } // namespace
@@ -89,7 +108,7 @@ Scene withSpareClasses(Scene scene) {
 OperateSession::OperateSession(const OperateOptions& options, const GlobalOptions& global,
                                gpu::Drawing drawing, std::span<const char* const> extensions,
                                const std::atomic<bool>& stop)
-    : scene(withSpareClasses(openScene(options.scene)))
+    : scene(withSpareClasses(sceneFor(options)))
     , camera(endless(scene, options, stop))
     , arm(openArm(scene))
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What becomes of keys and clicks: the hand, fixtures, files.
 #include "apps/operate/operator_run.h"
+#include "apps/operate/scene_files.h"
 #include "apps/operate/view_click.h"
 #include "engine/types/error.h"
 
@@ -18,6 +19,7 @@ void OperatorRun::listen() {
     pilot_->ask(steering_->wish(console_));
     path_->press(console_.guidance ? 1u : 0u);
     followRecorder();
+    followPilot();
     if (console_.exportCsv) {
         console_.exportCsv = false;
         exportTraces();
@@ -32,9 +34,12 @@ void OperatorRun::followRecorder() {
                         ("recording-" + std::to_string(recordings_ + (console_.recording ? 1 : 0)));
     try {
         if (console_.recording) {
+            editor_->keep(console_.settings(), session_.scene.pilot);
+            const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
             recorder_.start(folder, editor_->text(), session_.camera->info());
             ++recordings_;
-            console_.tell("recording to " + folder.string());
+            console_.tell("recording to " + folder.string() +
+                          (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));
         } else {
             recorder_.stop();
             console_.tell(std::to_string(recorder_.pictures()) + " pictures recorded in " + folder.string());

@@ -7,28 +7,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <limits>
 #include <spdlog/spdlog.h>
-#include <sys/resource.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
 namespace fathom::operate {
 
 namespace {
 
 constexpr double kFramePeriod = 1.0 / 60.0; // [s] of the window, at best
-constexpr double kSoftStart = 1.5;          // [s]
-constexpr int kNiceness = 5;                // the window's thread steps back behind camera and contacts
 
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-HapticOptions softly(const Scene& scene, const Tool& tool) {
-    HapticOptions options = makeHapticOptions(scene, tool);
-    options.armTime = kSoftStart;
-    return options;
 }
 
 float percentile(std::vector<float> values, double share) {
@@ -56,8 +44,8 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , sink_(recorder_)
     , view_(sink_)
     , log_(options.state) {
-    console_.textScale = options.textScale;
-    canvas_ = std::make_unique<Canvas>(window_, session_, options.textScale, options.shots);
+    console_.takeSettings(session_.scene, options.textScale);
+    canvas_ = std::make_unique<Canvas>(window_, session_, console_.textScale, options.shots);
     startThreads();
     window_.onForcesOff = [this] {
         hand_->setForces(false); // at once, whatever the rest of this frame does
@@ -68,55 +56,6 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
 
 OperatorRun::~OperatorRun() {
     endThreads();
-}
-
-void OperatorRun::startThreads() {
-    RealtimeOptions o;
-    o.placement = placement_;
-    o.hapticPeriod = haptics_.period;
-    o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
-    if (session_.realArm) {                                 // the scene's start is where it stands
-        session_.arm->start = session_.realArm->ready(signals_.asked()).q;
-        o.arm = &session_.realArm->link();
-    }
-    engine_ = std::make_unique<RealtimeRun>(
-        feed_, session_.plan.query != Plan::Query::None ? &answers_ : nullptr, o);
-    if (!engine_->firstFrame()) {
-        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
-    }
-    const HandPath path = session_.path();
-    const Pose start = path.waypoints().front().deviceThandle;
-    pilot_ = std::make_unique<PilotHand>(start);
-    path_ = std::make_unique<PathHand>(path);
-    HapticDevice& hand = options_.path ? static_cast<HapticDevice&>(*path_) : *pilot_;
-    hand_ = std::make_unique<GatedHand>(hand);
-    steering_ = std::make_unique<Steering>(start, session_.scene.hand);
-    editor_ = std::make_unique<FixtureEditor>(session_.scene,
-                                              [this](const Scene& scene, const std::vector<Shape>& shapes) {
-                                                  feed_.setScene(scene);
-                                                  engine_->setShapes(shapes);
-                                              });
-    cycle_ =
-        std::make_unique<HapticCycle>(session_.tool, shapesOf(session_.scene), haptics_, start,
-                                      session_.arm && !options_.path ? &start : nullptr, session_.arm.get());
-    thread_ = std::thread([this] {
-        try {
-            engine_->run(*cycle_, *hand_, std::numeric_limits<double>::infinity(), sink_, stop_);
-            failure_ = engine_->failure();
-        } catch (...) {
-            failure_ = std::current_exception();
-        }
-        ended_.store(true);
-    });
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)),
-                  kNiceness); // after the others began
-}
-
-void OperatorRun::endThreads() {
-    stop_.store(true);
-    if (thread_.joinable()) {
-        thread_.join();
-    }
 }
 
 bool OperatorRun::wantsToEnd() const {
@@ -161,7 +100,8 @@ uint32_t OperatorRun::run() {
 void OperatorRun::frame() {
     const bool fresh = view_.refresh();
     const HudInput hud = hudInput();
-    screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh});
+    const auto arm = armSpheres(session_.arm.get(), view_.turn().record.arm.posture);
+    screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh, arm});
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     listen();
@@ -185,6 +125,8 @@ StateExtras OperatorRun::extras() const {
     extras.scene = &editor_->scene();
     extras.shapes = editor_->shapes().size();
     extras.selected = editor_->selectedPoints();
+    extras.stiffness = haptics_.springs.stiffness;
+    extras.forceLimit = haptics_.forceLimit;
     if (!view_.blocks().empty()) {
         extras.why = whyBlocked(view_.blocks().front(), editor_->scene(), view_.scene().set);
     }

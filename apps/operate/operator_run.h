@@ -14,6 +14,7 @@
 #include "apps/operate/traces_panel.h"
 
 #include <memory>
+#include <semaphore>
 #include <thread>
 
 namespace fathom::operate {
@@ -35,8 +36,13 @@ public:
     const RealtimeRun& engine() const { return *engine_; }
 
 private:
+    static HapticOptions softly(const Scene& scene, const Tool& tool);
+    void makeEngine(const Pose& start, const Pose* tool);
     void startThreads();
+    void resumeThreads();
+    void pauseThreads(); // the last thing that the hand gets is a zero wrench
     void endThreads();
+    void followPilot();
     void frame();
     void listen();         // what the frame's keys and clicks asked for
     void followRecorder(); // starts or stops as the console says
@@ -65,6 +71,8 @@ private:
     std::unique_ptr<Steering> steering_;
     std::unique_ptr<FixtureEditor> editor_;
     std::atomic<bool> stop_{false}, ended_{false};
+    std::binary_semaphore go_{0}, done_{0};
+    bool running_ = false, over_ = false; // over_: read after go_
     std::exception_ptr failure_;
     std::thread thread_;
 

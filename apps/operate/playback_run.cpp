@@ -76,7 +76,6 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , window_(options.offscreen, "Fathom, recording " + options.recording)
     , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
                window_.extensions(), signals_.asked())
-    , canvas_(std::make_unique<Canvas>(window_, session_, options.textScale, options.shots))
     , haptics_(makeHapticOptions(session_.scene, session_.tool))
     , hand_(handOf(options.recording))
     , log_(turnsOf(options.recording, hand_, session_.scene))
@@ -91,7 +90,8 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , steering_(Pose{}, session_.scene.hand)
     , panel_(log_, durationOf(past_, log_))
     , state_(options.state) {
-    console_.textScale = options.textScale;
+    console_.takeSettings(session_.scene, options.textScale);
+    canvas_ = std::make_unique<Canvas>(window_, session_, console_.textScale, options.shots);
     console_.timeLine.on = true;
     console_.timeLine.pictures = past_.pictures();
     console_.timeLine.duration = durationOf(past_, log_);
@@ -132,7 +132,9 @@ void PlaybackRun::frame(double dt) {
                        false};
     alarms_ = Alarms(); // of this moment, none is latched
     alarms_.step(console_, view_, haptics_, editor_.scene());
-    screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh});
+    const bool known = log_.poses && view_.anyTurn();
+    const auto arm = armSpheres(known ? session_.arm.get() : nullptr, view_.turn().record.arm.posture);
+    screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh, arm});
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     const auto& strip = console_.places["time line room"];
@@ -217,6 +219,8 @@ StateExtras PlaybackRun::extras() const {
     extras.scene = &editor_.scene();
     extras.shapes = editor_.shapes().size();
     extras.selected = editor_.selectedPoints();
+    extras.stiffness = haptics_.springs.stiffness;
+    extras.forceLimit = haptics_.forceLimit;
     if (!view_.blocks().empty()) {
         extras.why = whyBlocked(view_.blocks().front(), editor_.scene(), view_.scene().set);
     }

@@ -77,14 +77,14 @@ void putRow(std::ostream& out, const FixtureClass& f) {
     out << " }\n";
 }
 
-// The file with the block of `fixtures:` in place of the old one; at its end when there was none.
-std::string withFixtures(const std::string& old, const std::string& block) {
+// The file with another block of the top level key in place of the old one; at its end when there was none.
+std::string withBlock(const std::string& old, const std::string& key, const std::string& block) {
     std::istringstream in(old);
     std::string result, line;
     bool inside = false, done = false;
     while (std::getline(in, line)) {
         const bool topLevel = !line.empty() && line[0] != ' ' && line[0] != '#' && line[0] != '-';
-        if (line.rfind("fixtures:", 0) == 0) {
+        if (line.rfind(key, 0) == 0) {
             inside = done = true;
             result += block;
             continue;
@@ -93,6 +93,14 @@ std::string withFixtures(const std::string& old, const std::string& block) {
         result += inside ? "" : line + "\n";
     }
     return done ? result : result + block;
+}
+
+std::string windowBlock(const Scene::Window& window) {
+    std::ostringstream out;
+    out << std::setprecision(6) << "window: {text_scale: " << window.textScale
+        << ", large: " << (window.spaceIsLarge ? "space" : "camera") << ", yaw: " << window.yaw
+        << ", pitch: " << window.pitch << ", distance: " << window.distance << "}\n";
+    return out.str();
 }
 
 } // namespace
@@ -110,7 +118,11 @@ std::string FixtureEditor::text() const {
             ++rows;
         }
     }
-    return withFixtures(old.str(), rows == 0 ? "fixtures: []\n" : block.str());
+    std::string text = withBlock(old.str(), "fixtures:", rows == 0 ? "fixtures: []\n" : block.str());
+    if (!scene_.pilot.empty()) {
+        text = withBlock(text, "pilot:", "pilot: \"" + scene_.pilot + "\"\n");
+    }
+    return scene_.window ? withBlock(text, "window:", windowBlock(*scene_.window)) : text;
 }
 
 std::string FixtureEditor::save() const {

@@ -89,7 +89,7 @@ void Screen::makePictures(const Console& console, const FixtureEditor& editor, c
                        height != space_.view().lens.height ||
                        (input.freshPicture && (console.spaceIsLarge || scene.number % 3 == 0));
     if (space) {
-        space_.compose(scene, orbit, width, height, console.treeLevel);
+        space_.compose(scene, orbit, width, height, console.treeLevel, input.arm);
         drawnOrbit_ = orbit;
         drawnLevel_ = console.treeLevel;
         drawnLarge_ = console.spaceIsLarge;
@@ -121,7 +121,8 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
             drawCameraFrustum(list, *port, input.run.scene().set);
             drawBounds(list, *port, space_.bounds());
         }
-        const MarksInput marks{*port, input.run, input.tool, editor.scene(), editor.shapes(), large};
+        const MarksInput marks{*port,           input.run, input.tool, editor.scene(),
+                               editor.shapes(), input.arm, large};
         drawMarks(list, marks);
         if (large) {
             drawHover(console, list, marks);

@@ -16,7 +16,8 @@ struct ScreenInput {
     const RunView& run;
     const Tool& tool;
     const HudInput& hud;
-    bool freshPicture = false; // since the call before
+    bool freshPicture = false;   // since the call before
+    std::span<const Sphere> arm; // base frame; empty = none
 };
 
 // Thread: the window's.

@@ -27,7 +27,7 @@ dvec3 centreOf(const Fixtures& set, size_t i) {
 } // namespace
 
 void SpaceGround::compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,
-                          int treeLevel) {
+                          int treeLevel, std::span<const Sphere> arm) {
     view_.lens = {};
     view_.lens.width = width;
     view_.lens.height = height;
@@ -48,6 +48,7 @@ void SpaceGround::compose(const SceneSnapshot& scene, const Orbit& orbit, uint32
     shade_.assign(count, 0);
     bounds_.clear();
     splatPoints(scene);
+    splatArm(arm);
     splatRegions(scene.set);
     shadeRegions();
     if (treeLevel >= 0) {
@@ -100,8 +101,49 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
     }
 }
 
+namespace {
+
+// A sphere as the eye sees it: each pixel with how much it faces the eye (1 = fully) and how far it is [m].
+template <class Put>
+void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
+    const auto width = static_cast<int>(lens.width), height = static_cast<int>(lens.height);
+    const double r = lens.fx * radius / c.z;
+    const double x0 = lens.cx + lens.fx * c.x / c.z, y0 = lens.cy + lens.fy * c.y / c.z;
+    const int top = std::max(0, static_cast<int>(y0 - r)),
+              bottom = std::min(height - 1, static_cast<int>(y0 + r));
+    for (int y = top; y <= bottom; ++y) {
+        const double dy = y - y0, half = std::sqrt(std::max(0.0, r * r - dy * dy));
+        const int left = std::max(0, static_cast<int>(x0 - half)),
+                  right = std::min(width - 1, static_cast<int>(x0 + half));
+        for (int x = left; x <= right; ++x) {
+            const double dx = x - x0;
+            const double up = std::sqrt(std::max(0.0, 1.0 - (dx * dx + dy * dy) / (r * r)));
+            put(static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x), up,
+                static_cast<float>(c.z - radius * up));
+        }
+    }
+}
+
+} // namespace
+
+// Solid and of one colour: it is no region, and no point of the cloud.
+void SpaceGround::splatArm(std::span<const Sphere> arm) {
+    for (const Sphere& sphere : arm) {
+        const dvec3 c = view_.cameraTbase.apply(sphere.centre);
+        if (c.z < sphere.radius + kNearest) {
+            continue;
+        }
+        splat(view_.lens, c, sphere.radius, [&](size_t at, double up, float z) {
+            if (z < depth_[at]) {
+                depth_[at] = z;
+                const auto level = static_cast<uint32_t>(70.0 + 130.0 * up);
+                pixels_[at] = 0xff000000u | std::min(255u, level + 40) << 16 | (level + 14) << 8 | level;
+            }
+        });
+    }
+}
+
 void SpaceGround::splatRegions(const Fixtures& set) {
-    const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
     double cost = 0.0;
     for (size_t i = 0; i < set.spheres.size(); i += 8) {
         const double z = std::max(kNearest, view_.cameraTbase.apply(centreOf(set, i)).z);
@@ -115,27 +157,12 @@ void SpaceGround::splatRegions(const Fixtures& set) {
         if (c.z < radius + kNearest) {
             continue;
         }
-        const double r = view_.lens.fx * radius / c.z;
-        const double x0 = view_.lens.cx + view_.lens.fx * c.x / c.z,
-                     y0 = view_.lens.cy + view_.lens.fy * c.y / c.z;
-        const int top = std::max(0, static_cast<int>(y0 - r)),
-                  bottom = std::min(height - 1, static_cast<int>(y0 + r));
-        for (int y = top; y <= bottom; ++y) {
-            const double dy = y - y0, half = std::sqrt(std::max(0.0, r * r - dy * dy));
-            const int left = std::max(0, static_cast<int>(x0 - half)),
-                      right = std::min(width - 1, static_cast<int>(x0 + half));
-            for (int x = left; x <= right; ++x) {
-                const double dx = x - x0;
-                const double up = std::sqrt(std::max(0.0, 1.0 - (dx * dx + dy * dy) / (r * r)));
-                const auto z = static_cast<float>(c.z - radius * up);
-                const size_t at =
-                    static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
-                if (z < front_[at]) {
-                    front_[at] = z;
-                    shade_[at] = static_cast<uint8_t>(60.0 + 195.0 * up);
-                }
+        splat(view_.lens, c, radius, [&](size_t at, double up, float z) {
+            if (z < front_[at]) {
+                front_[at] = z;
+                shade_[at] = static_cast<uint8_t>(60.0 + 195.0 * up);
             }
-        }
+        });
     }
 }
 

@@ -7,6 +7,7 @@
 #include "apps/operate/snapshots.h"
 #include "apps/replay/picture_view.h"
 
+#include <span>
 #include <vector>
 
 namespace fathom::operate {
@@ -16,7 +17,7 @@ namespace fathom::operate {
 class SpaceGround {
 public:
     void compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,
-                 int treeLevel);
+                 int treeLevel, std::span<const Sphere> arm);
 
     const std::vector<uint32_t>& pixels() const { return pixels_; } // 0xAABBGGRR
     const PictureView& view() const { return view_; }
@@ -25,6 +26,7 @@ public:
 
 private:
     void splatPoints(const SceneSnapshot& scene);
+    void splatArm(std::span<const Sphere> arm);
     void splatRegions(const Fixtures& set);
     void shadeRegions();
     void boundBlocks(const Fixtures& set, int level);

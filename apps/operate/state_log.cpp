@@ -77,7 +77,9 @@ json fixturesOf(const Scene* scene) {
         if (!f.name.empty()) {
             rows.push_back({{"name", f.name},
                             {"role", f.role == Role::Forbidden ? "forbidden" : "guidance"},
-                            {"radius", f.radius}});
+                            {"radius", f.radius},
+                            {"frozen", f.frozen},
+                            {"box", f.box ? json({vec(f.box->min), vec(f.box->max)}) : json(nullptr)}});
         }
     }
     return rows;
@@ -119,6 +121,10 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
                  {"shapes", extras.shapes},
                  {"selected", extras.selected},
                  {"why", extras.why},
+                 {"pilot",
+                  {{"name", extras.scene != nullptr ? extras.scene->pilot : ""},
+                   {"stiffness", extras.stiffness},
+                   {"force_limit", extras.forceLimit}}},
                  {"hovered", console.hovered}};
     out_ << line.dump(-1, ' ', false, json::error_handler_t::replace) << "\n" << std::flush;
     if (!out_) {

@@ -18,10 +18,11 @@ struct StateExtras {
     uint64_t windowFrames = 0, yielded = 0;
     uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
     double unknownShare = 0.0;
-    std::vector<std::string> alarms; // of those that are shown: level, word
-    const Scene* scene = nullptr;    // in force
-    size_t shapes = 0, selected = 0; // selected: points of the preview
-    std::string why;                 // of the newest block
+    std::vector<std::string> alarms;          // of those that are shown: level, word
+    const Scene* scene = nullptr;             // in force
+    size_t shapes = 0, selected = 0;          // selected: points of the preview
+    double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the pilot in force
+    std::string why;                          // of the newest block
 };
 
 class StateLog {

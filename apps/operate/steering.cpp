@@ -40,6 +40,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Q", "acknowledge alarms"},
         KeyHelp{"R", "record, stop"},
         KeyHelp{"of a recording", "Space plays; arrows: a picture, with Shift a turn; Home, End; [ ]: speed"},
+        KeyHelp{"F11", "make the window's images anew"},
         KeyHelp{"F12", "screenshot"},
         KeyHelp{"Ctrl +, Ctrl -", "larger, smaller letters"},
         KeyHelp{"F1", "this list"},
@@ -135,6 +136,7 @@ bool Steering::step(Console& console, const ViewPort& large, double toolDepth) {
     if (pressed(GLFW_KEY_F1)) {
         console.tab = Tab::Help;
     }
+    console.remake = console.remake || pressed(GLFW_KEY_F11);
     console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
     if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {
         console.textScale = std::min(2.0, console.textScale + 0.125);

@@ -14,7 +14,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
-constexpr size_t kShort = 9, kAll = 29, kTouchColumns = 13;
+constexpr size_t kShort = 9, kAll = 37, kTouchColumns = 13;
 constexpr size_t kMostTurns = 4'000'000, kMostTouchRows = kMostTurns * kMostTouches;
 constexpr size_t kLongestLine = 2048;
 
@@ -105,6 +105,10 @@ Moment momentFrom(const NumberRows& row, bool poses) {
         m.marginUncoupled = row[14];
         m.device = row.pose(15);
         m.tool = row.pose(22);
+        for (size_t k = 0; k < kMostJoints; ++k) {
+            m.arm.q[k] = row[29 + k];
+        }
+        m.arm.grasp = row[36];
     }
     return m;
 }
@@ -151,7 +155,7 @@ const char* wrenchHead() {
     return "t_s,fx,fy,fz,tx,ty,tz,contacts,state,guidance,target,scene_age_s,frame,margin_passive,margin_"
            "uncoupled,"
            "device_x,device_y,device_z,device_qw,device_qx,device_qy,device_qz,"
-           "tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz";
+           "tool_x,tool_y,tool_z,tool_qw,tool_qx,tool_qy,tool_qz,q1,q2,q3,q4,q5,q6,q7,grasp";
 }
 
 const char* touchesHead() {
@@ -167,6 +171,10 @@ void writeTurn(std::ostream& wrench, std::ostream& touches, double t, int64_t fr
            << "," << turn.marginUncoupled;
     put(wrench, turn.device);
     put(wrench, turn.tool);
+    for (double q : turn.arm.posture.q) {
+        wrench << "," << q;
+    }
+    wrench << "," << turn.arm.posture.grasp;
     wrench << "\n";
     for (uint32_t i = 0; i < turn.touchCount; ++i) {
         const Touch& touch = turn.touches[i];
@@ -209,6 +217,7 @@ TurnRecord TurnLog::recordAt(size_t i) const {
     r.t = m.t;
     r.device = m.device;
     r.tool = m.tool;
+    r.arm.posture = m.arm;
     r.wrench = m.wrench;
     r.contacts = m.contacts;
     r.state = m.state;

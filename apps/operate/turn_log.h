@@ -22,6 +22,7 @@ struct Moment {
     double sceneAge = kNotKnown, marginPassive = kNotKnown, marginUncoupled = kNotKnown;
     int64_t frame = -1; // picture of the recording whose set it obeyed
     Pose device, tool;  // base_T_tool
+    ArmPosture arm;     // all zero without one
     size_t firstTouch = 0;
     uint32_t touchCount = 0; // in TurnLog::touches
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/view_marks.h"
 
+#include "apps/operate/shape_marks.h"
 #include "apps/operate/theme.h"
 
 #include <cmath>
@@ -11,13 +12,6 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
-
-void line(ImDrawList& list, const ViewPort& port, const dvec3& a, const dvec3& b, ImU32 colour, float width) {
-    const auto p = port.of(a), q = port.of(b);
-    if (p && q) {
-        list.AddLine(*p, *q, colour, width);
-    }
-}
 
 void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, float dash) {
     const float length = std::hypot(b.x - a.x, b.y - a.y);
@@ -67,6 +61,19 @@ void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool gh
             ghost ? 1.6f : 2.2f, ghost);
 }
 
+// What the arm covers of the view.
+void armAt(ImDrawList& list, const MarksInput& input) {
+    if (input.arm.empty()) {
+        return;
+    }
+    Silhouette silhouette(input.port.view);
+    for (const Sphere& sphere : input.arm) {
+        silhouette.add(sphere.centre, sphere.radius);
+    }
+    const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
+    outline(list, input.port, lines, IM_COL32(150, 196, 235, 235), 1.8f, false);
+}
+
 void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& guidance, bool active) {
     const auto at = input.port.of(guidance.position);
     if (!at) {
@@ -104,62 +111,6 @@ void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& g
         drawWords(list, {at->x + 14.0f, at->y - 26.0f},
                   input.scene.fixtures[guidance.fixture].name + (active ? ", guiding" : ""),
                   IM_COL32(184, 222, 255, 255));
-    }
-}
-
-// Circles and edges of an authored shape.
-void boxAt(ImDrawList& list, const ViewPort& port, const Shape& shape, ImU32 colour) {
-    const dvec3 h = 0.5 * shape.size;
-    const auto corner = [&](int c) {
-        return shape.baseTshape.apply({c & 1 ? h.x : -h.x, c & 2 ? h.y : -h.y, c & 4 ? h.z : -h.z});
-    };
-    for (int i = 0; i < 8; ++i) {
-        for (int bit : {1, 2, 4}) {
-            if ((i & bit) == 0) {
-                line(list, port, corner(i), corner(i | bit), colour, 1.6f);
-            }
-        }
-    }
-}
-
-void shapeAt(ImDrawList& list, const ViewPort& port, const Shape& shape) {
-    const ImU32 colour = shape.isEquality() ? colour::kGuidance : colour::kRegionSoft;
-    const auto at = [&](double x, double y, double z) { return shape.baseTshape.apply({x, y, z}); };
-    const auto ring = [&](double r, double z, int axis) {
-        for (int i = 0; i < 40; ++i) {
-            const double a = kTurn * i / 40, b = kTurn * (i + 1) / 40;
-            const auto p = [&](double w) {
-                const double c = r * std::cos(w), s = r * std::sin(w);
-                return axis == 2 ? at(c, s, z) : axis == 1 ? at(c, z, s) : at(z, c, s);
-            };
-            line(list, port, p(a), p(b), colour, 1.6f);
-        }
-    };
-    switch (shape.kind) {
-    case ShapeKind::Sphere:
-        for (int axis = 0; axis < 3; ++axis) {
-            ring(shape.size.x, 0.0, axis);
-        }
-        break;
-    case ShapeKind::Box:
-        boxAt(list, port, shape, colour);
-        break;
-    case ShapeKind::Plane:
-        for (double k = -0.2; k <= 0.201; k += 0.1) {
-            line(list, port, at(k, -0.2, 0), at(k, 0.2, 0), colour, 1.2f);
-            line(list, port, at(-0.2, k, 0), at(0.2, k, 0), colour, 1.2f);
-        }
-        break;
-    case ShapeKind::Cylinder:
-        ring(shape.size.x, 0.5 * shape.size.y, 2);
-        ring(shape.size.x, -0.5 * shape.size.y, 2);
-        break;
-    case ShapeKind::Line:
-    case ShapeKind::Axis:
-        line(list, port, at(0, 0, -0.4), at(0, 0, 0.4), colour, 2.4f);
-        break;
-    case ShapeKind::None:
-        break;
     }
 }
 
@@ -216,6 +167,17 @@ void drawArrow(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width) 
     }
 }
 
+std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture) {
+    std::vector<Sphere> spheres;
+    if (arm != nullptr) {
+        const ArmFrames frames = arm->framesAt(posture);
+        for (size_t i = 0; i < arm->model.leaves.size(); ++i) {
+            spheres.push_back({arm->model.centre(frames, i), arm->model.leaves[i].sphere.radius});
+        }
+    }
+    return spheres;
+}
+
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground) {
     outline(list, port, ground.heldOutline(), colour::kRegionSoft, 1.8f, true);
     outline(list, port, ground.seenOutline(), colour::kRegion, 2.4f, false);
@@ -244,14 +206,22 @@ void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& s
         corners[i] = set.baseTcamera.apply(kDepth * dvec3(lens.ray(u, v), 1.0));
     }
     for (size_t i = 0; i < 4; ++i) {
-        line(list, port, set.baseTcamera.position, corners[i], colour::kQuiet, 1.2f);
-        line(list, port, corners[i], corners[(i + 1) % 4], colour::kQuiet, 1.2f);
+        drawSegment(list, port, set.baseTcamera.position, corners[i], colour::kQuiet, 1.2f);
+        drawSegment(list, port, corners[i], corners[(i + 1) % 4], colour::kQuiet, 1.2f);
     }
 }
 
 void drawMarks(ImDrawList& list, const MarksInput& input) {
     for (const Shape& shape : input.shapes) {
-        shapeAt(list, input.port, shape);
+        drawShape(list, input.port, shape);
+    }
+    for (const FixtureClass& f : input.scene.fixtures) {
+        if (f.isPoints() && f.box && !f.name.empty()) {
+            Shape box;
+            box.baseTshape.position = 0.5 * (f.box->min + f.box->max);
+            box.size = f.box->max - f.box->min;
+            drawBox(list, input.port, box, IM_COL32(160, 230, 190, 200));
+        }
     }
     const TurnRecord& record = input.run.turn().record;
     const auto& guidance = input.run.scene().set.guidance;
@@ -268,6 +238,7 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
     if (!isFinite(record.tool)) { // a recording that does not tell it
         return;
     }
+    armAt(list, input);
     toolAt(list, input, record.tool, false);
     const auto hand = input.port.of(record.device.position), tool = input.port.of(record.tool.position);
     if (hand && tool) {

@@ -7,6 +7,7 @@
 #include "apps/operate/view_port.h"
 #include "engine/contact/shapes.h"
 #include "engine/contact/tool.h"
+#include "engine/cycle/arm_rig.h"
 
 #include <span>
 #include <string>
@@ -20,8 +21,12 @@ struct MarksInput {
     const Tool& tool;
     const Scene& scene; // names
     std::span<const Shape> shapes;
-    bool names = true; // words at guidance and force: too much in an inset
+    std::span<const Sphere> arm; // base frame; empty = the tool moves freely
+    bool names = true;           // words at guidance and force: too much in an inset
 };
+
+// Every link's spheres in the base frame; nothing without an arm.
+std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture);
 
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground);
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);

@@ -25,6 +25,8 @@ TurnRecord turn(double seed, uint32_t touches) {
     r.sceneAge = 0.033;
     r.device = {dvec3(1e3 + seed, 0.2, 0.3), glm::normalize(dquat(1.0, seed, 0.2, -0.1))};
     r.tool = {dvec3(1e3 + seed, 0.2, 0.29), dquat(1.0, 0.0, 0.0, 0.0)};
+    r.arm.posture.q = {0.1, -seed, 0, 0, 0, 0, 7};
+    r.arm.posture.grasp = 0.5;
     r.touchCount = touches;
     for (uint32_t i = 0; i < touches; ++i) {
         r.touches[i].kind = ContactRow::Kind::Behind;
@@ -82,6 +84,8 @@ TEST_CASE(
         CHECK(read.device.position == wrote.device.position);
         CHECK(std::abs(glm::dot(read.device.rotation, wrote.device.rotation)) == doctest::Approx(1.0));
         CHECK(read.tool.position == wrote.tool.position);
+        CHECK(read.arm.posture.q == wrote.arm.posture.q);
+        CHECK(read.arm.posture.grasp == 0.5);
         REQUIRE(read.touchCount == touches[i]);
         for (uint32_t k = 0; k < read.touchCount; ++k) {
             CHECK(read.touches[k].point == wrote.touches[k].point);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/holding_panel.h"
+
+#include "apps/operate/theme.h"
+
+#include <imgui.h>
+#include <limits>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kRoom = 0.01; // [m] of a new box about the points
+
+// About the class's points as they are now, or about the middle of nothing.
+Box boxAbout(const Fixtures& set, int row) {
+    constexpr double kFar = std::numeric_limits<double>::infinity();
+    Box box{dvec3(kFar), dvec3(-kFar)};
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        if (set.spheres.fixture[i] == row) {
+            const dvec3 at = set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]},
+                                                double{set.spheres.z[i]});
+            box = {glm::min(box.min, at), glm::max(box.max, at)};
+        }
+    }
+    if (box.min.x > box.max.x) {
+        const dvec3 middle = set.baseTcamera.apply({0.0, 0.0, 1.0});
+        return {middle - 0.2, middle + 0.2};
+    }
+    return {box.min - kRoom, box.max + kRoom};
+}
+
+// True when the pilot let go of a corner that he dragged.
+bool corner(Console& console, const char* name, const std::string& place, dvec3& corner, bool& dragged) {
+    float v[] = {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(corner.z)};
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 40.0f * static_cast<float>(console.textScale));
+    if (ImGui::DragFloat3(name, v, 0.002f, -1000.0f, 1000.0f, "%.3f m")) {
+        corner = {double{v[0]}, double{v[1]}, double{v[2]}};
+        dragged = true;
+    }
+    markPlace(console, place);
+    return ImGui::IsItemDeactivatedAfterEdit();
+}
+
+bool boxCorners(Console& console, FixtureClass& now, int row) {
+    Box box = console.editedBoxRow == row ? console.editedBox : *now.box;
+    bool dragged = false;
+    bool done = corner(console, "min", "box min " + now.name, box.min, dragged);
+    done = corner(console, "max", "box max " + now.name, box.max, dragged) || done;
+    if (dragged) {
+        console.editedBoxRow = row;
+        console.editedBox = box;
+    }
+    if (done) {
+        now.box = Box{glm::min(box.min, box.max), glm::max(box.min, box.max)};
+        console.editedBoxRow = -1;
+    }
+    return done;
+}
+
+} // namespace
+
+bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapshot& snapshot) {
+    bool done = false;
+    if (ImGui::SmallButton(now.frozen ? "Let go" : "Hold still")) {
+        now.frozen = !now.frozen;
+        done = true;
+    }
+    markPlace(console, "hold " + now.name);
+    ImGui::SameLine();
+    if (ImGui::SmallButton(now.box ? "No box" : "Box")) {
+        now.box = now.box ? std::nullopt : std::optional(boxAbout(snapshot.set, row));
+        console.editedBoxRow = -1;
+        done = true;
+    }
+    markPlace(console, "box " + now.name);
+    if (now.frozen) {
+        ImGui::SameLine();
+        ImGui::TextColored(ImColor(colour::kCaution), "held still");
+    }
+    if (now.box && !done) {
+        done = boxCorners(console, now, row);
+    }
+    return done;
+}
+
+void drawPilots(Console& console, const Scene& scene) {
+    if (scene.pilots.empty()) {
+        return;
+    }
+    ImGui::TextDisabled("Pilot:");
+    for (const Scene::Pilot& pilot : scene.pilots) {
+        ImGui::SameLine(0.0f, 5.0f);
+        const bool chosen = pilot.name == scene.pilot;
+        if (chosen) {
+            ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_TabActive]);
+        }
+        if (ImGui::SmallButton(pilot.name.c_str()) && !chosen) {
+            console.pilotWanted = pilot.name;
+        }
+        markPlace(console, "pilot " + pilot.name);
+        if (chosen) {
+            ImGui::PopStyleColor();
+        }
+    }
+}
+
+} // namespace fathom::operate

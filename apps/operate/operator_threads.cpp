@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// The threads of the run, and what they run on: made at first, and again for another pilot.
+#include "apps/operate/operator_run.h"
+#include "engine/types/error.h"
+
+#include <limits>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+#include <utility>
+
+namespace fathom::operate {
+
+namespace {
+
+constexpr double kSoftStart = 1.5; // [s]
+constexpr int kNiceness = 5;       // the window's thread steps back behind camera and contacts
+
+} // namespace
+
+HapticOptions OperatorRun::softly(const Scene& scene, const Tool& tool) {
+    HapticOptions options = makeHapticOptions(scene, tool);
+    options.armTime = kSoftStart;
+    return options;
+}
+
+// start: raw pose of the hand; tool: where the tool stays, null = where the hand commands it.
+void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
+    RealtimeOptions o;
+    o.placement = placement_;
+    o.hapticPeriod = haptics_.period;
+    o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
+    if (session_.realArm) {                                 // the scene's start is where it stands
+        session_.arm->start = session_.realArm->ready(signals_.asked()).q;
+        o.arm = &session_.realArm->link();
+    }
+    engine_ = std::make_unique<RealtimeRun>(
+        feed_, session_.plan.query != Plan::Query::None ? &answers_ : nullptr, o);
+    if (!engine_->firstFrame()) {
+        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
+    }
+    const HandPath path = session_.path();
+    const Pose raw = tool != nullptr ? start : path.waypoints().front().deviceThandle;
+    pilot_ = std::make_unique<PilotHand>(raw);
+    path_ = std::make_unique<PathHand>(path);
+    HapticDevice& hand = options_.path ? static_cast<HapticDevice&>(*path_) : *pilot_;
+    hand_ = std::make_unique<GatedHand>(hand);
+    steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
+    const std::vector<Shape> shapes = editor_ ? editor_->shapes() : shapesOf(session_.scene);
+    const bool aligned = session_.arm && tool == nullptr && !options_.path;
+    cycle_ = std::make_unique<HapticCycle>(session_.tool, shapes, haptics_, raw, aligned ? &raw : tool,
+                                           session_.arm.get());
+}
+
+void OperatorRun::startThreads() {
+    makeEngine({}, nullptr);
+    editor_ = std::make_unique<FixtureEditor>(session_.scene,
+                                              [this](const Scene& scene, const std::vector<Shape>& shapes) {
+                                                  feed_.setScene(scene);
+                                                  engine_->setShapes(shapes);
+                                              });
+    // This one stays: threads that it makes have the priority of the start, not that of the window.
+    thread_ = std::thread([this] {
+        for (go_.acquire(); !over_; go_.acquire()) {
+            try {
+                engine_->run(*cycle_, *hand_, std::numeric_limits<double>::infinity(), sink_, stop_);
+                failure_ = engine_->failure();
+            } catch (...) {
+                failure_ = std::current_exception();
+            }
+            ended_.store(failure_ != nullptr || !stop_.load());
+            done_.release();
+        }
+    });
+    resumeThreads();
+    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)),
+                  kNiceness); // after the others began
+}
+
+void OperatorRun::resumeThreads() {
+    stop_.store(false);
+    running_ = true;
+    go_.release();
+}
+
+void OperatorRun::pauseThreads() {
+    stop_.store(true);
+    if (running_) {
+        done_.acquire();
+        running_ = false;
+    }
+}
+
+void OperatorRun::endThreads() {
+    pauseThreads();
+    if (thread_.joinable()) {
+        over_ = true;
+        go_.release();
+        thread_.join();
+    }
+}
+
+// Springs, limits and scale are those of a whole run: forces go off, the tool stays where it is, and a new
+// run begins there.
+void OperatorRun::followPilot() {
+    const std::string name = std::exchange(console_.pilotWanted, "");
+    if (name.empty() || !session_.scene.choosePilot(name)) {
+        return;
+    }
+    console_.forces = console_.guidance = console_.recording = console_.frozen = false;
+    feed_.freeze(false);
+    followRecorder();
+    hand_->setForces(false);
+    pauseThreads();
+    if (ended_.load()) {
+        return; // it failed: the window ends
+    }
+    session_.frames.forget(); // its clock begins anew
+    view_.refresh();
+    const TurnRecord last = view_.turn().record;
+    const Pose raw = steering_->wish(console_).deviceThandle;
+    const bool stays = view_.anyTurn() && !options_.path && isFinite(last.tool);
+    if (session_.arm && stays) {
+        session_.arm->start = last.arm.posture.q;
+    }
+    view_.rewind();
+    haptics_ = softly(session_.scene, session_.tool);
+    editor_->keep(console_.settings(), name);
+    makeEngine(raw, stays ? &last.tool : nullptr);
+    resumeThreads();
+    console_.tell(name + " flies now: arm the forces");
+}
+
+} // namespace fathom::operate

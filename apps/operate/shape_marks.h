@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Authored shapes and boxes as lines over a view.
+#pragma once
+
+#include "apps/operate/view_port.h"
+#include "engine/contact/shapes.h"
+
+namespace fathom::operate {
+
+void drawShape(ImDrawList& list, const ViewPort& port, const Shape& shape);
+void drawBox(ImDrawList& list, const ViewPort& port, const Shape& box, ImU32 colour);
+// Between two points of the base frame; nothing where either is behind the eye.
+void drawSegment(ImDrawList& list, const ViewPort& port, const dvec3& a, const dvec3& b, ImU32 colour,
+                 float width);
+
+} // namespace fathom::operate

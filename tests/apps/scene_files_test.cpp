@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/scene_files.h"
+
+#include "tests/apps/scratch_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::operate;
+using namespace fathom::testing;
+
+TEST_CASE("Files that a scene names beside itself are copied under their names, and others are told of") {
+    const ScratchFolder home, elsewhere, copy;
+    std::filesystem::create_directories(home.path() / "tools");
+    put(home.path() / "tools/jaw.sph", "spheres");
+    put(home.path() / "arm.urdf", "arm");
+    put(elsewhere.path() / "path.csv", "path");
+    Scene scene;
+    scene.file = home.path() / "scene.yaml";
+    scene.tool.file = home.path() / "tools/jaw.sph";
+    scene.arm.emplace();
+    scene.arm->urdf = home.path() / "arm.urdf";
+    scene.hand.builtIn = false;
+    scene.hand.path = (elsewhere.path() / "path.csv").string();
+    const std::string left = copySceneFiles(scene, copy.path());
+    CHECK(textOf(copy.path() / "tools/jaw.sph") == "spheres");
+    CHECK(textOf(copy.path() / "arm.urdf") == "arm");
+    CHECK(left == scene.hand.path);
+    CHECK(copy.files() == 2);
+    CHECK(copySceneFiles(Scene{}, copy.path()).empty());
+}
