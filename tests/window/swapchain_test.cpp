@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Window images that are lost, and what the window costs the haptic turn.
+#include "tests/program/run_fathom.h"
+#include "tests/window/window_rig.h"
+
+#include <cstdio>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <thread>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+// The figure after `name` in a line of the program's report; -1 = there is none.
+double figureIn(const std::string& text, const std::string& name) {
+    const size_t at = text.find(name);
+    double value = -1.0;
+    return at != std::string::npos && std::sscanf(text.c_str() + at + name.size(), "%lf", &value) == 1 ? value
+                                                                                                       : -1.0;
+}
+
+} // namespace
+
+TEST_CASE(
+    "Images of the window that are lost are made anew, again and again, while hand and pictures go on") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    for (int i = 0; i < 5; ++i) {
+        const json before = rig.state();
+        rig.key("F11");
+        REQUIRE(rig.await([&](const json& s) {
+            return s["window"]["swapchains"] > before["window"]["swapchains"].get<int>() &&
+                   s["window"]["frames"] > before["window"]["frames"].get<int>() + 3 &&
+                   s["run"]["turns"] > before["run"]["turns"].get<int>() + 50;
+        }));
+    }
+    const auto grey = [](int r, int g, int b) {
+        return std::abs(r - g) < 3 && std::abs(g - b) < 3 && r > 100;
+    };
+    CHECK(rig.shoot("after-loss").share(rig.place("camera"), grey) > 0.3);
+    CHECK(rig.close() == 0);
+    CHECK(rig.output().find("validation") == std::string::npos);
+}
+
+TEST_CASE("The window is measured against the same run without it") {
+    WindowRig rig;
+    const auto out = rig.folder() / "plain";
+    rig.reopen(rig.folder() / "scene.yaml", {"--path"});
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 5000; }, 60.0));
+    REQUIRE(rig.close() == 0);
+    const double with = figureIn(rig.output(), "turn         p50 ");
+    const ProgramRun plain = runFathom({"replay", (rig.folder() / "scene.yaml").string(), "--realtime",
+                                        "--device", "llvmpipe", "--out", out.string()});
+    REQUIRE_MESSAGE(plain.exitCode == 0, plain.err);
+    std::ifstream file(out / "summary.json");
+    const json summary = json::parse(file);
+    const double without = summary.at("haptic").at("turn_us").at("p50").get<double>();
+    REQUIRE(with > 0.0);
+    REQUIRE(without > 0.0);
+    MESSAGE("turn p50 with the window "
+            << with << " us, without " << without << " us: ratio " << with / without
+            << "; late with it: " << rig.output().substr(rig.output().find("turn  ")));
+}
