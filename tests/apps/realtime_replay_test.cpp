@@ -37,7 +37,7 @@ struct Run {
         placement = ThreadPlacement::ofThisProcess();
         confined.emplace(placement.rest);
         session.emplace(options, GlobalOptions{}, 2);
-        recorder.emplace(out, session->scene, session->frames.passNames(), false);
+        recorder.emplace(out, session->scene, session->cycles.frames().passNames(), false);
         replay.emplace(*session, options, *recorder, placement, nullptr);
     }
     Json finish() {
@@ -107,7 +107,7 @@ TEST_CASE("A realtime replay uses every frame of the recording, ages the scene b
     CHECK(oldest > 0.01); // of a frame that has just gone through the passes
     CHECK(newest == 26);
     CHECK(rowsOf(out.path() / "frames.csv",
-                 9 + static_cast<ptrdiff_t>(run.session->frames.passNames().size()) + 1)
+                 9 + static_cast<ptrdiff_t>(run.session->cycles.frames().passNames().size()) + 1)
               .size() == 27);
 }
 
