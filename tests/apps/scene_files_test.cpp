@@ -27,5 +27,8 @@ TEST_CASE("Files that a scene names beside itself are copied under their names, 
     CHECK(textOf(copy.path() / "arm.urdf") == "arm");
     CHECK(left == scene.hand.path);
     CHECK(copy.files() == 2);
-    CHECK(copySceneFiles(Scene{}, copy.path()).empty());
+    Scene plain; // names nothing
+    plain.file = scene.file;
+    CHECK(copySceneFiles(plain, copy.path()).empty());
+    CHECK(copy.files() == 2);
 }
