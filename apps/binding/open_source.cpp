@@ -103,7 +103,8 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);
     }
-    if (!scene.port || pictures == Pictures::Every) { // a recording keeps what the camera saw
+    // A recording keeps what the camera saw, but for one that a window made of what it used.
+    if (!scene.port || pictures == Pictures::Every || camera->info().inWater) {
         return camera;
     }
     const FlatPort port{scene.port->distance, scene.port->index};

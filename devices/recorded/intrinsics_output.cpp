@@ -47,6 +47,9 @@ Json intrinsicsJson(const CameraInfo& camera) {
                         {"sigma_m", camera.beam->range},
                         {"sigma_m_per_m", camera.beam->perMetre}};
     }
+    if (camera.inWater) {
+        json["port_corrected"] = {{"sigma_m", camera.sigma}};
+    }
     if (!camera.hasColour) {
         json["has_color"] = false;
     }

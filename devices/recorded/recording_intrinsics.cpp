@@ -182,6 +182,13 @@ RecordingIntrinsics readIntrinsics(const std::filesystem::path& file) {
     if (!camera.hasColour && !camera.registered) {
         colourThere->refuse("true where there is a block color");
     }
+    if (const auto water = root.find("port_corrected")) {
+        camera.inWater = true;
+        camera.sigma = water->at("sigma_m").finite();
+        if (camera.sigma < 0.0) {
+            water->at("sigma_m").refuse("at least 0");
+        }
+    }
     readBeams(root, intrinsics);
     readStamps(root, intrinsics);
     return intrinsics;

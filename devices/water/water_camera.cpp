@@ -27,6 +27,7 @@ WaterCamera::WaterCamera(std::unique_ptr<Camera> source, const FlatPort& port, d
         }
         info_.depth = depth.lens;
         info_.sigma = std::hypot(info_.sigma, worst / 3.0);
+        info_.inWater = true;
         factor_ = std::move(depth.factor);
     } catch (const BadInput&) {
         throw;

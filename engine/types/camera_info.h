@@ -51,6 +51,7 @@ struct CameraInfo {
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
     double sigma = 0.0; // [m] of its points beyond noise: what a correction leaves; regions grow by 3 of them
+    bool inWater = false;          // a flat port was corrected for already; sigma says what that left
     std::optional<BeamSigma> beam; // of each point; its region grows by 3 of them
 
     double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading there, camera frame

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a scene's port does to a camera, and to a recording of what a run used.
+#include "apps/binding/open_source.h"
+
+#include "devices/recorded/recording_writer.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// One picture of a wall 1 m away.
+void record(const std::filesystem::path& folder, const CameraInfo& camera) {
+    const std::vector<uint16_t> depth(camera.depth.pixels(), 1000);
+    Frame::Content content;
+    content.sourceNumber = 1;
+    content.depth = depth;
+    RecordingWriter writer(folder, camera, 1);
+    writer.add(Frame(content, nullptr));
+    writer.finish();
+}
+
+CameraInfo plainCamera() {
+    CameraInfo camera;
+    camera.depth = {.width = 64, .height = 48, .fx = 60, .fy = 60, .cx = 31.5, .cy = 23.5};
+    camera.colour = camera.depth;
+    camera.hasColour = false;
+    return camera;
+}
+
+} // namespace
+
+TEST_CASE("A recording of what a camera saw is corrected for the port, one of what a run used is not again") {
+    const ScratchFolder folder;
+    Scene scene;
+    scene.port.emplace();
+    scene.port->distance = 0.03, scene.port->index = 1.34;
+    record(folder.path() / "raw", plainCamera());
+    const auto corrected = openCamera(scene, folder.path() / "raw", Pictures::Newest);
+    const CameraInfo used = corrected->info();
+    CHECK(used.inWater);
+    CHECK(used.sigma > 0.0);
+    CHECK(used.depth.fx > 1.2 * 60.0);
+    record(folder.path() / "used", used);
+    const auto again = openCamera(scene, folder.path() / "used", Pictures::Newest);
+    CHECK(again->info().inWater);
+    CHECK(again->info().sigma == doctest::Approx(used.sigma).epsilon(1e-9));
+    CHECK(again->info().depth.fx == doctest::Approx(used.depth.fx).epsilon(1e-9));
+    const auto frame = again->next();
+    REQUIRE(frame);
+    CHECK((*frame)->depth[24 * 64 + 32] == 1000); // as it was written
+}
