@@ -9,8 +9,10 @@
 namespace fathom {
 namespace {
 
-void step(double& ramp, bool up, double change) {
-    ramp = std::clamp(ramp + (up ? change : -change), 0.0, 1.0);
+// Up by the nominal period and down by the measured one: turns that come late put no fading off, and none
+// makes a force grow faster.
+void step(double& ramp, bool up, double nominal, double measured, double whole) {
+    ramp = std::clamp(ramp + (up ? nominal : -measured) / whole, 0.0, 1.0);
 }
 
 PassivityOptions passivityOf(const HapticOptions& options) {
@@ -92,8 +94,8 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
         moved = moveTool(input, set, out);
     }
     held_ = now.held;
-    stepRamps(now, moved.trapped);
     const double period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
+    stepRamps(now, moved.trapped, period);
     finishWrench(springWrench(), period, now, out);
 
     report(now, moved, set != nullptr, out);
@@ -119,12 +121,13 @@ void HapticCycle::report(const Situation& now, const ProxyTurn& moved, bool hasS
     out.infeasible = moved.infeasible;
 }
 
-void HapticCycle::stepRamps(const Situation& now, bool trapped) noexcept {
+void HapticCycle::stepRamps(const Situation& now, bool trapped, double measured) noexcept {
     const bool on = now.running && !now.off && !now.clutch;
     arming_ = (arming_ || now.off) && ramps_.power < 1.0;
-    step(ramps_.power, on, options_.period / (on && arming_ ? options_.armTime : kRampTime));
-    step(ramps_.free, !trapped, options_.period / kRampTime);
-    step(ramps_.fresh, !now.stale, options_.period / kFadeTime);
+    const double nominal = options_.period;
+    step(ramps_.power, on, nominal, measured, on && arming_ ? options_.armTime : kRampTime);
+    step(ramps_.free, !trapped, nominal, measured, kRampTime);
+    step(ramps_.fresh, !now.stale, nominal, measured, kFadeTime);
 }
 
 Wrench HapticCycle::springWrench() noexcept {

@@ -24,7 +24,8 @@ namespace fathom {
 //   hand and still obeys the regions.
 // - Trapped: the tool is held, the force ramps out over 0.2 s, and back when a way is found. The clutch ramps
 // the same way.
-// - Scene older than staleAfter: the force fades over 0.5 s, and back when a frame comes.
+// - Scene older than staleAfter: the force fades over 0.5 s, and back when a frame comes. Fading goes by the
+//   clock, whatever turns are missed; what comes back goes by turns.
 // - A real arm that follows the tool (follow()) and stands still, or has to for forces off, an old scene or a
 // broken
 //   sample: the tool is held, the force ramps out over 0.2 s; then the tool is put where the arm was measured
@@ -92,7 +93,7 @@ private:
     double leafRadius(uint32_t leaf) const noexcept {
         return arm_ ? arm_->leafRadius(leaf) : leafRadius_[leaf];
     }
-    void stepRamps(const Situation& now, bool trapped) noexcept;
+    void stepRamps(const Situation& now, bool trapped, double measured) noexcept;
     Wrench springWrench() noexcept;
     Wrench guidancePull() const noexcept;
     Wrench passivityWrench(const Wrench& spring, const Wrench& pull, double period) noexcept;

@@ -237,6 +237,26 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, says so
     CHECK(force(record) == doctest::Approx(full));
 }
 
+TEST_CASE("Turns that come late put no fading off, and make no force come back sooner") {
+    Scene scene = plainScene();
+    scene.haptics.stiffness = 1000.0; // given: not lowered for the late turns
+    HapticRig rig(scene, at(0.0, 0.0, 0.03));
+    rig.show(wallSet());
+    rig.age = false;
+    rig.turns(400);
+    rig.hand = at(0.0, 0.0, 0.0);
+    const double full = force(rig.turns(200));
+    CHECK(full > 5.0);
+    rig.measured = 0.005;
+    rig.age = true;
+    rig.captured = rig.time - 0.1;
+    CHECK(force(rig.turns(51)) == doctest::Approx(full / 2.0).epsilon(0.03));
+    CHECK(force(rig.turns(52)) <= 1e-12); // 0.5 s
+    rig.age = false;
+    CHECK(force(rig.turns(251)) == doctest::Approx(full / 2.0).epsilon(0.03));
+    CHECK(force(rig.turns(251)) == doctest::Approx(full));
+}
+
 TEST_CASE("A source that has ended does not age in lockstep, and a set that is not the newest ages by its "
           "own stamp") {
     auto rig = pressedRig();

@@ -70,11 +70,12 @@ public:
         }
         input.guidance = guidance;
         input.sourceEnded = sourceEnded;
+        input.measuredPeriod = measured;
         const TurnRecord record = cycle->turn(input);
         if (record.adopted) {
             inForce = std::move(offered);
         }
-        time += options.period;
+        time += measured > 0.0 ? measured : options.period;
         return record;
     }
     TurnRecord turns(int count) {
@@ -96,7 +97,8 @@ public:
     std::vector<GuidancePose> guidance;
     Pose hand;
     double time = 0.0, captured = 0.0;
-    bool age = true; // false: every turn is a fresh capture
+    double measured = 0.0; // [s] from turn to turn; 0 = the nominal period, as in lockstep
+    bool age = true;       // false: every turn is a fresh capture
     bool query = true;
     uint32_t buttons = 0;
     bool forcesOff = false, sourceEnded = false;

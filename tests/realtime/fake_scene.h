@@ -150,6 +150,13 @@ inline HandPath pressingPath(double seconds) {
         {{0.0, at(0.0, 0.0, 0.03), 0}, {0.2, at(0.0, 0.0, 0.0), 0}, {seconds, at(0.0, 0.0, 0.0), 0}});
 }
 
+// Springs that are given stay as they are when this machine makes turns late.
+inline Scene sceneOfGivenSprings() {
+    Scene scene = plainScene();
+    scene.haptics.stiffness = 1000.0;
+    return scene;
+}
+
 struct FakeRun {
     FakeRun(uint32_t frames, HandPath handPath)
         : path(handPath)
@@ -158,7 +165,7 @@ struct FakeRun {
         , feed(pool, frames)
         , answers(pool, tool)
         , hand(std::move(handPath))
-        , options(makeHapticOptions(plainScene(), tool))
+        , options(makeHapticOptions(sceneOfGivenSprings(), tool))
         , sink(tool) {
         realtime.placement = ThreadPlacement::ofThisProcess();
     }
