@@ -96,16 +96,11 @@ void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
         publish(t);
         retry_ = kFirstRetry;
         return;
-    } catch (const DeviceLost& e) {
+    } catch (const DeviceFailed& e) {
         if (!feed_.renewable()) {
             throw;
         }
         spdlog::warn("GPU is gone ({}): the scene ages, forces fade; it is looked for", e.what());
-    } catch (const OutOfMemory& e) {
-        if (!feed_.renewable()) {
-            throw;
-        }
-        spdlog::warn("GPU is out of memory ({}): the scene ages, forces fade; it is opened again", e.what());
     }
     news_.gone = true;
     tell();
@@ -123,9 +118,7 @@ void FrameLoop::renew(const std::atomic<bool>& stop) {
             news_.gone = false;
             tell();
             return;
-        } catch (const DeviceLost& e) {
-            spdlog::debug("GPU: {}", e.what());
-        } catch (const OutOfMemory& e) {
+        } catch (const DeviceFailed& e) {
             spdlog::debug("GPU: {}", e.what());
         }
     }

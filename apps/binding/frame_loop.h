@@ -30,7 +30,7 @@ public:
     // picture that is the same again makes no set: `changed` false, the set and the colour in `out` are left
     // alone.
     virtual void publish(double t, PublishedFrame& out) = 0;
-    // Whether the device under publish() can be made anew when that threw DeviceLost or OutOfMemory; else
+    // Whether the device under publish() can be made anew when that threw DeviceFailed; else
     // these end the run.
     virtual bool renewable() const { return false; }
     // Makes it anew. Throws the same while it is not there: asked again later.

@@ -53,7 +53,7 @@ void DeviceCycles::renew() {
         contact_.use(*device_, plan_, frames->layout(), frames->sets());
         frames_ = std::move(frames);
         ++renewals_;
-    } catch (const OutOfMemory&) {
+    } catch (const DeviceFailed&) {
         throw;
     } catch (const Error& e) { // a driver that is being started anew may say anything
         throw DeviceLost(e.what());
@@ -71,11 +71,7 @@ bool DeviceCycles::answer(const ToolPlace& place, ContactSet& out) {
     const cloud::FixtureSet& set = newest ? *newest : *stale_;
     try {
         contact_.query(set, place, out);
-    } catch (const DeviceLost& e) {
-        spdlog::warn("contact query: {}: the CPU answers", e.what());
-        contact_.dropDevice();
-        contact_.query(set, place, out);
-    } catch (const OutOfMemory& e) {
+    } catch (const DeviceFailed& e) {
         spdlog::warn("contact query: {}: the CPU answers", e.what());
         contact_.dropDevice();
         contact_.query(set, place, out);

@@ -45,9 +45,9 @@ public:
     // memory left for the query is no error here: the CPU answers from then on, until renew().
     bool answer(const ToolPlace& place, ContactSet& out);
 
-    // After frames() threw DeviceLost or OutOfMemory: gives the device back and opens the same one again.
-    // Origin and generations go on; points that a scene holds in memory are forgotten. Throws DeviceLost or
-    // OutOfMemory while there is none: to be tried again.
+    // After frames() threw DeviceFailed: gives the device back and opens the same one again.
+    // Origin and generations go on; points that a scene holds in memory are forgotten. Throws
+    // DeviceFailed while there is none: to be tried again.
     void renew();
     uint32_t renewals() const { return renewals_; }
 

@@ -24,16 +24,22 @@ public:
     int exitCode() const noexcept override { return 2; }
 };
 
-// A GPU, or the host for it, has no memory left.
-class OutOfMemory : public Error {
+// A device that worked does so no more; opened again it may.
+class DeviceFailed : public Error {
 public:
     using Error::Error;
 };
 
-// A GPU, camera or haptic device that worked is gone.
-class DeviceLost : public Error {
+// A GPU, or the host for it, has no memory left.
+class OutOfMemory : public DeviceFailed {
 public:
-    using Error::Error;
+    using DeviceFailed::DeviceFailed;
+};
+
+// A GPU, camera or haptic device is gone.
+class DeviceLost : public DeviceFailed {
+public:
+    using DeviceFailed::DeviceFailed;
     int exitCode() const noexcept override { return 3; }
 };
 
