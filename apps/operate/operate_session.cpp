@@ -62,9 +62,7 @@ std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scen
 // Radii may change while it runs: what the scene at first could leave out for its radii stays in.
 Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device) {
     Scene editable = scene;
-    if (editable.contact.where == Scene::Contact::Where::Auto) {
-        editable.contact.where = Scene::Contact::Where::Cpu; // frozen classes are the host's only
-    }
+    editable.contact.where = Scene::Contact::Where::Cpu; // classes that are held still are the host's only
     Plan plan = makePlan(editable, camera, static_cast<uint32_t>(tool.leafCount()), device);
     plan.leaks = plan.spheres;
     return plan;
