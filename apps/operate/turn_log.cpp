@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <ostream>
@@ -37,17 +38,13 @@ public:
         if (!in_) {
             throw BadInput(name_, "file", "cannot be read", "a file of numbers");
         }
-        std::getline(in_, line_);
+        take();
     }
     const std::string& head() const { return line_; } // before the first next()
 
     bool next(size_t columns) {
-        if (!std::getline(in_, line_)) {
+        if (!take()) {
             return false;
-        }
-        ++number_;
-        if (line_.size() > kLongestLine) {
-            refuse("", std::to_string(line_.size()) + " characters", "2048 at most");
         }
         values_.clear();
         for (std::string_view field : splitFields(line_, ',')) {
@@ -83,11 +80,23 @@ public:
     }
 
 private:
+    // The next line, however long a file says it is.
+    bool take() {
+        std::array<char, kLongestLine + 1> buffer;
+        in_.getline(buffer.data(), buffer.size());
+        line_ = buffer.data();
+        ++number_;
+        if (in_.fail() && !in_.eof()) {
+            refuse("", line_, std::to_string(kLongestLine) + " characters at most");
+        }
+        return !in_.fail();
+    }
+
     std::string name_;
     std::ifstream in_;
     std::string line_;
     std::vector<double> values_;
-    size_t number_ = 1;
+    size_t number_ = 0;
 };
 
 Moment momentFrom(const NumberRows& row, bool poses) {

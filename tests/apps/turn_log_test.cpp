@@ -122,6 +122,9 @@ TEST_CASE("Turns that are damaged are refused with line and column") {
     CHECK(refusal(folder.path()).find("line 2, t_s") != std::string::npos);
     put(file, head + "0,0,0\n");
     CHECK(refusal(folder.path()).find("3 fields") != std::string::npos);
+    put(file, head + std::string(2049, '7') + "\n");
+    CHECK(refusal(folder.path()).find("line 2") != std::string::npos);
+    CHECK(refusal(folder.path()).find("2048 characters at most") != std::string::npos);
     write(folder.path(), {1, 1});
     put(folder.path() / kTouchesFile, std::string(touchesHead()) + "\n0.05,0,0,0,0,0,0,0,0,0,0,0,0\n");
     CHECK(refusal(folder.path()).find("touches.csv: line 2, t_s") != std::string::npos);
