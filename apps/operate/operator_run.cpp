@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/operator_run.h"
 
-#include "apps/operate/why_panel.h"
+#include "apps/operate/shown_state.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -111,26 +111,7 @@ void OperatorRun::frame() {
 }
 
 StateExtras OperatorRun::extras() const {
-    StateExtras extras;
-    extras.mode = modeOf(console_, view_).word;
-    extras.windowFrames = canvas_->painter().drawn();
-    extras.yielded = canvas_->painter().yielded();
-    extras.swapchains = canvas_->swapchains();
-    const VkExtent2D size = window_.size();
-    extras.width = size.width;
-    extras.height = size.height;
-    extras.validationMessages = session_.instance.messages();
-    extras.unknownShare = screen_.unknownShare();
-    extras.alarms = alarms_.inWords();
-    extras.scene = &editor_->scene();
-    extras.shapes = editor_->shapes().size();
-    extras.selected = editor_->selectedPoints();
-    extras.stiffness = haptics_.springs.stiffness;
-    extras.forceLimit = haptics_.forceLimit;
-    if (!view_.blocks().empty()) {
-        extras.why = whyBlocked(view_.blocks().front(), editor_->scene(), view_.scene().set);
-    }
-    return extras;
+    return extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, *editor_, haptics_});
 }
 
 void OperatorRun::report() const {

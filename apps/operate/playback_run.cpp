@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/playback_run.h"
 
+#include "apps/operate/shown_state.h"
 #include "apps/operate/view_click.h"
-#include "apps/operate/why_panel.h"
 #include "devices/recorded/hand_csv.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/types/error.h"
@@ -17,7 +17,6 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kFramePeriod = 1.0 / 60.0; // [s] of the window, at best
-constexpr uint32_t kDeadManBit = 2;
 
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -179,7 +178,7 @@ void PlaybackRun::followTime(double dt) {
 }
 
 uint32_t PlaybackRun::buttonsAt(double t) const {
-    return hand_ ? hand_->at(t).buttons : kDeadManBit;
+    return hand_ ? hand_->at(t).buttons : kDeadManOpen;
 }
 
 // The ten seconds before this moment, so that traces and blocks are as they were.
@@ -201,30 +200,12 @@ void PlaybackRun::showMoment() {
         view_.take(row);
     }
     const uint32_t buttons = buttonsAt(t);
-    console_.forces = (buttons & kDeadManBit) == 0;
+    console_.forces = (buttons & kDeadManOpen) == 0;
     console_.guidance = (buttons & kGuidanceButton) != 0;
 }
 
 StateExtras PlaybackRun::extras() const {
-    StateExtras extras;
-    extras.mode = modeOf(console_, view_).word;
-    extras.windowFrames = canvas_->painter().drawn();
-    extras.swapchains = canvas_->swapchains();
-    const VkExtent2D size = window_.size();
-    extras.width = size.width;
-    extras.height = size.height;
-    extras.validationMessages = session_.instance.messages();
-    extras.unknownShare = screen_.unknownShare();
-    extras.alarms = alarms_.inWords();
-    extras.scene = &editor_.scene();
-    extras.shapes = editor_.shapes().size();
-    extras.selected = editor_.selectedPoints();
-    extras.stiffness = haptics_.springs.stiffness;
-    extras.forceLimit = haptics_.forceLimit;
-    if (!view_.blocks().empty()) {
-        extras.why = whyBlocked(view_.blocks().front(), editor_.scene(), view_.scene().set);
-    }
-    return extras;
+    return extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, editor_, haptics_});
 }
 
 } // namespace fathom::operate

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/shown_state.h"
+
+#include "apps/operate/why_panel.h"
+
+namespace fathom::operate {
+
+StateExtras extrasOf(const ShownState& s) {
+    StateExtras extras;
+    extras.mode = modeOf(s.console, s.view).word;
+    extras.windowFrames = s.canvas.painter().drawn();
+    extras.yielded = s.canvas.painter().yielded();
+    extras.swapchains = s.canvas.swapchains();
+    const VkExtent2D size = s.window.size();
+    extras.width = size.width;
+    extras.height = size.height;
+    extras.validationMessages = s.session.instance.messages();
+    extras.unknownShare = s.screen.unknownShare();
+    extras.alarms = s.alarms.inWords();
+    extras.scene = &s.editor.scene();
+    extras.shapes = s.editor.shapes().size();
+    extras.selected = s.editor.selectedPoints();
+    extras.stiffness = s.haptics.springs.stiffness;
+    extras.forceLimit = s.haptics.forceLimit;
+    if (!s.view.blocks().empty()) {
+        extras.why = whyBlocked(s.view.blocks().front(), s.editor.scene(), s.view.scene().set);
+    }
+    return extras;
+}
+
+} // namespace fathom::operate

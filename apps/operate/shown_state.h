@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run and a look back tell alike to who watches them from outside.
+#pragma once
+
+#include "apps/operate/alarms.h"
+#include "apps/operate/canvas.h"
+#include "apps/operate/fixture_editor.h"
+#include "apps/operate/screen.h"
+#include "apps/operate/state_log.h"
+
+namespace fathom::operate {
+
+struct ShownState {
+    const Console& console;
+    const RunView& view;
+    const OperateSession& session;
+    const Window& window;
+    const Canvas& canvas;
+    const Screen& screen;
+    const Alarms& alarms;
+    const FixtureEditor& editor;
+    const HapticOptions& haptics;
+};
+
+StateExtras extrasOf(const ShownState& shown);
+
+} // namespace fathom::operate
