@@ -20,8 +20,11 @@ std::string whoHolds(const Block& block, const Scene& scene, const Fixtures& set
         const uint32_t width = std::max(1u, set.camera.depth.width),
                        pixels = std::max(1u, set.camera.depth.pixels());
         const uint32_t pixel = touch.source % pixels;
+        const char* kept = touch.source >= 2 * pixels ? "), held still" // FrozenClasses moves them there
+                           : touch.source >= pixels   ? "), held: not seen now"
+                                                      : ")";
         return name + ", region sphere of pixel (" + std::to_string(pixel % width) + ", " +
-               std::to_string(pixel / width) + (touch.source >= pixels ? "), held: not seen now" : ")");
+               std::to_string(pixel / width) + kept;
     }
     case ContactRow::Kind::Shape:
         return name + ", an authored shape";
