@@ -58,9 +58,25 @@ void putPoints(std::ostream& out, const FixtureClass& f) {
     }
 }
 
+// As a YAML scalar in double quotes.
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        if (c == '"' || c == '\\') {
+            out += '\\';
+        }
+        if (c == '\n') {
+            out += "\\n";
+        } else {
+            out += c;
+        }
+    }
+    return out + "\"";
+}
+
 void putRow(std::ostream& out, const FixtureClass& f) {
     constexpr const char* kShapes[] = {"", "sphere", "box", "plane", "cylinder", "line", "axis"};
-    out << "  - { name: \"" << f.name << "\", role: "
+    out << "  - { name: " << quoted(f.name) << ", role: "
         << (f.role == Role::Guidance ? "guidance"
             : f.keepIn               ? "keep_in"
                                      : "forbidden");
@@ -120,7 +136,7 @@ std::string FixtureEditor::text() const {
     }
     std::string text = withBlock(old.str(), "fixtures:", rows == 0 ? "fixtures: []\n" : block.str());
     if (!scene_.pilot.empty()) {
-        text = withBlock(text, "pilot:", "pilot: \"" + scene_.pilot + "\"\n");
+        text = withBlock(text, "pilot:", "pilot: " + quoted(scene_.pilot) + "\n");
     }
     return scene_.window ? withBlock(text, "window:", windowBlock(*scene_.window)) : text;
 }
