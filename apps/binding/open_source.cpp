@@ -26,6 +26,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     if (scene.source.value == "sonar") {
         SimulatedSonarOptions sonar;
         sonar.baseTscene = scene.baseTcamera;
+        sonar.frames = scene.source.pictures > 0 ? scene.source.pictures : sonar.frames;
         return std::make_unique<SimulatedSonar>(sonarScene(), sonar);
     }
     const auto solids = analyticScene(scene.source.value);
@@ -35,6 +36,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     }
     SimulatedCameraOptions options;
     options.baseTscene = scene.baseTcamera;
+    options.frames = scene.source.pictures > 0 ? scene.source.pictures : options.frames;
     return std::make_unique<SimulatedCamera>(*solids, options);
 }
 

@@ -7,7 +7,7 @@ namespace fathom {
 namespace {
 
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
-    node.checkKeys({"simulated", "recorded", "v4l2", "arm"});
+    node.checkKeys({"simulated", "recorded", "v4l2", "arm", "pictures"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2");
     const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value());
     if (given != 1) {
@@ -22,10 +22,16 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
         if (source.showsArm && source.value == "sonar") {
             arm->refuse("false: the simulated sonar draws none");
         }
+        if (const auto pictures = node.find("pictures")) {
+            source.pictures = static_cast<uint32_t>(pictures->integer(1, 100'000));
+        }
         return source;
     }
     if (const auto arm = node.find("arm")) {
         arm->refuse("nothing: only a simulated camera draws an arm");
+    }
+    if (const auto pictures = node.find("pictures")) {
+        pictures->refuse("nothing: only a simulated camera has as many as one likes");
     }
     if (recorded) {
         return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};
