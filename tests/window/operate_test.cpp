@@ -16,9 +16,6 @@ using nlohmann::json;
 
 namespace {
 
-bool isRed(int r, int g, int b) {
-    return r > 110 && r > 2 * g && r > 2 * b;
-}
 bool isBlue(int r, int g, int b) {
     return b > 180 && r < 130 && g > 90 && g < 200;
 }

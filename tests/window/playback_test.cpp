@@ -15,10 +15,6 @@ using nlohmann::json;
 
 namespace {
 
-bool isRed(int r, int g, int b) {
-    return r > 110 && r > 2 * g && r > 2 * b;
-}
-
 // Two seconds without a hand's motion, then against the bump. Returns the folder.
 std::filesystem::path recordAPush(WindowRig& rig) {
     rig.key("r");

@@ -26,6 +26,10 @@ struct Screenshot {
                  const std::function<bool(int r, int g, int b)>& accepts) const;
 };
 
+inline bool isRed(int r, int g, int b) {
+    return r > 110 && r > 2 * g && r > 2 * b;
+}
+
 // One display, one program. The scene: a wall with a red bump and a yellow square, validation layers on.
 class WindowRig {
 public:
