@@ -69,10 +69,6 @@ struct FollowRig {
     bool placed = false;
 };
 
-double force(const TurnRecord& record) {
-    return glm::length(record.wrench.force);
-}
-
 // Until the ball holds it and the hand is 5 mm further.
 FollowRig pressed() {
     FollowRig follow;
@@ -90,7 +86,7 @@ TEST_CASE("An arm that follows moves as the tool does, and the pilot feels what 
     FollowRig follow = pressed();
     const TurnRecord record = follow.turns(50);
     CHECK(record.state == TurnState::Contact);
-    CHECK(force(record) > 2.0);
+    CHECK(forceOf(record) > 2.0);
     CHECK_FALSE(record.armHold);
     CHECK_FALSE(follow.placed);
     CHECK(follow.depth() <= 1e-9);
@@ -99,7 +95,7 @@ TEST_CASE("An arm that follows moves as the tool does, and the pilot feels what 
 TEST_CASE("An arm that stands still holds the tool at once, and the force is gone after 0.2 s") {
     for (const int why : {0, 1}) {
         FollowRig follow = pressed();
-        const double full = force(follow.turns(50));
+        const double full = forceOf(follow.turns(50));
         const ArmPosture before = follow.cycle->place().arm;
         (why == 0 ? follow.told.follows = false : (follow.buttons = kDeadManOpen) != 0);
         follow.told.known = false; // silent, too
@@ -110,9 +106,9 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
             CHECK(record.armHold);
             CHECK(record.state == (i < 198 ? TurnState::Fading : i > 202 ? TurnState::Off : record.state));
             CHECK(record.arm.posture.q == before.q);
-            CHECK(force(record) <= last + 1e-12);
-            CHECK(last - force(record) < 0.05 * full); // soft
-            last = force(record);
+            CHECK(forceOf(record) <= last + 1e-12);
+            CHECK(last - forceOf(record) < 0.05 * full); // soft
+            last = forceOf(record);
         }
         CHECK(last == 0.0);
     }
@@ -131,7 +127,7 @@ TEST_CASE("Forces off hold an arm that follows, and it does not leap to a hand t
     const TurnRecord record = follow.turns(300);
     CHECK_FALSE(record.armHold);
     CHECK(glm::distance(record.tool.position, tool.position) < 1e-6);
-    CHECK(force(record) < 1e-3);
+    CHECK(forceOf(record) < 1e-3);
     follow.hand.position.y -= 0.005; // from here on it goes with the hand
     CHECK(glm::distance(follow.turns(200).tool.position, tool.position) ==
           doctest::Approx(0.005).epsilon(0.02));
@@ -151,7 +147,7 @@ TEST_CASE("The tool goes on from where the arm was measured, also inside a regio
     for (int i = 0; i < 500; ++i) {
         const TurnRecord record = follow.turn();
         CHECK(follow.depth() <= deepest + 1e-9);
-        CHECK(force(record) < 20.0);
+        CHECK(forceOf(record) < 20.0);
         deepest = std::max(0.0, follow.depth());
     }
     CHECK(deepest < 1e-6);

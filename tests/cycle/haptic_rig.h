@@ -105,6 +105,10 @@ public:
 };
 
 // A scene with one forbidden class of points.
+inline double forceOf(const TurnRecord& record) {
+    return glm::length(record.wrench.force);
+}
+
 inline Scene plainScene(const char* device = "ideal") {
     Scene scene;
     scene.fixtures.emplace_back();

@@ -150,6 +150,26 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
     CHECK(record.tool.position.z >= 0.01);
 }
 
+TEST_CASE("Turns that come late put no fading off, and make no force come back sooner") {
+    Scene scene = plainScene();
+    scene.haptics.stiffness = 1000.0; // given: not lowered for the late turns
+    HapticRig rig(scene, at(0.0, 0.0, 0.03));
+    rig.show(wallSet());
+    rig.age = false;
+    rig.turns(400);
+    rig.hand = at(0.0, 0.0, 0.0);
+    const double full = forceOf(rig.turns(200));
+    CHECK(full > 5.0);
+    rig.measured = 0.005;
+    rig.age = true;
+    rig.captured = rig.time - 0.1;
+    CHECK(forceOf(rig.turns(51)) == doctest::Approx(full / 2.0).epsilon(0.03));
+    CHECK(forceOf(rig.turns(52)) <= 1e-12); // 0.5 s
+    rig.age = false;
+    CHECK(forceOf(rig.turns(251)) == doctest::Approx(full / 2.0).epsilon(0.03));
+    CHECK(forceOf(rig.turns(251)) == doctest::Approx(full));
+}
+
 TEST_CASE("Margins are those of the measured period when there is one, and unknown without a known b") {
     HapticRig rig(plainScene(), at(0, 0, 0.03));
     TurnInput input;

@@ -201,8 +201,4 @@ struct FakeRun {
     std::optional<RealtimeRun> run;
 };
 
-inline double forceOf(const TurnRecord& record) {
-    return std::sqrt(glm::dot(record.wrench.force, record.wrench.force));
-}
-
 } // namespace fathom::testing
