@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/greedy_cover.h"
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -10,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-using Bits = std::vector<uint64_t>;
+using Bits = std::vector<uint64_t>; // a word a group of pieces
 
 bool holds(const Sphere& s, const CoverPiece& piece) {
     const dvec3 d = piece.middle - s.centre;
@@ -22,43 +21,39 @@ bool holds(const Sphere& s, const CoverPiece& piece) {
     return square <= never * never && piece.radiusFrom(s.centre) <= s.radius;
 }
 
-// Middles and reaches once more as columns: nearly every question is answered by them alone.
-struct Columns {
-    std::vector<float> x, y, z, reach;
-    std::vector<float> distance; // scratch
+enum class Share { None, Some, All };
 
-    explicit Columns(const std::vector<CoverPiece>& pieces)
-        : distance(pieces.size()) {
-        for (const CoverPiece& piece : pieces) {
-            x.push_back(static_cast<float>(piece.middle.x));
-            y.push_back(static_cast<float>(piece.middle.y));
-            z.push_back(static_cast<float>(piece.middle.z));
-            reach.push_back(static_cast<float>(piece.reach));
-        }
+// What a sphere surely holds of all that lies in another one.
+Share shareOf(const Sphere& s, const Sphere& about) {
+    const double slack = 1e-9 * (s.radius + glm::length(s.centre));
+    const double d = glm::distance(about.centre, s.centre);
+    return d > s.radius + about.radius + slack    ? Share::None
+           : d + about.radius + slack <= s.radius ? Share::All
+                                                  : Share::Some;
+}
+
+size_t mostHeldBy(const Sphere& s, const PieceGroups& groups) {
+    size_t most = 0;
+    for (size_t g = 0; g < groups.count(); ++g) {
+        most += shareOf(s, groups.about(g)) == Share::None ? 0 : groups.pieces(g).size();
     }
+    return most;
+}
 
-    // Distances of all middles from c, right to some 1e-6 of their size.
-    void measure(const dvec3& c) {
-        const auto cx = static_cast<float>(c.x), cy = static_cast<float>(c.y), cz = static_cast<float>(c.z);
-        for (size_t p = 0; p < x.size(); ++p) {
-            const float dx = x[p] - cx, dy = y[p] - cy, dz = z[p] - cz;
-            distance[p] = std::sqrt(dx * dx + dy * dy + dz * dz);
-        }
-    }
-};
-
-Bits heldBy(const Sphere& s, const std::vector<CoverPiece>& pieces, Columns& columns) {
-    Bits bits((pieces.size() + 63) / 64, 0);
-    columns.measure(s.centre);
-    const auto radius = static_cast<float>(s.radius);
-    const auto slack = static_cast<float>(1e-5 * (s.radius + glm::length(s.centre)));
-    for (size_t p = 0; p < pieces.size(); ++p) {
-        const float d = columns.distance[p], reach = columns.reach[p];
-        if (d > radius + reach + slack) {
+// Of the pieces in `wanted`.
+Bits heldBy(const Sphere& s, const PieceGroups& groups, const Bits& wanted) {
+    Bits bits(groups.count(), 0);
+    for (size_t g = 0; g < groups.count(); ++g) {
+        const Share share = wanted[g] == 0 ? Share::None : shareOf(s, groups.about(g));
+        bits[g] = share == Share::All ? wanted[g] : 0;
+        if (share != Share::Some) {
             continue;
         }
-        const bool held = d + reach + slack <= radius || holds(s, pieces[p]);
-        bits[p / 64] |= static_cast<uint64_t>(held) << (p % 64);
+        const std::span<const CoverPiece> group = groups.pieces(g);
+        for (uint64_t ask = wanted[g]; ask != 0; ask &= ask - 1) {
+            const int i = std::countr_zero(ask);
+            bits[g] |= static_cast<uint64_t>(holds(s, group[static_cast<size_t>(i)])) << i;
+        }
     }
     return bits;
 }
@@ -78,35 +73,36 @@ struct Pick {
 
 class Greedy {
 public:
-    Greedy(const std::vector<CoverPiece>& pieces, double protrusion, size_t most)
-        : pieces_(pieces)
-        , columns_(pieces)
+    Greedy(const PieceGroups& groups, double protrusion, size_t most)
+        : groups_(groups)
         , protrusion_(protrusion)
         , most_(most)
-        , left_((pieces.size() + 63) / 64, 0) {
-        for (size_t p = 0; p < pieces.size(); ++p) {
-            left_[p / 64] |= uint64_t{1} << (p % 64);
+        , remaining_(groups.size()) {
+        for (size_t g = 0; g < groups_.count(); ++g) {
+            left_.push_back(~uint64_t{0} >> (64 - groups_.pieces(g).size()));
         }
-        remaining_ = pieces.size();
     }
 
     // False when more than `most` are needed.
     bool pickSeats(const std::vector<CoverSeat>& seats) {
         std::vector<Sphere> balls;
-        std::vector<Bits> held;
         std::priority_queue<Pick> queue;
         for (const CoverSeat& seat : seats) {
             const Sphere ball{seat.centre, seat.depth + protrusion_};
             if (ball.radius > 0.0) {
-                held.push_back(heldBy(ball, pieces_, columns_));
-                queue.push({gainOf(held.back(), left_), balls.size()});
+                queue.push({mostHeldBy(ball, groups_), balls.size()});
                 balls.push_back(ball);
             }
         }
+        std::vector<Bits> held(balls.size()); // empty until a ball's turn comes
         while (remaining_ > 0 && !queue.empty()) {
             Pick top = queue.top();
             queue.pop();
-            top.gain = gainOf(held[top.seat], left_); // gains only fall: what is still best now is best
+            Bits& bits = held[top.seat];
+            if (bits.empty()) {
+                bits = heldBy(balls[top.seat], groups_, left_); // later on less is left
+            }
+            top.gain = gainOf(bits, left_); // gains only fall: what is still best now is best
             if (top.gain == 0) {
                 continue;
             }
@@ -114,7 +110,7 @@ public:
                 queue.push(top);
                 continue;
             }
-            if (!take(balls[top.seat], held[top.seat])) {
+            if (!take(balls[top.seat], bits)) {
                 return false;
             }
         }
@@ -122,13 +118,14 @@ public:
     }
 
     // What no seat holds gets a ball about itself.
-    bool rescue(const std::vector<CoverPiece>& pieces) {
-        for (size_t p = 0; p < pieces.size() && remaining_ > 0; ++p) {
-            if ((left_[p / 64] >> (p % 64) & 1) == 0) {
+    bool rescue() {
+        for (const uint32_t place : groups_.places()) {
+            if ((left_[place / 64] >> (place % 64) & 1) == 0) {
                 continue;
             }
-            const Sphere ball{pieces[p].middle, pieces[p].depth + protrusion_};
-            if (!holds(ball, pieces[p]) || !take(ball, heldBy(ball, pieces, columns_))) {
+            const CoverPiece& piece = groups_.pieces(place / 64)[place % 64];
+            const Sphere ball{piece.middle, piece.depth + protrusion_};
+            if (!holds(ball, piece) || !take(ball, heldBy(ball, groups_, left_))) {
                 return false;
             }
         }
@@ -142,7 +139,7 @@ private:
         if (chosen_.size() == most_) {
             return false;
         }
-        for (size_t w = 0; w < left_.size(); ++w) {
+        for (size_t w = 0; w < left_.size(); ++w) { // `held` is of a time when more was left
             remaining_ -= static_cast<size_t>(std::popcount(held[w] & left_[w]));
             left_[w] &= ~held[w];
         }
@@ -150,21 +147,20 @@ private:
         return true;
     }
 
-    const std::vector<CoverPiece>& pieces_;
-    Columns columns_;
+    const PieceGroups& groups_;
     double protrusion_;
     size_t most_;
     Bits left_; // not held yet
-    size_t remaining_ = 0;
+    size_t remaining_;
     std::vector<Sphere> chosen_;
 };
 
 } // namespace
 
-std::vector<Sphere> greedyCover(const std::vector<CoverPiece>& pieces, const std::vector<CoverSeat>& seats,
+std::vector<Sphere> greedyCover(const PieceGroups& groups, const std::vector<CoverSeat>& seats,
                                 double protrusion, size_t most) {
-    Greedy greedy(pieces, protrusion, most);
-    if (!greedy.pickSeats(seats) || !greedy.rescue(pieces)) {
+    Greedy greedy(groups, protrusion, most);
+    if (!greedy.pickSeats(seats) || !greedy.rescue()) {
         return {};
     }
     return std::move(greedy.chosen());

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // URDF to ArmModel.
 #include "engine/model/arm_model.h"
-#include "engine/model/mesh_file.h"
-#include "engine/model/sphere_cover.h"
+#include "engine/model/link_spheres.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <future>
 #include <limits>
+#include <thread>
 
 namespace fathom {
 
@@ -39,6 +41,7 @@ public:
         if (model_.fingers.size() < options_.fingers.size()) {
             refuseFinger();
         }
+        coverShapes();
         if (model_.leaves.empty()) {
             refuse("collision", "no shapes on any link", "links with collision geometry");
         }
@@ -134,13 +137,13 @@ private:
         uint32_t finger; // 0 = none, else one more than its index
     };
 
-    // Spheres of `link` and of all that it carries, in its carrier's frame.
+    // Shapes of `link` and of all that it carries, in its carrier's frame.
     void addLinks(const LinkPtr& link, const Pose& frameTlink, const Carrier& carrier) {
-        const size_t before = model_.leaves.size();
+        const auto index = static_cast<uint32_t>(model_.links.size());
         for (const auto& collision : link->collision_array) {
-            addShape(*link, *collision, frameTlink * poseOf(collision->origin), carrier);
+            shapes_.push_back({link, collision, frameTlink * poseOf(collision->origin), carrier, index});
         }
-        if (model_.leaves.size() > before) {
+        if (!link->collision_array.empty()) {
             model_.links.push_back(link->name);
         }
         for (const auto& below : link->child_joints) {
@@ -191,82 +194,52 @@ private:
         refuse("finger", "named twice", "each finger once");
     }
 
-    void addShape(const urdf::Link& link, const urdf::Collision& collision, const Pose& place,
-                  const Carrier& carrier) {
-        const auto keep = [&](const Sphere& s) {
-            if (!isFinite(s.centre) || !(s.radius > 0.0)) {
-                refuse("link " + link.name, "a sphere without radius", "radii above 0");
+    struct Shape {
+        LinkPtr link;
+        std::shared_ptr<const urdf::Collision> collision;
+        Pose frameTshape;
+        Carrier carrier;
+        uint32_t index; // of the link among those with shapes
+    };
+
+    // All processors make spheres; the first refusal in the file's order is told.
+    void coverShapes() {
+        std::atomic<size_t> next{0};
+        std::vector<std::promise<std::vector<Sphere>>> made(shapes_.size());
+        const auto work = [&] {
+            for (size_t i = next++; i < shapes_.size(); i = next++) {
+                try {
+                    made[i].set_value(coverOf(shapes_[i]));
+                } catch (...) {
+                    made[i].set_exception(std::current_exception());
+                }
             }
-            model_.leaves.push_back({{place.apply(s.centre), s.radius},
-                                     carrier.joint,
-                                     static_cast<uint32_t>(model_.links.size()),
-                                     carrier.finger});
         };
-        if (const auto* ball = dynamic_cast<const urdf::Sphere*>(collision.geometry.get())) {
-            keep({dvec3(0.0), ball->radius});
-            return;
+        {
+            std::vector<std::jthread> others(std::max(1u, std::thread::hardware_concurrency()) - 1);
+            std::generate(others.begin(), others.end(), [&] { return std::jthread(work); });
+            work();
         }
-        LoadedMesh loaded = meshOf(link, *collision.geometry);
-        const MeshDistance distance(loaded.mesh, loaded.facts.closed());
-        CoverOptions cover;
-        cover.leaves = options_.leavesPerShape;
-        cover.effort = 0;
-        for (const Sphere& s : coverMesh(loaded.mesh, distance, cover).spheres) {
-            keep(s);
+        for (size_t i = 0; i < shapes_.size(); ++i) {
+            addSpheres(shapes_[i], made[i].get_future().get());
         }
     }
 
-    LoadedMesh meshOf(const urdf::Link& link, const urdf::Geometry& shape) const {
-        LoadedMesh loaded;
-        if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
-            loaded.mesh = prism(4, {0.5 * box->dim.x, 0.5 * box->dim.y}, box->dim.z);
-        } else if (const auto* tube = dynamic_cast<const urdf::Cylinder*>(&shape)) {
-            // Twenty-four sides about the circle: the flats lie outside it.
-            const double radius = tube->radius / std::cos(3.14159265358979323846 / 24.0);
-            loaded.mesh = prism(24, {radius, radius}, tube->length);
-        } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape)) {
-            MeshOptions options;
-            options.scale = mesh->scale.x;
-            options.dropStray = true; // an arm's parts are near each other whatever the file holds besides
-            return loadMesh(pathOf(mesh->filename), options);
+    std::vector<Sphere> coverOf(const Shape& shape) const {
+        try {
+            return linkSpheres(*shape.collision->geometry, {file_, options_.meshes, options_.leavesPerShape});
+        } catch (const ShapeRefused& e) {
+            refuse("link " + shape.link->name, e.value, e.allowed);
         }
-        loaded.facts = tidy(loaded.mesh, 0.0);
-        if (loaded.mesh.triangles.empty()) {
-            refuse("link " + link.name, "a shape without size", "positive sizes");
-        }
-        return loaded;
     }
 
-    // Upright about z; a rectangle for four corners.
-    static TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double length) {
-        TriangleMesh mesh;
-        for (uint32_t i = 0; i < sides; ++i) {
-            const double turn = 6.283185307179586 * (i + 0.5) / sides,
-                         wide = sides == 4 ? std::sqrt(2.0) : 1.0;
-            for (double z : {-0.5 * length, 0.5 * length}) {
-                mesh.points.emplace_back(half[0] * wide * std::cos(turn), half[1] * wide * std::sin(turn), z);
-            }
-            const uint32_t a = 2 * i, b = 2 * ((i + 1) % sides);
-            mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
-            if (i > 0 && i + 1 < sides) {
-                mesh.triangles.insert(mesh.triangles.end(), {{0, b, a}, {1, a + 1, b + 1}});
-            }
+    void addSpheres(const Shape& shape, const std::vector<Sphere>& spheres) {
+        for (const Sphere& s : spheres) {
+            model_.leaves.push_back({{shape.frameTshape.apply(s.centre), s.radius},
+                                     shape.carrier.joint,
+                                     shape.index,
+                                     shape.carrier.finger});
         }
-        return mesh;
-    }
-
-    std::filesystem::path pathOf(std::string name) const {
-        for (const std::string scheme : {"package://", "file://"}) {
-            name = name.rfind(scheme, 0) == 0 ? name.substr(scheme.size()) : name;
-        }
-        if (!options_.meshes.empty()) {
-            return options_.meshes / name;
-        }
-        std::filesystem::path folder = file_.parent_path();
-        for (int up = 0; up < 3 && !std::filesystem::exists(folder / name); ++up) {
-            folder /= "..";
-        }
-        return folder / name;
     }
 
     std::filesystem::path file_;
@@ -274,6 +247,7 @@ private:
     std::shared_ptr<const urdf::ModelInterface> urdf_;
     ArmModel model_;
     std::vector<std::string> moving_;
+    std::vector<Shape> shapes_;
 };
 
 } // namespace

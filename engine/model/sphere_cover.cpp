@@ -21,6 +21,7 @@ struct Fitting {
     const TriangleMesh& mesh;
     const MeshDistance& distance;
     std::vector<CoverPiece> pieces;
+    PieceGroups groups;
     std::vector<CoverSeat> seats;
 };
 
@@ -121,7 +122,7 @@ std::vector<Sphere> searchProtrusion(const Fitting& f, uint32_t leaves, double l
     std::vector<Sphere> best;
     for (int k = 0; k < trials; ++k) {
         const double middle = k == 0 && low <= 0.0 ? high : std::sqrt(std::max(low, 1e-4 * high) * high);
-        std::vector<Sphere> cover = greedyCover(f.pieces, f.seats, middle, leaves);
+        std::vector<Sphere> cover = greedyCover(f.groups, f.seats, middle, leaves);
         if (!cover.empty()) {
             best = std::move(cover);
             high = middle;
@@ -187,9 +188,10 @@ std::vector<Sphere> coverWithin(Fitting& f, uint32_t leaves, uint32_t effort) {
 Fitting makeFitting(const TriangleMesh& mesh, const MeshDistance& distance, double edge) {
     const dvec3 size = mesh.high() - mesh.low();
     const double cell = std::max(2.0 * edge, std::cbrt(size.x * size.y * size.z / 8000.0));
-    Fitting f{mesh, distance, cutToPieces(mesh, distance, edge, cell), {}};
-    f.seats = findSeats(mesh, distance, f.pieces, kSeats);
-    return f;
+    std::vector<CoverPiece> pieces = cutToPieces(mesh, distance, edge, cell);
+    std::vector<CoverSeat> seats = findSeats(mesh, distance, pieces, kSeats);
+    PieceGroups groups(pieces);
+    return {mesh, distance, std::move(pieces), std::move(groups), std::move(seats)};
 }
 
 } // namespace
@@ -206,7 +208,7 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
     Fitting f = makeFitting(mesh, distance, edge);
     Cover cover;
     if (options.protrusion > 0.0) {
-        cover.spheres = greedyCover(f.pieces, f.seats, options.protrusion, kMostCoverSpheres);
+        cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMostCoverSpheres);
         if (cover.spheres.empty()) {
             throw Error("a protrusion of " + std::to_string(options.protrusion) + " m takes more than " +
                         std::to_string(kMostCoverSpheres) + " spheres: allow more");
@@ -219,6 +221,7 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
         if (finer < 0.7 * edge) { // many leaves: pieces as large as the spheres themselves waste them
             Fitting again = makeFitting(mesh, distance, finer);
             f.pieces = std::move(again.pieces);
+            f.groups = std::move(again.groups);
             f.seats = std::move(again.seats);
             keepSeats(f, cover.spheres);
             cover.spheres = coverWithin(f, options.leaves, options.effort);

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/link_spheres.h"
+
+#include "engine/model/mesh_file.h"
+#include "engine/model/sphere_cover.h"
+
+#include <array>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+// Upright about z; a rectangle for four corners.
+TriangleMesh prism(uint32_t sides, const std::array<double, 2>& half, double length) {
+    TriangleMesh mesh;
+    for (uint32_t i = 0; i < sides; ++i) {
+        const double turn = 6.283185307179586 * (i + 0.5) / sides, wide = sides == 4 ? std::sqrt(2.0) : 1.0;
+        for (double z : {-0.5 * length, 0.5 * length}) {
+            mesh.points.emplace_back(half[0] * wide * std::cos(turn), half[1] * wide * std::sin(turn), z);
+        }
+        const uint32_t a = 2 * i, b = 2 * ((i + 1) % sides);
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+        if (i > 0 && i + 1 < sides) {
+            mesh.triangles.insert(mesh.triangles.end(), {{0, b, a}, {1, a + 1, b + 1}});
+        }
+    }
+    return mesh;
+}
+
+std::filesystem::path pathOf(std::string name, const ShapeSource& source) {
+    for (const std::string scheme : {"package://", "file://"}) {
+        name = name.rfind(scheme, 0) == 0 ? name.substr(scheme.size()) : name;
+    }
+    if (!source.meshes.empty()) {
+        return source.meshes / name;
+    }
+    std::filesystem::path folder = source.urdf.parent_path();
+    for (int up = 0; up < 3 && !std::filesystem::exists(folder / name); ++up) {
+        folder /= "..";
+    }
+    return folder / name;
+}
+
+LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source) {
+    LoadedMesh loaded;
+    if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
+        loaded.mesh = prism(4, {0.5 * box->dim.x, 0.5 * box->dim.y}, box->dim.z);
+    } else if (const auto* tube = dynamic_cast<const urdf::Cylinder*>(&shape)) {
+        // Twenty-four sides about the circle: the flats lie outside it.
+        const double radius = tube->radius / std::cos(3.14159265358979323846 / 24.0);
+        loaded.mesh = prism(24, {radius, radius}, tube->length);
+    } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape)) {
+        MeshOptions options;
+        options.scale = mesh->scale.x;
+        options.dropStray = true; // an arm's parts are near each other whatever the file holds besides
+        return loadMesh(pathOf(mesh->filename, source), options);
+    }
+    loaded.facts = tidy(loaded.mesh, 0.0);
+    if (loaded.mesh.triangles.empty()) {
+        throw ShapeRefused{"a shape without size", "positive sizes"};
+    }
+    return loaded;
+}
+
+} // namespace
+
+std::vector<Sphere> linkSpheres(const urdf::Geometry& shape, const ShapeSource& source) {
+    std::vector<Sphere> spheres;
+    if (const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape)) {
+        spheres.push_back({dvec3(0.0), ball->radius});
+    } else {
+        const LoadedMesh loaded = meshOf(shape, source);
+        CoverOptions cover;
+        cover.leaves = source.leaves;
+        cover.effort = 0;
+        spheres = coverMesh(loaded.mesh, MeshDistance(loaded.mesh, loaded.facts.closed()), cover).spheres;
+    }
+    for (const Sphere& s : spheres) {
+        if (!isFinite(s.centre) || !(s.radius > 0.0)) {
+            throw ShapeRefused{"a sphere without radius", "radii above 0"};
+        }
+    }
+    return spheres;
+}
+
+} // namespace fathom

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// One collision shape of a URDF link as spheres.
+#pragma once
+
+#include "engine/types/sphere_tree.h"
+
+#include <filesystem>
+#include <string>
+#include <urdf_model/link.h>
+#include <vector>
+
+namespace fathom {
+
+struct ShapeSource {
+    std::filesystem::path urdf;   // file names of meshes are looked for beside it and above,
+    std::filesystem::path meshes; // or here, unless empty
+    uint32_t leaves = 64;         // spheres of a box, cylinder or mesh, at most
+};
+
+struct ShapeRefused {
+    std::string value, allowed;
+};
+
+// In the shape's own frame; a sphere stays one. Throws ShapeRefused for sizes that cannot be, BadInput for a
+// mesh file. Any thread.
+std::vector<Sphere> linkSpheres(const urdf::Geometry& shape, const ShapeSource& source);
+
+} // namespace fathom

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pieces of a surface in groups of neighbours, so that most questions are answered for 64 at once.
+#pragma once
+
+#include "engine/model/cover_pieces.h"
+#include "engine/types/sphere_tree.h"
+
+#include <algorithm>
+#include <span>
+
+namespace fathom {
+
+class PieceGroups {
+public:
+    static constexpr size_t kGroup = 64;
+
+    explicit PieceGroups(const std::vector<CoverPiece>& pieces);
+
+    size_t count() const { return about_.size(); }
+    size_t size() const { return pieces_.size(); }
+    std::span<const CoverPiece> pieces(size_t group) const { // all groups but the last are full
+        return std::span(pieces_).subspan(group * kGroup, std::min(kGroup, size() - group * kGroup));
+    }
+    const Sphere& about(size_t group) const { return about_[group]; } // contains its pieces
+    // kGroup * group + place in it, of each piece in the order that they were given in.
+    const std::vector<uint32_t>& places() const { return places_; }
+
+private:
+    std::vector<CoverPiece> pieces_;
+    std::vector<uint32_t> places_;
+    std::vector<Sphere> about_;
+};
+
+} // namespace fathom
