@@ -32,9 +32,9 @@ bool isDrawn(const Frame& frame, int& n) {
     return true;
 }
 
-std::string recorded(const char* uri, int pictures, bool colour) {
-    std::filesystem::create_directories(kFolder);
-    const std::string file = (kFolder / (std::string(uri) + (colour ? "" : "-depth") + ".oni")).string();
+// Returns how many pictures of depth the file has: the library leaves out what it has not written when it is
+// stopped, on a busy machine most.
+int record(const char* uri, const std::string& file, int pictures, bool colour) {
     REQUIRE(openni::OpenNI::initialize() == openni::STATUS_OK);
     {
         openni::Device device;
@@ -66,7 +66,26 @@ std::string recorded(const char* uri, int pictures, bool colour) {
         rgb.destroy();
         device.close();
     }
+    int kept = 0;
+    {
+        openni::Device player;
+        openni::VideoStream depth;
+        if (player.open(file.c_str()) == openni::STATUS_OK) {
+            REQUIRE(depth.create(player, openni::SENSOR_DEPTH) == openni::STATUS_OK);
+            kept = player.getPlaybackControl()->getNumberOfFrames(depth);
+            depth.destroy();
+        }
+    }
     openni::OpenNI::shutdown();
+    return kept;
+}
+
+std::string recorded(const char* uri, int pictures, bool colour) {
+    std::filesystem::create_directories(kFolder);
+    const std::string file = (kFolder / (std::string(uri) + (colour ? "" : "-depth") + ".oni")).string();
+    for (int reads = pictures; record(uri, file, reads, colour) < pictures; reads *= 2) {
+        REQUIRE(reads < 500);
+    }
     return file;
 }
 
@@ -136,10 +155,10 @@ TEST_CASE(
             stamp = (*frame)->captureTime;
             ++count;
         }
-        CHECK(count >= 4);
+        CHECK(count >= 6);
         CHECK_FALSE(camera->next());
         CHECK_FALSE(openOpenNi2(recorded("fathom-test", 2, colour))->info().hasColour); // unless it is said
-        MESSAGE("read ", count, " pictures of a recording of 6 reads");
+        MESSAGE("read ", count, " pictures");
     }
     std::filesystem::remove_all(kFolder);
 }
