@@ -4,7 +4,7 @@
 // emulated.
 #include "devices/recorded/recorded_camera.h"
 #include "devices/v4l2/video_node.h"
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
 
