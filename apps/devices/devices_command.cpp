@@ -4,6 +4,7 @@
 #include "apps/devices/hand_devices.h"
 #include "engine/gpu/device.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <iostream>
 

@@ -2,7 +2,9 @@
 // `fathom devices`: what is plugged in, what it can do, and why something cannot be used.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace fathom {
 

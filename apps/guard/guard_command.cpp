@@ -5,6 +5,7 @@
 #include "apps/binding/thread_placement.h"
 #include "devices/usb/falcon_guard.h"
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 #include <spdlog/spdlog.h>

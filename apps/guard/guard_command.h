@@ -3,7 +3,9 @@
 // force on the hand.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace fathom {
 

@@ -5,6 +5,7 @@
 #include "apps/latency/latency_report.h"
 #include "apps/latency/latency_run.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 

@@ -5,6 +5,7 @@
 #include "apps/operate/playback_run.h"
 #include "engine/types/error.h"
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
 

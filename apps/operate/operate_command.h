@@ -4,9 +4,12 @@
 
 #include "apps/global_options.h"
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+
+namespace CLI {
+class App;
+}
 
 namespace fathom {
 

@@ -4,6 +4,7 @@
 #include "apps/binding/open_source.h"
 #include "engine/gpu/device.h"
 
+#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 

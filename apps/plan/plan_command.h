@@ -5,8 +5,11 @@
 #include "apps/global_options.h"
 #include "engine/scene/plan.h"
 
-#include <CLI/CLI.hpp>
 #include <ostream>
+
+namespace CLI {
+class App;
+}
 
 namespace fathom {
 

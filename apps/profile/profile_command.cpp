@@ -8,6 +8,7 @@
 #include "apps/replay/output_file.h"
 #include "engine/types/error.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iostream>
 #include <memory>

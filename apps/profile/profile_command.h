@@ -4,7 +4,9 @@
 
 #include "apps/global_options.h"
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace fathom {
 

@@ -8,6 +8,7 @@
 #include "devices/recorded/recording_writer.h"
 #include "engine/types/error.h"
 
+#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>

@@ -7,6 +7,7 @@
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>

@@ -16,7 +16,7 @@ namespace {
 std::string listed(const std::vector<int>& cpus) {
     std::string text;
     for (int cpu : cpus) {
-        text += (text.empty() ? "" : ",") + std::to_string(cpu);
+        text.append(text.empty() ? "" : ",").append(std::to_string(cpu));
     }
     return text;
 }

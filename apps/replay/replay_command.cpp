@@ -9,6 +9,7 @@
 #include "apps/replay/realtime_replay.h"
 #include "engine/types/error.h"
 
+#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>

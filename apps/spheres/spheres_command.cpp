@@ -8,6 +8,7 @@
 #include "engine/reference/cell_cover.h"
 #include "engine/types/error.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <iostream>

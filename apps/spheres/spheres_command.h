@@ -2,7 +2,9 @@
 // `fathom spheres MESH --out TOOL.sph`: from a mesh to a sphere tree that contains it, and how well.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace fathom {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/spheres/spheres_report.h"
 
+#include "apps/replay/curve_plot.h"
 #include "apps/replay/output_file.h"
-#include "apps/stability/curve_plot.h"
 
 #include <iomanip>
 #include <map>
@@ -69,7 +69,7 @@ void printRows(std::ostream& out, const std::vector<CoverRow>& rows) {
 
 void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
                     const std::vector<CoverRow>& rows) {
-    std::map<std::string, stability::Outcome::Curve> curves;
+    std::map<std::string, PlotCurve> curves;
     for (const CoverRow& row : rows) {
         for (const bool worst : {true, false}) {
             auto& curve = curves[row.name + (worst ? ", max" : ", mean")];
@@ -81,11 +81,11 @@ void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
             curve.y.push_back(worst ? row.measure.protrusionMax : row.measure.protrusionMean);
         }
     }
-    std::vector<stability::Outcome::Curve> drawn;
+    std::vector<PlotCurve> drawn;
     for (auto& [name, curve] : curves) {
         drawn.push_back(std::move(curve));
     }
-    stability::writeCurvePlot(file, title, "how far the spheres stand out of the mesh", drawn);
+    writeCurvePlot(file, title, "how far the spheres stand out of the mesh", drawn);
 }
 
 void writeReportJson(const std::filesystem::path& file, const LoadedMesh& loaded,

@@ -2,6 +2,8 @@
 // One case of the stability suite: what it measures, against which limit, and whether that holds.
 #pragma once
 
+#include "apps/replay/curve_plot.h"
+
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -40,11 +42,7 @@ struct Outcome {
     std::string relation = "<="; // figure <= limit, or ">="
     std::string note; // one sentence: what was varied, how many runs, derivation of a restated limit
     // Curves for the plots, optional: one a line, x and y with their labels.
-    struct Curve {
-        std::string name, xLabel, yLabel;
-        std::vector<double> x, y;
-        bool logX = false, logY = false;
-    };
+    using Curve = PlotCurve;
     std::vector<Curve> curves;
 
     bool holds() const {

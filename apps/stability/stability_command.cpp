@@ -6,6 +6,7 @@
 #include "apps/stability/stability_report.h"
 #include "engine/gpu/device.h"
 
+#include <CLI/CLI.hpp>
 #include <iomanip>
 #include <iostream>
 #include <memory>

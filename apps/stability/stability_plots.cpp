@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/stability_plots.h"
 
+#include "apps/replay/curve_plot.h"
 #include "apps/replay/picture.h"
 #include "apps/replay/plot_axis.h"
-#include "apps/stability/curve_plot.h"
 
 #include <algorithm>
 #include <array>

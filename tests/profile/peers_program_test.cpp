@@ -3,7 +3,7 @@
 // in, and where they are, that all of them answer what float64 says.
 #include "apps/profile/studies.h"
 #include "tests/apps/scratch_folder.h"
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -4,7 +4,7 @@
 
 #include "apps/profile/studies.h"
 #include "tests/apps/scratch_folder.h"
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 
 #include <doctest/doctest.h>
 #include <nlohmann/json.hpp>

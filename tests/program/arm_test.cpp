@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The scenes with an arm that ship, run whole: section VII of the paper in its order, the arm in the loop.
 // And what `arm:` refuses.
-#include "tests/program/refusal.h"
-#include "tests/program/stage.h"
+#include "tests/rig/refusal.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <cmath>

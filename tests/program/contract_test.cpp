@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `replay --out` leaves: files, keys, columns, counts (design 8), and that equal runs are equal to the
 // bit.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames that are bad, empty, full or odd: skipped and named, or run through.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

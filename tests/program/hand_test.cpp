@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The hand: map with scale, rotation and clutch, the closed loop of --hand, dead-man, guidance in both modes.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <cmath>
 #include <doctest/doctest.h>

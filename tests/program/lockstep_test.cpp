@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules of lockstep (design 2): when frames and answers come into force, who waits for whom, when a run
 // ends.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <cmath>
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The promise, recomputed from outside: from the saved sets and the tool poses of haptics.csv alone, every
 // leaf against every sphere of the set in force, with the allowance rule of design 6 and 8.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom plan`: what is in, what is left out, and why; and that a replay runs just that. Progress on a
 // terminal alone.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
 #include <map>

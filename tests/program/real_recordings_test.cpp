@@ -2,7 +2,7 @@
 // The recordings beside the repository through the whole program: the promise holds, and classify marks
 // exactly the pixels that a plain count of the pictures finds, which are those (to 2 %) that were measured
 // when the data was collected.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <cmath>

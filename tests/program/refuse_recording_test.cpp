@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings that are unusable as a whole, hand paths and command lines that cannot be meant, output that
 // cannot be written.
-#include "tests/program/refusal.h"
+#include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scene files that cannot be meant: exit 2 and one line with file, field, value and what is allowed.
-#include "tests/program/refusal.h"
+#include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
 #include <functional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The simulated camera draws the arm, moving: with the self-filter no region grows on it, without regions do.
-#include "tests/program/refusal.h"
-#include "tests/program/stage.h"
+#include "tests/rig/refusal.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Scenes of authored shapes alone, tools from one leaf to a thousand, a base frame far away.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <cmath>
 #include <doctest/doctest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shipped sonar scene through the whole program.
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 
 #include <doctest/doctest.h>
 #include <filesystem>

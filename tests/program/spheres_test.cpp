@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom spheres` from outside.
 #include "tests/model/meshes.h"
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 
 #include <doctest/doctest.h>
 #include <iterator>

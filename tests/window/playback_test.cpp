@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 #include "tests/window/felt.h"
 #include "tests/window/window_rig.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What belongs to a pilot and to a scene: profiles, settings that are kept, classes held still and boxed.
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
 
 #include <cmath>

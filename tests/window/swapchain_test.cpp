@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Window images that are lost, and what the window costs the haptic turn.
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
 
 #include <cstdio>

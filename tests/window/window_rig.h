@@ -3,7 +3,7 @@
 // file and its screenshots.
 #pragma once
 
-#include "tests/program/small_recording.h"
+#include "tests/rig/small_recording.h"
 
 #include <functional>
 #include <glm/vec2.hpp>

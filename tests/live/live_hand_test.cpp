@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // `replay --realtime` with a live hand behind a door, and an observer at the view door.
 #include "devices/bridge/door_server.h"
-#include "tests/program/refusal.h"
-#include "tests/program/stage.h"
+#include "tests/rig/refusal.h"
+#include "tests/rig/stage.h"
 
 #include <atomic>
 #include <chrono>

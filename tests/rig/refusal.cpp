@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/program/refusal.h"
+#include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
 

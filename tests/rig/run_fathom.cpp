@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/program/run_fathom.h"
+#include "tests/rig/run_fathom.h"
 
 #include <cerrno>
 #include <chrono>
@@ -59,7 +59,7 @@ struct Channel {
     argv.push_back(nullptr);
     // Of a sanitized program: what libraries keep until the process ends is not ours
     // (support/sanitizer_options.cpp).
-    const std::string leaks = std::filesystem::absolute("tests/program/leaks.supp").string();
+    const std::string leaks = std::filesystem::absolute("tests/rig/leaks.supp").string();
     ::setenv("LSAN_OPTIONS", ("print_suppressions=0:suppressions=" + leaks).c_str(), 0);
     const int nothing = ::open("/dev/null", O_RDONLY);
     const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `--arm` refuses, before anything moves.
-#include "tests/program/arm_stage.h"
+#include "tests/rig/arm_stage.h"
 
 #include <doctest/doctest.h>
 

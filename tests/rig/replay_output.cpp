@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/program/replay_output.h"
+#include "tests/rig/replay_output.h"
 
 #include <charconv>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/program/small_recording.h"
+#include "tests/rig/small_recording.h"
 
 #include <cmath>
 #include <fstream>

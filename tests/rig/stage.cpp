@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <cmath>

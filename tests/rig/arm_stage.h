@@ -2,8 +2,8 @@
 // A scene with an arm before a wall, and what its simulated twin behind a serial line says of it.
 #pragma once
 
-#include "tests/program/arm_bench.h"
-#include "tests/program/stage.h"
+#include "tests/rig/arm_bench.h"
+#include "tests/rig/stage.h"
 
 #include <array>
 #include <cmath>

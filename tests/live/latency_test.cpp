@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom latency` on a small recording. How late a thread wakes is the machine's affair and no test's.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
 

@@ -2,7 +2,7 @@
 // The form of every refusal: an exit code and one line that says what was wrong.
 #pragma once
 
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 namespace fathom {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/stability/curve_plot.h"
+#include "apps/replay/curve_plot.h"
 
 #include "apps/replay/picture.h"
 #include "apps/replay/plot_axis.h"
@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace fathom::stability {
+namespace fathom {
 
 namespace {
 
@@ -52,11 +52,11 @@ struct Scale {
     }
 };
 
-Scale scaleOf(const std::vector<Outcome::Curve>& curves, bool ofX, double from, double to) {
+Scale scaleOf(const std::vector<PlotCurve>& curves, bool ofX, double from, double to) {
     Scale scale;
     scale.log = ofX ? curves.front().logX : curves.front().logY;
     double lo = HUGE_VAL, hi = -HUGE_VAL;
-    for (const Outcome::Curve& c : curves) {
+    for (const PlotCurve& c : curves) {
         for (const double value : ofX ? c.x : c.y) {
             if (scale.has(value)) {
                 lo = std::min(lo, scale.log ? std::log10(value) : value);
@@ -100,7 +100,7 @@ void drawGrid(const Picture& picture, const Scale& x, const Scale& y) {
     }
 }
 
-void drawCurve(const Picture& picture, const Scale& x, const Scale& y, const Outcome::Curve& curve,
+void drawCurve(const Picture& picture, const Scale& x, const Scale& y, const PlotCurve& curve,
                Colour colour) {
     cairo_t* cr = picture.cr();
     picture.setColour(colour);
@@ -124,7 +124,7 @@ void drawCurve(const Picture& picture, const Scale& x, const Scale& y, const Out
     }
 }
 
-void drawLegend(const Picture& picture, const std::vector<Outcome::Curve>& curves) {
+void drawLegend(const Picture& picture, const std::vector<PlotCurve>& curves) {
     double left = kLeft;
     for (size_t i = 0; i < curves.size(); ++i) {
         picture.setColour(kLines[i % kLines.size()]);
@@ -138,7 +138,7 @@ void drawLegend(const Picture& picture, const std::vector<Outcome::Curve>& curve
 } // namespace
 
 void writeCurvePlot(const std::filesystem::path& file, const std::string& title, const std::string& subtitle,
-                    const std::vector<Outcome::Curve>& curves) {
+                    const std::vector<PlotCurve>& curves) {
     const Picture picture(kWidth, kHeight, kPaper);
     const Scale x = scaleOf(curves, true, kLeft, kRight), y = scaleOf(curves, false, kBottom, kTop);
     picture.text(24.0, 36.0, title, 20.0, kInk, Align::Left, true);
@@ -157,4 +157,4 @@ void writeCurvePlot(const std::filesystem::path& file, const std::string& title,
     picture.writePng(file);
 }
 
-} // namespace fathom::stability
+} // namespace fathom

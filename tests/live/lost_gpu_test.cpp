@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A GPU that is lost under the running program (a layer below it says so): the hand goes on with what is
 // known, the device is opened again, the pictures go on.
-#include "tests/program/stage.h"
+#include "tests/rig/stage.h"
 
 #include <algorithm>
 #include <cstdlib>

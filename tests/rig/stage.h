@@ -3,9 +3,9 @@
 // each time.
 #pragma once
 
-#include "tests/program/replay_output.h"
-#include "tests/program/run_fathom.h"
-#include "tests/program/small_recording.h"
+#include "tests/rig/replay_output.h"
+#include "tests/rig/run_fathom.h"
+#include "tests/rig/small_recording.h"
 
 #include <optional>
 
