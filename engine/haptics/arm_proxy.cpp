@@ -48,6 +48,7 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
           kMostLeafRows)
     , trust_(arm.leaves.size())
     , solver_(static_cast<int>(arm.count()), kMostRows)
+    , places_(arm)
     , leaves_(arm.leaves.size())
     , nextLeaves_(arm.leaves.size())
     , exempt_(arm.leaves.size(), dvec3(0.0))
@@ -60,7 +61,7 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
     shapes_.reserve(std::max(Proxy::kSpareShapes, shapes_.size()));
     setPosture({start, grasp_});
     origin_ = frames_[0].position;
-    placeLeaves(frames_, leaves_);
+    places_.place(frames_, origin_, leaves_);
 }
 
 void ArmProxy::setPosture(const ArmPosture& posture) noexcept {
@@ -71,7 +72,7 @@ void ArmProxy::setPosture(const ArmPosture& posture) noexcept {
     grasp_ = std::isfinite(posture.grasp) ? std::clamp(posture.grasp, 0.0, 1.0) : grasp_;
     start_ = q_;
     arm_.place(q_, base_, frames_, grasp_);
-    placeLeaves(frames_, leaves_);
+    places_.place(frames_, origin_, leaves_);
 }
 
 void ArmProxy::setShapes(std::span<const Shape> shapes) noexcept {
@@ -79,18 +80,12 @@ void ArmProxy::setShapes(std::span<const Shape> shapes) noexcept {
     shapes_.assign(shapes.begin(), shapes.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
-void ArmProxy::placeLeaves(const ArmFrames& frames, LeafCentres& out) const noexcept {
-    for (size_t i = 0; i < arm_.leaves.size(); ++i) {
-        out.set(i, arm_.centre(frames, i) - origin_);
-    }
-}
-
 bool ArmProxy::covers(const ContactSet& contacts) noexcept {
     if (contacts.leafAtQuery.size() != arm_.leaves.size()) {
         return false;
     }
     origin_ = contacts.origin;
-    placeLeaves(frames_, leaves_);
+    places_.place(frames_, origin_, leaves_);
     return TrustRegion::covers(contacts, leaves_);
 }
 
@@ -155,7 +150,7 @@ ArmTurn ArmProxy::turn(const ArmInput& asked) noexcept {
     const bool usable = contacts == nullptr || contacts->leafAtQuery.size() == arm_.leaves.size();
     if (usable) {
         origin_ = contacts != nullptr ? contacts->origin : frames_[0].position;
-        placeLeaves(frames_, leaves_);
+        places_.place(frames_, origin_, leaves_);
         if (contacts != nullptr) {
             proxy::flagBehind(*contacts, leaves_, exempt_, clearance_);
         } else {

@@ -8,6 +8,7 @@
 #include "engine/contact/contact_set.h"
 #include "engine/contact/narrow_phase.h"
 #include "engine/contact/shapes.h"
+#include "engine/haptics/arm_leaf_places.h"
 #include "engine/haptics/constraint_solver.h"
 #include "engine/haptics/proxy.h"
 #include "engine/haptics/tool_motion.h"
@@ -134,7 +135,6 @@ private:
     bool shapesAllow() const noexcept;
     void take() noexcept;
     double clampedJoint(size_t k, double q) const noexcept;
-    void placeLeaves(const ArmFrames& frames, LeafCentres& out) const noexcept;
 
     const ArmModel& arm_;
     Pose base_;
@@ -147,6 +147,7 @@ private:
     NarrowPhase narrow_;
     TrustRegion trust_;
     ConstraintSolver solver_;
+    ArmLeafPlaces places_;
     LeafCentres leaves_, nextLeaves_; // centres about origin_
     dvec3 origin_{0.0};               // [m] base frame: of the set in force
     std::vector<dvec3> exempt_;       // a leaf: way to the camera while it is behind, else zero

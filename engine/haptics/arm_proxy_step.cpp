@@ -15,7 +15,7 @@ void ArmProxy::tryPosture(const JointVector& q, double grasp) noexcept {
     next_ = q;
     nextGrasp_ = grasp;
     arm_.place(next_, base_, nextFrames_, nextGrasp_);
-    placeLeaves(nextFrames_, nextLeaves_);
+    places_.place(nextFrames_, origin_, nextLeaves_);
 }
 
 void ArmProxy::tryStep(const JointVector& dq, double share) noexcept {

@@ -51,10 +51,15 @@ LeafPlaces::LeafPlaces(const Tool& tool)
     }
 }
 
+void placePoints(const LeafCentres& points, size_t first, size_t count, const Pose& pose, const dvec3& origin,
+                 LeafCentres& out) noexcept {
+    placeKernel(points.x.data() + first, points.y.data() + first, points.z.data() + first, count,
+                glm::mat3_cast(pose.rotation), pose.position - origin, out.x.data() + first,
+                out.y.data() + first, out.z.data() + first);
+}
+
 void LeafPlaces::place(const Pose& pose, const dvec3& origin, LeafCentres& out) const noexcept {
-    placeKernel(centres_.x.data(), centres_.y.data(), centres_.z.data(), centres_.size(),
-                glm::mat3_cast(pose.rotation), pose.position - origin, out.x.data(), out.y.data(),
-                out.z.data());
+    placePoints(centres_, 0, centres_.size(), pose, origin, out);
 }
 
 double LeafPlaces::travelBound(const Pose& pose, const Motion& motion) const noexcept {

@@ -36,6 +36,10 @@ Motion remaining(const Pose& pose, const Pose& target) noexcept;
 // sqrt(|a|^2 + k^2 |alpha|^2) [m], never 0.
 double lengthOf(const Motion& motion, double k) noexcept;
 
+// Points [first, first + count) of one frame at its pose, about `origin` [m].
+void placePoints(const LeafCentres& points, size_t first, size_t count, const Pose& pose, const dvec3& origin,
+                 LeafCentres& out) noexcept;
+
 // Leaf centres of a tool at poses. noexcept and without allocation after the constructor; one thread.
 class LeafPlaces {
 public:

@@ -68,9 +68,11 @@ public:
     void place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames,
                double grasp = 0.0) const noexcept;
     Pose tip(const ArmFrames& frames) const noexcept { return frames[count()] * lastTtip; }
+    size_t frameOf(size_t leaf) const noexcept { // of ArmFrames
+        return leaves[leaf].finger == 0 ? leaves[leaf].joint : kMostJoints + leaves[leaf].finger;
+    }
     dvec3 centre(const ArmFrames& frames, size_t leaf) const noexcept {
-        const ArmLeaf& l = leaves[leaf];
-        return frames[l.finger == 0 ? l.joint : kMostJoints + l.finger].apply(l.sphere.centre);
+        return frames[frameOf(leaf)].apply(leaves[leaf].sphere.centre);
     }
     // How joint `k` moves a point that is carried by it: d point / d q_k [m/rad], [1]. axis: its direction.
     dvec3 motionOf(const ArmFrames& frames, size_t k, const dvec3& point) const noexcept;
