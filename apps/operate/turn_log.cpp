@@ -5,9 +5,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <fstream>
 #include <ostream>
 
 namespace fathom::operate {
@@ -17,7 +15,6 @@ namespace {
 constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
 constexpr size_t kShort = 9, kAll = 37, kTouchColumns = 13;
 constexpr size_t kMostTurns = 4'000'000, kMostTouchRows = kMostTurns * kMostTouches;
-constexpr size_t kLongestLine = 2048;
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -34,20 +31,17 @@ class NumberRows {
 public:
     explicit NumberRows(const std::filesystem::path& file)
         : name_(file.string())
-        , in_(file) {
-        if (!in_) {
-            throw BadInput(name_, "file", "cannot be read", "a file of numbers");
-        }
-        take();
+        , lines_(file) {
+        lines_.next(line_);
     }
-    const std::string& head() const { return line_; } // before the first next()
+    const std::string& head() const { return line_.text; } // before the first next()
 
     bool next(size_t columns) {
-        if (!take()) {
+        if (!lines_.next(line_)) {
             return false;
         }
         values_.clear();
-        for (std::string_view field : splitFields(line_, ',')) {
+        for (std::string_view field : splitFields(line_.text, ',')) {
             values_.emplace_back();
             if (!parseNumber(field, values_.back())) {
                 refuse(", column " + std::to_string(values_.size()), std::string(field), "a number");
@@ -75,28 +69,15 @@ public:
     }
     [[noreturn]] void refuse(const std::string& where, const std::string& value,
                              const std::string& allowed) const {
-        throw BadInput(name_, "line " + std::to_string(number_) + where, "'" + value.substr(0, 80) + "'",
+        throw BadInput(name_, "line " + std::to_string(line_.number) + where, "'" + value.substr(0, 80) + "'",
                        allowed);
     }
 
 private:
-    // The next line, however long a file says it is.
-    bool take() {
-        std::array<char, kLongestLine + 1> buffer;
-        in_.getline(buffer.data(), buffer.size());
-        line_ = buffer.data();
-        ++number_;
-        if (in_.fail() && !in_.eof()) {
-            refuse("", line_, std::to_string(kLongestLine) + " characters at most");
-        }
-        return !in_.fail();
-    }
-
     std::string name_;
-    std::ifstream in_;
-    std::string line_;
+    DataLines lines_;
+    TextLine line_{1, ""};
     std::vector<double> values_;
-    size_t number_ = 0;
 };
 
 Moment momentFrom(const NumberRows& row, bool poses) {

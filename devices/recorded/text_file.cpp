@@ -39,6 +39,35 @@ std::string readTextFile(const std::filesystem::path& file) {
     return std::move(*text);
 }
 
+DataLines::DataLines(const std::filesystem::path& file)
+    : name_(file.string())
+    , in_(file) {
+    if (!in_ || std::filesystem::is_directory(file)) {
+        throw BadInput(name_, "file", "cannot be read", "a readable text file");
+    }
+}
+
+bool DataLines::next(TextLine& line) {
+    for (;;) {
+        in_.getline(buffer_.data(), buffer_.size());
+        ++number_;
+        if (in_.fail() && !in_.eof()) {
+            throw BadInput(name_, "line " + std::to_string(number_),
+                           "'" + std::string(buffer_.data()).substr(0, 80) + "'",
+                           std::to_string(kLongest) + " characters at most");
+        }
+        if (in_.fail()) {
+            return false;
+        }
+        const std::string_view text = trim(buffer_.data());
+        if (!text.empty() && text[0] != '#') {
+            line.number = number_;
+            line.text = text;
+            return true;
+        }
+    }
+}
+
 std::vector<TextLine> readDataLines(const std::filesystem::path& file) {
     const std::string text = readTextFile(file);
     std::vector<TextLine> lines;

@@ -2,8 +2,10 @@
 // Lines, words and numbers of the small text files of a recording.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,8 +17,24 @@ struct TextLine {
     std::string text;    // without the line end
 };
 
-// Lines that are neither blank nor comments (first character '#'). Throws BadInput when the file cannot be
-// read or is longer than 64 MiB.
+// Lines that are neither blank nor comments (first character '#'), one at a time, of a file however long.
+class DataLines {
+public:
+    static constexpr size_t kLongest = 2048; // characters
+
+    // Throws BadInput when the file cannot be read.
+    explicit DataLines(const std::filesystem::path& file);
+    // False at the end. Throws BadInput for a line that is too long.
+    bool next(TextLine& line);
+
+private:
+    std::string name_;
+    std::ifstream in_;
+    std::array<char, kLongest + 1> buffer_{};
+    uint32_t number_ = 0;
+};
+
+// All of them. Throws BadInput when the file cannot be read or is longer than 64 MiB.
 std::vector<TextLine> readDataLines(const std::filesystem::path& file);
 
 // Whole file, the same bounds.

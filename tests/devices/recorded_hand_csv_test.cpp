@@ -58,6 +58,18 @@ TEST_CASE("a path of 100000 rows keeps every one") {
     CHECK(path.back().t == 99999.0);
 }
 
+TEST_CASE("a path of more than 64 MiB is read, a line of more than 2048 characters is not") {
+    std::string text = kHeader;
+    for (int i = 0; i < 36000; ++i) {
+        text += std::to_string(i) + ",1,2,3,1,0,0,0\n#" + std::string(2000, 'x') + "\n";
+    }
+    CHECK(text.size() > (64u << 20));
+    CHECK(read(text).size() == 36000);
+    CHECK(read(kHeader + "#" + std::string(2047, 'x') + "\n0,1,2,3,1,0,0,0").size() == 1);
+    CHECK(refusedWith(kHeader + "#" + std::string(2048, 'x') + "\n0,1,2,3,1,0,0,0\n", "line 2: '#xxx"));
+    CHECK(refusedWith(std::string(1u << 20, '7'), "line 1: '777"));
+}
+
 TEST_CASE("a path without header, rows, order or sense is refused with its line and column") {
     CHECK(refusedWith("", "line 1: nothing"));
     CHECK(refusedWith(kHeader, "line 2: end of file"));
