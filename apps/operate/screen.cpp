@@ -26,8 +26,19 @@ bool sameOrbit(const Orbit& a, const Orbit& b) {
     return a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.centre == b.centre;
 }
 
-// Middle of what the camera sees.
-dvec3 middleOf(const Fixtures& set) {
+// Middle of the regions and of the arm before them; without regions, of what the camera sees.
+dvec3 middleOf(const Fixtures& set, std::span<const Sphere> arm) {
+    if (!set.spheres.x.empty()) {
+        dvec3 low(1e300), high(-1e300);
+        for (size_t i = 0; i < set.spheres.x.size(); ++i) {
+            const dvec3 at = set.origin + dvec3(set.spheres.x[i], set.spheres.y[i], set.spheres.z[i]);
+            low = glm::min(low, at), high = glm::max(high, at);
+        }
+        for (const Sphere& s : arm) {
+            low = glm::min(low, s.centre), high = glm::max(high, s.centre);
+        }
+        return 0.5 * (low + high);
+    }
     std::vector<uint16_t> near;
     for (size_t i = 0; i < set.depth.size(); i += 37) {
         if (set.depth[i] != 0) {
@@ -69,7 +80,7 @@ void Screen::makePictures(const Console& console, const FixtureEditor& editor, c
     const bool newSelection = selectionDrawn_ != editor.selectionNumber();
     const bool first = !cameraPort_;
     if (!centred_ && scene.any) {
-        drawnOrbit_.centre = middleOf(scene.set);
+        drawnOrbit_.centre = middleOf(scene.set, input.arm);
         centred_ = true;
     }
     const bool fresh = input.freshPicture || newSelection || first;
