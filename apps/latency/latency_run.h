@@ -27,7 +27,7 @@ struct LatencyPart {
     uint64_t framesLost = 0;    // that a live camera would have thrown away
     uint64_t periodsMissed = 0; // without a turn
     uint64_t recordsLost = 0;
-    double armTravel = 0.0; // [rad], [m] that all joints went, added up; 0 without an arm or in a window
+    double armTravel = 0.0;     // [rad], [m] that all joints went, added up; 0 without an arm or in a window
     std::vector<double> memory; // [MiB] resident, about 100 over the part, after its first 5 %
     // How much more of it in the last tenth than in the first one, each by its largest; 0 when there are too
     // few.
