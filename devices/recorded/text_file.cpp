@@ -20,6 +20,10 @@ std::string_view trim(std::string_view text) {
                                            : text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
 }
 
+[[noreturn]] void refuseSize(const std::filesystem::path& file) {
+    throw BadInput(file.string(), "file", "over 64 MiB", "at most 64 MiB");
+}
+
 template <class T>
 bool parseWhole(std::string_view word, T& value) {
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -34,7 +38,7 @@ std::string readTextFile(const std::filesystem::path& file) {
         throw BadInput(file.string(), "file", "cannot be read", "a readable text file");
     }
     if (text->size() > kMaxBytes) {
-        throw BadInput(file.string(), "file", "over 64 MiB", "at most 64 MiB");
+        refuseSize(file);
     }
     return std::move(*text);
 }
@@ -59,7 +63,8 @@ bool DataLines::next(TextLine& line) {
         if (in_.fail()) {
             return false;
         }
-        const std::string_view text = trim(buffer_.data());
+        const auto taken = static_cast<size_t>(in_.gcount()); // with the line end, where there was one
+        const std::string_view text = trim({buffer_.data(), taken - (in_.eof() ? 0 : 1)});
         if (!text.empty() && text[0] != '#') {
             line.number = number_;
             line.text = text;
@@ -69,17 +74,14 @@ bool DataLines::next(TextLine& line) {
 }
 
 std::vector<TextLine> readDataLines(const std::filesystem::path& file) {
-    const std::string text = readTextFile(file);
+    DataLines from(file);
     std::vector<TextLine> lines;
-    uint32_t number = 0;
-    for (size_t begin = 0; begin < text.size();) {
-        const size_t end = std::min(text.find('\n', begin), text.size());
-        const std::string_view line = trim(std::string_view(text).substr(begin, end - begin));
-        ++number;
-        if (!line.empty() && line[0] != '#') {
-            lines.push_back({number, std::string(line)});
+    size_t bytes = 0;
+    for (TextLine line; from.next(line); lines.push_back(line)) {
+        bytes += line.text.size() + 1;
+        if (bytes > kMaxBytes) {
+            refuseSize(file);
         }
-        begin = end + 1;
     }
     return lines;
 }

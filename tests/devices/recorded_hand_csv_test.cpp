@@ -68,6 +68,7 @@ TEST_CASE("a path of more than 64 MiB is read, a line of more than 2048 characte
     CHECK(read(kHeader + "#" + std::string(2047, 'x') + "\n0,1,2,3,1,0,0,0").size() == 1);
     CHECK(refusedWith(kHeader + "#" + std::string(2048, 'x') + "\n0,1,2,3,1,0,0,0\n", "line 2: '#xxx"));
     CHECK(refusedWith(std::string(1u << 20, '7'), "line 1: '777"));
+    CHECK(refusedWith(kHeader + "0,1,2,3,1,0,0,0" + std::string(1, '\0') + "1\n", "line 2, qz"));
 }
 
 TEST_CASE("a path without header, rows, order or sense is refused with its line and column") {
