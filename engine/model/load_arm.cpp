@@ -216,7 +216,8 @@ private:
             }
         };
         {
-            std::vector<std::jthread> others(std::max(1u, std::thread::hardware_concurrency()) - 1);
+            const size_t processors = std::max(1u, std::thread::hardware_concurrency());
+            std::vector<std::jthread> others(std::min(processors, std::max<size_t>(1, shapes_.size())) - 1);
             std::generate(others.begin(), others.end(), [&] { return std::jthread(work); });
             work();
         }
