@@ -109,8 +109,12 @@ TEST_CASE("Size of letters and view are kept in the scene file, and the command 
     CHECK(rig.close() == 0);
 }
 
-TEST_CASE("One class is held still, let go by undo and held again by redo, while pictures go on") {
+TEST_CASE(
+    "One class is held still, let go by undo and held again by redo, while pictures go on, also where a "
+    "scene asks the GPU for contacts") {
     WindowRig rig;
+    std::ofstream(rig.folder() / "gpu.yaml") << rig.sceneText() << "contact: { where: gpu }\n";
+    rig.reopen(rig.folder() / "gpu.yaml");
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0; }));
     rig.click("hold red");
     const auto held = [](const json& s, bool is) {
