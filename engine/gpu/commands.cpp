@@ -5,6 +5,12 @@
 
 namespace fathom::gpu {
 
+namespace {
+
+constexpr VkPipelineStageFlags kWork = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+
+} // namespace
+
 Commands::Commands(const Device& device)
     : device_(device) {
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
@@ -33,7 +39,7 @@ void Commands::begin(Submissions submissions) {
 }
 
 void Commands::end() {
-    barrier();
+    barrier(VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
     check(vkEndCommandBuffer(handle_), "vkEndCommandBuffer");
 }
 
@@ -75,12 +81,18 @@ void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
 }
 
 void Commands::barrier() {
+    barrier(kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
+            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+}
+
+void Commands::barrier(VkPipelineStageFlags to, VkAccessFlags access) {
     VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
-    all.srcAccessMask = VK_ACCESS_MEMORY_WRITE_BIT;
-    all.dstAccessMask = VK_ACCESS_MEMORY_READ_BIT | VK_ACCESS_MEMORY_WRITE_BIT;
-    vkCmdPipelineBarrier(handle_, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT,
-                         VK_PIPELINE_STAGE_ALL_COMMANDS_BIT | VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &all, 0,
-                         nullptr, 0, nullptr);
+    all.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    all.dstAccessMask = access;
+    // What only read before is waited for, too: its buffers may be written after.
+    vkCmdPipelineBarrier(handle_, kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, to, 0, 1, &all, 0, nullptr, 0,
+                         nullptr);
 }
 
 } // namespace fathom::gpu

@@ -38,10 +38,12 @@ public:
     void fill(const Buffer& buffer, uint32_t value);
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
-    // Everything before is visible to everything after, indirect arguments and the host included.
+    // Everything before is visible to everything after, indirect arguments included; the host is at the end()
+    // alone, for that costs a device with caches of its own.
     void barrier();
 
 private:
+    void barrier(VkPipelineStageFlags to, VkAccessFlags access);
     void bind(const Pipeline& pipeline, const Bindings& bindings, const void* push);
 
     const Device& device_;
