@@ -11,14 +11,14 @@ namespace fathom {
 
 namespace {
 
-void* pages(size_t bytes) {
+std::shared_ptr<void> pages(size_t bytes) {
     const size_t padded = wholePages(bytes);
     void* block = std::aligned_alloc(wholePages(1), padded);
     if (block == nullptr) {
         throw std::bad_alloc();
     }
     std::memset(block, 0, padded); // also touches every page, so that no frame pays for the first fault
-    return block;
+    return {block, std::free};
 }
 
 } // namespace
@@ -26,10 +26,6 @@ void* pages(size_t bytes) {
 size_t wholePages(size_t bytes) {
     const size_t page = static_cast<size_t>(::sysconf(_SC_PAGESIZE));
     return std::max(page, (bytes + page - 1) / page * page);
-}
-
-void FrameSlot::Free::operator()(void* block) const noexcept {
-    std::free(block);
 }
 
 FrameSlot::FrameSlot(uint32_t pixels, bool colour)

@@ -2,6 +2,8 @@
 // Camera memory for frames in flight: page-aligned, page-padded slots that come back through an atomic flag.
 #pragma once
 
+#include "engine/types/frame.h"
+
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
@@ -27,24 +29,30 @@ public:
 
     // Hands the memory back to its camera; any thread, wait-free.
     void release() noexcept { taken_.store(false, std::memory_order_release); }
-    // For Frame's second argument: releases this slot. The slots must outlive the lease.
-    std::function<void()> giveBack() {
-        return [this] { release(); };
+    // A lease on this slot's memory; the slots must outlive it. Where the content's depth and colour lie here
+    // it says so, and a device may read them in place.
+    Frame lend(Frame::Content content) {
+        name(content);
+        return Frame(content, [this] { release(); });
+    }
+    // The same for who gives back more than the slot.
+    void name(Frame::Content& content) const noexcept {
+        if (content.depth.data() == depth_.get()) {
+            content.depthMemory = depth_;
+        }
+        if (content.colour.data() == colour_.get()) {
+            content.colourMemory = colour_;
+        }
     }
 
 private:
     friend class FrameSlots;
-    struct Free {
-        void operator()(void* block) const noexcept;
-    };
     uint32_t pixels_;
-    std::unique_ptr<void, Free> depth_;
-    std::unique_ptr<void, Free> colour_;
+    std::shared_ptr<void> depth_, colour_;
     std::atomic<bool> taken_{false};
 };
 
-// A fixed set of slots. One thread (the camera's) acquires; any thread releases. The addresses never change,
-// so that memory imported by a device once stays valid as long as this object lives.
+// A fixed set of slots. One thread (the camera's) acquires; any thread releases. The addresses never change.
 class FrameSlots {
 public:
     FrameSlots(uint32_t pixels, bool colour, uint32_t count);

@@ -55,6 +55,7 @@ void SpooledCamera::store(const Frame& frame) {
     contents_.push_back(*frame);
     contents_.back().depth = {};
     contents_.back().colour = {};
+    contents_.back().depthMemory = contents_.back().colourMemory = nullptr;
 }
 
 void SpooledCamera::writeAll(const void* bytes, size_t count) {
@@ -93,7 +94,7 @@ std::optional<Frame> SpooledCamera::next() {
     Frame::Content content = contents_[next_++];
     content.depth = slot->depth().first(info_.depth.pixels());
     content.colour = slot->colour().first(colourPixels_);
-    Frame frame(content, slot->giveBack());
+    Frame frame = slot->lend(content);
     readAll(slot->depth().data(), content.depth.size_bytes());
     readAll(slot->colour().data(), content.colour.size_bytes());
     return frame;

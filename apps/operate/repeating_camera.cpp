@@ -74,7 +74,7 @@ std::optional<Frame> ShuttleCamera::next() {
     content.depth = slot->depth();
     content.colour = slot->colour();
     content.baseTcamera = picture.baseTcamera;
-    return Frame(content, slot->giveBack());
+    return slot->lend(content);
 }
 
 } // namespace fathom::operate

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "apps/profile/study.h"
+#include "devices/frame_slots.h"
 #include "devices/simulated/simulated_camera.h"
 #include "engine/cycle/frame_cycle.h"
 #include "engine/reference/frame_view.h"
@@ -52,6 +53,7 @@ public:
     FrameBench(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
                uint32_t toolLeaves = 1);
 
+    // As from a camera: the shot lies in whole pages before its time begins.
     FrameReport run(const Shot& shot);
     // Every shot in turn, as often as the effort says.
     FrameCost measure(const std::vector<Shot>& shots, const Effort& effort);
@@ -79,11 +81,16 @@ public:
     std::string spheresDiffer() const;
 
 private:
+    void place(size_t at, const Shot& shot);
+    FrameReport process(size_t at);
+
     gpu::Device& device_;
     Scene scene_;
     CameraInfo camera_;
     Plan plan_;
     std::unique_ptr<FrameCycle> cycle_;
+    std::vector<std::unique_ptr<FrameSlot>> memory_; // shots of the present measurement
+    std::vector<Frame::Content> placed_;
     cloud::FixturePool::Lease lease_;
     uint32_t frames_ = 0;
 };

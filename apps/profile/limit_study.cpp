@@ -4,6 +4,7 @@
 #include "apps/profile/ceilings.h"
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
+#include "shaders/shared/frame_params.h"
 
 #include <algorithm>
 
@@ -20,7 +21,7 @@ struct Need {
 // What a frame selects.
 struct Load {
     double pixels, slots, selected, spheres, tapsPerPixel;
-    bool hold, colour;
+    bool hold, colour, inPlace;
 };
 
 Load loadOf(const FrameBench& bench, const FrameReport& report) {
@@ -42,6 +43,7 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.tapsPerPixel = bench.plan().filterRadius > 0 ? edge * edge : 0.0;
     load.hold = bench.plan().hold;
     load.colour = bench.plan().colour;
+    load.inPlace = bench.plan().inPlace;
     return load;
 }
 
@@ -50,7 +52,9 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     const double held =
         l.hold ? 16.0 + 2.0 * (16.0 + 16.0 + 4.0) : 0.0; // held sphere; seen, kept, time: read, written
     return {
-        {"upload", {2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0, true}},
+        {"upload",
+         {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0,
+          true}},
         {"classify", {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + 4.0), 40.0 * l.pixels, false}},
         {"surface", {l.slots * (4.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
         {"thin", {l.slots * (4.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},

@@ -215,7 +215,7 @@ std::optional<Frame> BagCamera::next() {
             content.captureTime = stamp;
             content.depth = slot->depth().first(info_.depth.pixels());
             content.colour = slot->colour().first(colour_ ? info_.colour.pixels() : 0);
-            return Frame(content, slot->giveBack());
+            return slot->lend(content);
         }
         ++skipped_;
         firstFault_ = firstFault_.empty() ? fault : firstFault_;

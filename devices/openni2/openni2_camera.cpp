@@ -251,7 +251,7 @@ Frame OpenNi2Camera::deliver() {
     content.depth = slot->depth().first(info_.depth.pixels());
     content.colour = slot->colour().first(info_.hasColour ? info_.depth.pixels() : 0);
     depth_.fresh = colour_.fresh = false;
-    return Frame(content, slot->giveBack());
+    return slot->lend(content);
 }
 
 std::unique_ptr<Camera> openOpenNi2(const std::string& source) {

@@ -156,7 +156,7 @@ std::optional<Frame> PcdCamera::next() {
     Frame::Content content;
     content.depth = depth.first(info_.depth.pixels());
     content.colour = slot->colour().first(info_.hasColour ? info_.depth.pixels() : 0);
-    return Frame(content, slot->giveBack());
+    return slot->lend(content);
 }
 
 } // namespace fathom

@@ -116,7 +116,7 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
     if (poses_) {
         content.baseTcamera = poses_->at(content.captureTime);
     }
-    return Frame(content, slot.giveBack());
+    return slot.lend(content);
 }
 
 // Named at once in a recording that has shown a good frame; before that when one comes. Should none come, the

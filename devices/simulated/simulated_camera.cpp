@@ -129,7 +129,7 @@ std::optional<Frame> SimulatedCamera::next() {
     content.depth = slot->depth();
     content.colour = slot->colour();
     content.baseTcamera = poseAt(frame);
-    return Frame(content, slot->giveBack());
+    return slot->lend(content);
 }
 
 SimulatedCamera::ExactView SimulatedCamera::exactView(uint32_t frame) const {

@@ -130,7 +130,7 @@ std::optional<Frame> SimulatedSonar::next() {
     content.colour = slot->colour();
     content.baseTcamera = options_.baseTscene;
     ++frame_;
-    return Frame(content, slot->giveBack());
+    return slot->lend(content);
 }
 
 } // namespace fathom

@@ -233,9 +233,10 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
     content.captureTime = lastStamp_ = pair.depth.stamp;
     if (!inPlace) {
         ++copied_;
-        return Frame(content, slot->giveBack());
+        return slot->lend(content);
     }
     ++streams_->leased;
+    slot->name(content); // colour; depth lies in the driver's memory
     return Frame(content, [slot, streams = streams_.get(), buffer = pair.depth.index] {
         slot->release();
         streams->depth.giveBack(buffer);

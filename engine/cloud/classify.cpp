@@ -26,7 +26,8 @@ uint32_t groupOf(const Plan& plan) {
 } // namespace
 
 ClassifyPass::ClassifyPass(const CloudContext& c)
-    : pipeline_(c.device,
+    : context_(c)
+    , pipeline_(c.device,
                 {"classify",
                  classify_spv,
                  11,
@@ -38,15 +39,14 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
                             uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water}},
                  {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kColourTexels}}})
     , work_(c.work)
-    , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {
-    for (uint32_t u = 0; u < kUploads; ++u) {
-        const UploadBuffers& up = c.uploads[u];
-        bindings_[u] =
-            gpu::Bindings(c.device, pipeline_,
-                          {&up.params, &up.depth, &c.work.rays, &up.colour, &c.work.nearest, &c.work.masks,
-                           &c.work.listed, &c.work.list, &c.work.counters, &c.work.live, &up.arm},
-                          c.work.unused);
-    }
+    , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {}
+
+void ClassifyPass::bind(uint32_t upload, const UploadBuffers& up) {
+    const WorkBuffers& w = context_.work;
+    bindings_[upload] = gpu::Bindings(context_.device, pipeline_,
+                                      {&up.params, &up.depth, &w.rays, &up.colour, &w.nearest, &w.masks,
+                                       &w.listed, &w.list, &w.counters, &w.live, &up.arm},
+                                      w.unused);
 }
 
 void ClassifyPass::record(gpu::Commands& commands, uint32_t upload) const {

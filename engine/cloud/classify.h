@@ -10,11 +10,13 @@ namespace fathom::cloud {
 class ClassifyPass {
 public:
     explicit ClassifyPass(const CloudContext& context);
+    void bind(uint32_t upload, const UploadBuffers& buffers); // before record() with that upload
     void record(gpu::Commands& commands, uint32_t upload) const;
 
 private:
+    CloudContext context_;
     gpu::Pipeline pipeline_;
-    std::array<gpu::Bindings, kUploads> bindings_;
+    PerUpload<gpu::Bindings> bindings_;
     const WorkBuffers& work_;
     std::array<uint32_t, 3> groups_; // patches across, down; groups a patch
 };

@@ -75,14 +75,20 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     }
 }
 
-UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera) {
+UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera,
+                             const std::shared_ptr<const void>& depthMemory,
+                             const std::shared_ptr<const void>& colourMemory) {
     if (!plan.cloud) {
         return;
     }
+    const auto picture = [&](const std::shared_ptr<const void>& memory, uint64_t bytes, const char* name) {
+        return memory ? Buffer(device, gpu::HostPages{memory, bytes}, name)
+                      : Buffer(device, bytes, MemoryKind::Upload, name);
+    };
     params = Buffer(device, sizeof(shared::FrameParams), MemoryKind::Upload, "params");
-    depth = Buffer(device, 2ull * camera.depth.pixels(), MemoryKind::Upload, "depth");
+    depth = picture(depthMemory, 2ull * camera.depth.pixels(), "depth");
     if (plan.colour) {
-        colour = Buffer(device, 4ull * camera.colour.pixels(), MemoryKind::Upload, "colour");
+        colour = picture(colourMemory, 4ull * camera.colour.pixels(), "colour");
     }
     if (plan.selfFilter) {
         arm = Buffer(device, LinkSpheres::kMostEntries * 16ull, MemoryKind::Upload, "arm");

@@ -7,11 +7,10 @@
 #include "engine/gpu/commands.h"
 #include "engine/scene/plan.h"
 
-#include <array>
+#include <memory>
+#include <vector>
 
 namespace fathom::cloud {
-
-inline constexpr uint32_t kUploads = 2; // frames in flight: double-buffered
 
 // What passes hand to each other. One copy: frames run one after the other on the device. Slots are in
 // patch-major order.
@@ -43,9 +42,12 @@ inline constexpr VkFormat kDepthTexels = VK_FORMAT_R16_UINT;
 inline constexpr VkFormat kPointTexels = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kColourTexels = VK_FORMAT_R8G8B8A8_UINT;
 
-// What one frame uploads; two of them.
+// What one frame uploads: parameters, and pictures, which are copied unless they can be read where they are.
 struct UploadBuffers {
-    UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
+    // Pictures named here (of the camera's size) are imported; throws Error when the device cannot.
+    UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera,
+                  const std::shared_ptr<const void>& depthMemory = nullptr,
+                  const std::shared_ptr<const void>& colourMemory = nullptr);
 
     gpu::Buffer params; // FrameParams
     gpu::Buffer depth;  // uint16 a pixel, row-major
@@ -79,14 +81,29 @@ inline const gpu::Buffer& slotHeld(const WorkBuffers& work, const SetBuffers& se
     return set.spheres ? set.held : work.held;
 }
 
-// Everything a pass needs to know.
+// A T for each of the slots that frames are uploaded to, made when a slot comes into use.
+template <class T>
+class PerUpload {
+public:
+    T& operator[](uint32_t upload) {
+        if (upload >= all_.size()) {
+            all_.resize(upload + 1);
+        }
+        return all_[upload];
+    }
+    const T& operator[](uint32_t upload) const { return all_[upload]; }
+
+private:
+    std::vector<T> all_;
+};
+
+// Everything a pass needs to know; what it refers to outlives the passes.
 struct CloudContext {
     const gpu::Device& device;
     const Plan& plan;
     const PatchLayout& layout;
     const CameraInfo& camera;
     const WorkBuffers& work;
-    const std::array<UploadBuffers, kUploads>& uploads;
     const std::vector<SetBuffers*>& sets;
 };
 

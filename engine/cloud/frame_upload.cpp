@@ -10,21 +10,23 @@ namespace fathom::cloud {
 namespace {
 
 template <class T>
-void copyInto(const gpu::Buffer& buffer, std::span<const T> from, uint64_t bytes, const char* what) {
+void put(const gpu::Buffer& buffer, std::span<const T> from, uint64_t bytes, const char* what) {
     if (from.size_bytes() < bytes) {
         throw Error(std::string("frame: ") + what + " image of " + std::to_string(from.size_bytes()) +
                     " bytes, needs " + std::to_string(bytes));
     }
-    std::memcpy(buffer.as<std::byte>().data(), from.data(), bytes);
+    if (!buffer.imported()) {
+        std::memcpy(buffer.as<std::byte>().data(), from.data(), bytes);
+    }
 }
 
 } // namespace
 
 void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::FrameParams& params) {
     const uint64_t pixels = static_cast<uint64_t>(params.size.x) * params.size.y;
-    copyInto(slot.depth, frame->depth, pixels * 2, "depth");
+    put(slot.depth, frame->depth, pixels * 2, "depth");
     if (slot.colour) {
-        copyInto(slot.colour, frame->colour, 4ull * params.colourSize.x * params.colourSize.y, "colour");
+        put(slot.colour, frame->colour, 4ull * params.colourSize.x * params.colourSize.y, "colour");
     }
     *slot.params.as<shared::FrameParams>().data() = params;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes one frame into one of the two upload slots.
+// Writes one frame into an upload slot.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
@@ -8,8 +8,9 @@
 
 namespace fathom::cloud {
 
-// Copies depth, colour when the plan has it, and the parameters. The slot's last submission must have
-// completed. Throws Error when the frame's images are smaller than the camera said.
+// Copies the parameters, depth and, when the plan has it, colour, unless the slot has them where the frame
+// does. The slot's last submission must have completed. Throws Error when the frame's images are smaller than
+// the camera said.
 void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::FrameParams& params);
 
 } // namespace fathom::cloud

@@ -9,21 +9,23 @@
 namespace fathom::cloud {
 
 MomentsPass::MomentsPass(const CloudContext& c)
-    : pipeline_(c.device, {"moments", moments_spv, 5, true, 0, std::array{16u}, {{2, kPointTexels}}})
-    , counters_(c.work.counters) {
-    for (const SetBuffers* s : c.sets) {
-        auto& perUpload = bindings_.emplace_back();
-        for (uint32_t u = 0; u < kUploads; ++u) {
-            perUpload[u] = gpu::Bindings(
-                c.device, pipeline_,
-                {&c.uploads[u].params, &c.work.masks, &c.work.points, &c.work.list, &s->moments},
-                c.work.unused);
-        }
+    : context_(c)
+    , pipeline_(c.device, {"moments", moments_spv, 5, true, 0, std::array{16u}, {{2, kPointTexels}}})
+    , counters_(c.work.counters) {}
+
+void MomentsPass::bind(uint32_t upload, const UploadBuffers& up) {
+    const WorkBuffers& w = context_.work;
+    bindings_[upload].clear();
+    for (const SetBuffers* s : context_.sets) {
+        bindings_[upload].emplace_back(
+            context_.device, pipeline_,
+            std::initializer_list<const gpu::Buffer*>{&up.params, &w.masks, &w.points, &w.list, &s->moments},
+            w.unused);
     }
 }
 
 void MomentsPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set) const {
-    commands.dispatchIndirect(pipeline_, bindings_[set][upload], counters_,
+    commands.dispatchIndirect(pipeline_, bindings_[upload][set], counters_,
                               offsetof(shared::FrameCounters, patchGroups));
 }
 

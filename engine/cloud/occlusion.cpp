@@ -6,7 +6,8 @@
 namespace fathom::cloud {
 
 OcclusionPass::OcclusionPass(const CloudContext& c)
-    : pipeline_(c.device, {"occlusion",
+    : context_(c)
+    , pipeline_(c.device, {"occlusion",
                            occlusion_spv,
                            4,
                            true,
@@ -14,12 +15,12 @@ OcclusionPass::OcclusionPass(const CloudContext& c)
                            std::array{c.plan.pixelGroup, uint32_t{c.plan.rays}},
                            {{1, kDepthTexels}}})
     , nearest_(c.work.nearest)
-    , groups_((c.camera.depth.pixels() + c.plan.pixelGroup - 1) / c.plan.pixelGroup) {
-    for (uint32_t u = 0; u < kUploads; ++u) {
-        bindings_[u] = gpu::Bindings(
-            c.device, pipeline_, {&c.uploads[u].params, &c.uploads[u].depth, &c.work.rays, &c.work.nearest},
-            c.work.unused);
-    }
+    , groups_((c.camera.depth.pixels() + c.plan.pixelGroup - 1) / c.plan.pixelGroup) {}
+
+void OcclusionPass::bind(uint32_t upload, const UploadBuffers& up) {
+    const WorkBuffers& w = context_.work;
+    bindings_[upload] =
+        gpu::Bindings(context_.device, pipeline_, {&up.params, &up.depth, &w.rays, &w.nearest}, w.unused);
 }
 
 void OcclusionPass::record(gpu::Commands& commands, uint32_t upload) const {

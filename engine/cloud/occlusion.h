@@ -10,11 +10,13 @@ namespace fathom::cloud {
 class OcclusionPass {
 public:
     explicit OcclusionPass(const CloudContext& context);
+    void bind(uint32_t upload, const UploadBuffers& buffers); // before record() with that upload
     void record(gpu::Commands& commands, uint32_t upload) const;
 
 private:
+    CloudContext context_;
     gpu::Pipeline pipeline_;
-    std::array<gpu::Bindings, kUploads> bindings_;
+    PerUpload<gpu::Bindings> bindings_;
     const gpu::Buffer& nearest_;
     uint32_t groups_;
 };

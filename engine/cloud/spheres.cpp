@@ -9,7 +9,8 @@
 namespace fathom::cloud {
 
 SpheresPass::SpheresPass(const CloudContext& c)
-    : pipeline_(c.device,
+    : context_(c)
+    , pipeline_(c.device,
                 {"spheres",
                  spheres_spv,
                  18,
@@ -21,18 +22,19 @@ SpheresPass::SpheresPass(const CloudContext& c)
                  {{1, kDepthTexels}, {3, kPointTexels}}})
     , work_(c.work)
     , hold_(c.plan.hold)
-    , byPixel_(c.plan.byPixel) {
-    const WorkBuffers& w = c.work;
-    for (const SetBuffers* s : c.sets) {
-        auto& perUpload = bindings_.emplace_back();
-        for (uint32_t u = 0; u < kUploads; ++u) {
-            perUpload[u] = gpu::Bindings(c.device, pipeline_,
-                                         {&c.uploads[u].params, &c.uploads[u].depth, &w.masks, &w.points,
-                                          &w.listed, &w.list, &w.growth, &w.counters, &w.seen, &w.kept,
-                                          &w.keptTime, &w.live, &slotSpheres(w, *s), &slotHeld(w, *s),
-                                          &w.classes, &s->bits, &s->nodes, &s->nodeCounts},
-                                         w.unused);
-        }
+    , byPixel_(c.plan.byPixel) {}
+
+void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
+    const WorkBuffers& w = context_.work;
+    bindings_[upload].clear();
+    for (const SetBuffers* s : context_.sets) {
+        bindings_[upload].emplace_back(context_.device, pipeline_,
+                                       std::initializer_list<const gpu::Buffer*>{
+                                           &up.params, &up.depth, &w.masks, &w.points, &w.listed, &w.list,
+                                           &w.growth, &w.counters, &w.seen, &w.kept, &w.keptTime, &w.live,
+                                           &slotSpheres(w, *s), &slotHeld(w, *s), &w.classes, &s->bits,
+                                           &s->nodes, &s->nodeCounts},
+                                       w.unused);
     }
 }
 
@@ -41,7 +43,7 @@ void SpheresPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set)
         commands.fill(work_.live, 0); // classify has read it; counted anew below
         commands.barrier();
     }
-    commands.dispatchIndirect(pipeline_, bindings_[set][upload], work_.counters,
+    commands.dispatchIndirect(pipeline_, bindings_[upload][set], work_.counters,
                               byPixel_ ? offsetof(shared::FrameCounters, patchGroups)
                                        : offsetof(shared::FrameCounters, subGroups));
 }

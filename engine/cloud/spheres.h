@@ -10,11 +10,13 @@ namespace fathom::cloud {
 class SpheresPass {
 public:
     explicit SpheresPass(const CloudContext& context);
+    void bind(uint32_t upload, const UploadBuffers& buffers); // before record() with that upload
     void record(gpu::Commands& commands, uint32_t upload, uint32_t set) const;
 
 private:
+    CloudContext context_;
     gpu::Pipeline pipeline_;
-    std::vector<std::array<gpu::Bindings, kUploads>> bindings_; // a set
+    PerUpload<std::vector<gpu::Bindings>> bindings_; // a set
     const WorkBuffers& work_;
     bool hold_, byPixel_;
 };

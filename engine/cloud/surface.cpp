@@ -23,7 +23,8 @@ bool inPairs(const CloudContext& c) {
 } // namespace
 
 SurfacePass::SurfacePass(const CloudContext& c)
-    : pipeline_(c.device, {"surface",
+    : context_(c)
+    , pipeline_(c.device, {"surface",
                            surface_spv,
                            6,
                            true,
@@ -33,13 +34,12 @@ SurfacePass::SurfacePass(const CloudContext& c)
                                       uint32_t{c.plan.filterRow}, uint32_t{inPairs(c)},
                                       uint32_t{c.plan.polynomialWeights}},
                            {{1, inPairs(c) ? VK_FORMAT_R16G16_UINT : kDepthTexels}}})
-    , counters_(c.work.counters) {
-    for (uint32_t u = 0; u < kUploads; ++u) {
-        bindings_[u] = gpu::Bindings(c.device, pipeline_,
-                                     {&c.uploads[u].params, &c.uploads[u].depth, &c.work.rays, &c.work.masks,
-                                      &c.work.list, &c.work.points},
-                                     c.work.unused);
-    }
+    , counters_(c.work.counters) {}
+
+void SurfacePass::bind(uint32_t upload, const UploadBuffers& up) {
+    const WorkBuffers& w = context_.work;
+    bindings_[upload] = gpu::Bindings(
+        context_.device, pipeline_, {&up.params, &up.depth, &w.rays, &w.masks, &w.list, &w.points}, w.unused);
 }
 
 void SurfacePass::record(gpu::Commands& commands, uint32_t upload) const {

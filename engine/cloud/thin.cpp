@@ -9,16 +9,17 @@
 namespace fathom::cloud {
 
 ThinPass::ThinPass(const CloudContext& c)
-    : pipeline_(
+    : context_(c)
+    , pipeline_(
           c.device,
           {"thin", thin_spv, 7, true, 0, std::array{c.plan.subGroup, c.plan.classes}, {{2, kPointTexels}}})
-    , counters_(c.work.counters) {
-    for (uint32_t u = 0; u < kUploads; ++u) {
-        bindings_[u] = gpu::Bindings(c.device, pipeline_,
-                                     {&c.uploads[u].params, &c.work.masks, &c.work.points, &c.work.listed,
-                                      &c.work.list, &c.work.counters, &c.work.growth},
-                                     c.work.unused);
-    }
+    , counters_(c.work.counters) {}
+
+void ThinPass::bind(uint32_t upload, const UploadBuffers& up) {
+    const WorkBuffers& w = context_.work;
+    bindings_[upload] = gpu::Bindings(
+        context_.device, pipeline_,
+        {&up.params, &w.masks, &w.points, &w.listed, &w.list, &w.counters, &w.growth}, w.unused);
 }
 
 void ThinPass::record(gpu::Commands& commands, uint32_t upload) const {

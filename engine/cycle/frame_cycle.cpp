@@ -36,12 +36,15 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
     , plan_(plan)
     , layout_(patchLayout(camera.depth.width, camera.depth.height))
     , work_(device, plan, layout_, camera)
-    , uploads_{cloud::UploadBuffers(device, plan, camera), cloud::UploadBuffers(device, plan, camera)}
+    , uploads_(device_, plan_, camera_)
     , pool_(readers, [&] { return std::make_unique<cloud::FixtureSet>(device, plan_, layout_); })
     , setBuffers_(buffersOf(pool_))
-    , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, uploads_, setBuffers_})
+    , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, setBuffers_})
     , timeline_(device)
     , leakWarned_(shared::kMaxClasses, 0) {
+    for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
+        passes_.bind(slot, uploads_[slot]);
+    }
     warmUp();
 }
 
@@ -110,7 +113,7 @@ void FrameCycle::warmUp() {
     Frame::Content content;
     content.depth = depth;
     content.colour = colour;
-    for (uint32_t slot = 0; slot < cloud::kUploads; ++slot) {
+    for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         cloud::uploadFrame(uploads_[slot], Frame(content, nullptr), params);
         uploadArm(slot, dvec3(0.0));
         device_.submit(passes_.frame(slot, 0).handle(), timeline_.handle(), ticket_, ticket_ + 1);
@@ -124,6 +127,15 @@ void FrameCycle::uploadArm(uint32_t slot, const dvec3& origin) const {
     }
 }
 
+uint32_t FrameCycle::slotFor(const Frame& frame) {
+    const bool busy = submitted_ && !submitted_->unchanged;
+    const auto [slot, isNew] = uploads_.choose(frame, busy ? std::optional(submitted_->slot) : std::nullopt);
+    if (isNew) {
+        passes_.bind(slot, uploads_[slot]);
+    }
+    return slot;
+}
+
 FrameReport FrameCycle::process(Frame frame) {
     upload(std::move(frame));
     submit();
@@ -135,16 +147,15 @@ void FrameCycle::upload(Frame frame) {
     f.times.started = Clock::now();
     f.pose = frame->baseTcamera.value_or(scene_.baseTcamera);
     f.unchanged = lastSource_ == frame->sourceNumber;
-    f.slot = nextSlot_;
     if (!origin_) {
         placeOrigin(f.pose.position);
     }
     if (!f.unchanged && plan_.cloud) {
+        f.slot = slotFor(frame);
         cloud::setFrame(params_, f.pose, *origin_, frame->captureTime,
                         lastCapture_.value_or(frame->captureTime));
         cloud::uploadFrame(uploads_[f.slot], frame, params_);
         uploadArm(f.slot, *origin_);
-        nextSlot_ = (nextSlot_ + 1) % cloud::kUploads;
     }
     lastSource_ = frame->sourceNumber;
     lastCapture_ = frame->captureTime;

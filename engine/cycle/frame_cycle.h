@@ -7,6 +7,7 @@
 #include "engine/cloud/fixture_set.h"
 #include "engine/cloud/frozen_classes.h"
 #include "engine/cloud/self_filter.h"
+#include "engine/cloud/upload_slots.h"
 #include "engine/cycle/frame_passes.h"
 #include "engine/gpu/device.h"
 #include "engine/types/frame.h"
@@ -87,6 +88,7 @@ private:
     void placeOrigin(const dvec3& origin);
     void warmUp();
     void clearMemory();
+    uint32_t slotFor(const Frame& frame);
     void uploadArm(uint32_t slot, const dvec3& origin) const;
     void fillHost(const InFlight& f);
     void warnLeaks(const cloud::FrameCounts& counts);
@@ -97,7 +99,7 @@ private:
     Plan plan_;
     PatchLayout layout_;
     cloud::WorkBuffers work_;
-    std::array<cloud::UploadBuffers, cloud::kUploads> uploads_;
+    cloud::UploadSlots uploads_;
     cloud::FixturePool pool_;
     std::vector<cloud::SetBuffers*> setBuffers_;
     FramePasses passes_;
@@ -108,7 +110,6 @@ private:
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
     std::optional<InFlight> uploaded_, submitted_;
-    uint32_t nextSlot_ = 0;
     uint64_t ticket_ = 0; // timeline value of the last submission
     uint64_t generation_ = 0;
     std::optional<uint64_t> lastSource_;

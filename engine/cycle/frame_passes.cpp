@@ -23,10 +23,18 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.spheres, spheres_, "spheres");
     add(c.plan.spheres, tree_, "tree");
     add(c.plan.pack, pack_, "pack");
-    for (uint32_t u = 0; u < cloud::kUploads; ++u) {
-        commands_[u].resize(sets_.size());
-        watches_[u] = std::make_unique<gpu::Stopwatch>(c.device, static_cast<uint32_t>(names_.size()) + 1);
-    }
+}
+
+void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
+    const auto in = [&](auto& pass) {
+        if (pass) {
+            pass->bind(upload, buffers);
+        }
+    };
+    in(occlusion_), in(classify_), in(surface_), in(thin_), in(moments_), in(spheres_);
+    commands_[upload].clear();
+    commands_[upload].resize(sets_.size());
+    watches_[upload] = std::make_unique<gpu::Stopwatch>(device_, static_cast<uint32_t>(names_.size()) + 1);
 }
 
 const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {

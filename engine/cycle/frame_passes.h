@@ -24,6 +24,10 @@ class FramePasses {
 public:
     explicit FramePasses(const cloud::CloudContext& context);
 
+    // The buffers that frames are uploaded to as `upload`, before its first frame() and whenever they are
+    // new. No submission of that upload may be in flight.
+    void bind(uint32_t upload, const cloud::UploadBuffers& buffers);
+
     // One frame, ready to submit: passes, then the copies that the host reads. Nothing in it changes from
     // frame to frame but what buffers hold, so it is recorded at the pair's first use only. No submission of
     // the same upload may be in flight.
@@ -47,8 +51,8 @@ private:
     std::optional<cloud::MomentsPass> moments_;
     std::vector<std::string> names_;
     const gpu::Device& device_;
-    std::array<std::vector<std::unique_ptr<gpu::Commands>>, cloud::kUploads> commands_; // null = not yet
-    std::array<std::unique_ptr<gpu::Stopwatch>, cloud::kUploads> watches_;
+    cloud::PerUpload<std::vector<std::unique_ptr<gpu::Commands>>> commands_; // a set; null = not yet
+    cloud::PerUpload<std::unique_ptr<gpu::Stopwatch>> watches_;
 };
 
 } // namespace fathom

@@ -76,16 +76,29 @@ void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
     info.pNext = &features;
     info.queueCreateInfoCount = static_cast<uint32_t>(queues.size());
     info.pQueueCreateInfos = queues.data();
-    const char* swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    const std::vector<const char*> extensions = extensionsFor(drawing);
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    check(vkCreateDevice(physical_, &info, nullptr, &handle_), "vkCreateDevice");
+    if (facts_.hostPointerAlignment > 0) {
+        hostPointerProperties_ = reinterpret_cast<PFN_vkGetMemoryHostPointerPropertiesEXT>(
+            vkGetDeviceProcAddr(handle_, "vkGetMemoryHostPointerPropertiesEXT"));
+    }
+}
+
+std::vector<const char*> Device::extensionsFor(Drawing drawing) const {
+    std::vector<const char*> extensions;
+    if (facts_.hostPointerAlignment > 0) {
+        extensions.push_back(VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
+    }
     if (drawing == Drawing::Surface) {
-        if (!hasExtension(physical_, swapchain)) {
+        if (!hasExtension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
             throw BadInput("--device", "window", facts_.name,
                            "a device that shows pictures (VK_KHR_swapchain)");
         }
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &swapchain;
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }
-    check(vkCreateDevice(physical_, &info, nullptr, &handle_), "vkCreateDevice");
+    return extensions;
 }
 
 Device::~Device() {
@@ -119,6 +132,22 @@ uint32_t Device::memoryType(MemoryKind kind, uint32_t typeBits) const {
         }
     }
     throw Error("device " + facts_.name + " offers no memory of the kind needed");
+}
+
+uint32_t Device::hostPointerTypes(const void* memory) const {
+    VkMemoryHostPointerPropertiesEXT properties{VK_STRUCTURE_TYPE_MEMORY_HOST_POINTER_PROPERTIES_EXT};
+    if (hostPointerProperties_ == nullptr ||
+        hostPointerProperties_(handle_, VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT, memory,
+                               &properties) != VK_SUCCESS) {
+        return 0;
+    }
+    uint32_t bits = 0;
+    for (uint32_t t = 0; t < memory_.memoryTypeCount; ++t) {
+        const bool coherent =
+            (memory_.memoryTypes[t].propertyFlags & VK_MEMORY_PROPERTY_HOST_COHERENT_BIT) != 0;
+        bits |= coherent ? properties.memoryTypeBits & 1u << t : 0u;
+    }
+    return bits;
 }
 
 void Device::submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue,

@@ -42,6 +42,9 @@ public:
 
     // Memory type of a kind among those allowed by typeBits; throws Error when there is none.
     uint32_t memoryType(MemoryKind kind, uint32_t typeBits) const;
+    // Bits of the coherent memory types as which the host's memory at `memory` can be imported; 0 = it
+    // cannot.
+    uint32_t hostPointerTypes(const void* memory) const;
 
     // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue. The
     // mutex of the queue is held for the call only. Never called by the haptic thread.
@@ -64,6 +67,7 @@ public:
 
 private:
     void createLogicalDevice(bool gpuAssisted, Drawing drawing);
+    std::vector<const char*> extensionsFor(Drawing drawing) const;
     void chooseDrawQueue();
     void loadPipelineCache();
     void savePipelineCache() const noexcept;
@@ -79,6 +83,7 @@ private:
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceFacts facts_;
     std::string cacheFile_;
+    PFN_vkGetMemoryHostPointerPropertiesEXT hostPointerProperties_ = nullptr; // null: nothing is imported
 };
 
 } // namespace fathom::gpu

@@ -11,6 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
+constexpr uint64_t kSmallestPage = 4096; // of any host: a camera's memory comes in whole pages
 
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
     return std::any_of(scene.fixtures.begin(), scene.fixtures.end(), [&](const FixtureClass& f) {
@@ -27,6 +28,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.selfFilter = plan.arm && scene.arm->selfFilter && (plan.spheres || scene.hasGuidance());
     plan.moments = scene.hasGuidance();
     plan.cloud = plan.spheres || plan.moments;
+    plan.inPlace =
+        plan.cloud && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
     plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
@@ -110,9 +113,12 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     const auto buffer = [&](const char* name, bool in, uint64_t bytes, std::string why) {
         plan.items.push_back({"buffer", name, in, std::move(why), in ? bytes : 0});
     };
-    buffer("depth upload", plan.cloud, 2 * 2 * pixels, "double-buffered");
+    const char* copies = plan.inPlace
+                             ? "double-buffered, for pictures not in whole pages of the host's memory"
+                             : "double-buffered";
+    buffer("depth upload", plan.cloud, 2 * 2 * pixels, copies);
     buffer("colour upload", plan.colour, 2 * 4ull * camera.colour.pixels(),
-           plan.colour ? "double-buffered" : "no class asks for colour");
+           plan.colour ? copies : "no class asks for colour");
     buffer("rays", plan.rays, 8 * pixels,
            plan.fan    ? "beams at equal angles"
            : plan.rays ? "distorted lens"

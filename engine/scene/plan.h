@@ -35,6 +35,7 @@ struct Plan {
     // Variants.
     bool rays = false;      // distorted lens, or a fan
     bool colour = false;    // some class asks for colour: it is uploaded
+    bool inPlace = false;   // pictures in whole pages are read where the camera left them, not copied
     bool tiled = false;     // the filter's window from shared memory
     bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
     uint32_t classes = 0;   // classes of points

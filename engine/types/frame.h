@@ -6,15 +6,15 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
 
 namespace fathom {
 
-// The memory belongs to the camera, is page-aligned and padded to whole pages, and returns to it when the
-// lease is destroyed. Depth: width x height uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8
-// A8, empty when the camera has none.
+// The memory belongs to the camera and returns to it when the lease is destroyed. Depth: width x height
+// uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, empty when the camera has none.
 class Frame {
 public:
     struct Content {
@@ -24,6 +24,9 @@ public:
         std::span<const uint16_t> depth;
         std::span<const uint32_t> colour; // 0xAABBGGRR
         std::optional<Pose> baseTcamera;  // when the source knows it (poses.txt, simulated); else the scene's
+        // Blocks of whole pages that begin where depth and colour do: a device may read them there, and who
+        // holds one keeps its address from being used for anything else. Null, or of another address: copied.
+        std::shared_ptr<const void> depthMemory, colourMemory;
     };
 
     Frame() = default;

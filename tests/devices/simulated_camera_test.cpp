@@ -245,7 +245,7 @@ TEST_CASE("Frame slots are given out once each until they come back") {
     CHECK(slots.inFlight() == 3);
     CHECK(a->depth().size() == 7);
     CHECK(a->colour().empty());
-    b->giveBack()();
+    b->release();
     CHECK(slots.inFlight() == 2);
     CHECK(slots.acquire() == b);
     CHECK(wholePages(0) == wholePages(1));

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/upload_slots.h"
+
+#include "engine/types/error.h"
+
+#include <spdlog/spdlog.h>
+
+namespace fathom::cloud {
+
+UploadSlots::UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera)
+    : device_(device)
+    , plan_(plan)
+    , camera_(camera)
+    , pictures_(kCopied) {
+    for (uint32_t i = 0; i < kCopied; ++i) {
+        slots_.push_back(std::make_unique<UploadBuffers>(device, plan, camera));
+    }
+}
+
+UploadSlots::Choice UploadSlots::choose(const Frame& frame, std::optional<uint32_t> inFlight) {
+    const Pictures pictures = inPlace(frame);
+    if (!pictures.depth && !pictures.colour) {
+        return {copied(inFlight), false};
+    }
+    if (const std::optional<uint32_t> known = find(pictures)) {
+        return {*known == inFlight ? copied(inFlight) : *known, false}; // the device reads it at this moment
+    }
+    const std::optional<uint32_t> slot = room(inFlight);
+    return slot && import(*slot, pictures) ? Choice{*slot, true} : Choice{copied(inFlight), false};
+}
+
+// A block counts only when it begins where the picture does: a picture may have been replaced by another.
+UploadSlots::Pictures UploadSlots::inPlace(const Frame& frame) const {
+    Pictures pictures;
+    if (!plan_.inPlace || refused_) {
+        return pictures;
+    }
+    if (frame->depthMemory.get() == frame->depth.data() && frame->depth.size() >= camera_.depth.pixels()) {
+        pictures.depth = frame->depthMemory;
+    }
+    if (plan_.colour && frame->colourMemory.get() == frame->colour.data() &&
+        frame->colour.size() >= camera_.colour.pixels()) {
+        pictures.colour = frame->colourMemory;
+    }
+    return pictures;
+}
+
+std::optional<uint32_t> UploadSlots::find(const Pictures& pictures) const {
+    for (uint32_t i = kCopied; i < pictures_.size(); ++i) {
+        if (pictures_[i].depth == pictures.depth && pictures_[i].colour == pictures.colour) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<uint32_t> UploadSlots::room(std::optional<uint32_t> inFlight) const {
+    // Held by its slot here and by the slot's buffer; more by a camera that is still there, or its frames.
+    const auto gone = [](const std::shared_ptr<const void>& memory) {
+        return !memory || memory.use_count() <= 2;
+    };
+    for (uint32_t i = kCopied; i < pictures_.size(); ++i) {
+        if (i != inFlight && gone(pictures_[i].depth) && gone(pictures_[i].colour)) {
+            return i;
+        }
+    }
+    return slots_.size() < kMost ? std::optional(static_cast<uint32_t>(slots_.size())) : std::nullopt;
+}
+
+bool UploadSlots::import(uint32_t slot, const Pictures& pictures) {
+    try {
+        auto buffers =
+            std::make_unique<UploadBuffers>(device_, plan_, camera_, pictures.depth, pictures.colour);
+        if (slot == slots_.size()) {
+            slots_.emplace_back(), pictures_.emplace_back();
+        }
+        slots_[slot] = std::move(buffers);
+        pictures_[slot] = pictures;
+        return true;
+    } catch (const Error& e) {
+        spdlog::debug("pictures are copied: {}", e.what());
+        refused_ = true;
+        return false;
+    }
+}
+
+uint32_t UploadSlots::copied(std::optional<uint32_t> inFlight) {
+    if (nextCopied_ == inFlight) {
+        nextCopied_ = 1 - nextCopied_;
+    }
+    const uint32_t slot = nextCopied_;
+    nextCopied_ = 1 - nextCopied_;
+    return slot;
+}
+
+} // namespace fathom::cloud

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the device finds a frame's pictures: copied into one of two slots, or left where the camera wrote
+// them.
+#pragma once
+
+#include "engine/cloud/cloud_buffers.h"
+#include "engine/types/frame.h"
+
+#include <optional>
+
+namespace fathom::cloud {
+
+// Slots 0 and 1 are copied into. A picture whose memory the device can import (Plan::inPlace) gets a slot of
+// its own when that memory is seen first; a camera's few blocks come round again and again. One thread.
+class UploadSlots {
+public:
+    static constexpr uint32_t kCopied = 2;    // frames in flight: double-buffered
+    static constexpr uint32_t kMost = 2 + 16; // memory that is new after that is copied
+
+    UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
+
+    struct Choice {
+        uint32_t slot;
+        bool isNew; // its buffers were made just now
+    };
+    // A slot for the frame, never the one that is in flight. Memory that nobody but a slot holds any more
+    // makes room for memory that is new. A device that refuses to import is not asked again.
+    Choice choose(const Frame& frame, std::optional<uint32_t> inFlight);
+
+    const UploadBuffers& operator[](uint32_t slot) const { return *slots_[slot]; }
+
+private:
+    struct Pictures {
+        std::shared_ptr<const void> depth, colour; // null: copied
+    };
+    Pictures inPlace(const Frame& frame) const;
+    std::optional<uint32_t> find(const Pictures& pictures) const;
+    std::optional<uint32_t> room(std::optional<uint32_t> inFlight) const;
+    bool import(uint32_t slot, const Pictures& pictures);
+    uint32_t copied(std::optional<uint32_t> inFlight);
+
+    const gpu::Device& device_;
+    const Plan& plan_;
+    const CameraInfo& camera_;
+    std::vector<std::unique_ptr<UploadBuffers>> slots_;
+    std::vector<Pictures> pictures_; // a slot
+    uint32_t nextCopied_ = 0;
+    bool refused_ = false;
+};
+
+} // namespace fathom::cloud

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures that the device reads in the camera's memory, and those that it cannot.
+#include "devices/frame_slots.h"
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+// A camera's memory with a picture in it.
+class Blocks {
+public:
+    Blocks(const CameraInfo& camera, uint32_t count)
+        : slots_(camera.depth.pixels(), true, count) {}
+
+    Frame next(const Picture& picture, uint32_t number = 0) {
+        FrameSlot& slot = *slots_.acquire();
+        std::copy(picture.depth.begin(), picture.depth.end(), slot.depth().begin());
+        std::copy(picture.colour.begin(), picture.colour.end(), slot.colour().begin());
+        Frame::Content content;
+        content.index = number, content.sourceNumber = number, content.captureTime = number / 30.0;
+        content.depth = slot.depth(), content.colour = slot.colour();
+        latest_ = &slot;
+        return slot.lend(content);
+    }
+    FrameSlot& latest() { return *latest_; }
+
+private:
+    FrameSlots slots_;
+    FrameSlot* latest_ = nullptr;
+};
+
+bool canImport() {
+    const uint64_t alignment = vulkan().device.facts().hostPointerAlignment;
+    return alignment > 0 && alignment <= 4096;
+}
+
+struct Slots {
+    Scene scene = classesScene(3);
+    CameraInfo camera = pinholeCamera(90, 60);
+    Plan plan = makePlan(scene, camera, 1, vulkan().device.facts());
+    cloud::UploadSlots slots{vulkan().device, plan, camera};
+    Picture picture = stressPicture(camera, 3);
+
+    cloud::UploadSlots::Choice choose(Blocks& from, std::optional<uint32_t> inFlight = {}) {
+        return slots.choose(from.next(picture), inFlight);
+    }
+};
+
+} // namespace
+
+TEST_CASE(
+    "Pictures read in place give the sets that copied ones give, also when the camera was opened anew") {
+    for (const auto& [w, h] : {std::pair{123u, 77u}, {160u, 90u}, {1u, 1u}}) {
+        CAPTURE(h);
+        const CameraInfo camera = pinholeCamera(w, h);
+        CloudRig inPlace(classesScene(3), camera);
+        CloudRig copied(classesScene(3), camera, [](Plan& plan) { plan.inPlace = false; });
+        CHECK(inPlace.plan().inPlace == canImport());
+        auto blocks = std::make_unique<Blocks>(camera, 3);
+        for (uint32_t k = 0; k < 12; ++k) {
+            if (k == 6) { // new memory, where the old one was for all that anybody knows
+                blocks = std::make_unique<Blocks>(camera, 2);
+            }
+            const Picture picture = stressPicture(camera, k + 1);
+            inPlace.cycle().process(blocks->next(picture, k));
+            copied.run(picture);
+            const auto lease = inPlace.cycle().sets().newest();
+            CAPTURE(k);
+            CHECK(lease->host.forbiddenBits == copied.host().forbiddenBits);
+            CHECK(lease->host.spheres.x == copied.host().spheres.x);
+            CHECK(lease->host.spheres.radius == copied.host().spheres.radius);
+            CHECK(lease->host.spheres.source == copied.host().spheres.source);
+        }
+    }
+}
+
+TEST_CASE(
+    "A picture in whole pages is not copied: what the camera writes until the passes run is what they read") {
+    const CameraInfo camera = pinholeCamera(90, 60);
+    Scene scene = classesScene(3);
+    scene.holdSeconds = 0.0;
+    for (const bool copies : {false, true}) {
+        CloudRig rig(scene, camera, [&](Plan& plan) { plan.inPlace = plan.inPlace && !copies; });
+        Blocks blocks(camera, 2);
+        rig.cycle().upload(blocks.next(stressPicture(camera, 3)));
+        std::ranges::fill(blocks.latest().depth(), uint16_t{0});
+        rig.cycle().submit();
+        rig.cycle().finish();
+        CHECK((rig.cycle().sets().newest()->host.spheres.size() == 0) == (canImport() && !copies));
+    }
+}
+
+TEST_CASE(
+    "A camera's blocks are imported once each, and one that the device reads at this moment is copied") {
+    if (!canImport()) {
+        return;
+    }
+    Slots rig;
+    Blocks blocks(rig.camera, 2);
+    const auto first = rig.choose(blocks), second = rig.choose(blocks);
+    CHECK(first.slot == 2);
+    CHECK(second.slot == 3);
+    CHECK((first.isNew && second.isNew));
+    CHECK(rig.slots[2].depth.imported());
+    CHECK(rig.slots[2].colour.imported());
+    for (int round = 0; round < 5; ++round) {
+        const auto again = rig.choose(blocks);
+        CHECK(again.slot == 2u + round % 2);
+        CHECK_FALSE(again.isNew);
+    }
+    CHECK(rig.choose(blocks, 3).slot == 0); // the other block's turn was next
+    CHECK(rig.choose(blocks, 3).slot == 2);
+}
+
+TEST_CASE("Pictures elsewhere than in whole pages are copied, by turns and never over the one in flight") {
+    Slots rig;
+    const Picture& picture = rig.picture;
+    Frame::Content content;
+    content.depth = picture.depth, content.colour = picture.colour;
+    const auto copy = [&](std::optional<uint32_t> inFlight) {
+        return rig.slots.choose(Frame(content, nullptr), inFlight).slot;
+    };
+    CHECK(copy({}) == 0);
+    CHECK(copy(0) == 1);
+    CHECK(copy(1) == 0);
+    CHECK(copy(1) == 0);
+    CHECK(copy(7) == 1);
+    // A block that is another picture's counts for nothing.
+    Blocks blocks(rig.camera, 1);
+    const Frame other = blocks.next(picture);
+    content.depthMemory = other->depthMemory, content.colourMemory = other->colourMemory;
+    CHECK(copy({}) == 0);
+    CHECK_FALSE(rig.slots[0].depth.imported());
+}
+
+TEST_CASE("Colour alone is read in place where depth lies in a driver's memory") {
+    if (!canImport()) {
+        return;
+    }
+    Slots rig;
+    Blocks blocks(rig.camera, 1);
+    Frame::Content content = *blocks.next(rig.picture);
+    content.depth = rig.picture.depth, content.depthMemory = nullptr;
+    const auto [slot, isNew] = rig.slots.choose(Frame(content, nullptr), {});
+    CHECK(slot == 2);
+    CHECK(isNew);
+    CHECK_FALSE(rig.slots[2].depth.imported());
+    CHECK(rig.slots[2].colour.imported());
+}
+
+TEST_CASE("Memory that its camera has let go makes room, and what finds none is copied") {
+    if (!canImport()) {
+        return;
+    }
+    constexpr uint32_t kMost = cloud::UploadSlots::kMost;
+    Slots rig;
+    auto gone = std::make_unique<Blocks>(rig.camera, 1);
+    const std::weak_ptr<const void> memory = gone->next(rig.picture)->depthMemory;
+    CHECK(rig.choose(*gone).slot == 2);
+    gone.reset();
+    CHECK_FALSE(memory.expired()); // nothing else can be at that address while a slot reads there
+    Blocks many(rig.camera, kMost);
+    CHECK(rig.choose(many).slot == 2);
+    CHECK(memory.expired());
+    for (uint32_t slot = 3; slot < kMost; ++slot) {
+        CHECK(rig.choose(many).slot == slot);
+    }
+    CHECK(rig.choose(many).slot == 0);
+    CHECK(rig.choose(many).slot == 1);
+}
