@@ -4,6 +4,7 @@
 #include "engine/cloud/frame_params.h"
 #include "engine/cloud/guidance_points.h"
 #include "engine/cloud/guidance_pose.h"
+#include "engine/types/crew.h"
 
 #include <algorithm>
 #include <array>
@@ -12,6 +13,8 @@
 namespace fathom::cloud {
 
 namespace {
+
+constexpr uint32_t kLeastPart = 4096; // spheres
 
 // Pixel, row-major in the picture, of each slot of the patch in the top left corner; held points behind them,
 // which count on from the last pixel. The order in which spheres are collected is by pixel.
@@ -34,13 +37,15 @@ struct Placed {
 // Writes the host's columns, which are large enough already, in order of patches.
 class SphereColumns {
 public:
+    // From sphere `first` on.
     SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
-                  FrameCounts& counts)
+                  FrameCounts& counts, size_t first = 0)
         : set_(set)
         , counts_(counts)
         , across_(layout.across)
         , width_(set.host.camera.depth.width)
-        , sources_(sourcesOfPatch(width_, static_cast<uint32_t>(set.host.camera.depth.pixels()))) {
+        , sources_(sourcesOfPatch(width_, static_cast<uint32_t>(set.host.camera.depth.pixels())))
+        , next_(first) {
         std::copy(rows.begin(), rows.end(), rows_.begin());
     }
 
@@ -88,7 +93,7 @@ private:
     uint32_t across_, width_;
     std::array<uint32_t, 512> sources_;
     std::array<uint32_t, shared::kMaxClasses> rows_{}, here_{}; // here_: spheres of each class in the patch
-    size_t next_ = 0;
+    size_t next_;
 };
 
 void makeRoom(FixtureSet& set, const Plan& plan, size_t spheres) {
@@ -96,19 +101,46 @@ void makeRoom(FixtureSet& set, const Plan& plan, size_t spheres) {
     set.keys.resize(plan.query == Plan::Query::Gpu ? spheres : 0);
 }
 
-// A tag is patch << 12 | layer << 11 | slot << 3 | class.
-void takePacked(const FixtureSet& set, uint32_t count, SphereColumns& columns) {
+// A tag is patch << 12 | layer << 11 | slot << 3 | class. Those of [first, last), whole patches.
+void takePacked(const FixtureSet& set, uint32_t first, uint32_t last, SphereColumns& columns) {
     const auto packed = set.device.packed.as<glm::vec4>();
     const auto tags = set.device.tags.as<uint32_t>();
-    for (uint32_t begin = 0, end = 0; begin < count; begin = end) {
+    for (uint32_t begin = first, end = first; begin < last; begin = end) {
         const uint32_t patch = tags[begin] >> 12;
-        while (end < count && tags[end] >> 12 == patch) {
+        while (end < last && tags[end] >> 12 == patch) {
             ++end;
         }
         columns.put(patch, end - begin, [&](uint32_t i) {
             const uint32_t tag = tags[begin + i];
             return Placed{packed[begin + i], tag >> 3 & 511, tag & 7};
         });
+    }
+}
+
+// The packed spheres in parts that begin and end with a patch.
+void takePackedInParts(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
+                       Crew& crew, FrameCounts& counts) {
+    const uint32_t count = counts.spheres;
+    const auto tags = set.device.tags.as<uint32_t>();
+    const auto patchStart = [&](uint32_t at) {
+        while (at > 0 && at < count && tags[at] >> 12 == tags[at - 1] >> 12) {
+            ++at;
+        }
+        return at;
+    };
+    const uint32_t parts = std::clamp(count / kLeastPart, 1u, 4 * crew.members());
+    std::vector<FrameCounts> some(parts, counts);
+    crew.run(parts, [&](uint32_t part) {
+        const auto at = [&](uint64_t p) { return patchStart(static_cast<uint32_t>(count * p / parts)); };
+        const uint32_t first = at(part), last = at(part + 1);
+        SphereColumns columns(set, rows, layout, some[part], first);
+        takePacked(set, first, last, columns);
+    });
+    for (const FrameCounts& part : some) {
+        counts.patches += part.patches;
+        for (size_t c = 0; c < counts.classSpheres.size(); ++c) {
+            counts.classSpheres[c] += part.classSpheres[c], counts.classPatches[c] += part.classPatches[c];
+        }
     }
 }
 
@@ -207,7 +239,7 @@ uint32_t validPixels(const Fixtures& host, const Scene& scene) {
 }
 
 FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
-                    const PatchLayout& layout) {
+                    const PatchLayout& layout, Crew& crew) {
     const std::vector<uint32_t> rows = classRows(scene);
     FrameCounts counts;
     counts.classPixels.resize(rows.size());
@@ -231,10 +263,10 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene
     if (plan.spheres) {
         counts.spheres = c.spheres;
         makeRoom(set, plan, c.spheres);
-        SphereColumns columns(set, rows, layout, counts);
         if (plan.pack) {
-            takePacked(set, c.spheres, columns);
+            takePackedInParts(set, rows, layout, crew, counts);
         } else {
+            SphereColumns columns(set, rows, layout, counts);
             takeSlots(set, work, plan.hold, layout, columns);
         }
         takeForbiddenBits(set, layout, counts);

@@ -24,8 +24,8 @@ uint32_t validPixels(const Fixtures& host, const Scene& scene);
 
 // work: where slots are read when the plan packs nothing. Fills set.host.spheres, forbiddenBits and guidance
 // from the device side; the caller has set camera, pose, origin and frame, and counts the valid pixels.
-// Allocates only when a frame is larger than any before.
+// crew shares the copying of packed spheres. Allocates only when a frame is larger than any before.
 FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
-                    const PatchLayout& layout);
+                    const PatchLayout& layout, Crew& crew);
 
 } // namespace fathom::cloud

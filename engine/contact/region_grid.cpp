@@ -2,7 +2,9 @@
 #include "engine/contact/region_grid.h"
 
 #include "engine/contact/clones.h"
+#include "engine/types/crew.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -17,6 +19,7 @@ constexpr double kSmallestCell = 0.005;   // [m]
 constexpr uint64_t kMostCells = 4u << 20; // 16 MiB of cell starts
 constexpr uint64_t kFewestCells = 4096;   // below this clearing costs nothing
 constexpr uint64_t kCellsPerSphere = 8;   // clearing and summing stay cheaper than sorting the spheres
+constexpr size_t kRun = 4096;             // spheres that are handled in one go: 16 KiB a column
 constexpr size_t kLanes = 8;              // of running bounds and sums
 using Lanes = float __attribute__((vector_size(4 * kLanes)));
 
@@ -96,14 +99,16 @@ void sumUp(std::span<uint32_t> begins) noexcept {
 
 } // namespace
 
-void RegionGrid::build(const RegionSpheres& spheres) {
-    build(spheres.x, spheres.y, spheres.z, spheres.radius);
+void RegionGrid::build(const RegionSpheres& spheres, Crew* crew) {
+    build(spheres.x, spheres.y, spheres.z, spheres.radius, crew);
 }
 
 void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                       std::span<const float> radius) {
-    if (countPlaceless(x.data(), y.data(), z.data(), radius.data(), x.size()) == 0) {
-        buildOf({x, y, z, radius});
+                       std::span<const float> radius, Crew* crew) {
+    measure({x, y, z, radius}, crew);
+    const auto placeless = [](const Extent& e) { return e.placeless > 0; };
+    if (std::none_of(extents_.begin(), extents_.end(), placeless)) {
+        buildOf({x, y, z, radius}, crew);
         return;
     }
     std::array<std::vector<float>, 4> kept;
@@ -115,13 +120,34 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
             from.push_back(static_cast<uint32_t>(i));
         }
     }
-    buildOf({kept[0], kept[1], kept[2], kept[3]});
+    const Columns columns{kept[0], kept[1], kept[2], kept[3]};
+    measure(columns, nullptr);
+    buildOf(columns, nullptr);
     for (uint32_t& index : order_) {
         index = from[index];
     }
 }
 
-void RegionGrid::buildOf(const Columns& columns) {
+// By runs of a fixed length, so that sums are the same whoever takes which.
+void RegionGrid::measure(const Columns& columns, Crew* crew) {
+    const size_t n = columns[0].size();
+    extents_.resize((n + kRun - 1) / kRun);
+    inParts(crew, extents_.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t run = begin; run < end; ++run) {
+            const size_t first = run * kRun, count = std::min(kRun, n - first);
+            std::array<const float*, 4> v;
+            Extent& e = extents_[run];
+            for (size_t a = 0; a < 4; ++a) {
+                v[a] = columns[a].data() + first;
+                boundsOf(v[a], count, e.lo[a], e.hi[a]);
+            }
+            e.radii = sumOf(v[3], count);
+            e.placeless = countPlaceless(v[0], v[1], v[2], v[3], count);
+        }
+    });
+}
+
+void RegionGrid::buildOf(const Columns& columns, Crew* crew) {
     const size_t n = columns[0].size();
     for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) {
         column->resize(n);
@@ -132,15 +158,19 @@ void RegionGrid::buildOf(const Columns& columns) {
         nx_ = ny_ = nz_ = 0;
         return;
     }
-    std::array<float, 4> lo, hi;
-    for (size_t a = 0; a < 4; ++a) {
-        boundsOf(columns[a].data(), n, lo[a], hi[a]);
+    Extent all = extents_.front();
+    for (size_t run = 1; run < extents_.size(); ++run) {
+        const Extent& e = extents_[run];
+        for (size_t a = 0; a < 4; ++a) {
+            all.lo[a] = std::min(all.lo[a], e.lo[a]), all.hi[a] = std::max(all.hi[a], e.hi[a]);
+        }
+        all.radii += e.radii;
     }
-    lo_ = dvec3(lo[0], lo[1], lo[2]);
-    hi_ = dvec3(hi[0], hi[1], hi[2]);
-    maxRadius_ = std::max(0.0f, hi[3]);
-    chooseCells(sumOf(columns[3].data(), n) / static_cast<double>(n));
-    layOut(columns);
+    lo_ = dvec3(all.lo[0], all.lo[1], all.lo[2]);
+    hi_ = dvec3(all.hi[0], all.hi[1], all.hi[2]);
+    maxRadius_ = std::max(0.0f, all.hi[3]);
+    chooseCells(all.radii / static_cast<double>(n));
+    layOut(columns, crew);
 }
 
 void RegionGrid::chooseCells(double meanRadius) {
@@ -158,14 +188,20 @@ void RegionGrid::chooseCells(double meanRadius) {
     nz_ = cellsAlong(extent.z, size_);
 }
 
-void RegionGrid::layOut(const Columns& columns) {
+void RegionGrid::layOut(const Columns& columns, Crew* crew) {
     const size_t n = columns[0].size();
     cellBegin_.assign(static_cast<size_t>(nx_ * ny_ * nz_) + 1, 0);
-    cell_.assign(n, 0);
+    cell_.resize(n);
     uint32_t *const cell = cell_.data(), *const begin = cellBegin_.data(), *const order = order_.data();
-    addAxis(columns[2].data(), n, lo_.z, perMetre_, static_cast<int32_t>(nz_), cell);
-    addAxis(columns[1].data(), n, lo_.y, perMetre_, static_cast<int32_t>(ny_), cell);
-    addAxis(columns[0].data(), n, lo_.x, perMetre_, static_cast<int32_t>(nx_), cell);
+    inParts(crew, n, kRun, [&](size_t first, size_t end) {
+        for (size_t at = first; at < end; at += kRun) { // what one axis wrote is near when the next one comes
+            const size_t count = std::min(kRun, end - at);
+            std::fill_n(cell + at, count, 0);
+            addAxis(columns[2].data() + at, count, lo_.z, perMetre_, static_cast<int32_t>(nz_), cell + at);
+            addAxis(columns[1].data() + at, count, lo_.y, perMetre_, static_cast<int32_t>(ny_), cell + at);
+            addAxis(columns[0].data() + at, count, lo_.x, perMetre_, static_cast<int32_t>(nx_), cell + at);
+        }
+    });
     for (size_t i = 0; i < n; ++i) {
         ++begin[cell[i]];
     }
@@ -177,10 +213,12 @@ void RegionGrid::layOut(const Columns& columns) {
                        *const radius = columns[3].data();
     float *const toX = x_.data(), *const toY = y_.data(), *const toZ = z_.data(),
                  *const toRadius = radius_.data();
-    for (size_t slot = 0; slot < n; ++slot) {
-        const uint32_t i = order[slot];
-        toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
-    }
+    inParts(crew, n, kRun, [&](size_t first, size_t end) {
+        for (size_t slot = first; slot < end; ++slot) {
+            const uint32_t i = order[slot];
+            toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
+        }
+    });
 }
 
 } // namespace fathom

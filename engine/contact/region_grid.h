@@ -14,16 +14,19 @@
 
 namespace fathom {
 
+class Crew;
+
 // Built once a frame on the contact or frame cadence (allocates); queries are const, noexcept and allocate
 // nothing. Cells are about half a mean sphere radius, at least 5 mm, and coarser where the extent would ask
 // for more cells than a bound of 8 a sphere (4 Mi at most): outliers cost speed, never memory or answers.
 // Spheres that are not finite are left out: they have no place.
 class RegionGrid {
 public:
-    void build(const RegionSpheres& spheres);
+    // crew: who shares the work; the grid is the same whoever does. Null: the caller alone.
+    void build(const RegionSpheres& spheres, Crew* crew = nullptr);
     // The same over plain arrays of equal length.
     void build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-               std::span<const float> radius);
+               std::span<const float> radius, Crew* crew = nullptr);
 
     size_t size() const { return x_.size(); }
     double maxRadius() const { return maxRadius_; } // [m], 0 when empty
@@ -69,14 +72,22 @@ private:
         return std::max({0.0, below, above});
     }
     using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite
-    void buildOf(const Columns& columns);
+    // Of a run of spheres.
+    struct Extent {
+        std::array<float, 4> lo, hi; // x, y, z, radius
+        double radii;                // their sum
+        uint32_t placeless;          // spheres that are not finite
+    };
+    void measure(const Columns& columns, Crew* crew);
+    void buildOf(const Columns& columns, Crew* crew);
     void chooseCells(double meanRadius);
-    void layOut(const Columns& columns);
+    void layOut(const Columns& columns, Crew* crew);
 
     std::vector<float> x_, y_, z_, radius_;
     std::vector<uint32_t> order_;
     std::vector<uint32_t> cellBegin_; // cells + 1
     std::vector<uint32_t> cell_;      // build scratch: cell of each sphere
+    std::vector<Extent> extents_;     // build scratch: of each run of spheres
     double maxRadius_ = 0.0;
     dvec3 lo_{0.0}, hi_{0.0};
     double size_ = 1.0, perMetre_ = 1.0;

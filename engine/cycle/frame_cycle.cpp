@@ -41,6 +41,7 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
     , setBuffers_(buffersOf(pool_))
     , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, setBuffers_})
     , timeline_(device)
+    , crew_(plan.publishers)
     , leakWarned_(shared::kMaxClasses, 0) {
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         passes_.bind(slot, uploads_[slot]);
@@ -202,6 +203,9 @@ FrameReport FrameCycle::finish() {
     report.uploadMs = f.uploadMs;
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
+        if (crew_.members() > 1) {
+            crew_.call();
+        }
         fillHost(f); // while the device works
         const uint32_t valid = cloud::validPixels(pool_.back().host, scene_);
         if (plan_.cloud) {
@@ -210,13 +214,13 @@ FrameReport FrameCycle::finish() {
         }
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
-        lastCounts_ = cloud::collect(set, work_, scene_, plan_, layout_);
+        lastCounts_ = cloud::collect(set, work_, scene_, plan_, layout_, crew_);
         lastCounts_.valid = valid;
         if (plan_.query != Plan::Query::Gpu) {
             frozen_.apply(set.host, scene_);
         }
         if (plan_.spheres) {
-            set.grid.build(set.host.spheres);
+            set.grid.build(set.host.spheres, &crew_);
         }
         pool_.publish();
         f.times.published = Clock::now();

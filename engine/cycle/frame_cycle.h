@@ -10,6 +10,7 @@
 #include "engine/cloud/upload_slots.h"
 #include "engine/cycle/frame_passes.h"
 #include "engine/gpu/device.h"
+#include "engine/types/crew.h"
 #include "engine/types/frame.h"
 
 #include <atomic>
@@ -104,6 +105,7 @@ private:
     std::vector<cloud::SetBuffers*> setBuffers_;
     FramePasses passes_;
     gpu::Timeline timeline_;
+    Crew crew_; // shares the layout of a set
 
     cloud::LinkSpheres arm_;
     cloud::FrozenClasses frozen_;

@@ -4,8 +4,10 @@
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <thread>
 
 namespace fathom::gpu {
 
@@ -88,6 +90,7 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     facts.maxInvocations = limits.maxComputeWorkGroupInvocations;
     facts.maxSharedBytes = limits.maxComputeSharedMemorySize;
     facts.maxStorageBufferBytes = limits.maxStorageBufferRange;
+    facts.hostProcessors = std::max(1u, std::thread::hardware_concurrency());
     facts.hostPointerAlignment = canImport ? host.minImportedHostPointerAlignment : 0;
     facts.timestampPeriodNs =
         limits.timestampComputeAndGraphics ? static_cast<double>(limits.timestampPeriod) : 0.0;

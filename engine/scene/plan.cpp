@@ -11,6 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
+constexpr uint32_t kManyProcessors = 8, kPublishers = 4;
 constexpr uint64_t kSmallestPage = 4096; // of any host: a camera's memory comes in whole pages
 
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
@@ -48,6 +49,11 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     }
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
+    }
+    // Who shares it looks out for it while the device works: not where the device is the CPU, or CPUs are
+    // few.
+    if (plan.spheres && device.kind != DeviceKind::Cpu && device.hostProcessors >= kManyProcessors) {
+        plan.publishers = kPublishers;
     }
     plan.rays = plan.cloud && !camera.depth.pinhole();
     plan.fan = plan.cloud && camera.depth.fan;
@@ -191,6 +197,9 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     thread("contact", plan.query != Plan::Query::None,
            plan.query != Plan::Query::None ? "contact sets (realtime)" : "nothing to collide with");
     thread("haptic", true, "turns (realtime)");
+    thread("publishers", plan.publishers > 1,
+           plan.publishers > 1 ? "three beside the camera's lay out each set"
+                               : "the camera's alone lays out each set");
     const auto arm = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"arm", name, in, why, 0});
     };

@@ -114,6 +114,27 @@ TEST_CASE("A picture without one point, with few over the corner of four patches
     }
 }
 
+TEST_CASE("A set that several threads lay out is the one that a single thread lays out") {
+    const CameraInfo camera = pinholeCamera(321, 243);
+    const auto shared = [](uint32_t threads) {
+        return [threads](Plan& plan) { plan.pack = true, plan.publishers = threads; };
+    };
+    CloudRig one(classesScene(3), camera, shared(1)), three(classesScene(3), camera, shared(3));
+    for (uint64_t seed = 1; seed <= 6; ++seed) {
+        const Picture picture = stressPicture(camera, seed);
+        const FrameReport a = one.run(picture), b = three.run(picture);
+        checkPacked(three);
+        const RegionSpheres &s = one.host().spheres, &t = three.host().spheres;
+        CHECK(s.size() > 8192); // more than two parts
+        CHECK((s.x == t.x && s.y == t.y && s.z == t.z && s.radius == t.radius));
+        CHECK((s.source == t.source && s.fixture == t.fixture));
+        CHECK(a.counts.patches == b.counts.patches);
+        CHECK(a.counts.classSpheres == b.counts.classSpheres);
+        CHECK(a.counts.classPatches == b.counts.classPatches);
+        CHECK(std::ranges::equal(one.set().grid.order(), three.set().grid.order()));
+    }
+}
+
 TEST_CASE("Slots that a GPU query keeps for itself are packed the same") {
     const CameraInfo camera = pinholeCamera(90, 40);
     CloudRig rig(plainScene(), camera, [](Plan& plan) { plan.query = Plan::Query::Gpu, plan.pack = true; });

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/types/crew.h"
+
+#include <chrono>
+
+namespace fathom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::microseconds kLookOut{1000}; // passes of a frame take less on devices worth a crew
+constexpr int kLooks = 256;                         // between two looks at the clock
+
+void relax() noexcept {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+}
+
+uint64_t firstClaim(uint64_t job, uint32_t parts) noexcept {
+    return job << 32 | uint64_t{parts} << 16;
+}
+
+} // namespace
+
+Crew::Crew(uint32_t members) {
+    for (uint32_t i = 1; i < members; ++i) {
+        threads_.emplace_back([this] { member(); });
+    }
+}
+
+Crew::~Crew() {
+    ending_.store(true);
+    call();
+}
+
+void Crew::call() noexcept {
+    calls_.fetch_add(1, std::memory_order_release);
+    calls_.notify_all();
+}
+
+void Crew::runWork(uint32_t parts, const Work& work) noexcept {
+    work_ = work;
+    done_.store(0, std::memory_order_relaxed);
+    const uint64_t job = (claims_.load(std::memory_order_relaxed) >> 32) + 1;
+    claims_.store(firstClaim(job, parts), std::memory_order_release);
+    while (takePart()) {
+    }
+    while (done_.load(std::memory_order_acquire) < parts) {
+        relax(); // a part is in work: as short as the one that was just done here
+    }
+}
+
+bool Crew::takePart() noexcept {
+    uint64_t claim = claims_.load(std::memory_order_acquire);
+    do {
+        if ((claim & 0xffff) >= (claim >> 16 & 0xffff)) {
+            return false;
+        }
+    } while (!claims_.compare_exchange_weak(claim, claim + 1, std::memory_order_acquire));
+    work_.run(work_.job, static_cast<uint32_t>(claim & 0xffff));
+    done_.fetch_add(1, std::memory_order_release);
+    return true;
+}
+
+void Crew::member() noexcept {
+    while (!ending_.load()) {
+        const uint32_t seen = calls_.load(std::memory_order_acquire);
+        Clock::time_point until = Clock::now() + kLookOut;
+        while (Clock::now() < until) {
+            for (int i = 0; i < kLooks; ++i) {
+                if (takePart()) {
+                    until = Clock::now() + kLookOut;
+                }
+                relax();
+            }
+        }
+        calls_.wait(seen, std::memory_order_acquire);
+    }
+}
+
+} // namespace fathom
