@@ -55,9 +55,9 @@ struct Slots {
 
 TEST_CASE(
     "Pictures read in place give the sets that copied ones give, also when the camera was opened anew") {
-    for (const auto& [w, h] : {std::pair{123u, 77u}, {160u, 90u}, {1u, 1u}}) {
-        CAPTURE(h);
-        const CameraInfo camera = pinholeCamera(w, h);
+    for (const glm::uvec2 size : {glm::uvec2(123, 77), glm::uvec2(160, 90), glm::uvec2(1, 1)}) {
+        CAPTURE(size.y);
+        const CameraInfo camera = pinholeCamera(size.x, size.y);
         CloudRig inPlace(classesScene(3), camera);
         CloudRig copied(classesScene(3), camera, [](Plan& plan) { plan.inPlace = false; });
         CHECK(inPlace.plan().inPlace == canImport());
