@@ -30,8 +30,10 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
     o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
-    if (session_.realArm) {                                 // the scene's start is where it stands
-        session_.arm->start = session_.realArm->ready(signals_.asked()).q;
+    if (session_.realArm) {
+        if (engine_ == nullptr) { // the scene's start is where it stands
+            session_.arm->start = session_.realArm->ready(signals_.asked()).q;
+        }
         o.arm = &session_.realArm->link();
     }
     engine_ = std::make_unique<RealtimeRun>(

@@ -47,7 +47,13 @@ json consoleOf(const Console& c) {
             {"places", c.places}};
 }
 
-json turnOf(const RunView& run) {
+// Joints of a real arm where they were measured [rad], [m]; null while they are not known.
+json measuredOf(const TurnRow& row, size_t joints) {
+    const double* q = row.told.posture.q.data();
+    return row.driven && row.told.known ? json(std::vector<double>(q, q + joints)) : json(nullptr);
+}
+
+json turnOf(const RunView& run, const StateExtras& extras) {
     const TurnRecord& r = run.turn().record;
     const Rates rates = run.rates();
     return {{"t", r.t},
@@ -68,7 +74,8 @@ json turnOf(const RunView& run) {
             {"pictures", run.scene().number},
             {"spheres", run.scene().set.spheres.size()},
             {"generation", run.scene().set.generation},
-            {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)}};
+            {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)},
+            {"arm_measured", measuredOf(run.turn(), extras.joints)}};
 }
 
 json fixturesOf(const Scene* scene) {
@@ -106,7 +113,7 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
     }
     next_ = t + kPeriod;
     json line = {{"console", consoleOf(console)},
-                 {"run", turnOf(run)},
+                 {"run", turnOf(run, extras)},
                  {"mode", extras.mode},
                  {"window",
                   {{"frames", extras.windowFrames},

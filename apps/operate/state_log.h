@@ -21,6 +21,7 @@ struct StateExtras {
     std::vector<std::string> alarms;          // of those that are shown: level, word
     const Scene* scene = nullptr;             // in force
     size_t shapes = 0, selected = 0;          // selected: points of the preview
+    size_t joints = 0;                        // of the arm; 0 = there is none
     double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the pilot in force
     std::string why;                          // of the newest block
 };

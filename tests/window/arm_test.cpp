@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// `operate --arm LINE`: the pilot drives an arm that is simulated behind a serial line, sees it, and sees it
+// fail.
+#include "tests/rig/arm_stage.h"
+#include "tests/window/window_rig.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+constexpr double kSurface = 0.54; // [m] where the tip's ball touches the region before the wall
+
+double apart(const std::array<double, 3>& a, const std::array<double, 3>& b) { // [rad]
+    return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
+}
+
+// A window on the stage's scene, whose arm listens at the other end of a line.
+struct ArmWindow {
+    Stage stage;
+    ReachSimulator arm;
+    std::unique_ptr<ArmBench> bench;
+    WindowRig rig;
+
+    explicit ArmWindow(const std::string& more = {}) {
+        setUp(stage, kReach, pushing(4.5));
+        stage.write("scene.yaml", stage.read("scene.yaml") + more);
+        setStart(arm);
+        bench = std::make_unique<ArmBench>(arm, stage / "line");
+        rig.reopen(stage / "scene.yaml",
+                   {"--source", (stage / "rec").string(), "--arm", (stage / "line").string()});
+    }
+    std::array<double, 3> joints() {
+        return bench->with([this] { return jointsOf(arm); });
+    }
+    double depth() { return tipDepth(joints()); }
+    void arms() {
+        rig.key("a");
+        REQUIRE(
+            rig.await([](const json& s) { return s["mode"] == "ARMED" && s["run"]["arm"] == "follows"; }));
+    }
+    // Drives the tip towards the wall, or back, until the arm itself is there.
+    void drive(const char* key, const std::function<bool(double depth)>& there) {
+        rig.keyDown(key);
+        CHECK(bench->wait([&] { return there(tipDepth(jointsOf(arm))); }));
+        rig.keyUp(key);
+    }
+    bool await(const std::function<bool(const json& run)>& wanted) {
+        return rig.await([&](const json& s) { return wanted(s["run"]); });
+    }
+    // Drives at the wall until there is so much force [N].
+    void push(double force) {
+        rig.keyDown("Page_Up");
+        CHECK(await([&](const json& run) { return run["force_N"] > force && run["arm"] == "follows"; }));
+        rig.keyUp("Page_Up");
+    }
+    // The window's word on the arm is what the simulator does, once it rests.
+    void meets() {
+        CHECK(await([&](const json& run) {
+            const json& measured = run["arm_measured"];
+            const auto q = joints();
+            return measured.is_array() && apart(measured.get<std::array<double, 3>>(), q) < 1e-4 &&
+                   std::abs(run["tool"][2].get<double>() - tipDepth(q)) < 0.002;
+        }));
+    }
+    void close() {
+        const int code = rig.close();
+        CHECK_MESSAGE(code == 0, rig.output());
+    }
+};
+
+bool warns(const json& s, const char* words) {
+    const json& alarms = s["alarms"];
+    return std::any_of(alarms.begin(), alarms.end(), [&](const json& a) { return a == words; });
+}
+
+} // namespace
+
+TEST_CASE(
+    "Keys drive an arm up to a region and back; forces off hold it, and it stands when the window closes") {
+    ArmWindow w;
+    REQUIRE(w.await([](const json& run) { return run["arm"] == "held" && run["turns"] > 100; }));
+    w.meets();
+    const auto start = w.joints();
+    w.arms();
+    w.push(2.0);
+    w.meets();
+    CHECK(w.depth() < kSurface + 0.001);
+    CHECK(w.depth() > tipDepth(start) + 0.05);
+    w.drive("Page_Down", [](double depth) { return depth < kSurface - 0.03; });
+    w.rig.key("space");
+    REQUIRE(w.await([](const json& run) { return run["arm"] == "held" && run["force_N"] == 0.0; }));
+    w.meets();
+    const auto held = w.joints();
+    w.rig.keyDown("Page_Up"); // moves no arm
+    const auto turns = w.rig.state()["run"]["turns"].get<int>();
+    REQUIRE(w.await([&](const json& run) { return run["turns"] > turns + 500; }));
+    w.rig.keyUp("Page_Up");
+    CHECK(apart(w.joints(), held) < 1e-4);
+    w.arms();
+    w.rig.keyDown("Page_Up");
+    CHECK(w.bench->wait([&] { return tipDepth(jointsOf(w.arm)) > tipDepth(held) + 0.01; }));
+    w.close(); // while it moves
+    const auto last = w.joints();
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    CHECK(w.joints() == last);
+}
+
+TEST_CASE("An arm that falls silent or is unplugged while the pilot drives takes the force away, the window "
+          "says so, and both go on when it is back") {
+    for (const bool unplugged : {false, true}) {
+        CAPTURE(unplugged);
+        ArmWindow w;
+        w.arms();
+        w.push(1.0);
+        const char* state = unplugged ? "gone" : "silent";
+        if (unplugged) {
+            w.bench->unplug();
+        } else {
+            LineFaults cut;
+            cut.cut = true;
+            w.bench->faults(cut);
+        }
+        REQUIRE(w.rig.await([&](const json& s) {
+            return s["run"]["arm"] == state && s["run"]["force_N"] == 0.0 && warns(s, "WARNING active arm");
+        }));
+        CHECK(w.rig.state()["run"]["arm_measured"].is_null());
+        const auto still = w.joints();
+        w.rig.keyDown("Page_Down"); // moves neither tool nor arm
+        const json before = w.rig.state()["run"];
+        REQUIRE(w.await([&](const json& run) { return run["turns"] > before["turns"].get<int>() + 300; }));
+        w.rig.keyUp("Page_Down");
+        CHECK(w.rig.state()["run"]["tool"] == before["tool"]);
+        CHECK(apart(w.joints(), still) < 1e-4);
+        unplugged ? w.bench->plug() : w.bench->faults({});
+        REQUIRE(w.rig.await(
+            [&](const json& s) { return s["run"]["arm"] == "follows" && warns(s, "WARNING latched arm"); }));
+        w.drive("Page_Down", [&](double depth) { return depth < tipDepth(still) - 0.02; });
+        w.meets();
+        w.close();
+    }
+}
+
+TEST_CASE("Another pilot takes over a real arm where it stands") {
+    ArmWindow w("pilots:\n  - {name: anna, stiffness: 300}\n  - {name: ben, stiffness: 150}\n");
+    w.arms();
+    w.drive("Page_Up", [](double depth) { return depth > kSurface - 0.05; });
+    w.meets();
+    const auto before = w.joints();
+    w.rig.click("pilot ben");
+    REQUIRE(
+        w.rig.await([](const json& s) { return s["pilot"]["name"] == "ben" && s["run"]["turns"] > 100; }));
+    CHECK(apart(w.joints(), before) < 0.002); // it came to rest
+    w.meets();
+    w.arms();
+    w.drive("Page_Down", [&](double depth) { return depth < tipDepth(before) - 0.02; });
+    w.close();
+}
