@@ -3,6 +3,7 @@
 // hold or an internal error, 2 bad input, 3 device lost.
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
+#include "apps/guard/arm_guardian_command.h"
 #include "apps/guard/guard_command.h"
 #include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
@@ -32,7 +33,9 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const auto allow = [&](const std::string& name) { allowed += (allowed.empty() ? "" : ", ") + name; };
     if (chosen.empty()) {
         for (const CLI::App* command : app.get_subcommands(nullptr)) {
-            allow(command->get_name());
+            if (!command->get_group().empty()) { // what the program starts by itself has none
+                allow(command->get_name());
+            }
         }
         return "subcommand: " + (rest.empty() ? "missing" : "'" + rest.front() + "'") +
                " (allowed: " + allowed + ")";
@@ -66,6 +69,7 @@ int run(int argc, char** argv) {
     fathom::addPlanCommand(app, global);
     fathom::addRegisterCommand(app, global);
     fathom::addGuardCommand(app);
+    fathom::addArmGuardianCommand(app);
     fathom::addDevicesCommand(app);
     fathom::addProfileCommand(app, global);
     int result = 0;

@@ -17,10 +17,11 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 constexpr double kNoAnswer = 5.0, kHomingTime = 300.0; // [s]
-constexpr double kRetry = 0.5;                         // [s] between looks for a line that is gone
-constexpr double kLastWords = 0.2;                     // [s] of telling it to stand still
-constexpr double kQuiet = 2.0;                         // [s] between two lines of the log
-constexpr double kOutside = 0.02; // [rad], [m] beyond a limit that calibration may be off by
+constexpr auto kGuardianStart = std::chrono::seconds(5);
+constexpr double kRetry = 0.5;     // [s] between looks for a line that is gone, or for another guardian
+constexpr double kLastWords = 0.2; // [s] of telling it to stand still
+constexpr double kQuiet = 2.0;     // [s] between two lines of the log
+constexpr double kOutside = 0.02;  // [rad], [m] beyond a limit that calibration may be off by
 
 double secondsAt(Clock::time_point time) {
     return std::chrono::duration<double>(time.time_since_epoch()).count();
@@ -52,7 +53,8 @@ std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, co
 
 ArmThread::Line::Line(const SceneArm::Driver& driver, const std::string& name)
     : port(name, driver.baud, driver.rs485)
-    , device(deviceFor(driver, port)) {}
+    , device(deviceFor(driver, port))
+    , guardian(std::make_unique<ArmGuardian>(port, driver.protocol)) {}
 
 ArmThread::ArmThread(const Scene& scene, const ArmRig& rig, std::string port)
     : joints_(rig.model.joints)
@@ -95,11 +97,25 @@ ArmPosture ArmThread::inLimits(ArmPosture posture) const {
     return posture;
 }
 
+void ArmThread::awaitGuardian(const std::atomic<bool>& stop) {
+    const auto until = Clock::now() + kGuardianStart;
+    while (!line_->guardian->stands()) {
+        if (stop.load() || line_->guardian->ended() || Clock::now() > until) {
+            throw Error(description() + ": its guardian does not start");
+        }
+        std::this_thread::sleep_for(kPause);
+    }
+}
+
 ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
+    awaitGuardian(stop);
     const double began = secondsAt(Clock::now());
     double heard = began;
     bool told = false;
     for (double now = began;; now = secondsAt(Clock::now())) {
+        if (!guarded(now)) {
+            throw Error(description() + ": its guardian was ended");
+        }
         const bool ready = follower_->home(now);
         const ArmFeedback& feedback = line_->device->feedback();
         heard = feedback.stale ? heard : now;
@@ -142,6 +158,26 @@ void ArmThread::reopen(double now) noexcept {
     }
 }
 
+// A guardian that somebody killed gets a successor; this never waits for it.
+bool ArmThread::guarded(double now) noexcept {
+    std::unique_ptr<ArmGuardian>& guardian = line_->guardian;
+    if (guardian && !guardian->ended()) {
+        guardian->alive(now);
+        return guardian->stands();
+    }
+    if (now < nextGuardian_) {
+        return false;
+    }
+    nextGuardian_ = now + kRetry;
+    try {
+        spdlog::warn("{}: its guardian was ended; the arm is held until there is another", description());
+        guardian = std::make_unique<ArmGuardian>(line_->port, driver_.protocol);
+    } catch (const std::exception&) { // no process to be had now
+        guardian.reset();
+    }
+    return false;
+}
+
 ArmTold ArmThread::exchange(double now) noexcept {
     ArmTold told;
     if (!line_ || line_->port.gone()) {
@@ -149,7 +185,9 @@ ArmTold ArmThread::exchange(double now) noexcept {
     }
     if (line_) {
         link_.wish.refresh();
-        const ArmWish& wish = link_.wish.front();
+        ArmWish wish = link_.wish.front();
+        const bool safe = guarded(now);
+        wish.hold = wish.hold || !safe; // nothing moves that nobody would stop
         told = follower_->exchange(now, wish, now - secondsAt(wish.at));
     }
     const bool gone = !line_ || line_->port.gone();
@@ -204,6 +242,7 @@ void ArmThread::standStill() noexcept {
     }
     const double end = secondsAt(Clock::now()) + kLastWords;
     for (double now = end - kLastWords; now < end && !line_->port.gone(); now = secondsAt(Clock::now())) {
+        guarded(now);
         line_->device->step(now, ArmCommand{});
         std::this_thread::sleep_for(kPause);
     }

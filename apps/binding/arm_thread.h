@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The thread that speaks to a real arm over its serial line, from its first answer to the last command: stand
-// still.
+// still. A guardian process says it where this one cannot any more; without one nothing moves.
 #pragma once
 
 #include "apps/binding/arm_follower.h"
+#include "apps/binding/arm_guardian.h"
 #include "devices/serial/serial_port.h"
 
 #include <atomic>
@@ -25,7 +26,8 @@ std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, co
 // Made, homed and started by one thread; then the haptic thread speaks to it through link() alone.
 class ArmThread {
 public:
-    // Opens the line, moves nothing. Throws BadInput: no driver in the scene, no such line.
+    // Opens the line and starts its guardian, moves nothing. Throws BadInput (no driver in the scene, no such
+    // line), Error (no guardian).
     ArmThread(const Scene& scene, const ArmRig& rig, std::string port);
     ArmThread(const ArmThread&) = delete;
     ArmThread& operator=(const ArmThread&) = delete;
@@ -34,7 +36,7 @@ public:
 
     // Waits for the arm to answer and homes it, which moves it where encoders are relative; starts the
     // thread. Returns where it stands, inside the joint limits. Throws DeviceLost (no answer, a motor that
-    // draws too much, no stop found), BadInput (a joint beyond its limits), Error (`stop`).
+    // draws too much, no stop found), BadInput (a joint beyond its limits), Error (`stop`, no guardian).
     ArmPosture ready(const std::atomic<bool>& stop);
 
     ArmLink& link() { return link_; }
@@ -43,14 +45,17 @@ public:
     bool gone() const { return gone_.load(std::memory_order_relaxed); }
 
 private:
-    struct Line { // port and what speaks on it
+    struct Line { // port, what speaks on it, who watches that
         Line(const SceneArm::Driver& driver, const std::string& port);
         SerialPort port;
         std::unique_ptr<ArmDevice> device;
+        std::unique_ptr<ArmGuardian> guardian; // null: it was killed, and another could not be started yet
     };
     void open();
     void run() noexcept;
     void reopen(double now) noexcept;
+    void awaitGuardian(const std::atomic<bool>& stop);
+    bool guarded(double now) noexcept;
     ArmTold exchange(double now) noexcept;
     void note(const ArmTold& told, double now);
     void standStill() noexcept;
@@ -65,7 +70,7 @@ private:
     ArmLink link_;
     std::atomic<bool> stop_{false}, gone_{false};
     std::thread thread_;
-    double nextTry_ = 0.0, measuredAt_ = 0.0, quietUntil_ = 0.0; // [s]
+    double nextTry_ = 0.0, nextGuardian_ = 0.0, measuredAt_ = 0.0, quietUntil_ = 0.0; // [s]
     uint64_t reopened_ = 0;
     ArmState noted_ = ArmState::Held;
 };

@@ -10,8 +10,7 @@ namespace fathom {
 namespace {
 
 constexpr double kNever = -1e9;
-constexpr uint8_t kVelocity = 0x02, kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
-constexpr std::array<uint8_t, ReachArm::kAxes> kDevice{5, 4, 3, 2, 1};
+constexpr uint8_t kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
 constexpr size_t kJaws = 4;
 
 double perUnit(size_t axis) noexcept { // ours to the line's: the jaws' are millimetres

@@ -27,6 +27,8 @@ struct ReachOptions {
 class ReachArm final : public ArmDevice {
 public:
     static constexpr size_t kAxes = 5;
+    static constexpr std::array<uint8_t, kAxes> kDevice{5, 4, 3, 2, 1}; // id of each axis
+    static constexpr uint8_t kVelocity = 0x02;                          // packet id
 
     ReachArm(SerialPort& port, const ReachOptions& options = {});
 

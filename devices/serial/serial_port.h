@@ -24,7 +24,8 @@ public:
     size_t read(std::span<uint8_t> out) noexcept;
     // False when not all could be taken at once: the rest is dropped, the protocols recover.
     bool write(std::span<const uint8_t> bytes) noexcept;
-    bool gone() const noexcept { return gone_; } // unplugged, hung up
+    bool gone() const noexcept { return gone_; }      // unplugged, hung up
+    int descriptor() const noexcept { return file_; } // stays this object's: for a process that inherits it
 
 private:
     int file_ = -1;

@@ -41,7 +41,7 @@ private:
 };
 
 // Speeds are kept until the next frame; at a stop the current rises. Encoders start at any count and wrap.
-class EcaSimulator final : public ArmSimulator {
+class EcaSimulator : public ArmSimulator {
 public:
     std::array<double, kEcaJoints> angle{};          // [rad]
     std::array<double, kEcaJoints> lower{}, upper{}; // [rad] stops

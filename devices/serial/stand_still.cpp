@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/serial/stand_still.h"
+
+#include "devices/serial/eca_arm.h"
+#include "devices/serial/reach_arm.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+StandStill reachStandStill() {
+    StandStill still{{0},
+                     ReachOptions{}.period}; // a zero ends any packet: what was begun is damaged, and dropped
+    for (uint8_t device : ReachArm::kDevice) {
+        ReachFrame frame;
+        const size_t size = encodeReach(ReachPacket::ofFloat(ReachArm::kVelocity, device, 0.0f), frame);
+        still.bytes.insert(still.bytes.end(), frame.begin(),
+                           frame.begin() + static_cast<std::ptrdiff_t>(size));
+    }
+    return still;
+}
+
+StandStill ecaStandStill() {
+    const EcaBytes hold = encodeEca(std::array<EcaDemand, kEcaJoints>{});
+    // As many zeros as a frame has bytes: one that was begun gets its length from them and not its end byte,
+    // and none of them begins another.
+    StandStill still{std::vector<uint8_t>(2 * hold.size()), EcaOptions{}.period};
+    std::copy(hold.rbegin(), hold.rend(), still.bytes.rbegin());
+    return still;
+}
+
+} // namespace fathom

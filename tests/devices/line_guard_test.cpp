@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// What holds an arm whose engine was killed: when it writes, and that what it writes is understood wherever
+// the engine was cut off.
+#include "devices/serial/line_guard.h"
+#include "devices/simulated/arm_simulator.h"
+
+#include <doctest/doctest.h>
+#include <memory>
+#include <sys/socket.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace fathom;
+
+namespace {
+
+constexpr double kPeriod = 0.05;
+
+// How often the guard tells the arm from..to [s], looked at every millisecond.
+int tells(LineGuard& guard, double from, double to) {
+    int count = 0;
+    for (int ms = static_cast<int>(from * 1e3); ms < static_cast<int>(to * 1e3); ++ms) {
+        count += guard.mustTell(1e-3 * ms) ? 1 : 0;
+    }
+    return count;
+}
+
+// The simulated ECA looks for a frame inside what was none; a real one may not, and throws all of it away.
+struct SimpleEca : EcaSimulator {
+    std::vector<uint8_t> frame;
+
+    void receive(std::span<const uint8_t> bytes, std::vector<uint8_t>& out) override {
+        for (uint8_t byte : bytes) {
+            if (frame.empty() && byte != 0xE7) {
+                continue;
+            }
+            frame.push_back(byte);
+            if (frame.size() == EcaBytes{}.size()) {
+                EcaSimulator::receive(frame, out); // whole, and good or not
+                EcaSimulator::receive(std::vector<uint8_t>(frame.size(), 0), out);
+                frame.clear();
+            }
+        }
+    }
+};
+
+std::vector<uint8_t> reachGo() { // velocity of the base, the first that is stopped
+    ReachFrame frame;
+    const size_t size = encodeReach(ReachPacket::ofFloat(0x02, 5, 0.25f), frame);
+    return {frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size)};
+}
+
+std::vector<uint8_t> ecaGo() {
+    std::array<EcaDemand, kEcaJoints> demands;
+    demands.fill({EcaDemand::Kind::SpeedCcw, 0xE7E7, 0xE7E7, 0xE7E7}); // start bytes in the middle
+    const EcaBytes frame = encodeEca(demands);
+    return {frame.begin(), frame.end()};
+}
+
+template <class Simulator, class Position>
+void stopsAfterHalf(const std::vector<uint8_t>& go, const StandStill& still, Position&& position) {
+    for (size_t cut = 0; cut <= go.size(); ++cut) {
+        CAPTURE(cut);
+        Simulator arm;
+        if constexpr (std::is_base_of_v<EcaSimulator, Simulator>) {
+            arm.upper.fill(10.0);
+        }
+        std::vector<uint8_t> answers;
+        arm.receive(go, answers);
+        arm.receive({go.data(), cut}, answers);
+        const double before = position(arm);
+        arm.step(0.1);
+        CHECK(position(arm) > before);
+        arm.receive(still.bytes, answers);
+        const double told = position(arm);
+        arm.step(1.0);
+        CHECK(position(arm) == told);
+    }
+}
+
+struct Pipe {
+    int ends[2] = {-1, -1};
+    explicit Pipe(int type = SOCK_STREAM) { REQUIRE(::socketpair(AF_UNIX, type, 0, ends) == 0); }
+    ~Pipe() {
+        ::close(ends[0]);
+        ::close(ends[1]);
+    }
+    void say(char byte) const { REQUIRE(::send(ends[0], &byte, 1, 0) == 1); }
+};
+
+} // namespace
+
+TEST_CASE(
+    "A guardian writes nothing while the engine is heard, nor before it first was, nor after a farewell") {
+    LineGuard guard(kPeriod);
+    CHECK(tells(guard, 0.0, 5.0) == 0); // the engine makes ready
+    for (int i = 0; i < 100; ++i) {
+        guard.alive(5.0 + 0.1 * i);
+        CHECK(tells(guard, 5.0 + 0.1 * i, 5.1 + 0.1 * i) == 0);
+    }
+    guard.farewell();
+    guard.close();
+    CHECK(tells(guard, 15.0, 17.0) == 0);
+    CHECK(guard.over(15.0));
+    LineGuard unused(kPeriod);
+    unused.close(); // nothing was ever commanded
+    CHECK(tells(unused, 0.0, 1.0) == 0);
+    CHECK(unused.over(0.0));
+}
+
+TEST_CASE(
+    "A guardian tells the arm to stand still when the engine has ended, at once, every period, and ends") {
+    LineGuard guard(kPeriod);
+    guard.alive(1.0);
+    guard.close();
+    CHECK(guard.mustTell(1.01));
+    CHECK_FALSE(guard.over(1.02));
+    CHECK(tells(guard, 1.02, 3.0) == 9);
+    CHECK(guard.over(3.0));
+    CHECK(guard.found() == 1);
+}
+
+TEST_CASE("A guardian tells the arm after a silence, leaves the line to an engine that speaks again, and is "
+          "there for the next") {
+    LineGuard guard(kPeriod);
+    guard.alive(1.0);
+    CHECK(tells(guard, 1.0, 1.0 + LineGuard::kSilence) == 0);
+    CHECK(tells(guard, 1.21, 1.32) > 1);
+    guard.alive(1.32);
+    CHECK(tells(guard, 1.32, 1.5) == 0);
+    CHECK(tells(guard, 1.5, 9.0) > 5); // half a second of it
+    CHECK(tells(guard, 9.0, 20.0) == 0);
+    CHECK_FALSE(guard.over(20.0));
+    guard.close();
+    CHECK(tells(guard, 20.0, 22.0) > 5);
+    CHECK(guard.over(22.0));
+    CHECK(guard.found() == 3);
+}
+
+TEST_CASE("What a guardian writes stops an arm wherever the engine's last telegram was cut off") {
+    stopsAfterHalf<ReachSimulator>(reachGo(), reachStandStill(),
+                                   [](const ReachSimulator& arm) { return arm.position[5]; });
+    stopsAfterHalf<EcaSimulator>(ecaGo(), ecaStandStill(),
+                                 [](const EcaSimulator& arm) { return arm.angle[2]; });
+    stopsAfterHalf<SimpleEca>(ecaGo(), ecaStandStill(), [](const SimpleEca& arm) { return arm.angle[2]; });
+}
+
+TEST_CASE(
+    "A guardian that serves says that it is there, and writes once the engine's end of the pipe is closed") {
+    for (const bool farewell : {false, true}) {
+        CAPTURE(farewell);
+        const StandStill still = ecaStandStill();
+        Pipe line(SOCK_SEQPACKET); // a packet a write
+        Pipe pipe;
+        int found = -1;
+        std::thread serving([&] { found = guardLine(pipe.ends[1], line.ends[1], still); });
+        char byte = 0;
+        CHECK(::recv(pipe.ends[0], &byte, 1, 0) == 1);
+        CHECK(byte == kGuardReady);
+        pipe.say(kGuardAlive);
+        if (farewell) {
+            pipe.say(kGuardFarewell);
+        }
+        ::shutdown(pipe.ends[0], SHUT_WR);
+        serving.join();
+        CHECK(found == (farewell ? 0 : 1));
+        int writes = 0;
+        std::vector<uint8_t> got(256);
+        for (ssize_t size = 0; (size = ::recv(line.ends[0], got.data(), got.size(), MSG_DONTWAIT)) > 0;
+             ++writes) {
+            CHECK(std::vector<uint8_t>(got.begin(), got.begin() + size) == still.bytes);
+        }
+        CHECK(farewell == (writes == 0));
+    }
+}
