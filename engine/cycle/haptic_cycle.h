@@ -88,6 +88,7 @@ private:
     double sceneAge(const TurnInput& input, const ContactSet* set) noexcept;
     bool covers(const ContactSet& set) noexcept;
     ProxyTurn moveTool(const TurnInput& input, const ContactSet* set, TurnRecord& out) noexcept;
+    void freeDirection() noexcept;
     ProxyTurn moveArm(const TurnInput& input, const ProxyInput& wanted, TurnRecord& out) noexcept;
     std::span<const Shape> shapes() const noexcept { return arm_ ? arm_->shapes() : proxy_->shapes(); }
     double leafRadius(uint32_t leaf) const noexcept {

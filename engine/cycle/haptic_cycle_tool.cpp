@@ -70,8 +70,15 @@ ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set, T
     return moved;
 }
 
-// The arm's tip in place of the tool. With a free direction the hand's means nothing: it is the tip's, so
-// that no spring turns the hand.
+// With a free direction of an arm the hand's means nothing: it is the tip's, so that no spring turns the
+// hand, and none when the arm is held either.
+void HapticCycle::freeDirection() noexcept {
+    if (rig_ != nullptr && rig_->freeDirection) {
+        device_.rotation = springEnd_.rotation = tool_.rotation;
+    }
+}
+
+// The arm's tip in place of the tool.
 ProxyTurn HapticCycle::moveArm(const TurnInput& input, const ProxyInput& wanted, TurnRecord& out) noexcept {
     const bool button = (input.buttons & rig_->graspButton) != 0;
     ArmInput asked;
@@ -82,9 +89,7 @@ ProxyTurn HapticCycle::moveArm(const TurnInput& input, const ProxyInput& wanted,
     asked.deadline = wanted.deadline;
     const ArmTurn turn = arm_->turn(asked);
     tool_ = turn.tip;
-    if (rig_->freeDirection) {
-        device_.rotation = springEnd_.rotation = tool_.rotation;
-    }
+    freeDirection();
     out.arm = {{turn.q, turn.grasp}, turn.residual,  turn.manipulability,
                turn.atLimits,        turn.graspHeld, turn.singular};
     ProxyTurn moved;

@@ -107,7 +107,8 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
             CHECK(record.state == (i < 198 ? TurnState::Fading : i > 202 ? TurnState::Off : record.state));
             CHECK(record.arm.posture.q == before.q);
             CHECK(forceOf(record) <= last + 1e-12);
-            CHECK(last - forceOf(record) < 0.05 * full); // soft
+            CHECK(last - forceOf(record) < 0.05 * full);      // soft
+            CHECK(glm::length(record.wrench.torque) < 1e-12); // its direction is free, and stays so
             last = forceOf(record);
         }
         CHECK(last == 0.0);
