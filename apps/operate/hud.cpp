@@ -53,6 +53,20 @@ void bar(const HudInput& input, const char* name, double value, double limit, co
     ImGui::Dummy({width, height + 2.0f});
 }
 
+// What it does, and how far the joint that is worst is from where the tool has it.
+void armFigure(const HudInput& input) {
+    const MeasuredArm& arm = *input.arm;
+    const std::string state = armStateName(arm.state);
+    const ImU32 colour = isFault(arm.state)            ? colour::kWarning
+                         : arm.isOff()                 ? colour::kMeasured
+                         : arm.state == ArmState::Held ? colour::kQuiet
+                                                       : colour::kText;
+    const std::string off = arm.slides ? print("%+.0f mm", arm.error * 1e3)
+                                       : print("%+.1f\xc2\xb0", arm.error * 57.29577951308232);
+    figure(input, arm.known ? state + " " + off : state,
+           arm.known ? ("arm, " + arm.worst + " off").c_str() : "arm, not measured", colour);
+}
+
 std::string marginText(double margin) {
     return std::isfinite(margin) ? print("%+.2f N s/m", margin) : std::string("not known");
 }
@@ -136,6 +150,10 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
            "scene age", stale ? colour::kWarning : colour::kText);
     figure(input, print("%u", record.contacts), "contacts",
            record.contacts > 0 ? colour::kTouch : colour::kText);
+    if (input.arm != nullptr && input.arm->real) {
+        armFigure(input);
+        markPlace(console, "head arm");
+    }
     figure(input, print("%.0f %%", 100.0 * input.unknownShare), "not seen");
     figure(input, print("%.0f Hz", input.windowHz), "window");
     if (console.timeLine.on) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "apps/operate/console.h"
+#include "apps/operate/measured_arm.h"
 #include "apps/operate/run_view.h"
 #include "apps/operate/theme.h"
 #include "engine/cycle/haptic_options.h"
@@ -33,7 +34,8 @@ struct HudInput {
     std::string title;
     double unknownShare = 0.0; // of the picture without depth
     double windowHz = 0.0;
-    bool noDevice = true; // mouse and keyboard drive
+    bool noDevice = true;             // mouse and keyboard drive
+    const MeasuredArm* arm = nullptr; // null = none that is real
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);

@@ -72,7 +72,8 @@ HudInput OperatorRun::hudInput() const {
                  session_.title(),
                  screen_.unknownShare(),
                  windowHz_,
-                 !options_.path};
+                 !options_.path,
+                 &measured_};
     return hud;
 }
 
@@ -101,7 +102,8 @@ void OperatorRun::frame() {
     const bool fresh = view_.refresh();
     const HudInput hud = hudInput();
     const auto arm = armSpheres(session_.arm.get(), view_.turn().record.arm.posture);
-    screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh, arm});
+    measured_ = measuredArm(session_.arm.get(), view_, arm);
+    screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh, arm, measured_});
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     listen();
@@ -111,7 +113,10 @@ void OperatorRun::frame() {
 }
 
 StateExtras OperatorRun::extras() const {
-    return extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, *editor_, haptics_});
+    StateExtras extras =
+        extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, *editor_, haptics_});
+    extras.arm = &measured_;
+    return extras;
 }
 
 void OperatorRun::report() const {

@@ -79,6 +79,7 @@ private:
     Console console_;
     std::unique_ptr<Canvas> canvas_;
     RunView view_;
+    MeasuredArm measured_;
     Screen screen_;
     TracesPanel traces_;
     Alarms alarms_;

@@ -133,7 +133,7 @@ void PlaybackRun::frame(double dt) {
     alarms_.step(console_, view_, haptics_, editor_.scene());
     const bool known = log_.poses && view_.anyTurn();
     const auto arm = armSpheres(known ? session_.arm.get() : nullptr, view_.turn().record.arm.posture);
-    screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh, arm});
+    screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh, arm, MeasuredArm()});
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     const auto& strip = console_.places["time line room"];

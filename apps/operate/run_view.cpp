@@ -32,6 +32,7 @@ bool RunView::refresh() {
 
 void RunView::rewind() {
     turn_ = {};
+    measured_.reset();
     turns_ = late_ = 0;
     trace_.clear();
     pictures_.clear();
@@ -47,6 +48,9 @@ void RunView::take(const TurnRow& row) {
     micros_.push_back(static_cast<float>(row.micros));
     wokenLate_.push_back(static_cast<float>(row.wokenLate * 1e6));
     const TurnRecord& r = row.record;
+    if (row.driven && row.told.known) {
+        measured_ = Measured{r.t - row.told.age, row.told.posture};
+    }
     trace_.push_back({r.t, glm::vec3(r.wrench.force), glm::vec3(r.wrench.torque), r.frame, r.state,
                       r.guidance > 0.0, row.late});
     while (r.t - trace_.front().t > kSpan) {

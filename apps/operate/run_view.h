@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <vector>
 
 namespace fathom::operate {
@@ -34,6 +35,12 @@ struct Block {
     double force = 0.0;             // [N] now, of the whole hand
 };
 
+// Where a real arm was measured.
+struct Measured {
+    double t = 0.0; // [s]
+    ArmPosture posture;
+};
+
 class RunView {
 public:
     static constexpr double kSpan = 10.0; // [s] of trace
@@ -50,6 +57,7 @@ public:
 
     const SceneSnapshot& scene() const { return sink_.scene().front(); }
     const TurnRow& turn() const { return turn_; }
+    const std::optional<Measured>& measured() const { return measured_; } // the last time; empty = never
     bool anyTurn() const { return turns_ > 0; }
     uint64_t turns() const { return turns_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
@@ -65,6 +73,7 @@ private:
 
     SnapshotSink& sink_;
     TurnRow turn_;
+    std::optional<Measured> measured_;
     uint64_t turns_ = 0, late_ = 0;
     std::deque<TraceSample> trace_;
     std::deque<double> pictures_; // [s] capture times of the last second

@@ -132,8 +132,8 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
             drawCameraFrustum(list, *port, input.run.scene().set);
             drawBounds(list, *port, space_.bounds());
         }
-        const MarksInput marks{*port,           input.run, input.tool, editor.scene(),
-                               editor.shapes(), input.arm, large};
+        const MarksInput marks{*port,           input.run, input.tool,     editor.scene(),
+                               editor.shapes(), input.arm, input.measured, large};
         drawMarks(list, marks);
         if (large) {
             drawHover(console, list, marks);

@@ -18,6 +18,7 @@ struct ScreenInput {
     const HudInput& hud;
     bool freshPicture = false;   // since the call before
     std::span<const Sphere> arm; // base frame; empty = none
+    const MeasuredArm& measured;
 };
 
 // Thread: the window's.

@@ -20,7 +20,6 @@ StateExtras extrasOf(const ShownState& s) {
     extras.scene = &s.editor.scene();
     extras.shapes = s.editor.shapes().size();
     extras.selected = s.editor.selectedPoints();
-    extras.joints = s.session.arm ? s.session.arm->model.joints.size() : 0;
     extras.stiffness = s.haptics.springs.stiffness;
     extras.forceLimit = s.haptics.forceLimit;
     if (!s.view.blocks().empty()) {

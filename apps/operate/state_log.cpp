@@ -47,10 +47,16 @@ json consoleOf(const Console& c) {
             {"places", c.places}};
 }
 
-// Joints of a real arm where they were measured [rad], [m]; null while they are not known.
-json measuredOf(const TurnRow& row, size_t joints) {
-    const double* q = row.told.posture.q.data();
-    return row.driven && row.told.known ? json(std::vector<double>(q, q + joints)) : json(nullptr);
+// A real arm; null without one. Joints [rad], [m] are null while nobody measures them.
+json armOf(const MeasuredArm* arm) {
+    if (arm == nullptr || !arm->real) {
+        return nullptr;
+    }
+    return {{"measured", arm->known ? json(arm->joints) : json(nullptr)},
+            {"apart_m", arm->apart},
+            {"worst_joint", arm->worst},
+            {"error", arm->error},
+            {"drawn", arm->isOff()}};
 }
 
 json turnOf(const RunView& run, const StateExtras& extras) {
@@ -75,7 +81,7 @@ json turnOf(const RunView& run, const StateExtras& extras) {
             {"spheres", run.scene().set.spheres.size()},
             {"generation", run.scene().set.generation},
             {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)},
-            {"arm_measured", measuredOf(run.turn(), extras.joints)}};
+            {"real_arm", armOf(extras.arm)}};
 }
 
 json fixturesOf(const Scene* scene) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "apps/operate/console.h"
+#include "apps/operate/measured_arm.h"
 #include "apps/operate/run_view.h"
 
 #include <filesystem>
@@ -21,7 +22,7 @@ struct StateExtras {
     std::vector<std::string> alarms;          // of those that are shown: level, word
     const Scene* scene = nullptr;             // in force
     size_t shapes = 0, selected = 0;          // selected: points of the preview
-    size_t joints = 0;                        // of the arm; 0 = there is none
+    const MeasuredArm* arm = nullptr;         // null = none that is real
     double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the pilot in force
     std::string why;                          // of the newest block
 };

@@ -11,6 +11,7 @@ constexpr ImU32 kRegion = IM_COL32(237, 41, 36, 255);
 constexpr ImU32 kRegionSoft = IM_COL32(255, 140, 122, 255);
 constexpr ImU32 kGuidance = IM_COL32(64, 153, 255, 255);
 constexpr ImU32 kTool = IM_COL32(255, 255, 255, 255);
+constexpr ImU32 kMeasured = IM_COL32(255, 120, 220, 255); // a real arm, where it is not as the tool has it
 constexpr ImU32 kForce = IM_COL32(255, 194, 51, 255);
 constexpr ImU32 kTouch = IM_COL32(255, 236, 120, 255);
 constexpr ImU32 kShade = IM_COL32(8, 10, 15, 165);

@@ -38,6 +38,7 @@ void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLi
         constexpr size_t kDash = 7;
         for (size_t i = 0; i + 1 < points.size(); i += 2 * kDash) {
             const size_t count = std::min(kDash, points.size() - i);
+            list.AddPolyline(points.data() + i, static_cast<int>(count), colour::kShade, 0, width + 2.0f);
             list.AddPolyline(points.data() + i, static_cast<int>(count), colour, 0, width);
         }
     }
@@ -72,6 +73,35 @@ void armAt(ImDrawList& list, const MarksInput& input) {
     }
     const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
     outline(list, input.port, lines, IM_COL32(150, 196, 235, 235), 1.8f, false);
+}
+
+// Where a real arm is and the tool's is not; grey while that is only where it was last.
+void measuredAt(ImDrawList& list, const MarksInput& input) {
+    const MeasuredArm& measured = input.measured;
+    if (!measured.isOff()) {
+        return;
+    }
+    Silhouette silhouette(input.port.view);
+    for (const Sphere& sphere : measured.spheres) {
+        silhouette.add(sphere.centre, sphere.radius);
+    }
+    const ImU32 colour = measured.known ? colour::kMeasured : colour::kQuiet;
+    const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
+    outline(list, input.port, lines, colour, 2.0f, true);
+    const auto tip = input.port.of(measured.tip), tool = input.port.of(input.run.turn().record.tool.position);
+    if (!tip || !tool) {
+        return;
+    }
+    dashed(list, *tip, *tool, colour, 1.4f, 4.0f);
+    if (input.names) {
+        char text[64];
+        std::snprintf(text, sizeof text,
+                      measured.known ? "arm measured, %.0f mm off" : "arm, last measured %.1f s ago",
+                      measured.known ? measured.apart * 1e3 : measured.age);
+        const float right = static_cast<float>(input.port.where.x + input.port.where.width);
+        const float room = right - ImGui::CalcTextSize(text).x - 6.0f;
+        drawWords(list, {std::min(tip->x + 12.0f, room), tip->y + 34.0f}, text, colour);
+    }
 }
 
 void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& guidance, bool active) {
@@ -239,6 +269,7 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
         return;
     }
     armAt(list, input);
+    measuredAt(list, input);
     toolAt(list, input, record.tool, false);
     const auto hand = input.port.of(record.device.position), tool = input.port.of(record.tool.position);
     if (hand && tool) {

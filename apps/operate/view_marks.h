@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/operate/camera_ground.h"
+#include "apps/operate/measured_arm.h"
 #include "apps/operate/run_view.h"
 #include "apps/operate/view_port.h"
 #include "engine/contact/shapes.h"
@@ -22,6 +23,7 @@ struct MarksInput {
     const Scene& scene; // names
     std::span<const Shape> shapes;
     std::span<const Sphere> arm; // base frame; empty = the tool moves freely
+    const MeasuredArm& measured; // a real one
     bool names = true;           // words at guidance and force: too much in an inset
 };
 

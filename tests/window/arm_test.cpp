@@ -63,7 +63,7 @@ struct ArmWindow {
     // The window's word on the arm is what the simulator does, once it rests.
     void meets() {
         CHECK(await([&](const json& run) {
-            const json& measured = run["arm_measured"];
+            const json& measured = run["real_arm"]["measured"];
             const auto q = joints();
             return measured.is_array() && apart(measured.get<std::array<double, 3>>(), q) < 1e-4 &&
                    std::abs(run["tool"][2].get<double>() - tipDepth(q)) < 0.002;
@@ -78,6 +78,10 @@ struct ArmWindow {
 bool warns(const json& s, const char* words) {
     const json& alarms = s["alarms"];
     return std::any_of(alarms.begin(), alarms.end(), [&](const json& a) { return a == words; });
+}
+
+bool isMeasured(int r, int g, int b) { // the colour of a ghost
+    return r > 180 && b > 150 && g < 160 && r - g > 70 && b - g > 50;
 }
 
 } // namespace
@@ -130,7 +134,7 @@ TEST_CASE("An arm that falls silent or is unplugged while the pilot drives takes
         REQUIRE(w.rig.await([&](const json& s) {
             return s["run"]["arm"] == state && s["run"]["force_N"] == 0.0 && warns(s, "WARNING active arm");
         }));
-        CHECK(w.rig.state()["run"]["arm_measured"].is_null());
+        CHECK(w.rig.state()["run"]["real_arm"]["measured"].is_null());
         const auto still = w.joints();
         w.rig.keyDown("Page_Down"); // moves neither tool nor arm
         const json before = w.rig.state()["run"];
@@ -160,5 +164,34 @@ TEST_CASE("Another pilot takes over a real arm where it stands") {
     w.meets();
     w.arms();
     w.drive("Page_Down", [&](double depth) { return depth < tipDepth(before) - 0.02; });
+    w.close();
+}
+
+TEST_CASE(
+    "Where an arm was measured is drawn in both views and told while it is behind, not while it is where "
+    "the tool has it") {
+    ArmWindow w;
+    w.arms();
+    w.meets();
+    REQUIRE(w.await([](const json& run) { return run["real_arm"]["drawn"] == false; }));
+    const Screenshot near = w.rig.shoot("arm-near");
+    for (const char* view : {"camera", "space"}) {
+        CHECK(near.share(w.rig.place(view), isMeasured) < 1e-4);
+    }
+    w.bench->with([&] { w.arm.speed.fill(0.01); });
+    w.rig.keyDown("Page_Up");
+    const auto behind = [](const json& run) {
+        const json& arm = run["real_arm"];
+        return arm["drawn"] == true && arm["apart_m"] > 0.02 && std::abs(arm["error"].get<double>()) > 0.03;
+    };
+    REQUIRE(w.await(behind));
+    w.rig.keyUp("Page_Up");
+    REQUIRE(w.await(behind));
+    const Screenshot far = w.rig.shoot("arm-behind");
+    for (const char* view : {"camera", "space"}) {
+        CAPTURE(view);
+        CHECK(far.share(w.rig.place(view), isMeasured) > 5e-4);
+    }
+    CHECK(far.share(w.rig.place("head arm"), isMeasured) > 0.01);
     w.close();
 }
