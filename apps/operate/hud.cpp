@@ -120,6 +120,19 @@ std::string shortened(const std::string& text) {
     return text.size() <= kMost ? text : "..." + text.substr(text.size() - kMost);
 }
 
+// What is recorded, or where in a recording one looks.
+void recorderFigure(const Console& console, const HudInput& input) {
+    if (console.timeLine.on) {
+        figure(input,
+               (console.timeLine.playing ? "\xe2\x96\xb6 " : "\xe2\x96\xa0 ") +
+                   print("%.2f s", console.timeLine.t),
+               "recording", colour::kPicked);
+    } else {
+        figure(input, console.recording ? "\xe2\x97\x8f REC" : "\xe2\x96\xa0 idle", "recorder",
+               console.recording ? colour::kWarning : colour::kQuiet);
+    }
+}
+
 } // namespace
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size) {
@@ -156,15 +169,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     }
     figure(input, print("%.0f %%", 100.0 * input.unknownShare), "not seen");
     figure(input, print("%.0f Hz", input.windowHz), "window");
-    if (console.timeLine.on) {
-        figure(input,
-               (console.timeLine.playing ? "\xe2\x96\xb6 " : "\xe2\x96\xa0 ") +
-                   print("%.2f s", console.timeLine.t),
-               "recording", colour::kPicked);
-    } else {
-        figure(input, console.recording ? "\xe2\x97\x8f REC" : "\xe2\x96\xa0 idle", "recorder",
-               console.recording ? colour::kWarning : colour::kQuiet);
-    }
+    recorderFigure(console, input);
     if (console.frozen) {
         figure(input, "FROZEN", "fixtures", colour::kCaution);
     }
