@@ -92,9 +92,8 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     out.arm.posture = place().arm;
     if (now.running && now.sane && !now.held) {
         moved = moveTool(input, set, out);
-    } else {
-        freeDirection();
     }
+    freeDirection();
     held_ = now.held;
     const double period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
     stepRamps(now, moved.trapped, period);

@@ -89,7 +89,6 @@ ProxyTurn HapticCycle::moveArm(const TurnInput& input, const ProxyInput& wanted,
     asked.deadline = wanted.deadline;
     const ArmTurn turn = arm_->turn(asked);
     tool_ = turn.tip;
-    freeDirection();
     out.arm = {{turn.q, turn.grasp}, turn.residual,  turn.manipulability,
                turn.atLimits,        turn.graspHeld, turn.singular};
     ProxyTurn moved;
