@@ -9,7 +9,7 @@ namespace fathom {
 
 DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
     : parts_(parts)
-    , device_(std::make_unique<gpu::Device>(parts.instance, parts.selector))
+    , device_(std::make_unique<gpu::Device>(parts.instance, parts.selector, parts.drawing))
     , contact_(parts.tool, parts.scene.contact.reach, parts.arm) {
     facts_ = device_->facts();
     plan_ = makePlan(facts_);
@@ -43,7 +43,7 @@ void DeviceCycles::close() {
 void DeviceCycles::renew() {
     close();
     try { // without the lock: this takes seconds, in which the CPU answers
-        device_ = std::make_unique<gpu::Device>(parts_.instance, parts_.selector);
+        device_ = std::make_unique<gpu::Device>(parts_.instance, parts_.selector, parts_.drawing);
         if (device_->facts().name != facts_.name) {
             throw DeviceLost(facts_.name + " is not there; " + device_->facts().name +
                              " would need another plan");

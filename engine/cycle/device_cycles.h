@@ -6,6 +6,7 @@
 #include "engine/cycle/contact_cycle.h"
 #include "engine/cycle/frame_cycle.h"
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -27,6 +28,7 @@ public:
         const Tool& tool;
         const ArmRig* arm = nullptr;
         uint32_t readers = 1; // leases on fixture sets held at once, by others than answer()
+        gpu::Drawing drawing = gpu::Drawing::None;
     };
     using MakePlan = std::function<Plan(const DeviceFacts&)>;
 
@@ -36,7 +38,9 @@ public:
     const Plan& plan() const { return plan_; }
     const DeviceFacts& facts() const { return facts_; }
     const CameraInfo& camera() const { return parts_.camera; }
-    // Not between a renew() that threw and one that did not.
+    // Both: not between a renew() that threw and one that did not. Who else has something on the device
+    // destroys it before renew().
+    gpu::Device& device() { return *device_; }
     FrameCycle& frames() { return *frames_; }
     const FrameCycle& frames() const { return *frames_; }
     QueryStatistics queryStatistics() const { return contact_.statistics(); } // after the run
@@ -46,10 +50,10 @@ public:
     bool answer(const ToolPlace& place, ContactSet& out);
 
     // After frames() threw DeviceFailed: gives the device back and opens the same one again.
-    // Origin and generations go on; points that a scene holds in memory are forgotten. Throws
-    // DeviceFailed while there is none: to be tried again.
+    // Origin, generations and edited fixtures go on (FrameCycle::Mark); points that a scene holds in memory
+    // are forgotten. Throws DeviceFailed while there is none: to be tried again.
     void renew();
-    uint32_t renewals() const { return renewals_; }
+    uint32_t renewals() const { return renewals_.load(); } // any thread
 
 private:
     std::unique_ptr<FrameCycle> openFrames(gpu::Device& device) const;
@@ -64,7 +68,7 @@ private:
     ContactCycle contact_;
     FrameCycle::Mark mark_;                  // where a new frame cycle goes on
     std::optional<cloud::FixtureSet> stale_; // host copy of the last set of a device that is gone
-    uint32_t renewals_ = 0;
+    std::atomic<uint32_t> renewals_{0};
 };
 
 } // namespace fathom

@@ -61,6 +61,10 @@ FrameCycle::~FrameCycle() {
 
 void FrameCycle::goOnFrom(const Mark& mark) {
     generation_ = mark.generation;
+    frozen_ = mark.frozen;
+    if (mark.scene) {
+        setScene(*mark.scene);
+    }
     if (mark.origin) {
         placeOrigin(*mark.origin);
     }

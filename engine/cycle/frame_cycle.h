@@ -42,12 +42,15 @@ public:
                uint32_t readers);
     ~FrameCycle();
 
-    // Where a cycle on another device goes on: generations count up from here, positions keep their origin.
+    // Where a cycle on another device goes on: generations count up from here, positions keep their origin,
+    // fixtures are as setScene() left them, and what is held still stays where it is.
     struct Mark {
         uint64_t generation = 0;
         std::optional<dvec3> origin;
+        std::optional<Scene> scene; // empty = the one that the cycle is made with
+        cloud::FrozenClasses frozen;
     };
-    Mark mark() const { return {generation_, origin_}; }
+    Mark mark() const { return {generation_, origin_, scene_, frozen_}; }
     void goOnFrom(const Mark& mark); // before the first frame
 
     // One frame through, start to end.

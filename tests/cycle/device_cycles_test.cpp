@@ -104,3 +104,26 @@ TEST_CASE("Until the first picture on the new device the CPU answers over the la
         CHECK(rig.cycles.queryStatistics().queries == 3);
     }
 }
+
+TEST_CASE("What was edited, and a class that is held still, is as before on a device that is made anew") {
+    for (const bool anew : {false, true}) {
+        CAPTURE(anew);
+        Rig rig(Scene::Contact::Where::Cpu);
+        rig.next();
+        Scene edited = rig.scene;
+        edited.fixtures[0].radius = 0.02;
+        edited.fixtures[0].frozen = true;
+        rig.cycles.frames().setScene(edited);
+        rig.next(); // the spheres of this one stay
+        const RegionSpheres held = rig.cycles.frames().sets().newest()->host.spheres;
+        REQUIRE(held.size() > 0);
+        if (anew) {
+            rig.cycles.renew();
+        }
+        rig.next();
+        const auto after = rig.cycles.frames().sets().newest();
+        CHECK(after->host.spheres.x == held.x);
+        CHECK(after->host.spheres.z == held.z);
+        CHECK(after->host.spheres.radius == held.radius);
+    }
+}
