@@ -43,18 +43,20 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
          pause = std::min(2.0 * pause, kLongestRetry)) {
         try {
             const std::optional<uint32_t> index = feed_.fetch();
-            if (news_.gone) {
+            if (std::exchange(cameraGone_, false)) {
                 spdlog::warn("camera is back");
-                news_.gone = false;
                 origin_ = clock_.now() - period_ * ((index ? *index : firstIndex_) - firstIndex_);
             }
             ended_ = !index;
             return index;
         } catch (const DeviceLost& e) {
-            if (!news_.gone) {
+            if (!std::exchange(cameraGone_, true)) {
                 spdlog::warn("camera is gone ({}): the scene ages, forces fade", e.what());
-                news_.gone = true;
                 tell();
+            }
+            if (feed_.lost()) {
+                spdlog::warn("GPU is gone, too: it is looked for");
+                renew(stop);
             }
             clock_.sleepUntil(clock_.now() + pause, stop);
         }
@@ -102,20 +104,20 @@ void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
         }
         spdlog::warn("GPU is gone ({}): the scene ages, forces fade; it is looked for", e.what());
     }
-    news_.gone = true;
-    tell();
     renew(stop);
 }
 
 // More and more seldom, until a picture has gone through again.
 void FrameLoop::renew(const std::atomic<bool>& stop) {
+    deviceGone_ = true;
+    tell();
     while (!stop.load(std::memory_order_relaxed)) {
         clock_.sleepUntil(clock_.now() + retry_, stop);
         retry_ = std::min(2.0 * retry_, kLongestRetry);
         try {
-            feed_.renew();
+            feed_.renew(stop);
             spdlog::warn("GPU is back");
-            news_.gone = false;
+            deviceGone_ = false;
             tell();
             return;
         } catch (const DeviceFailed& e) {
@@ -165,6 +167,7 @@ void FrameLoop::publish(double t) {
 }
 
 void FrameLoop::tell() {
+    news_.gone = cameraGone_ || deviceGone_;
     crossings_.scene.back() = news_;
     crossings_.scene.publish();
 }

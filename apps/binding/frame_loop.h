@@ -33,8 +33,11 @@ public:
     // Whether the device under publish() can be made anew when that threw DeviceFailed; else
     // these end the run.
     virtual bool renewable() const { return false; }
-    // Makes it anew. Throws the same while it is not there: asked again later.
-    virtual void renew() {}
+    // It is lost, as is known before any picture went to it: it is made anew while the camera is gone, too.
+    virtual bool lost() const { return false; }
+    // Makes it anew. Throws the same while it is not there (asked again later), and when `stop` is set while
+    // it waits for somebody.
+    virtual void renew(const std::atomic<bool>& /*stop*/) {}
 };
 
 // The source's pictures come at period x (index - first index), by the clock: a picture counts as captured
@@ -72,6 +75,7 @@ private:
     PublishedFrame* spare_ = nullptr;                   // one whose picture came to nothing
     double retry_;                                      // [s] until a lost device is asked for again
     SceneNews news_;
+    bool cameraGone_ = false, deviceGone_ = false;
     uint32_t firstIndex_ = 0;
     double origin_ = 0.0; // [s] when the first picture would have been due
     bool ended_ = false;

@@ -80,7 +80,7 @@ public:
     }
 
     bool renewable() const override { return true; }
-    void renew() override { session_.cycles.renew(); }
+    void renew(const std::atomic<bool>&) override { session_.cycles.renew(); }
 
     std::vector<float> exposureMs; // [ms] from a live picture's exposure to its published set
 

@@ -188,6 +188,29 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "Drill: a GPU that somebody else finds lost is made anew while the camera is gone, and the scene ages "
+    "until a picture comes") {
+    FakeRun fake(60, pressingPath(3.0));
+    int refusals = 0, renewedAt = -1;
+    fake.feed.onRenew = [&] { renewedAt = refusals; };
+    fake.feed.beforeFetch = [&](uint32_t index) {
+        if (index == 15 && refusals < 4) {
+            fake.feed.deviceLost = refusals == 0;
+            ++refusals;
+            throw DeviceLost("unplugged");
+        }
+    };
+    fake.go();
+    REQUIRE(fake.run->failure() == nullptr);
+    CHECK(fake.feed.renewed == 1);
+    CHECK(renewedAt == 1); // while pictures were asked for in vain
+    CHECK(fake.feed.published == 60);
+    double least = 1e9;
+    fake.during(0.5, 2.0, [&](const TurnRecord& r) { least = std::min(least, forceOf(r)); });
+    CHECK(least < 0.01); // gone is gone, whichever of the two comes back first
+}
+
+TEST_CASE(
     "Drill: a GPU that is lost or out of memory and cannot be made anew ends the run with zero force and "
     "says which") {
     const auto drill = [](const std::function<void()>& fault) {

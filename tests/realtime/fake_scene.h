@@ -31,11 +31,14 @@ public:
     std::function<void(uint32_t)> beforePublish = [](uint32_t) {};
     std::function<void()> onRenew; // empty: the device cannot be made anew
     uint32_t published = 0, renewed = 0;
+    bool deviceLost = false; // by somebody else than publish()
     std::vector<double> captured;
 
+    bool lost() const override { return deviceLost; }
     bool renewable() const override { return static_cast<bool>(onRenew); }
-    void renew() override {
+    void renew(const std::atomic<bool>&) override {
         onRenew();
+        deviceLost = false;
         ++renewed;
     }
 
