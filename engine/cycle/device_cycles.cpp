@@ -60,6 +60,20 @@ void DeviceCycles::renew() {
     }
 }
 
+bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
+    if (const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease()) {
+        set = newest->host;
+        grid = newest->grid;
+        return true;
+    }
+    const std::lock_guard lock(mutex_); // answer() lets it go
+    if (stale_) {
+        set = stale_->host;
+        grid = stale_->grid;
+    }
+    return stale_.has_value();
+}
+
 bool DeviceCycles::answer(const ToolPlace& place, ContactSet& out) {
     const std::lock_guard lock(mutex_);
     const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();

@@ -49,6 +49,9 @@ public:
     // memory left for the query is no error here: the CPU answers from then on, until renew().
     bool answer(const ToolPlace& place, ContactSet& out);
 
+    // Copies of the newest fixture set, also of a device that is gone; false when there was none yet.
+    bool newestSet(Fixtures& set, RegionGrid& grid);
+
     // After frames() threw DeviceFailed: gives the device back and opens the same one again.
     // Origin, generations and edited fixtures go on (FrameCycle::Mark); points that a scene holds in memory
     // are forgotten. Throws DeviceFailed while there is none: to be tried again.
