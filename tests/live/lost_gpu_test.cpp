@@ -1,42 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A GPU that is lost under the running program (a layer below it says so): the hand goes on with what is
 // known, the device is opened again, the pictures go on.
+#include "tests/rig/losing.h"
 #include "tests/rig/stage.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 using namespace fathom;
 
 namespace {
-
-// The layer and what it is told, for as long as this lives.
-class Losing {
-public:
-    Losing(int submission, const std::string& by, int refusedOpenings) {
-        set("VK_ADD_LAYER_PATH", LOSING_LAYER);
-        set("VK_INSTANCE_LAYERS", "VK_LAYER_FATHOM_losing");
-        set("FATHOM_LOSE_AT", std::to_string(submission));
-        set("FATHOM_LOSE_BY", by);
-        set("FATHOM_LOSE_OPENINGS", std::to_string(refusedOpenings));
-    }
-    ~Losing() {
-        for (const std::string& name : names_) {
-            ::unsetenv(name.c_str());
-        }
-    }
-    Losing(const Losing&) = delete;
-    Losing& operator=(const Losing&) = delete;
-
-private:
-    void set(const std::string& name, const std::string& value) {
-        ::setenv(name.c_str(), value.c_str(), 1);
-        names_.push_back(name);
-    }
-    std::vector<std::string> names_;
-};
 
 // 4 s of pictures and of a hand that presses into the bump all the time.
 void setPressing(const Stage& stage, const std::string& where = "cpu") {

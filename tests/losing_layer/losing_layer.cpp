@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Vulkan layer that loses a device: from a submission on, the first device that an application opened
-// answers VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some of the openings that follow fail.
-// Below the program, so that what runs is the program as it ships.
+// A Vulkan layer that loses a device: from some call on, the device that an application opened answers
+// VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some of the openings that follow fail. Below
+// the program, so that what runs is the program as it ships.
 //   FATHOM_LOSE_AT       submission of the first device, from 1, that is the first to fail
+//   FATHOM_LOSE_FILE     or: a file with one word; any device is lost in the first such call that finds the
+//                        file, and the file goes: passes (submissions with a timeline), drawing (other ones),
+//                        presenting
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
-//   FATHOM_LOSE_OPENINGS openings of a device that fail afterwards
+//   FATHOM_LOSE_OPENINGS openings of a device that fail after each loss
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -21,6 +25,9 @@ struct NextDevice {
     PFN_vkDestroyDevice destroy = nullptr;
     PFN_vkQueueSubmit submit = nullptr;
     PFN_vkWaitSemaphores wait = nullptr;
+    PFN_vkWaitForFences waitFences = nullptr;
+    PFN_vkQueuePresentKHR present = nullptr; // null: no swapchains
+    PFN_vkAcquireNextImageKHR acquire = nullptr;
     bool first = false, lost = false;
     long submissions = 0;
 };
@@ -28,7 +35,7 @@ struct NextDevice {
 std::mutex mutex;
 std::map<void*, NextDevice> devices; // by the loader's dispatch table, which queues share with their device
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
-long opened = 0, refused = 0;
+long opened = 0, refused = 0; // refused: since the last loss
 
 long number(const char* name) {
     const char* text = std::getenv(name);
@@ -39,6 +46,19 @@ VkResult lossOf() {
     const char* by = std::getenv("FATHOM_LOSE_BY");
     return by != nullptr && std::strcmp(by, "memory") == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY
                                                            : VK_ERROR_DEVICE_LOST;
+}
+
+// Whether the file names this call; then it goes. The mutex is held.
+bool askedFor(const char* call) {
+    const char* name = std::getenv("FATHOM_LOSE_FILE");
+    char word[32] = {};
+    std::FILE* file = name == nullptr ? nullptr : std::fopen(name, "r");
+    if (file == nullptr) {
+        return false;
+    }
+    const bool read = std::fscanf(file, "%31s", word) == 1;
+    std::fclose(file);
+    return read && std::strcmp(word, call) == 0 && std::remove(name) == 0;
 }
 
 void* keyOf(void* handle) {
@@ -95,6 +115,9 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
         next.destroy = find<PFN_vkDestroyDevice>(address, *device, "vkDestroyDevice");
         next.submit = find<PFN_vkQueueSubmit>(address, *device, "vkQueueSubmit");
         next.wait = find<PFN_vkWaitSemaphores>(address, *device, "vkWaitSemaphores");
+        next.waitFences = find<PFN_vkWaitForFences>(address, *device, "vkWaitForFences");
+        next.present = find<PFN_vkQueuePresentKHR>(address, *device, "vkQueuePresentKHR");
+        next.acquire = find<PFN_vkAcquireNextImageKHR>(address, *device, "vkAcquireNextImageKHR");
         next.first = opened++ == 0;
     }
     return result;
@@ -107,6 +130,16 @@ VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCall
     devices.erase(key);
 }
 
+// The mutex is held, and by the application's own rules no other thread is on the queue of the call.
+bool loses(NextDevice& device, const char* call, bool now = false) {
+    if (!device.lost && (now || askedFor(call))) {
+        device.idle(device.handle); // what is lost is at nothing any more: its memory may go
+        device.lost = true;
+        refused = 0;
+    }
+    return device.lost;
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSubmitInfo* infos,
                                       VkFence fence) {
     PFN_vkQueueSubmit pass = nullptr;
@@ -114,11 +147,8 @@ VKAPI_ATTR VkResult VKAPI_CALL submit(VkQueue queue, uint32_t count, const VkSub
         const std::lock_guard lock(mutex);
         NextDevice& device = devices[keyOf(queue)];
         const long at = number("FATHOM_LOSE_AT");
-        if (!device.lost && device.first && at > 0 && ++device.submissions >= at) {
-            device.idle(device.handle); // what is lost is at nothing any more: its memory may go
-            device.lost = true;
-        }
-        if (device.lost) {
+        const bool now = device.first && at > 0 && ++device.submissions >= at;
+        if (loses(device, count > 0 && infos[0].pNext != nullptr ? "passes" : "drawing", now)) {
             return lossOf();
         }
         pass = device.submit;
@@ -139,6 +169,44 @@ VKAPI_ATTR VkResult VKAPI_CALL waitSemaphores(VkDevice device, const VkSemaphore
     return pass(device, info, timeout);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL waitFences(VkDevice device, uint32_t count, const VkFence* fences,
+                                          VkBool32 all, uint64_t timeout) {
+    PFN_vkWaitForFences pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        if (devices[keyOf(device)].lost && lossOf() == VK_ERROR_DEVICE_LOST) {
+            return VK_ERROR_DEVICE_LOST;
+        }
+        pass = devices[keyOf(device)].waitFences;
+    }
+    return pass(device, count, fences, all, timeout);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
+    PFN_vkQueuePresentKHR pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        if (loses(devices[keyOf(queue)], "presenting")) {
+            return lossOf();
+        }
+        pass = devices[keyOf(queue)].present;
+    }
+    return pass(queue, info);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout,
+                                       VkSemaphore semaphore, VkFence fence, uint32_t* index) {
+    PFN_vkAcquireNextImageKHR pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        if (devices[keyOf(device)].lost) {
+            return lossOf();
+        }
+        pass = devices[keyOf(device)].acquire;
+    }
+    return pass(device, swapchain, timeout, semaphore, fence, index);
+}
+
 template <class Call>
 PFN_vkVoidFunction plain(Call call) {
     return reinterpret_cast<PFN_vkVoidFunction>(call);
@@ -157,8 +225,18 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceAddress(VkDevice device, const ch
     if (std::strcmp(name, "vkQueueSubmit") == 0) {
         return plain(submit);
     }
+    if (std::strcmp(name, "vkWaitForFences") == 0) {
+        return plain(waitFences);
+    }
     const std::lock_guard lock(mutex);
-    return devices[keyOf(device)].address(device, name);
+    const NextDevice& next = devices[keyOf(device)];
+    if (next.present != nullptr && std::strcmp(name, "vkQueuePresentKHR") == 0) {
+        return plain(present);
+    }
+    if (next.acquire != nullptr && std::strcmp(name, "vkAcquireNextImageKHR") == 0) {
+        return plain(acquire);
+    }
+    return next.address(device, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceAddress(VkInstance instance, const char* name) {
