@@ -135,7 +135,7 @@ LatencyRun::LatencyRun(const LatencyOptions& options, const GlobalOptions& globa
 LatencyRun::~LatencyRun() = default;
 
 std::string LatencyRun::device() const {
-    return session_->operate.device.facts().name;
+    return session_->operate.cycles.facts().name;
 }
 
 std::string LatencyRun::placement() const {
@@ -155,7 +155,7 @@ LatencyPart LatencyRun::run(const std::string& load, bool moving) {
     o.placement = s.placement;
     o.hapticPeriod = s.haptics.period;
     o.staleAfter = s.haptics.staleAfter;
-    RealtimeRun run(feed, s.operate.plan.query != Plan::Query::None ? &s.answers : nullptr, o);
+    RealtimeRun run(feed, s.operate.cycles.plan().query != Plan::Query::None ? &s.answers : nullptr, o);
     if (!run.firstFrame()) {
         throw BadInput(s.operate.camera->description(), "frames", "none usable", "at least one usable frame");
     }

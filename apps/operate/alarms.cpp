@@ -64,7 +64,20 @@ void Alarms::raise(Level level, const std::string& key, const std::string& words
     set(false, level, key.c_str(), words, t); // an event: latched, not lasting
 }
 
-void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene) {
+// No picture for long: whoever is to blame is named. The camera is not while a GPU that was lost has made no
+// set.
+void Alarms::stepScene(const TurnRecord& turn, const HapticOptions& haptics, bool deviceGone) {
+    const bool stale = turn.sceneAge > haptics.staleAfter;
+    waits_ = deviceGone || (waits_ && stale);
+    set(waits_, Level::Warning, "gpu", "GPU is gone: no picture, forces fade; it is looked for", turn.t);
+    set(!waits_ && turn.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
+        print("Camera silent: scene %.1f s old", turn.sceneAge), turn.t);
+    set(stale, Level::Caution, "stale",
+        print("Scene stale: over %.0f ms, forces fade", haptics.staleAfter * 1e3), turn.t);
+}
+
+void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
+                  bool deviceGone) {
     if (run.anyTurn()) {
         const TurnRecord& r = run.turn().record;
         const Rates rates = run.rates();
@@ -72,10 +85,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
         set(!r.finite, Level::Warning, "finite", "A number was not finite: zero wrench", r.t);
         set(r.state == TurnState::Trapped, Level::Warning, "trapped",
             "Tool trapped: no motion obeys every region", r.t);
-        set(r.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
-            print("Camera silent: scene %.1f s old", r.sceneAge), r.t);
-        set(r.sceneAge > haptics.staleAfter, Level::Caution, "stale",
-            print("Scene stale: over %.0f ms, forces fade", haptics.staleAfter * 1e3), r.t);
+        stepScene(r, haptics, deviceGone);
         set(force > 0.98 * haptics.forceLimit, Level::Caution, "force",
             print("Force at its limit of %.1f N", haptics.forceLimit), r.t);
         set(torque > 0.98 * haptics.torqueLimit, Level::Caution, "torque",

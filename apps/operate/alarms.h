@@ -27,8 +27,9 @@ ImU32 levelColour(Level level);
 
 class Alarms {
 public:
-    // Looks at the run; once a window frame. missingTargets: names of guidance classes without a target.
-    void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene);
+    // Looks at the run; once a window frame. deviceGone: the GPU is lost, and no other one is there yet.
+    void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
+              bool deviceGone = false);
     // Raises one that no rule sees.
     void raise(Level level, const std::string& key, const std::string& words, double t);
 
@@ -39,7 +40,9 @@ public:
 
 private:
     void set(bool on, Level level, const char* key, const std::string& words, double t);
+    void stepScene(const TurnRecord& turn, const HapticOptions& haptics, bool deviceGone);
     std::vector<Alarm> alarms_;
+    bool waits_ = false; // for the first picture after the GPU was lost
 };
 
 void drawAlarms(Console& console, const Alarms& alarms);

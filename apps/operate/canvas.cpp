@@ -4,78 +4,119 @@
 #include "engine/types/error.h"
 
 #include <imgui.h>
+#include <optional>
 #include <utility>
 
 namespace fathom::operate {
 
-struct Canvas::Surface {
-    Surface(const Window& window, OperateSession& session)
-        : instance(session.instance)
-        , handle(window.makeSurface(session.instance)) {
-        try {
-            swapchain = std::make_unique<Swapchain>(session.device, handle);
-        } catch (...) {
-            vkDestroySurfaceKHR(instance.handle(), handle, nullptr);
-            throw;
+namespace {
+
+// The surface of a window; of one that is offscreen, none.
+class Surface {
+public:
+    Surface(const Window& window, const gpu::Instance& instance)
+        : instance_(instance)
+        , handle_(window.offscreen() ? VK_NULL_HANDLE : window.makeSurface(instance)) {}
+    ~Surface() {
+        if (handle_ != VK_NULL_HANDLE) { // else the instance may have no such call
+            vkDestroySurfaceKHR(instance_.handle(), handle_, nullptr);
         }
     }
-    ~Surface() {
-        swapchain.reset();
-        vkDestroySurfaceKHR(instance.handle(), handle, nullptr);
-    }
-    const gpu::Instance& instance;
-    VkSurfaceKHR handle;
-    std::unique_ptr<Swapchain> swapchain;
+    Surface(const Surface&) = delete;
+    Surface& operator=(const Surface&) = delete;
+    VkSurfaceKHR handle() const { return handle_; }
+
+private:
+    const gpu::Instance& instance_;
+    VkSurfaceKHR handle_;
 };
 
-Canvas::Canvas(const Window& window, OperateSession& session, double textScale, std::filesystem::path shots)
+} // namespace
+
+// Owners before their borrowers.
+struct Canvas::OnDevice {
+    OnDevice(const Window& window, const gpu::Instance& instance, gpu::Device& device)
+        : surface(window, instance) {
+        if (surface.handle() != VK_NULL_HANDLE) {
+            swapchain.emplace(device, surface.handle());
+        }
+        painter.emplace(instance, device, swapchain ? &*swapchain : nullptr);
+    }
+    Surface surface;
+    std::optional<Swapchain> swapchain; // empty: offscreen
+    std::optional<Painter> painter;
+};
+
+Canvas::Canvas(const Window& window, const gpu::Instance& instance, double textScale,
+               std::filesystem::path shots)
     : window_(window)
+    , instance_(instance)
     , shots_(std::move(shots))
     , scale_(textScale)
-    , surface_(window.offscreen() ? nullptr : std::make_unique<Surface>(window, session))
     , letters_(loadLetters(textScale)) {
     applyTheme(scale_);
-    painter_ = std::make_unique<Painter>(session.instance, session.device,
-                                         surface_ ? surface_->swapchain.get() : nullptr);
 }
 
-Canvas::~Canvas() {
-    painter_.reset();
+Canvas::~Canvas() = default;
+
+void Canvas::open(gpu::Device& device) {
+    drop();
+    onDevice_ = std::make_unique<OnDevice>(window_, instance_, device);
+}
+
+void Canvas::drop() {
+    before_ = counts();
+    onDevice_.reset();
+}
+
+Canvas::Counts Canvas::counts() const {
+    Counts all = before_;
+    if (onDevice_) {
+        all.drawn += onDevice_->painter->drawn();
+        all.yielded += onDevice_->painter->yielded();
+        all.swapchains += onDevice_->swapchain ? onDevice_->swapchain->remade() : 0;
+    }
+    return all;
 }
 
 void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy) {
     ImGui::Render();
-    if (std::exchange(console.remake, false) && surface_) {
-        surface_->swapchain->lose();
+    if (std::exchange(console.remake, false) && onDevice_ && onDevice_->swapchain) {
+        onDevice_->swapchain->lose();
     }
-    if (!window_.minimised()) {
-        painter_->draw(window_.size(), layers, ImGui::GetDrawData(), busy);
+    if (onDevice_ && !window_.minimised()) {
+        onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(), busy);
     }
-    if (console.screenshot) {
-        console.screenshot = false;
+    if (std::exchange(console.screenshot, false)) {
         shoot(console);
     }
     if (scale_ != console.textScale) {
         scale_ = console.textScale;
         letters_ = loadLetters(scale_);
         applyTheme(scale_);
-        painter_->uploadFonts();
+        if (onDevice_) {
+            onDevice_->painter->uploadFonts();
+        } else {
+            ImGui::GetIO().Fonts->Build(); // the next frame measures words
+        }
     }
 }
 
 void Canvas::shoot(Console& console) {
+    if (!onDevice_) {
+        console.tell("no screenshot: the GPU is gone");
+        return;
+    }
     const auto file = shots_ / ("screenshot-" + std::to_string(console.shots + 1) + ".png");
     try {
-        painter_->screenshot(file);
+        onDevice_->painter->screenshot(file);
         ++console.shots;
         console.tell("screenshot " + file.string());
+    } catch (const DeviceFailed&) {
+        throw;
     } catch (const Error& e) {
         console.tell(e.what());
     }
-}
-
-uint32_t Canvas::swapchains() const {
-    return surface_ ? surface_->swapchain->remade() : 0;
 }
 
 } // namespace fathom::operate

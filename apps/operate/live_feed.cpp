@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/live_feed.h"
 
+#include "engine/types/error.h"
+
+#include <utility>
+
 namespace fathom::operate {
 
 LiveFeed::LiveFeed(OperateSession& session)
@@ -11,8 +15,8 @@ LiveFeed::LiveFeed(OperateSession& session)
 }
 
 void LiveFeed::shown(const ToolPlace& place) {
-    if (session_.plan.selfFilter) {
-        session_.frames.setArm(session_.arm->inPicture(place.arm));
+    if (session_.cycles.plan().selfFilter && !lost()) {
+        session_.cycles.frames().setArm(session_.arm->inPicture(place.arm));
     }
 }
 
@@ -30,50 +34,74 @@ void LiveFeed::setScene(const Scene& scene) {
 void LiveFeed::takeScene() {
     if (edited_.exchange(false)) {
         const std::lock_guard lock(sceneMutex_);
-        session_.frames.setScene(pending_);
+        session_.cycles.frames().setScene(pending_);
     }
 }
 
 FrameReport LiveFeed::process() {
-    session_.frames.upload(std::move(*next_));
-    busy_.store(true, std::memory_order_release);
-    session_.frames.submit();
-    FrameReport report = session_.frames.finish();
-    busy_.store(false, std::memory_order_release);
-    return report;
+    FrameCycle& frames = session_.cycles.frames();
+    try {
+        frames.upload(std::move(*next_));
+        busy_.store(true, std::memory_order_release);
+        frames.submit();
+        FrameReport report = frames.finish();
+        busy_.store(false, std::memory_order_release);
+        return report;
+    } catch (const DeviceFailed& e) {
+        busy_.store(false, std::memory_order_release);
+        session_.handover.lose(e.what());
+        throw;
+    }
+}
+
+// What is on the old device goes before it, what is to be on the new one comes before forces do.
+void LiveFeed::renew(const std::atomic<bool>& stop) {
+    if (!session_.handover.awaitRelease(stop)) {
+        throw DeviceLost("the run ends");
+    }
+    session_.cycles.renew();
+    if (!session_.handover.offer(stop)) {
+        throw DeviceLost(session_.handover.why());
+    }
 }
 
 void LiveFeed::publish(double t, PublishedFrame& out) {
+    const bool begins = std::exchange(begins_, false);
     next_->retime(t);
     colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
-    if (frozen_.load() && published_) {
-        out.report.index = (*next_)->index;
-        out.report.unchanged = true;
-        out.changed = false;
-        out.colour.swap(colour_);
+    out.report = {};
+    out.report.index = (*next_)->index;
+    try {
+        publishNew(out);
+    } catch (const DeviceFailed&) {
+        out.changed = begins && session_.cycles.newestSet(out.fixtures, out.grid);
         next_.reset();
-        return;
+        if (!out.changed) {
+            throw;
+        }
     }
-    takeScene();
-    out.report = process();
     next_.reset();
-    out.changed = !out.report.unchanged;
-    if (out.changed) {
-        const auto set = session_.frames.sets().newest();
-        out.fixtures = set->host;
-        out.grid = set->grid;
-        published_ = true;
-    }
     out.colour.swap(colour_);
 }
 
-bool LiveAnswers::answer(const ToolPlace& place, ContactSet& out) {
-    const auto set = session_.frames.sets().newest();
-    if (!set) {
-        return false;
+void LiveFeed::publishNew(PublishedFrame& out) {
+    if (lost()) { // by the window
+        throw DeviceLost(session_.handover.why());
     }
-    session_.contact.query(*set, place, out);
-    return true;
+    out.report.unchanged = frozen_.load() && published_;
+    if (!out.report.unchanged) {
+        takeScene();
+        out.report = process();
+    }
+    out.changed = !out.report.unchanged;
+    if (out.changed) {
+        session_.cycles.newestSet(out.fixtures, out.grid);
+        published_ = true;
+    }
+}
+
+bool LiveAnswers::answer(const ToolPlace& place, ContactSet& out) {
+    return session_.cycles.answer(place, out);
 }
 
 } // namespace fathom::operate

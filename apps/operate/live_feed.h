@@ -20,7 +20,12 @@ public:
     std::optional<uint32_t> fetch() override;
     void shown(const ToolPlace& place) override;
     void publish(double t, PublishedFrame& out) override;
+    bool renewable() const override { return true; }
+    bool lost() const override { return session_.handover.lost(); }
+    void renew(const std::atomic<bool>& stop) override;
 
+    // A run begins: should its first picture find the device lost, the set that was is what it begins with.
+    void begin() { begins_ = true; }
     // Takes effect with the next picture. Same classes of points as before.
     void setScene(const Scene& scene);
     // Frozen: pictures are taken and shown but the set in force stays, for all fixtures.
@@ -31,6 +36,7 @@ public:
 private:
     void takeScene();
     FrameReport process();
+    void publishNew(PublishedFrame& out);
 
     OperateSession& session_;
     std::optional<Frame> next_;
@@ -38,7 +44,7 @@ private:
     std::atomic<bool> busy_{false}, frozen_{false}, edited_{false};
     std::mutex sceneMutex_; // of pending_; never taken by the haptic thread
     Scene pending_;
-    bool published_ = false;
+    bool published_ = false, begins_ = false;
 };
 
 class LiveAnswers final : public ContactAnswers {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* kSpare = ""; // the name of a spare class; a scene file's names are never empty
 constexpr size_t kShuttled = 48;   // pictures of a simulated camera
-constexpr uint32_t kReaders = 3;   // contact, feed, window's start
+constexpr uint32_t kReaders = 2;   // feed, window's start
 
 FixtureClass spareClass(Role role) {
     FixtureClass spare;
@@ -112,21 +112,23 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
     , instance(gpu::Validation{options.validate, false}, extensions)
-    , device(instance, global.device, drawing)
-    , plan(planToEdit(scene, camera->info(), tool, device.facts()))
-    , frames(device, scene, camera->info(), plan, kReaders)
-    , contact(device, plan, frames.layout(), frames.sets(), tool, scene.contact.reach, arm.get()) {}
+    , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), kReaders, drawing},
+             [this](const DeviceFacts& facts) { return planToEdit(scene, camera->info(), tool, facts); })
+    , passNames(cycles.frames().passNames()) {}
 
 std::string OperateSession::title() const {
     return scene.file.stem().string() + ", " + camera->description();
 }
 
-HandPath OperateSession::path() const {
+HandPath OperateSession::path() {
     if (!scene.hand.builtIn) {
         return HandPath(readHandCsv(scene.hand.path));
     }
-    const auto first = const_cast<FrameCycle&>(frames).sets().newest();
-    return HandPath(toHand(approachPath(scene, tool, first->host, first->grid), scene.hand));
+    if (approach_.empty()) {
+        const auto first = cycles.frames().sets().newest();
+        approach_ = approachPath(scene, tool, first->host, first->grid);
+    }
+    return HandPath(toHand(approach_, scene.hand));
 }
 
 } // namespace fathom::operate

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that the operator's window runs on, built in order: scene, camera, tool, device, plan, cycles.
+// Everything that the operator's window runs on, built in order: scene, camera, tool, device with its cycles.
 #pragma once
 
 #include "apps/binding/arm_thread.h"
+#include "apps/binding/device_handover.h"
 #include "apps/operate/operate_command.h"
 #include "devices/camera.h"
 #include "devices/simulated/hand_path.h"
-#include "engine/cycle/contact_cycle.h"
-#include "engine/cycle/frame_cycle.h"
+#include "engine/cycle/device_cycles.h"
 
 #include <atomic>
 #include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace fathom::operate {
 
@@ -32,14 +34,17 @@ struct OperateSession {
     std::unique_ptr<ArmThread> realArm; // null = nothing but pictures moves
     Tool tool;                          // on an arm, what its tip carries
     gpu::Instance instance;
-    gpu::Device device;
-    Plan plan;
-    FrameCycle frames;
-    ContactCycle contact;
+    DeviceCycles cycles;
+    DeviceHandover handover; // of their device, between the frame cadence and the window
+    std::vector<std::string> passNames;
 
     std::string title() const; // scene, source
-    // Raw hand path of the scene over the first fixture set, as `replay` makes it.
-    HandPath path() const;
+    // Raw hand path of the scene over the first fixture set, as `replay` makes it. Called first when there
+    // is one.
+    HandPath path();
+
+private:
+    std::vector<HandWaypoint> approach_; // base frame; kept, for what it was made over may be gone
 };
 
 } // namespace fathom::operate

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdio>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -29,12 +30,16 @@ float percentile(std::vector<float> values, double share) {
     return *at;
 }
 
+std::string title(const OperateOptions& options) {
+    return "Fathom, " + options.scene.stem().string();
+}
+
 } // namespace
 
 OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& global)
     : options_(options)
     , placement_(ThreadPlacement::ofThisProcess())
-    , window_(options.offscreen, "Fathom, " + options.scene.stem().string())
+    , window_(options.offscreen, title(options))
     , confined_(placement_.rest) // before the device: a software device's workers inherit it
     , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
                window_.extensions(), signals_.asked())
@@ -45,7 +50,8 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , view_(sink_)
     , log_(options.state) {
     console_.takeSettings(session_.scene, options.textScale);
-    canvas_ = std::make_unique<Canvas>(window_, session_, console_.textScale, options.shots);
+    canvas_ = std::make_unique<Canvas>(window_, session_.instance, console_.textScale, options.shots);
+    canvas_->open(session_.cycles.device());
     startThreads();
     window_.onForcesOff = [this] {
         hand_->setForces(false); // at once, whatever the rest of this frame does
@@ -67,7 +73,7 @@ HudInput OperatorRun::hudInput() const {
     HudInput hud{view_,
                  session_.scene,
                  haptics_,
-                 session_.frames.passNames(),
+                 session_.passNames,
                  canvas_->letters(),
                  session_.title(),
                  screen_.unknownShare(),
@@ -107,9 +113,43 @@ void OperatorRun::frame() {
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     listen();
-    alarms_.step(console_, view_, haptics_, editor_->scene());
-    canvas_->finishFrame(console_, screen_.layers(), [this] { return feed_.busy(); });
+    alarms_.step(console_, view_, haptics_, editor_->scene(), session_.handover.gone());
+    show();
     log_.write(console_, view_, extras());
+}
+
+// Both threads find out by themselves that the device is lost; only this one knows when nothing is drawn on
+// it any more.
+void OperatorRun::show() {
+    DeviceHandover& device = session_.handover;
+    try {
+        canvas_->finishFrame(console_, screen_.layers(), [this] { return feed_.busy(); });
+        if (canvas_->isOpen()) {
+            device.accept(); // once it has been drawn on
+        } else if (device.offered()) {
+            reopen();
+        }
+    } catch (const DeviceFailed& e) {
+        device.lose(e.what());
+    }
+    if (device.wanted()) {
+        canvas_->drop();
+        device.release();
+    }
+    const bool gone = device.gone();
+    if (std::exchange(toldGone_, gone) != gone) { // in words, where no GPU is needed
+        window_.setTitle(title(options_) + (gone ? ": GPU is gone, forces fade" : ""));
+    }
+}
+
+// After a frame: one that is open has names of things on the device that it began with.
+void OperatorRun::reopen() {
+    try {
+        canvas_->open(session_.cycles.device());
+        screen_.redraw();
+    } catch (const Error& e) { // a driver that is being started anew may say anything
+        session_.handover.lose(e.what());
+    }
 }
 
 StateExtras OperatorRun::extras() const {
@@ -123,8 +163,11 @@ void OperatorRun::report() const {
     const std::vector<float>& us = view_.turnMicros();
     const double time = std::max(1e-3, seconds() - started_);
     std::printf("window       %.1f frames a second, %llu left out for passes on the shared queue\n",
-                static_cast<double>(canvas_->painter().drawn()) / time,
-                static_cast<unsigned long long>(canvas_->painter().yielded()));
+                static_cast<double>(canvas_->counts().drawn) / time,
+                static_cast<unsigned long long>(canvas_->counts().yielded));
+    if (session_.cycles.renewals() > 0) {
+        std::printf("device       lost and made anew %u times\n", session_.cycles.renewals());
+    }
     std::printf("turn         p50 %.2f p99 %.2f max %.2f us, %zu turns, %llu ended over one period late, "
                 "%llu periods without one\n",
                 static_cast<double>(percentile(us, 0.5)), static_cast<double>(percentile(us, 0.99)),

@@ -20,7 +20,8 @@
 namespace fathom::operate {
 
 // The run never waits for the window: the haptic, contact, camera and writer threads are those of `replay
-// --realtime`, the window reads what the writer left for it.
+// --realtime`, the window reads what the writer left for it. A GPU that is lost, under the passes or under
+// the painter, is made anew by the camera thread (DeviceHandover) while hand and keys go on.
 class OperatorRun {
 public:
     // Throws BadInput (scene, display, device), Error, DeviceLost.
@@ -38,12 +39,15 @@ public:
 private:
     static HapticOptions softly(const Scene& scene, const Tool& tool);
     void makeEngine(const Pose& start, const Pose* tool);
+    void forgetPictures();
     void startThreads();
     void resumeThreads();
     void pauseThreads(); // the last thing that the hand gets is a zero wrench
     void endThreads();
     void followPilot();
     void frame();
+    void show();           // what has been drawn, where there is a device
+    void reopen();         // on another device
     void listen();         // what the frame's keys and clicks asked for
     void followRecorder(); // starts or stops as the console says
     void exportTraces();
@@ -84,6 +88,7 @@ private:
     TracesPanel traces_;
     Alarms alarms_;
     StateLog log_;
+    bool toldGone_ = false;
     double started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
     uint32_t recordings_ = 0;
 };

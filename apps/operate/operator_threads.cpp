@@ -37,7 +37,8 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
         o.arm = &session_.realArm->link();
     }
     engine_ = std::make_unique<RealtimeRun>(
-        feed_, session_.plan.query != Plan::Query::None ? &answers_ : nullptr, o);
+        feed_, session_.cycles.plan().query != Plan::Query::None ? &answers_ : nullptr, o);
+    feed_.begin();
     if (!engine_->firstFrame()) {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
     }
@@ -102,6 +103,17 @@ void OperatorRun::endThreads() {
     }
 }
 
+// The clock of a run begins anew. Another device remembers nothing anyway.
+void OperatorRun::forgetPictures() {
+    try {
+        if (!session_.handover.lost()) {
+            session_.cycles.frames().forget();
+        }
+    } catch (const DeviceFailed& e) {
+        session_.handover.lose(e.what());
+    }
+}
+
 // Springs, limits and scale are those of a whole run: forces go off, the tool stays where it is, and a new
 // run begins there.
 void OperatorRun::followPilot() {
@@ -117,7 +129,7 @@ void OperatorRun::followPilot() {
     if (ended_.load()) {
         return; // it failed: the window ends
     }
-    session_.frames.forget(); // its clock begins anew
+    forgetPictures();
     view_.refresh();
     const TurnRecord last = view_.turn().record;
     const Pose raw = steering_->wish(console_).deviceThandle;

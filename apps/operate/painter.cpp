@@ -7,6 +7,7 @@
 #include <backends/imgui_impl_vulkan.h>
 #include <chrono>
 #include <cstring>
+#include <imgui.h>
 #include <thread>
 
 namespace fathom::operate {
@@ -55,11 +56,15 @@ VkDescriptorPool makeDescriptors(VkDevice device) {
 
 } // namespace
 
-Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
+Painter::Painter(gpu::Device& device, Swapchain* swapchain)
     : device_(device)
-    , swapchain_(swapchain)
-    , descriptors_(makeDescriptors(device.handle()))
-    , pass_(makePass(device.handle())) {
+    , swapchain_(swapchain) {}
+
+// By way of the other constructor, after which the destructor takes back what was made before a failure.
+Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
+    : Painter(device, swapchain) {
+    descriptors_ = makeDescriptors(device.handle());
+    pass_ = makePass(device.handle());
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     pool.queueFamilyIndex = device.drawFamily();
@@ -86,8 +91,12 @@ Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* 
 }
 
 Painter::~Painter() {
-    finished(kLongWait);
-    ImGui_ImplVulkan_Shutdown();
+    if (flying_) { // a device that is lost answers at once
+        vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, kLongWait);
+    }
+    if (ImGui::GetIO().BackendRendererUserData != nullptr) {
+        ImGui_ImplVulkan_Shutdown();
+    }
     vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
     vkDestroySemaphore(device_.handle(), ready_, nullptr);
     vkDestroyFence(device_.handle(), done_, nullptr);
@@ -96,8 +105,16 @@ Painter::~Painter() {
     vkDestroyDescriptorPool(device_.handle(), descriptors_, nullptr);
 }
 
-bool Painter::finished(uint64_t patience) const {
-    return vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, patience) == VK_SUCCESS;
+bool Painter::finished(uint64_t patience) {
+    if (flying_) {
+        const VkResult result = vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, patience);
+        if (result == VK_TIMEOUT) {
+            return false;
+        }
+        check(result, "vkWaitForFences");
+        flying_ = false;
+    }
+    return true;
 }
 
 void Painter::once(const std::function<void(VkCommandBuffer)>& body) {
@@ -211,6 +228,7 @@ void Painter::submit(bool onSurface) {
     info.commandBufferCount = 1;
     info.pCommandBuffers = &commands_;
     device_.submitDrawing(info, done_);
+    flying_ = true;
 }
 
 } // namespace fathom::operate

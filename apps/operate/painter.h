@@ -28,10 +28,11 @@ struct Layer {
     PixelRect where; // nothing when empty
 };
 
-// Thread: the window's. Needs an ImGui context while it lives.
+// Thread: the window's. Needs an ImGui context while it lives. Everything throws DeviceFailed once the device
+// does not work any more; then it is to be destroyed, before the device.
 class Painter {
 public:
-    // swapchain null: offscreen.
+    // swapchain null: offscreen. Letters that are in ImGui's atlas are uploaded.
     Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain);
     ~Painter();
     Painter(const Painter&) = delete;
@@ -57,8 +58,9 @@ private:
         PictureImage image;
         gpu::Buffer staging;
     };
+    Painter(gpu::Device& device, Swapchain* swapchain); // without anything on the device
     void resize(VkExtent2D size);
-    bool finished(uint64_t patience) const;
+    bool finished(uint64_t patience); // [ns]
     bool yields(const std::function<bool()>& busy);
     void stage(std::span<const Layer> layers);
     void record(std::span<const Layer> layers, ImDrawData* data, VkImage shown);
@@ -79,6 +81,7 @@ private:
     PictureImage target_;
     std::array<Staged, kMostLayers> staged_;
     std::array<bool, kMostLayers> fresh_{};
+    bool flying_ = false; // a submission whose end has not been seen
     uint64_t drawn_ = 0, yielded_ = 0;
 };
 

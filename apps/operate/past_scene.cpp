@@ -34,7 +34,7 @@ bool PastScene::process(uint32_t index, PublishedFrame& out) {
     out.t = (*frame)->index * kPeriod;
     frame->retime(out.t);
     out.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
-    out.report = session_.frames.process(std::move(*frame));
+    out.report = session_.cycles.frames().process(std::move(*frame));
     out.changed = true;
     return true;
 }
@@ -49,7 +49,7 @@ void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
     if (follows) {
         first = shown_ + 1;
     } else {
-        session_.frames.forget();
+        session_.cycles.frames().forget();
         first = whole ? index - std::min(index, lead_) : index;
     }
     PublishedFrame picture;
@@ -64,13 +64,13 @@ void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
     whole_ = whole || follows || first == 0;
     if (good) {
         shown_ = picture.report.index;
-        const auto set = session_.frames.sets().newest();
+        const auto set = session_.cycles.frames().sets().newest();
         sink.frame(picture, set->host);
     }
 }
 
 void PastScene::setScene(const Scene& scene) {
-    session_.frames.setScene(scene);
+    session_.cycles.frames().setScene(scene);
     any_ = false;
 }
 

@@ -22,6 +22,7 @@ public:
     void show(uint32_t index, bool whole, SnapshotSink& sink);
     bool whole() const { return whole_; }
     uint32_t shown() const { return shown_; } // the picture's own index
+    void retake() { any_ = false; }           // the next show() makes the picture anew, on another device
     // Other fixtures, of the same classes of points; the next show() makes the picture anew.
     void setScene(const Scene& scene);
 

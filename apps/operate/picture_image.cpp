@@ -25,8 +25,9 @@ VkImageCreateInfo imageInfo(VkExtent2D size, VkImageUsageFlags usage) {
 } // namespace
 
 PictureImage::PictureImage(const gpu::Device& device, VkExtent2D size, VkImageUsageFlags usage)
-    : device_(&device)
-    , size_(size) {
+    : PictureImage() { // from here on the destructor takes back what was made before a failure
+    device_ = &device;
+    size_ = size;
     const VkImageCreateInfo info = imageInfo(size, usage);
     check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");
     VkMemoryRequirements needs;

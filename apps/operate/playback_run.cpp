@@ -11,12 +11,14 @@
 #include <chrono>
 #include <cstdio>
 #include <limits>
+#include <spdlog/spdlog.h>
 
 namespace fathom::operate {
 
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 60.0; // [s] of the window, at best
+constexpr double kFramePeriod = 1.0 / 60.0;              // [s] of the window, at best
+constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
 
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -90,7 +92,8 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , panel_(log_, durationOf(past_, log_))
     , state_(options.state) {
     console_.takeSettings(session_.scene, options.textScale);
-    canvas_ = std::make_unique<Canvas>(window_, session_, console_.textScale, options.shots);
+    canvas_ = std::make_unique<Canvas>(window_, session_.instance, console_.textScale, options.shots);
+    canvas_->open(session_.cycles.device());
     console_.timeLine.on = true;
     console_.timeLine.pictures = past_.pictures();
     console_.timeLine.duration = durationOf(past_, log_);
@@ -118,12 +121,53 @@ bool PlaybackRun::wantsToEnd() const {
 }
 
 void PlaybackRun::frame(double dt) {
+    if (canvas_->isOpen()) {
+        try {
+            draw(dt);
+        } catch (const DeviceFailed& e) {
+            loseDevice(e.what());
+        }
+    } else {
+        ImGui::EndFrame();
+        lookForDevice();
+    }
+    state_.write(console_, view_, extras());
+}
+
+void PlaybackRun::loseDevice(const std::string& why) {
+    spdlog::warn("GPU is gone ({}): it is looked for", why);
+    ImGui::EndFrame(); // nothing where it had ended
+    canvas_->drop();
+    retry_ = kFirstRetry;
+    retryAt_ = seconds() + retry_;
+}
+
+void PlaybackRun::lookForDevice() {
+    if (seconds() < retryAt_) {
+        return;
+    }
+    try {
+        session_.cycles.renew();
+        canvas_->open(session_.cycles.device());
+    } catch (const Error& e) { // a driver that is being started anew may say anything
+        spdlog::debug("GPU: {}", e.what());
+        retry_ = std::min(2.0 * retry_, kLongestRetry);
+        retryAt_ = seconds() + retry_;
+        return;
+    }
+    spdlog::warn("GPU is back");
+    console_.tell("The GPU was gone and is back");
+    past_.retake();
+    screen_.redraw();
+}
+
+void PlaybackRun::draw(double dt) {
     followTime(dt);
     const bool fresh = view_.refresh();
     const HudInput hud{view_,
                        session_.scene,
                        haptics_,
-                       session_.frames.passNames(),
+                       session_.passNames,
                        canvas_->letters(),
                        options_.recording,
                        screen_.unknownShare(),
@@ -140,7 +184,6 @@ void PlaybackRun::frame(double dt) {
     panel_.draw(console_, canvas_->letters(), {strip[0], strip[1]}, {strip[2], strip[3]});
     listen();
     canvas_->finishFrame(console_, screen_.layers(), [] { return false; });
-    state_.write(console_, view_, extras());
 }
 
 void PlaybackRun::listen() {

@@ -17,7 +17,7 @@ namespace fathom::operate {
 
 // Pictures go through the passes again, with the fixtures as they are in the panel; hand, tool and wrench
 // are those of the files. Where a folder has no wrench.csv the hand is shown as its map has it, without tool.
-// Everything on one thread.
+// Everything on one thread. A GPU that is lost is opened again, the moment that is looked at stays.
 class PlaybackRun {
 public:
     // options.recording names the folder. Throws BadInput, Error, DeviceLost.
@@ -29,6 +29,9 @@ public:
 private:
     bool wantsToEnd() const;
     void frame(double dt);
+    void draw(double dt);
+    void loseDevice(const std::string& why);
+    void lookForDevice(); // now and then, while there is none
     void listen();
     void followTime(double dt);
     void showMoment();
@@ -55,6 +58,7 @@ private:
     Alarms alarms_;
     Console console_;
     StateLog state_;
+    double retryAt_ = 0.0, retry_ = 0.0; // [s] when a device is looked for next; pause after that one
     double started_ = 0.0, shown_ = -1.0, windowHz_ = 0.0;
 };
 

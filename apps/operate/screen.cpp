@@ -6,6 +6,7 @@
 #include "apps/operate/why_panel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -78,7 +79,7 @@ void Screen::makePictures(const Console& console, const FixtureEditor& editor, c
                           const Rooms& rooms) {
     const SceneSnapshot& scene = input.run.scene();
     const bool newSelection = selectionDrawn_ != editor.selectionNumber();
-    const bool first = !cameraPort_;
+    const bool first = !cameraPort_ || std::exchange(redraw_, false);
     if (!centred_ && scene.any) {
         drawnOrbit_.centre = middleOf(scene.set, input.arm);
         centred_ = true;

@@ -28,6 +28,7 @@ public:
     void draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input);
 
     std::span<const Layer> layers() const { return layers_; }
+    void redraw() { redraw_ = true; } // the pictures of the next draw() are whole: those before are lost
     const ViewPort& large() const { return *large_; }
     double unknownShare() const { return camera_.unknownShare(); }
     // The pixel of the colour picture under a window point of the camera view; empty when it is not there.
@@ -53,7 +54,7 @@ private:
     std::array<Layer, 2> layers_;
     Orbit drawnOrbit_;
     int drawnLevel_ = -1;
-    bool centred_ = false, drawnLarge_ = false;
+    bool centred_ = false, drawnLarge_ = false, redraw_ = false;
     uint64_t selectionDrawn_ = 0;
 };
 

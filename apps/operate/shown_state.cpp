@@ -8,9 +8,12 @@ namespace fathom::operate {
 StateExtras extrasOf(const ShownState& s) {
     StateExtras extras;
     extras.mode = modeOf(s.console, s.view).word;
-    extras.windowFrames = s.canvas.painter().drawn();
-    extras.yielded = s.canvas.painter().yielded();
-    extras.swapchains = s.canvas.swapchains();
+    const Canvas::Counts counts = s.canvas.counts();
+    extras.windowFrames = counts.drawn;
+    extras.yielded = counts.yielded;
+    extras.swapchains = counts.swapchains;
+    extras.deviceThere = s.canvas.isOpen() && !s.session.handover.gone();
+    extras.renewals = s.session.cycles.renewals();
     const VkExtent2D size = s.window.size();
     extras.width = size.width;
     extras.height = size.height;

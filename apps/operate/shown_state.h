@@ -5,6 +5,7 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/canvas.h"
 #include "apps/operate/fixture_editor.h"
+#include "apps/operate/operate_session.h"
 #include "apps/operate/screen.h"
 #include "apps/operate/state_log.h"
 

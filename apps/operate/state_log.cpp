@@ -128,6 +128,7 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
                    {"width", extras.width},
                    {"height", extras.height},
                    {"validation", extras.validationMessages}}},
+                 {"gpu", {{"there", extras.deviceThere}, {"made_anew", extras.renewals}}},
                  {"unknown_share", extras.unknownShare},
                  {"alarms", extras.alarms},
                  {"fixtures", fixturesOf(extras.scene)},

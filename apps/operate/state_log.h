@@ -18,6 +18,8 @@ struct StateExtras {
     std::string mode;
     uint64_t windowFrames = 0, yielded = 0;
     uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
+    bool deviceThere = true;
+    uint32_t renewals = 0; // times that the device was made anew
     double unknownShare = 0.0;
     std::vector<std::string> alarms;          // of those that are shown: level, word
     const Scene* scene = nullptr;             // in force

@@ -155,6 +155,12 @@ void Window::beginFrame(double patience) {
     ImGui::NewFrame();
 }
 
+void Window::setTitle(const std::string& title) {
+    if (window_ != nullptr) {
+        glfwSetWindowTitle(window_, title.c_str());
+    }
+}
+
 bool Window::closed() const {
     return window_ != nullptr && glfwWindowShouldClose(window_) == GLFW_TRUE;
 }

@@ -33,6 +33,7 @@ public:
 
     // Takes the events that have come, waits for some up to `patience` [s] and begins an ImGui frame.
     void beginFrame(double patience);
+    void setTitle(const std::string& title);
     bool closed() const;
     bool minimised() const;
     VkExtent2D size() const; // [pixels]
