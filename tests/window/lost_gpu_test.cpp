@@ -25,10 +25,13 @@ struct LosingRig {
         : losing(trigger(), refused) {}
 
     std::string trigger() const { return (folder.path() / "lose").string(); }
-    // In the next call of this kind (tests/losing_layer), at once.
-    void lose(const std::string& call) const {
+    // In the next call of this kind (tests/losing_layer).
+    void ask(const std::string& call) const {
         folder.write("word", call);
         std::filesystem::rename(folder.path() / "word", trigger());
+    }
+    void lose(const std::string& call) const {
+        ask(call);
         REQUIRE(window.await([&](const json&) { return !std::filesystem::exists(trigger()); }));
         REQUIRE(window.await([](const json& s) { return s["gpu"]["there"] == false; }));
     }
@@ -64,7 +67,7 @@ bool hasAlarm(const json& s, const std::string& words) {
 // Armed, and the wheel drives the tool against the bump.
 void press(const WindowRig& rig) {
     rig.key("a");
-    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
     rig.xdo("mousemove --window $W 300 300");
     for (int i = 0; i < 8 && force(rig.state()) < 1.0; ++i) {
         rig.wheel(8);
@@ -74,8 +77,8 @@ void press(const WindowRig& rig) {
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 1000; })); // at rest
 }
 
-// What is known of the time without a GPU: turns go on, the force falls once the scene is old, and is none
-// at the end; the tool stays where the last regions hold it.
+// What is known of the time without a GPU: turns go on, the force is none half a second after the scene is
+// old; the tool stays where the last regions hold it.
 void checkGone(const std::vector<json>& states, const json& before) {
     std::vector<json> gone;
     std::copy_if(states.begin(), states.end(), std::back_inserter(gone),
@@ -87,7 +90,6 @@ void checkGone(const std::vector<json>& states, const json& before) {
         CAPTURE(i);
         const double age = gone[i]["run"]["scene_age_s"];
         CHECK((age < 0.65 || force(gone[i]) == 0.0));
-        CHECK((age < 0.25 || i == 0 || force(gone[i]) <= force(gone[i - 1]) + 0.02));
         CHECK(std::abs(gone[i]["run"]["tool"][2].get<double>() - before["run"]["tool"][2].get<double>()) <
               0.001);
         CHECK((age < 0.25 || gone[i]["run"]["frame"] == gone.back()["run"]["frame"]));
@@ -131,7 +133,7 @@ TEST_CASE(
         REQUIRE(rig.await([&](const json& s) {
             return s["run"]["pictures"] > before["run"]["pictures"].get<int>() + 10 &&
                    s["window"]["frames"] > before["window"]["frames"].get<int>() + 10 &&
-                   force(s) > 0.9 * force(before);
+                   force(s) > 1.0; // softer springs where turns come late
         }));
         const json after = rig.state();
         CHECK(after["window"]["swapchains"] > before["window"]["swapchains"]);
@@ -177,9 +179,10 @@ TEST_CASE(
     }
     press(rig);
     lost.lose("drawing");
+    lost.ask("drawing"); // the next one as well, while the window builds on it
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
-    REQUIRE(lost.awaitBack(2));
+    REQUIRE(lost.awaitBack(3));
     const json back = rig.state();
     REQUIRE(rig.await(
         [&](const json& s) { return s["run"]["pictures"] > back["run"]["pictures"].get<int>() + 10; }));
