@@ -177,6 +177,25 @@ TEST_CASE("Holes between points are looked for only where neighbours can be a ra
     CHECK_FALSE(planOf(sceneOf({points(Role::Guidance)}), bent).leaks);
 }
 
+TEST_CASE(
+    "Pictures are read in place where the device imports pages, sets are laid out by several threads where "
+    "processors are to spare") {
+    const Scene scene = sceneOf({points(Role::Forbidden)});
+    const auto plan = [&](DeviceKind kind, uint32_t processors, uint64_t alignment) {
+        DeviceFacts device = deviceOf(kind);
+        device.hostProcessors = processors, device.hostPointerAlignment = alignment;
+        return makePlan(scene, cameraOf(640, 480), 1, device);
+    };
+    CHECK(plan(DeviceKind::Cpu, 2, 4096).inPlace);
+    CHECK(plan(DeviceKind::Discrete, 2, 64).inPlace);
+    CHECK_FALSE(plan(DeviceKind::Discrete, 2, 0).inPlace);
+    CHECK_FALSE(plan(DeviceKind::Discrete, 2, 65536).inPlace); // a camera's blocks are whole pages only
+    CHECK(plan(DeviceKind::Discrete, 16, 0).publishers == 4);
+    CHECK(plan(DeviceKind::Discrete, 4, 0).publishers == 1);
+    CHECK(plan(DeviceKind::Cpu, 16, 0).publishers == 1); // the passes have them
+    CHECK_FALSE(planOf(sceneOf({}), cameraOf(640, 480)).inPlace);
+}
+
 TEST_CASE("Every item says why, what is left out takes no memory, what is in takes some") {
     Scene all = sceneOf({points(Role::Forbidden), points(Role::Guidance)});
     all.fixtures[0].hue = Band{0, 10};
@@ -184,7 +203,9 @@ TEST_CASE("Every item says why, what is left out takes no memory, what is in tak
     CameraInfo camera = cameraOf(428, 240);
     camera.depth.distortion[0] = 0.1;
     camera.registered = false;
-    const Plan everything = planOf(all, camera, DeviceKind::Discrete), nothing = planOf(sceneOf({}), camera);
+    DeviceFacts device = deviceOf(DeviceKind::Discrete);
+    device.hostProcessors = 16;
+    const Plan everything = makePlan(all, camera, 1, device), nothing = planOf(sceneOf({}), camera);
     CHECK(everything.items.size() == nothing.items.size());
     std::set<std::string> names;
     for (const Plan* plan : {&everything, &nothing}) {
