@@ -130,7 +130,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     RealtimeOptions o;
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
-    o.framePeriod = LockstepReplay::kFramePeriod;
+    o.framePeriod = options_.pictureRate > 0.0 ? 1.0 / options_.pictureRate : LockstepReplay::kFramePeriod;
     o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
     o.arm = session_.realArm ? &session_.realArm->link() : nullptr;

@@ -135,6 +135,10 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     const CpuConfinement confined(
         placement.rest); // before the device: a software device's workers inherit it
     ReplaySession session(options, global, 2);
+    if (options.pictureRate > 0.0 && session.camera->live()) {
+        throw BadInput("replay", "--picture-rate", std::to_string(options.pictureRate),
+                       "with a recording or a simulated camera: a live one has a rate of its own");
+    }
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder(options.out, session.scene, session.cycles.frames().passNames(),
                             options.saveFixtures, session.arm.get(),
@@ -170,6 +174,10 @@ int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
     if (!options.arm.empty() && !options.realtime) {
         throw BadInput("replay", "--arm", options.arm, "together with --realtime");
     }
+    if (options.pictureRate > 0.0 && !options.realtime) {
+        throw BadInput("replay", "--picture-rate", std::to_string(options.pictureRate),
+                       "together with --realtime");
+    }
     const ReplaySummary summary =
         options.realtime ? runRealtime(options, global) : runLockstep(options, global);
     if (summary.haptic.maxPenetration.value_or(0.0) > kPenetrationLimit) {
@@ -201,6 +209,10 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--query", options->query, "where contacts are found")
         ->check(CLI::IsMember({"cpu", "gpu"}));
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
+    command
+        ->add_option("--picture-rate", options->pictureRate,
+                     "with --realtime: pictures a second of a recording or simulated camera, 30 unless told")
+        ->check(CLI::Range(1.0, 240.0));
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();
     command->callback([options, &global, &result] { result = runReplay(*options, global); });
