@@ -2,6 +2,7 @@
 // Pixel counts on the real recordings against a plain float64 count, and beside figures measured outside the
 // project.
 #include "tests/support/cloud_rig.h"
+#include "tests/support/sanitized.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -81,6 +82,9 @@ Count countOf(const CloudRig& rig) {
 TEST_CASE("Valid, forbidden and class pixels of every recorded frame equal a plain float64 count and lie "
           "near the measured figures") {
     for (const Recording& recording : kRecordings) {
+        if (kSanitized && &recording != &kRecordings.front()) {
+            break;
+        }
         const RecordedShots shots = recordedShots(recording.folder, recording.frames);
         if (shots.pictures.empty()) {
             continue;
