@@ -47,6 +47,7 @@ void Crew::runWork(uint32_t parts, const Work& work) noexcept {
     done_.store(0, std::memory_order_relaxed);
     const uint64_t job = (claims_.load(std::memory_order_relaxed) >> 32) + 1;
     claims_.store(firstClaim(job, parts), std::memory_order_release);
+    call(); // who has tired of looking out comes late, but comes
     while (takePart()) {
     }
     while (done_.load(std::memory_order_acquire) < parts) {
