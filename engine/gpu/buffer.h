@@ -39,7 +39,6 @@ public:
 
     // Whether the memory is the host's, imported; nothing is mapped then.
     bool imported() const { return pages_ != nullptr; }
-    const void* hostAddress() const { return pages_.get(); } // of imported memory
 
     // The mapped memory as T; only for Upload and Readback.
     template <class T>
