@@ -71,7 +71,7 @@ private:
             cell + 1 == count ? 0.0 : v - (lo + static_cast<double>(cell + 1) * size_ + slack);
         return std::max({0.0, below, above});
     }
-    using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite
+    using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite but in measure()
     // Of a run of spheres.
     struct Extent {
         std::array<float, 4> lo, hi; // x, y, z, radius
