@@ -128,7 +128,7 @@ void takePackedInParts(FixtureSet& set, const std::vector<uint32_t>& rows, const
         }
         return at;
     };
-    const uint32_t parts = std::clamp(count / kLeastPart, 1u, 4 * crew.members());
+    const uint32_t parts = partsOf(&crew, count, kLeastPart);
     std::vector<FrameCounts> some(parts, counts);
     crew.run(parts, [&](uint32_t part) {
         const auto at = [&](uint64_t p) { return patchStart(static_cast<uint32_t>(count * p / parts)); };

@@ -2,6 +2,7 @@
 // Threads that share the parts of a short job with their caller.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <thread>
@@ -50,12 +51,17 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-// job(begin, end) for n things in parts of at least `least`; up to four a member of the crew, so that one who
-// comes late takes less. One part where there is no crew.
+// In how many parts of at least `least` n things are shared: up to four a member of the crew, so that one who
+// comes late takes less; one part, also of nothing, where there is no crew.
+inline uint32_t partsOf(const Crew* crew, size_t n, size_t least) noexcept {
+    const size_t most = crew == nullptr || crew->members() == 1 ? 1 : size_t{crew->members()} * 4;
+    return static_cast<uint32_t>(std::clamp<size_t>(n / least, 1, most));
+}
+
+// job(begin, end) for those parts.
 template <class Job>
 void inParts(Crew* crew, size_t n, size_t least, const Job& job) noexcept {
-    const size_t most = crew == nullptr || crew->members() == 1 ? 1 : size_t{crew->members()} * 4;
-    const size_t parts = n / least < most ? n / least : most;
+    const size_t parts = partsOf(crew, n, least);
     if (parts < 2) {
         job(size_t{0}, n);
         return;
