@@ -17,26 +17,9 @@ namespace {
 // A replay on the stage that goes on meanwhile; what it says goes to the file "said".
 class Engine {
 public:
-    explicit Engine(const Stage& stage) {
-        std::vector<std::string> words{FATHOM_PROGRAM};
-        const auto command = stage.command({"--realtime", "--arm", (stage / "line").string()});
-        words.insert(words.end(), command.begin(), command.end());
-        const std::string said = (stage / "said").string();
-        id_ = ::fork();
-        REQUIRE(id_ >= 0);
-        if (id_ == 0) {
-            std::vector<char*> argv;
-            for (std::string& word : words) {
-                argv.push_back(word.data());
-            }
-            argv.push_back(nullptr);
-            const int out = ::open(said.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0644);
-            ::dup2(out, 1);
-            ::dup2(out, 2);
-            ::execv(FATHOM_PROGRAM, argv.data());
-            ::_exit(99);
-        }
-    }
+    explicit Engine(const Stage& stage)
+        : id_(startFathom(stage.command({"--realtime", "--arm", (stage / "line").string()}),
+                          stage / "said")) {}
     Engine(const Engine&) = delete;
     Engine& operator=(const Engine&) = delete;
     ~Engine() {

@@ -199,21 +199,8 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
     stage.scene(scene);
     stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
     PlayedDevice device(stage / "hand.door");
-    std::vector<std::string> words{FATHOM_PROGRAM};
-    const auto command =
-        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"});
-    words.insert(words.end(), command.begin(), command.end());
-    const pid_t engine = ::fork();
-    REQUIRE(engine >= 0);
-    if (engine == 0) {
-        std::vector<char*> argv;
-        for (std::string& word : words) {
-            argv.push_back(word.data());
-        }
-        argv.push_back(nullptr);
-        ::execv(FATHOM_PROGRAM, argv.data());
-        ::_exit(99);
-    }
+    const pid_t engine = startFathom(
+        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"}));
     for (int i = 0; i < 60000 && device.silent; ++i) { // until the first wrench: turns run
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures that come faster or slower than 30 a second.
-#include "tests/rig/stage.h"
+#include "tests/rig/refusal.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -48,13 +48,7 @@ TEST_CASE("Pictures come as many a second as are asked for, each no earlier than
 TEST_CASE("A rate of pictures without a clock, or none that a camera has, is refused in one line") {
     Stage stage;
     prepare(stage);
-    const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
-        const ProgramRun run = runFathom(stage.command(more));
-        CHECK(run.exitCode == 2);
-        REQUIRE(run.errorLines().size() == 1);
-        CHECK_MESSAGE(run.errorLines()[0].find(part) != std::string::npos, run.errorLines()[0]);
-    };
-    refused({"--picture-rate", "90"}, "together with --realtime");
-    refused({"--realtime", "--picture-rate", "0"}, "--picture-rate");
-    refused({"--realtime", "--picture-rate", "1000"}, "--picture-rate");
+    checkRefused(stage, {"together with --realtime"}, {"--picture-rate", "90"});
+    checkRefused(stage, {"--picture-rate", "0"}, {"--realtime", "--picture-rate", "0"});
+    checkRefused(stage, {"--picture-rate", "1000"}, {"--realtime", "--picture-rate", "1000"});
 }

@@ -112,6 +112,22 @@ std::vector<std::string> ProgramRun::errorLines() const {
     return lines;
 }
 
+pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said) {
+    const Descriptor file{
+        said.empty() ? -1 : ::open(said.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0644)};
+    if (!said.empty() && file.value < 0) {
+        throw std::runtime_error("the test cannot write " + said.string());
+    }
+    const pid_t child = ::fork();
+    if (child < 0) {
+        throw std::runtime_error("the test cannot start a child");
+    }
+    if (child == 0) {
+        becomeFathom(arguments, {}, said.empty() ? 1 : file.value, said.empty() ? 2 : file.value);
+    }
+    return child;
+}
+
 ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting) {
     Channel out(false), err(setting.terminal);
     const pid_t child = ::fork();

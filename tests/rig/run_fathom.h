@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 namespace fathom {
@@ -23,5 +24,9 @@ struct RunSetting {
 
 // Throws std::runtime_error when no child can be made. Its standard input is empty.
 ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting = {});
+
+// The same as a child that goes on meanwhile and is the caller's to wait for; what it says is added to the
+// file `said`, or goes where ours does. Throws std::runtime_error when no child can be made.
+pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said = {});
 
 } // namespace fathom
