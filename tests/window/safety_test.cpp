@@ -138,7 +138,7 @@ TEST_CASE("Pointing at the contact tells class, region sphere, depth and frame; 
         rig.wheel(8);
     }
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.2; }));
-    std::this_thread::sleep_for(std::chrono::milliseconds(500)); // the tool comes to rest
+    REQUIRE(!rig.atRest().is_null());
     const auto at = rig.place("contact");
     const auto beside = [&](double x, double y) {
         return std::array<double, 4>{at[0] + x, at[1] + y, 260.0, 40.0};

@@ -3,6 +3,7 @@
 
 #include "devices/recorded/png_image.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -172,6 +173,27 @@ bool WindowRig::await(const std::function<bool(const nlohmann::json&)>& wanted, 
     } while (Clock::now() < until && ::kill(program_, 0) == 0);
     MESSAGE("the state never came; the last one: " << now.dump());
     return false;
+}
+
+nlohmann::json WindowRig::atRest() const {
+    constexpr double kStill = 5e-5; // [m]
+    constexpr int kTurns = 200;
+    nlohmann::json since;
+    const auto moved = [&](const nlohmann::json& now, const char* what) {
+        double most = 0.0;
+        for (size_t i = 0; i < 3; ++i) {
+            most = std::max(
+                most, std::abs(now["run"][what][i].get<double>() - since["run"][what][i].get<double>()));
+        }
+        return most > kStill;
+    };
+    const bool rests = await([&](const nlohmann::json& now) {
+        if (since.is_null() || moved(now, "device") || moved(now, "tool")) {
+            since = now;
+        }
+        return now["run"]["turns"].get<int>() > since["run"]["turns"].get<int>() + kTurns;
+    });
+    return rests ? state() : nlohmann::json();
 }
 
 std::array<double, 4> WindowRig::place(const std::string& name) const {

@@ -43,6 +43,9 @@ public:
     nlohmann::json state() const;
     // Waits until the state satisfies `wanted`; false (and the last state in the log) when it never does.
     bool await(const std::function<bool(const nlohmann::json&)>& wanted, double seconds = 20.0) const;
+    // Waits until hand and tool have stood still for 200 turns; that state, null when they never do. A key
+    // that was let go drives the hand until a busy program has seen it.
+    nlohmann::json atRest() const;
     std::array<double, 4> place(const std::string& name) const; // x, y, width, height
 
     void key(const std::string& name) const; // pressed and released

@@ -73,8 +73,7 @@ void press(const WindowRig& rig) {
         rig.wheel(8);
     }
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && force(s) > 1.0; }));
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 1000; })); // at rest
+    REQUIRE(!rig.atRest().is_null());
 }
 
 // What is known of the time without a GPU: turns go on, the force is none half a second after the scene is
