@@ -42,20 +42,13 @@ const fs::path& freshFolder(const fs::path& folder) {
     return folder;
 }
 
-void check(const std::ofstream& file, const fs::path& name) {
-    if (!file) {
-        throw Error(name.string() + ": cannot be written");
-    }
-}
-
 } // namespace
 
 RecordingWriter::RecordingWriter(const fs::path& folder, const CameraInfo& camera, unsigned threads)
     : folder_(freshFolder(folder))
-    , camera_(camera)
-    , index_(folder / (camera.hasColour ? "associations.txt" : "depth.txt")) {
+    , camera_(camera) {
     writeIntrinsics(folder / "intrinsics.json", camera);
-    check(index_, folder / "index");
+    index_.open(folder / (camera.hasColour ? "associations.txt" : "depth.txt"));
     for (unsigned i = 0; i < std::max(1u, threads); ++i) {
         threads_.emplace_back([this] { encode(); });
     }
@@ -66,11 +59,13 @@ RecordingWriter::~RecordingWriter() {
 }
 
 void RecordingWriter::add(const Frame& frame) {
-    Job job;
-    job.stamp = frame->captureTime;
-    job.depth.assign(frame->depth.begin(), frame->depth.end());
-    job.colour.assign(frame->colour.begin(), frame->colour.end());
-    job.pose = frame->baseTcamera;
+    add({frame->captureTime,
+         {frame->depth.begin(), frame->depth.end()},
+         {frame->colour.begin(), frame->colour.end()},
+         frame->baseTcamera});
+}
+
+void RecordingWriter::add(Picture picture) {
     std::unique_lock lock(mutex_);
     const auto begin = std::chrono::steady_clock::now();
     room_.wait(lock, [this] { return waiting_.size() < kWaiting || failure_; });
@@ -79,9 +74,18 @@ void RecordingWriter::add(const Frame& frame) {
     if (failure_) {
         std::rethrow_exception(failure_);
     }
-    job.number = added_++;
-    waiting_.push_back(std::move(job));
+    waiting_.push_back({added_++, std::move(picture)});
     work_.notify_one();
+}
+
+bool RecordingWriter::full() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.size() >= kWaiting && !failure_;
+}
+
+bool RecordingWriter::written() const {
+    const std::lock_guard lock(mutex_);
+    return waiting_.empty() && underWay_ == 0;
 }
 
 void RecordingWriter::encode() {
@@ -95,6 +99,7 @@ void RecordingWriter::encode() {
             }
             job = std::move(waiting_.front());
             waiting_.pop_front();
+            ++underWay_;
             room_.notify_one();
         }
         try {
@@ -105,28 +110,30 @@ void RecordingWriter::encode() {
             failure_ = failure_ ? failure_ : std::current_exception();
             room_.notify_all();
         }
+        const std::lock_guard lock(mutex_);
+        --underWay_;
     }
 }
 
 void RecordingWriter::write(const Job& job) const {
     const auto size = [](const Intrinsics& lens) { return PngSize{lens.width, lens.height}; };
-    writeDepthPng(folder_ / numbered("depth", job.number), size(camera_.depth), job.depth);
+    writeDepthPng(folder_ / numbered("depth", job.number), size(camera_.depth), job.picture.depth);
     if (camera_.hasColour) {
-        writeColourPng(folder_ / numbered("rgb", job.number), size(camera_.colour), job.colour);
+        writeColourPng(folder_ / numbered("rgb", job.number), size(camera_.colour), job.picture.colour);
     }
 }
 
 // Lines go out in order, each once all before it are there.
 void RecordingWriter::done(const Job& job) {
-    const std::string depth = text(job.stamp) + " " + numbered("depth", job.number);
+    const std::string depth = text(job.picture.stamp) + " " + numbered("depth", job.number);
     const std::string line =
-        camera_.hasColour ? text(job.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
+        camera_.hasColour ? text(job.picture.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
     const std::lock_guard lock(mutex_);
     indexLines_[job.number] = line;
-    if (job.pose) {
-        const dvec3& t = job.pose->position;
-        const dquat& q = job.pose->rotation;
-        std::string pose = text(job.stamp);
+    if (job.picture.pose) {
+        const dvec3& t = job.picture.pose->position;
+        const dquat& q = job.picture.pose->rotation;
+        std::string pose = text(job.picture.stamp);
         for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) {
             char digits[40];
             std::snprintf(digits, sizeof digits, " %.17g", value);
@@ -135,27 +142,31 @@ void RecordingWriter::done(const Job& job) {
         poseLines_[job.number] = pose;
     }
     while (!indexLines_.empty() && indexLines_.begin()->first == indexed_) {
-        index_ << indexLines_.begin()->second << "\n";
+        index_.lines() << indexLines_.begin()->second << "\n";
         indexLines_.erase(indexLines_.begin());
         if (const auto pose = poseLines_.find(indexed_); pose != poseLines_.end()) {
-            if (!poses_.is_open()) {
+            if (!poses_.isOpen()) {
                 poses_.open(folder_ / "poses.txt");
             }
-            poses_ << pose->second << "\n" << std::flush;
+            poses_.lines() << pose->second << "\n";
             poseLines_.erase(pose);
         }
         ++indexed_;
     }
+    poses_.flush(); // before the index tells of its pictures
     index_.flush();
-    check(index_, folder_ / "index");
 }
 
-void RecordingWriter::end() noexcept {
+void RecordingWriter::close() noexcept {
     {
         const std::lock_guard lock(mutex_);
         ending_ = true;
     }
     work_.notify_all();
+}
+
+void RecordingWriter::end() noexcept {
+    close();
     for (std::thread& thread : threads_) {
         thread.join();
     }

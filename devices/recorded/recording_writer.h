@@ -2,6 +2,7 @@
 // Writes a recording folder that RecordedCamera reads: pictures, index, intrinsics, poses.
 #pragma once
 
+#include "devices/recorded/line_file.h"
 #include "engine/types/camera_info.h"
 #include "engine/types/frame.h"
 
@@ -9,7 +10,6 @@
 #include <deque>
 #include <exception>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <mutex>
 #include <thread>
@@ -31,8 +31,21 @@ public:
     // As finish(), but says nothing of failures.
     ~RecordingWriter();
 
+    struct Picture {
+        double stamp = 0.0; // [s]
+        std::vector<uint16_t> depth;
+        std::vector<uint32_t> colour;
+        std::optional<Pose> pose; // base_T_camera
+    };
     // Returns at once, or when there is room again while kWaiting frames wait. Throws what an encoder threw.
     void add(const Frame& frame);
+    void add(Picture picture);
+    // Whether add() would wait now.
+    bool full() const;
+    // No more will come: returns at once, while what waits is written.
+    void close() noexcept;
+    // Whether nothing waits or is being written. Any thread.
+    bool written() const;
     // Waits for all pictures. Throws what an encoder threw.
     void finish();
 
@@ -42,10 +55,7 @@ public:
 private:
     struct Job {
         uint32_t number = 0;
-        double stamp = 0.0;
-        std::vector<uint16_t> depth;
-        std::vector<uint32_t> colour;
-        std::optional<Pose> pose;
+        Picture picture;
     };
     void encode();
     void write(const Job& job) const;
@@ -54,12 +64,12 @@ private:
 
     std::filesystem::path folder_;
     CameraInfo camera_;
-    std::ofstream index_, poses_;
-    std::mutex mutex_;
+    LineFile index_, poses_;
+    mutable std::mutex mutex_;
     std::condition_variable work_, room_;
     std::deque<Job> waiting_;
     std::map<uint32_t, std::string> indexLines_, poseLines_; // done, but an earlier one is not
-    uint32_t added_ = 0, indexed_ = 0;
+    uint32_t added_ = 0, indexed_ = 0, underWay_ = 0;
     double longestWait_ = 0.0;
     bool ending_ = false;
     std::exception_ptr failure_;
