@@ -19,6 +19,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <iostream>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -56,6 +57,7 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN); // a file that may grow no more is told of like a disk that is full
     CLI::App app("Haptic virtual fixtures from a live depth camera");
     app.require_subcommand(1);
     fathom::GlobalOptions global;

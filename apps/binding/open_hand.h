@@ -11,6 +11,10 @@
 
 namespace fathom {
 
+// What --hand-device takes.
+inline constexpr const char* kHandHelp =
+    "a live hand: falcon, spacemouse[:/dev/hidrawN], or the socket of a bridge's door";
+
 // name: "falcon" (the default door of `fathom guard falcon`), "spacemouse", "spacemouse:/dev/hidrawN", or the
 // path of a hand door. The device's own preset takes the place of the scene's haptics.device. Throws
 // BadInput.

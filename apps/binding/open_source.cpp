@@ -16,6 +16,7 @@
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 
+#include <cmath>
 #include <spdlog/spdlog.h>
 
 namespace fathom {
@@ -111,6 +112,10 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
     }
     const FlatPort port{scene.port->distance, scene.port->index};
     return std::make_unique<WaterCamera>(std::move(camera), port, scene.nearZ, scene.farZ);
+}
+
+void takeUncertainty(Scene& scene, const Camera& camera) {
+    scene.registrationSigma = std::hypot(scene.registrationSigma, camera.info().sigma);
 }
 
 namespace {

@@ -28,6 +28,10 @@ enum class Pictures { Newest, Every };
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Pictures pictures = Pictures::Newest);
 
+// What the camera's own corrections leave uncertain (of a flat port) makes the scene's regions grow as a
+// registration does. Once a scene and camera.
+void takeUncertainty(Scene& scene, const Camera& camera);
+
 // The scene's arm, or null where it has none. Throws BadInput.
 std::unique_ptr<ArmRig> openArm(const Scene& scene);
 

@@ -19,6 +19,8 @@ public:
 
     double now() const noexcept { return at(std::chrono::steady_clock::now()); }
     double at(Time time) const noexcept { return std::chrono::duration<double>(time - zero_).count(); }
+    // A stamp of CLOCK_MONOTONIC [s], as live cameras and hands give.
+    static Time sinceBoot(double stamp) noexcept { return Time(nanoseconds(stamp)); }
     Time timeAt(double t) const noexcept { return zero_ + nanoseconds(t); }
 
     // Sleeps until t, or not at all when it has passed; signals do not cut it short.

@@ -2,6 +2,7 @@
 #include "apps/replay/realtime_replay.h"
 
 #include "apps/binding/open_hand.h"
+#include "apps/binding/raw_path.h"
 #include "apps/binding/spooled_camera.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/turn_to_tick.h"
@@ -54,11 +55,7 @@ public:
     }
 
     std::optional<RunClock::Time> captured() const override {
-        if (!session_.camera->live()) {
-            return std::nullopt;
-        }
-        const std::chrono::duration<double> sinceBoot(taken_);
-        return RunClock::Time(std::chrono::duration_cast<std::chrono::nanoseconds>(sinceBoot));
+        return session_.camera->live() ? std::optional(RunClock::sinceBoot(taken_)) : std::nullopt;
     }
 
     void publish(double t, PublishedFrame& out) override {

@@ -197,10 +197,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
     command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
-    command
-        ->add_option("--hand-device", options->handDevice,
-                     "a live hand: falcon, spacemouse[:/dev/hidrawN], or the socket of a bridge's door")
-        ->excludes("--operator", "--hand");
+    command->add_option("--hand-device", options->handDevice, kHandHelp)->excludes("--operator", "--hand");
     command->add_option("--view-door", options->viewDoor,
                         "a socket where observers get every turn and fixture set (devices/bridge)");
     command->add_option("--arm", options->arm, kArmHelp);

@@ -4,12 +4,10 @@
 #include "apps/binding/approach_path.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
+#include "apps/binding/raw_path.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/simulated/simulated_hand.h"
-#include "engine/haptics/hand_map.h"
 #include "engine/types/error.h"
-
-#include <cmath>
 
 namespace fathom {
 
@@ -25,25 +23,14 @@ Scene sceneOf(const ReplayOptions& options) {
     return scene;
 }
 
-// Base-frame poses as the hand would make them: the inverse of hand.map before any clutch.
-std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scene::Hand& hand) {
-    const dquat deviceRbase = glm::conjugate(hand.baseRdevice);
-    for (HandWaypoint& w : waypoints) {
-        w.deviceThandle.position = deviceRbase * w.deviceThandle.position / hand.scale;
-        w.deviceThandle.rotation = deviceRbase * w.deviceThandle.rotation;
-    }
-    return waypoints;
-}
-
-// Lockstep has a clock of its own: a picture that comes when it comes has no place on it. What the camera's
-// own corrections leave uncertain makes the scene's regions grow as a registration does.
+// Lockstep has a clock of its own: a picture that comes when it comes has no place on it.
 std::unique_ptr<Camera> openReplayCamera(Scene& scene, const ReplayOptions& options) {
     auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     if (camera->live() && !options.realtime) {
         throw BadInput("replay", "--source", camera->description(), "--realtime with a live camera");
     }
-    scene.registrationSigma = std::hypot(scene.registrationSigma, camera->info().sigma);
+    takeUncertainty(scene, *camera);
     return camera;
 }
 
@@ -91,10 +78,6 @@ std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession
     loop.loop = session.scene.hand.loop;
     loop.delayTicks = session.scene.haptics.delay;
     return std::make_unique<SimulatedHand>(path, loop);
-}
-
-Pose startOf(const HandPath& path, const Scene& scene) {
-    return HandMap(scene.hand.baseRdevice, scene.hand.scale).map(path.at(0.0).deviceThandle, false);
 }
 
 } // namespace fathom

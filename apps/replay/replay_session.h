@@ -41,7 +41,4 @@ HandPath openHandPath(const ReplaySession& session, const ReplayOptions& options
 std::unique_ptr<HapticDevice> openHand(const HandPath& path, const ReplaySession& session,
                                        const ReplayOptions& options);
 
-// base_T_tool where the path begins: where the tool of a live hand begins, too.
-Pose startOf(const HandPath& path, const Scene& scene);
-
 } // namespace fathom
