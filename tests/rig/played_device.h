@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// A haptic device at a hand door whose handle a test moves.
+#pragma once
+
+#include "devices/bridge/door_server.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+namespace fathom {
+
+// A device that a test plays: its handle is where `z` says, and what it feels is in `fz`.
+struct PlayedDevice {
+    explicit PlayedDevice(const std::filesystem::path& door)
+        : server({door, "falcon", "played device", 8.0, 0.0})
+        , thread([this] {
+            while (!stop) {
+                server.poll();
+                HandSample sample;
+                sample.deviceThandle.position.z = z;
+                server.send(sample, FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED);
+                const double felt = server.wrench().force.z;
+                lettings += fz < -1e-3 && felt == 0.0 ? 1 : 0;
+                fz = felt;
+                strongest = std::min<double>(strongest, fz);
+                silent = server.gate().silent(doorClock());
+                std::this_thread::sleep_for(std::chrono::microseconds(500));
+            }
+        }) {}
+    ~PlayedDevice() {
+        stop = true;
+        thread.join();
+    }
+    // Over half a second.
+    void push(double to) {
+        const double from = z;
+        for (int i = 1; i <= 50; ++i) {
+            z = from + (to - from) * i / 50.0;
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+    }
+    // On a machine that is busy the engine may lose the device for a moment; the tool is then where it was
+    // and the handle counts from there. So on and on, until it is felt.
+    bool pushUntil(double least, double most) {
+        for (int tries = 0; tries < 10; ++tries) {
+            push(z + 0.035);
+            if (feels(least, most, 2000)) {
+                return true;
+            }
+            if (fz < -1e-3) { // not lost: slow, or wrong
+                return feels(least, most);
+            }
+        }
+        return false;
+    }
+    bool feels(double least, double most, int milliseconds = 20000) const {
+        for (int i = 0; i < milliseconds; ++i) {
+            if (const double f = fz; f >= least && f <= most) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+        return false;
+    }
+    // The machine took its processors away again and again, so that no soft start ever came to its end.
+    bool hopeless() const { return lettings > 20; }
+
+    std::atomic<double> z{0.0}, fz{0.0}, strongest{0.0};
+    std::atomic<int> lettings{0}; // times that a force was let go, as when the engine loses the device
+    std::atomic<bool> stop{false}, silent{true};
+    DoorServer server;
+    std::thread thread;
+};
+
+} // namespace fathom
