@@ -187,6 +187,7 @@ LatencyPart LatencyRun::window() {
     part.load = "window";
     OperateOptions o = operateOptions(options_);
     o.seconds = options_.seconds;
+    o.armed = true; // as the other parts are
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     operate::OperatorRun run(o, global_);
     run.run();

@@ -77,7 +77,12 @@ void Alarms::stepScene(const TurnRecord& turn, const HapticOptions& haptics, boo
 }
 
 void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
-                  bool deviceGone) {
+                  const Health& health) {
+    const double now = run.anyTurn() ? run.turn().record.t : 0.0;
+    set(health.handGone, Level::Warning, "hand",
+        "Haptic device is gone: forces are off, the tool stays; it is looked for", now);
+    set(!health.recorderFailed.empty(), Level::Caution, "recorder",
+        "Recording has ended: " + health.recorderFailed, now);
     if (run.anyTurn()) {
         const TurnRecord& r = run.turn().record;
         const Rates rates = run.rates();
@@ -85,7 +90,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
         set(!r.finite, Level::Warning, "finite", "A number was not finite: zero wrench", r.t);
         set(r.state == TurnState::Trapped, Level::Warning, "trapped",
             "Tool trapped: no motion obeys every region", r.t);
-        stepScene(r, haptics, deviceGone);
+        stepScene(r, haptics, health.gpuGone);
         set(force > 0.98 * haptics.forceLimit, Level::Caution, "force",
             print("Force at its limit of %.1f N", haptics.forceLimit), r.t);
         set(torque > 0.98 * haptics.torqueLimit, Level::Caution, "torque",

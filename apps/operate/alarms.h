@@ -25,11 +25,18 @@ const char* levelName(Level level);
 const char* levelSign(Level level);
 ImU32 levelColour(Level level);
 
+// What no turn tells.
+struct Health {
+    bool gpuGone = false;       // and no other one is there yet
+    bool handGone = false;      // the haptic device is away or silent
+    std::string recorderFailed; // why nothing is recorded any more; empty = it is well
+};
+
 class Alarms {
 public:
-    // Looks at the run; once a window frame. deviceGone: the GPU is lost, and no other one is there yet.
+    // Looks at the run; once a window frame.
     void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
-              bool deviceGone = false);
+              const Health& health = {});
     // Raises one that no rule sees.
     void raise(Level level, const std::string& key, const std::string& words, double t);
 

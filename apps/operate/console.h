@@ -5,6 +5,7 @@
 #include "engine/scene/scene.h"
 
 #include <array>
+#include <imgui.h>
 #include <map>
 #include <optional>
 #include <string>
@@ -45,6 +46,7 @@ struct TimeLine {
 
 struct Console {
     bool forces = false, guidance = false, clutch = false, frozen = false;
+    bool grasp = false;        // the jaws of an arm close
     bool spaceIsLarge = false; // the 3D view is the large one
     bool paused = false;       // traces
     bool recording = false;
@@ -59,6 +61,9 @@ struct Console {
     TimeLine timeLine;
     Pick pick;
     ShapeKind placing = ShapeKind::None; // the next click on the cloud puts one there
+    bool panels = false;                 // arrows and Enter are the panels', not the tool's
+    std::optional<ImVec2> cursor;        // [pixels] the keyboard's, while it aims
+    bool aims() const { return (pick.active && !pick.taken) || placing != ShapeKind::None; }
 
     std::string pilotWanted; // of the scene's; empty = as it is
 

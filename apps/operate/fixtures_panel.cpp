@@ -51,7 +51,8 @@ void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
 
 void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
     if (!console.pick.taken) {
-        ImGui::TextColored(ImColor(colour::kPicked), "Click on a colour in the camera view.  Esc: leave");
+        ImGui::TextColored(ImColor(colour::kPicked),
+                           "Click on a colour in the camera view, or arrows and Enter.  Esc: leave");
         return;
     }
     FixtureClass& gates = console.pick.gates;
@@ -146,7 +147,8 @@ void placeButtons(Console& console) {
         markPlace(console, std::string("place ") + name);
     }
     if (console.placing != ShapeKind::None) {
-        ImGui::TextColored(ImColor(colour::kPicked), "Click on a surface in the camera view.  Esc: leave");
+        ImGui::TextColored(ImColor(colour::kPicked),
+                           "Click on a surface in the camera view, or arrows and Enter.  Esc: leave");
     }
 }
 
@@ -160,7 +162,8 @@ void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnaps
         console.placing = ShapeKind::None;
         editor.preview(console, snapshot);
     }
-    const bool adds = console.pick.taken && !io.WantTextInput && ImGui::IsKeyPressed(GLFW_KEY_ENTER, false);
+    const bool adds = console.pick.taken && !console.panels && !io.WantTextInput &&
+                      ImGui::IsKeyPressed(GLFW_KEY_ENTER, false);
     if (adds || console.addPicked) {
         const std::string name = console.pick.gates.name;
         console.tell(editor.addPicked(console) ? "'" + name + "' is in force"

@@ -167,6 +167,9 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
         armFigure(input);
         markPlace(console, "head arm");
     }
+    if (input.handGone) {
+        figure(input, "GONE", "haptic device", colour::kWarning);
+    }
     figure(input, print("%.0f %%", 100.0 * input.unknownShare), "not seen");
     figure(input, print("%.0f Hz", input.windowHz), "window");
     recorderFigure(console, input);

@@ -22,7 +22,12 @@ void LiveFeed::shown(const ToolPlace& place) {
 
 std::optional<uint32_t> LiveFeed::fetch() {
     next_ = session_.camera->next();
+    taken_ = next_ ? (*next_)->captureTime : taken_;
     return next_ ? std::optional((*next_)->index) : std::nullopt;
+}
+
+std::optional<RunClock::Time> LiveFeed::captured() const {
+    return session_.camera->live() ? std::optional(RunClock::sinceBoot(taken_)) : std::nullopt;
 }
 
 void LiveFeed::setScene(const Scene& scene) {

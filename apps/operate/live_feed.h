@@ -18,6 +18,7 @@ public:
     explicit LiveFeed(OperateSession& session);
 
     std::optional<uint32_t> fetch() override;
+    std::optional<RunClock::Time> captured() const override;
     void shown(const ToolPlace& place) override;
     void publish(double t, PublishedFrame& out) override;
     bool renewable() const override { return true; }
@@ -40,6 +41,7 @@ private:
 
     OperateSession& session_;
     std::optional<Frame> next_;
+    double taken_ = 0.0; // [s] on a live camera's clock
     std::vector<uint32_t> colour_;
     std::atomic<bool> busy_{false}, frozen_{false}, edited_{false};
     std::mutex sceneMutex_; // of pending_; never taken by the haptic thread

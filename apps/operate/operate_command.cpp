@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/operate_command.h"
 
+#include "apps/binding/open_hand.h"
 #include "apps/operate/operator_run.h"
 #include "apps/operate/playback_run.h"
 #include "engine/types/error.h"
@@ -8,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 #include <memory>
+#include <utility>
 
 namespace fathom {
 
@@ -20,7 +22,9 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
         ->required();
     command->add_option("--recording", options->recording, "look back at this recording, by a time line");
     command->add_option("--source", options->source, "recording folder instead of the scene's camera");
-    command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard");
+    command->add_option("--hand-device", options->handDevice, kHandHelp);
+    command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard")
+        ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
@@ -37,8 +41,11 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
             options->recording = options->recording.empty() ? options->scene.string() : options->recording;
             options->scene /= "scene.yaml";
         }
-        if (!options->recording.empty() && !options->source.empty()) {
-            throw BadInput("operate", "--source", options->source, "nothing beside a recording");
+        for (const auto& [name, value] :
+             {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice)}) {
+            if (!options->recording.empty() && !value->empty()) {
+                throw BadInput("operate", name, *value, "nothing beside a recording");
+            }
         }
         const uint32_t messages = options->recording.empty() ? operate::OperatorRun(*options, global).run()
                                                              : operate::PlaybackRun(*options, global).run();

@@ -17,7 +17,9 @@ struct OperateOptions {
     std::filesystem::path scene;
     std::string source;     // recording folder; empty = the scene's camera
     std::string recording;  // folder to look back at; empty = a run
+    bool armed = false;     // forces are asked for from the start: of `latency`, no option
     bool path = false;      // the scene's hand path drives, not mouse and keyboard
+    std::string handDevice; // a live hand (open_hand.h); empty = mouse and keyboard
     std::string offscreen;  // WxH: the same frames without a surface; empty = a window
     std::string arm;        // serial line of the scene's real arm; empty = nothing moves
     std::string pilot;      // one of the scene's pilots; empty = the one that the file says

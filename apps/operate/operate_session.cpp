@@ -2,7 +2,9 @@
 #include "apps/operate/operate_session.h"
 
 #include "apps/binding/approach_path.h"
+#include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
+#include "apps/binding/raw_path.h"
 #include "apps/operate/repeating_camera.h"
 #include "devices/recorded/hand_csv.h"
 #include "engine/types/error.h"
@@ -27,8 +29,8 @@ FixtureClass spareClass(Role role) {
     return spare;
 }
 
-std::unique_ptr<Camera> endless(const Scene& scene, const OperateOptions& options,
-                                const std::atomic<bool>& stop) {
+std::unique_ptr<Camera> openEndless(const Scene& scene, const OperateOptions& options,
+                                    const std::atomic<bool>& stop) {
     if (!options.recording.empty()) { // once, and where one likes
         return openCamera(scene, options.recording);
     }
@@ -50,13 +52,10 @@ std::unique_ptr<Camera> endless(const Scene& scene, const OperateOptions& option
     return std::make_unique<RepeatedCamera>([scene, source] { return openCamera(scene, source); });
 }
 
-std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scene::Hand& hand) {
-    const dquat deviceRbase = glm::conjugate(hand.baseRdevice);
-    for (HandWaypoint& w : waypoints) {
-        w.deviceThandle.position = deviceRbase * w.deviceThandle.position / hand.scale;
-        w.deviceThandle.rotation = deviceRbase * w.deviceThandle.rotation;
-    }
-    return waypoints;
+std::unique_ptr<Camera> endless(Scene& scene, const OperateOptions& options, const std::atomic<bool>& stop) {
+    auto camera = openEndless(scene, options, stop);
+    takeUncertainty(scene, *camera);
+    return camera;
 }
 
 // Radii may change while it runs: what the scene at first could leave out for its radii stays in.
@@ -107,6 +106,7 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
                                gpu::Drawing drawing, std::span<const char* const> extensions,
                                const std::atomic<bool>& stop)
     : scene(withSpareClasses(sceneFor(options)))
+    , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(endless(scene, options, stop))
     , arm(openArm(scene))
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))

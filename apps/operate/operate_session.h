@@ -6,6 +6,7 @@
 #include "apps/binding/device_handover.h"
 #include "apps/operate/operate_command.h"
 #include "devices/camera.h"
+#include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
 #include "engine/cycle/device_cycles.h"
 
@@ -28,7 +29,8 @@ struct OperateSession {
     OperateSession(const OperateOptions& options, const GlobalOptions& global, gpu::Drawing drawing,
                    std::span<const char* const> extensions, const std::atomic<bool>& stop);
 
-    Scene scene; // with spare classes
+    Scene scene;                        // with spare classes
+    std::unique_ptr<LiveHand> liveHand; // null = mouse and keyboard, or a path
     std::unique_ptr<Camera> camera;
     std::unique_ptr<ArmRig> arm;        // null = the tool moves freely
     std::unique_ptr<ArmThread> realArm; // null = nothing but pictures moves

@@ -5,19 +5,24 @@
 #include "apps/operate/view_click.h"
 #include "engine/types/error.h"
 
+#include <utility>
+
 namespace fathom::operate {
 
 void OperatorRun::listen() {
     const ViewPort& large = screen_.large();
     const TurnRecord& record = view_.turn().record;
     const double depth = large.view.cameraTbase.apply(record.device.position).z;
-    if (steering_->step(console_, large, depth)) {
-        clickInView(console_, *editor_, screen_, view_.scene(), ImGui::GetIO().MousePos);
+    if (const auto at = steering_->step(console_, large, depth)) {
+        clickInView(console_, *editor_, screen_, view_.scene(), *at);
+    }
+    if (std::exchange(forcesOff_, false)) { // whatever else this frame's keys asked for
+        console_.forces = console_.guidance = false;
     }
     hand_->setForces(console_.forces);
     feed_.freeze(console_.frozen);
-    pilot_->ask(steering_->wish(console_));
-    path_->press(console_.guidance ? 1u : 0u);
+    pilot_->ask({steering_->pose(), 0});
+    hand_->press(buttonsOf(console_));
     followRecorder();
     followPilot();
     if (console_.exportCsv) {
@@ -26,27 +31,57 @@ void OperatorRun::listen() {
     }
 }
 
-void OperatorRun::followRecorder() {
-    if (console_.recording == recorder_.recording()) {
-        return;
-    }
-    const auto folder = std::filesystem::path(options_.shots) /
-                        ("recording-" + std::to_string(recordings_ + (console_.recording ? 1 : 0)));
+// What keys hold down beside the device's own buttons.
+uint32_t OperatorRun::buttonsOf(const Console& console) const {
+    const auto& arm = session_.scene.arm;
+    const uint32_t grasp = arm ? arm->grasp.button : 0;
+    return (console.guidance ? kGuidanceButton : 0) | (console.clutch ? session_.scene.hand.clutchBit : 0) |
+           (console.grasp ? grasp : 0);
+}
+
+// The first name that nothing has.
+std::filesystem::path OperatorRun::freshRecording() {
+    std::filesystem::path folder;
+    do {
+        folder = std::filesystem::path(options_.shots) / ("recording-" + std::to_string(++recordings_));
+    } while (std::filesystem::exists(folder));
+    return folder;
+}
+
+void OperatorRun::startRecording() {
     try {
-        if (console_.recording) {
-            editor_->keep(console_.settings(), session_.scene.pilot);
-            const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
-            recorder_.start(folder, editor_->text(), session_.camera->info());
-            ++recordings_;
-            console_.tell("recording to " + folder.string() +
-                          (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));
-        } else {
-            recorder_.stop();
-            console_.tell(std::to_string(recorder_.pictures()) + " pictures recorded in " + folder.string());
-        }
+        const std::filesystem::path folder = freshRecording();
+        editor_->keep(console_.settings(), session_.scene.pilot);
+        const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
+        recorder_.start(folder, editor_->text(), session_.camera->info());
+        recordingTo_ = folder.string();
+        console_.tell("recording to " + recordingTo_ +
+                      (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));
     } catch (const std::exception& e) {
         console_.recording = false;
         console_.tell(e.what());
+    }
+}
+
+// Starts and stops as the console says. What is recorded may still be written a while after that, and a disk
+// that is full ends it: the window goes on meanwhile.
+void OperatorRun::followRecorder() {
+    const bool writing = recorder_.writing();
+    if (console_.recording && recordingTo_.empty() && !writing) {
+        startRecording();
+    } else if (!recordingTo_.empty() && (!console_.recording || !recorder_.recording())) {
+        recorder_.stop();
+        console_.recording = false;
+        if (recorder_.writing()) {
+            return;
+        }
+        recorder_.finish();
+        const std::string failure = recorder_.failure();
+        const uint64_t lost = recorder_.lost();
+        console_.tell(std::to_string(recorder_.pictures()) + " pictures recorded in " + recordingTo_ +
+                      (lost > 0 ? ", " + std::to_string(lost) + " left out: the disk was too slow" : "") +
+                      (failure.empty() ? "" : ", then: " + failure));
+        recordingTo_.clear();
     }
 }
 

@@ -53,10 +53,10 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     canvas_ = std::make_unique<Canvas>(window_, session_.instance, console_.textScale, options.shots);
     canvas_->open(session_.cycles.device());
     startThreads();
+    console_.forces = options_.armed;
     window_.onForcesOff = [this] {
         hand_->setForces(false); // at once, whatever the rest of this frame does
-        console_.forces = false;
-        console_.guidance = false;
+        forcesOff_ = true;
     };
 }
 
@@ -78,8 +78,9 @@ HudInput OperatorRun::hudInput() const {
                  session_.title(),
                  screen_.unknownShare(),
                  windowHz_,
-                 !options_.path,
-                 &measured_};
+                 options_.path || session_.liveHand != nullptr,
+                 &measured_,
+                 !hand_->there()};
     return hud;
 }
 
@@ -96,6 +97,7 @@ uint32_t OperatorRun::run() {
     log_.write(console_, view_, extras(), true);
     endThreads();
     recorder_.stop();
+    recorder_.finish();
     view_.refresh();
     report();
     if (failure_) {
@@ -113,7 +115,8 @@ void OperatorRun::frame() {
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     listen();
-    alarms_.step(console_, view_, haptics_, editor_->scene(), session_.handover.gone());
+    alarms_.step(console_, view_, haptics_, editor_->scene(),
+                 {session_.handover.gone(), !hand_->there(), recorder_.failure()});
     show();
     log_.write(console_, view_, extras());
 }
@@ -156,6 +159,8 @@ StateExtras OperatorRun::extras() const {
     StateExtras extras =
         extrasOf({console_, view_, session_, window_, *canvas_, screen_, alarms_, *editor_, haptics_});
     extras.arm = &measured_;
+    extras.hand = session_.liveHand ? session_.liveHand->description() : "";
+    extras.handThere = hand_->there();
     return extras;
 }
 

@@ -38,6 +38,8 @@ public:
 
 private:
     static HapticOptions softly(const Scene& scene, const Tool& tool);
+    HapticDevice& device(); // that drives
+    void makeHand(const Pose& start, const Pose* tool);
     void makeEngine(const Pose& start, const Pose* tool);
     void forgetPictures();
     void startThreads();
@@ -46,10 +48,13 @@ private:
     void endThreads();
     void followPilot();
     void frame();
-    void show();           // what has been drawn, where there is a device
-    void reopen();         // on another device
-    void listen();         // what the frame's keys and clicks asked for
-    void followRecorder(); // starts or stops as the console says
+    void show();   // what has been drawn, where there is a device
+    void reopen(); // on another device
+    void listen(); // what the frame's keys and clicks asked for
+    uint32_t buttonsOf(const Console& console) const;
+    std::filesystem::path freshRecording();
+    void startRecording();
+    void followRecorder();
     void exportTraces();
     StateExtras extras() const;
     HudInput hudInput() const;
@@ -88,9 +93,10 @@ private:
     TracesPanel traces_;
     Alarms alarms_;
     StateLog log_;
-    bool toldGone_ = false;
+    bool toldGone_ = false, forcesOff_ = false; // forcesOff_: asked for since the last listen()
     double started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
-    uint32_t recordings_ = 0;
+    uint32_t recordings_ = 0; // tried names
+    std::string recordingTo_; // folder, until all is on disk; empty = none
 };
 
 } // namespace fathom::operate

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The threads of the run, and what they run on: made at first, and again for another pilot.
+#include "apps/binding/raw_path.h"
 #include "apps/operate/operator_run.h"
 #include "engine/types/error.h"
 
@@ -24,7 +25,33 @@ HapticOptions OperatorRun::softly(const Scene& scene, const Tool& tool) {
     return options;
 }
 
-// start: raw pose of the hand; tool: where the tool stays, null = where the hand commands it.
+HapticDevice& OperatorRun::device() {
+    if (session_.liveHand) {
+        return *session_.liveHand;
+    }
+    return options_.path ? static_cast<HapticDevice&>(*path_) : *pilot_;
+}
+
+// The hand: `start` is the raw pose of one that the window moves; tool: where the tool stays, null = where
+// the path begins. A live hand is taken from wherever it is, also while it is not there yet.
+void OperatorRun::makeHand(const Pose& start, const Pose* tool) {
+    const HandPath path = session_.path();
+    const LiveHand* live = session_.liveHand.get();
+    const Pose place = tool != nullptr ? *tool : startOf(path, session_.scene);
+    Pose raw = tool != nullptr ? start : path.waypoints().front().deviceThandle;
+    pilot_ = std::make_unique<PilotHand>(raw);
+    path_ = std::make_unique<PathHand>(path);
+    hand_ = std::make_unique<GatedHand>(device(), live);
+    steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
+    raw = live != nullptr ? hand_->read(0.0).deviceThandle : raw;
+    const std::vector<Shape> shapes = editor_ ? editor_->shapes() : shapesOf(session_.scene);
+    const bool anywhere =
+        live != nullptr || (session_.arm && !options_.path); // the hand need not begin there
+    cycle_ =
+        std::make_unique<HapticCycle>(session_.tool, shapes, haptics_, raw,
+                                      tool != nullptr || anywhere ? &place : nullptr, session_.arm.get());
+}
+
 void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
     RealtimeOptions o;
     o.placement = placement_;
@@ -42,17 +69,7 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
     if (!engine_->firstFrame()) {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
     }
-    const HandPath path = session_.path();
-    const Pose raw = tool != nullptr ? start : path.waypoints().front().deviceThandle;
-    pilot_ = std::make_unique<PilotHand>(raw);
-    path_ = std::make_unique<PathHand>(path);
-    HapticDevice& hand = options_.path ? static_cast<HapticDevice&>(*path_) : *pilot_;
-    hand_ = std::make_unique<GatedHand>(hand);
-    steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
-    const std::vector<Shape> shapes = editor_ ? editor_->shapes() : shapesOf(session_.scene);
-    const bool aligned = session_.arm && tool == nullptr && !options_.path;
-    cycle_ = std::make_unique<HapticCycle>(session_.tool, shapes, haptics_, raw, aligned ? &raw : tool,
-                                           session_.arm.get());
+    makeHand(start, tool);
 }
 
 void OperatorRun::startThreads() {
@@ -132,7 +149,7 @@ void OperatorRun::followPilot() {
     forgetPictures();
     view_.refresh();
     const TurnRecord last = view_.turn().record;
-    const Pose raw = steering_->wish(console_).deviceThandle;
+    const Pose raw = steering_->pose();
     const bool stays = view_.anyTurn() && !options_.path && isFinite(last.tool);
     if (session_.arm && stays) {
         session_.arm->start = last.arm.posture.q;

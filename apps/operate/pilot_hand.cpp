@@ -48,13 +48,13 @@ PathHand::PathHand(HandPath path)
                             path_.waypoints().back().deviceThandle.position) < kClosedWithin) {}
 
 HandSample PathHand::read(double t) noexcept {
-    HandSample sample = path_.at(closed_ ? std::fmod(std::max(0.0, t), path_.duration()) : t);
-    sample.buttons |= extra_.load(std::memory_order_relaxed);
-    return sample;
+    return path_.at(closed_ ? std::fmod(std::max(0.0, t), path_.duration()) : t);
 }
 
 HandSample GatedHand::read(double t) noexcept {
     HandSample sample = hand_.read(t);
+    there_.store(live_ == nullptr || live_->alive(), std::memory_order_relaxed);
+    sample.buttons |= extra_.load(std::memory_order_relaxed);
     if (off_.load(std::memory_order_acquire)) {
         sample.buttons |= kDeadMan;
     }

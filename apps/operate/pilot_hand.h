@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands for the operator's window: mouse and keyboard in place of a device, a path that repeats, and the gate
-// that turns forces off whatever the device says.
+// before any of them that turns forces off whatever the device says.
 #pragma once
 
-#include "devices/haptic_device.h"
+#include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
 #include "engine/types/latest.h"
 
@@ -31,34 +31,39 @@ private:
     double before_ = 0.0;
 };
 
-// Follows a path again and again when it ends where it began, else once. Buttons of `extra` are added.
+// Follows a path again and again when it ends where it began, else once.
 class PathHand final : public HapticDevice {
 public:
     explicit PathHand(HandPath path);
 
-    void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
     HandSample read(double t) noexcept override;
     void write(const Wrench&, double) noexcept override {}
 
 private:
     HandPath path_;
     bool closed_;
-    std::atomic<uint32_t> extra_{0};
 };
 
-// Opens the dead-man of any device while forces are off. They are off at first.
+// Opens the dead-man of any device while forces are off, and presses buttons beside those of the device.
+// Forces are off at first. What is not read() and write() comes from any thread.
 class GatedHand final : public HapticDevice {
 public:
-    explicit GatedHand(HapticDevice& hand)
-        : hand_(hand) {}
+    // live: the same one where it may go away; null = it is always there.
+    GatedHand(HapticDevice& hand, const LiveHand* live)
+        : hand_(hand)
+        , live_(live) {}
 
-    void setForces(bool on) noexcept { off_.store(!on, std::memory_order_release); } // any thread
+    void setForces(bool on) noexcept { off_.store(!on, std::memory_order_release); }
+    void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
+    bool there() const noexcept { return there_.load(std::memory_order_relaxed); } // at the last turn
     HandSample read(double t) noexcept override;
     void write(const Wrench& wrench, double dt) noexcept override { hand_.write(wrench, dt); }
 
 private:
     HapticDevice& hand_;
-    std::atomic<bool> off_{true};
+    const LiveHand* live_;
+    std::atomic<uint32_t> extra_{0};
+    std::atomic<bool> off_{true}, there_{true};
 };
 
 } // namespace fathom::operate

@@ -172,7 +172,7 @@ void PlaybackRun::draw(double dt) {
                        options_.recording,
                        screen_.unknownShare(),
                        windowHz_,
-                       false};
+                       true};
     alarms_ = Alarms(); // of this moment, none is latched
     alarms_.step(console_, view_, haptics_, editor_.scene());
     const bool known = log_.poses && view_.anyTurn();
@@ -187,8 +187,8 @@ void PlaybackRun::draw(double dt) {
 }
 
 void PlaybackRun::listen() {
-    if (steering_.step(console_, screen_.large(), 0.0)) {
-        clickInView(console_, editor_, screen_, view_.scene(), ImGui::GetIO().MousePos);
+    if (const auto at = steering_.step(console_, screen_.large(), 0.0)) {
+        clickInView(console_, editor_, screen_, view_.scene(), *at);
     }
     panel_.listen(console_);
     console_.recording = console_.frozen = false; // of a run only

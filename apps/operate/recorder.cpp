@@ -2,20 +2,18 @@
 #include "apps/operate/recorder.h"
 
 #include "apps/operate/turn_log.h"
-#include "devices/recorded/intrinsics_output.h"
-#include "devices/recorded/png_output.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <cstdio>
-#include <iomanip>
+#include <fstream>
+#include <spdlog/spdlog.h>
 
 namespace fathom::operate {
 
 namespace {
 
 constexpr double kFramePeriod = 1.0 / 30.0; // [s] of a replay
-constexpr size_t kMostWaiting = 60;         // pictures
+constexpr size_t kMostNumbers = 60;         // pictures that a turn may have obeyed
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -23,59 +21,81 @@ void put(std::ostream& out, const dvec3& v) {
 
 } // namespace
 
+// A recording that cannot go on ends; the session does not.
+template <class Job>
+void Recorder::orFail(const Job& job) {
+    try {
+        job();
+    } catch (const std::exception& e) {
+        failure_ = e.what();
+        spdlog::warn("recording has ended: {}", failure_);
+        recording_.store(false);
+        writer_->close();
+    }
+}
+
+void Recorder::openFiles(const std::filesystem::path& folder) {
+    hand_.open(folder / "hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button");
+    wrench_.open(folder / kWrenchFile, wrenchHead());
+    touches_.open(folder / kTouchesFile, touchesHead());
+}
+
 void Recorder::start(const std::filesystem::path& folder, const std::string& scene,
                      const CameraInfo& camera) {
     stop();
+    finish();
     const std::lock_guard lock(mutex_);
-    folder_ = folder;
-    camera_ = camera;
-    std::filesystem::create_directories(folder / "depth");
-    std::filesystem::create_directories(folder / "rgb");
-    writeIntrinsics(folder / "intrinsics.json", camera);
-    std::ofstream(folder / "scene.yaml") << scene;
-    const auto open = [&](std::ofstream& file, const char* name, const char* head) {
-        file = std::ofstream(folder / name);
-        file << std::setprecision(17) << head << "\n";
-        if (!file) {
-            throw Error((folder / name).string() + ": cannot be written");
-        }
-    };
-    open(hand_, "hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button");
-    open(wrench_, kWrenchFile, wrenchHead());
-    open(touches_, kTouchesFile, touchesHead());
-    if (camera.hasColour) {
-        open(index_, "associations.txt", "# t_rgb rgb t_depth depth");
-    } else {
-        open(index_, "depth.txt", "# t_depth depth");
-    }
-    open(poses_, "poses.txt", "# t tx ty tz qx qy qz qw");
-    waiting_.clear();
+    failure_.clear();
     turns_.clear();
     numbers_.clear();
     lastCapture_ = lastWritten_ = -1.0;
     lost_ = pictures_ = 0;
-    ending_ = false;
-    thread_ = std::thread([this] { writePictures(); });
+    writer_ = std::make_unique<RecordingWriter>(folder, camera, 1);
+    std::ofstream text(folder / "scene.yaml");
+    text << scene << std::flush;
+    if (!text) {
+        throw Error((folder / "scene.yaml").string() + ": cannot be written");
+    }
+    openFiles(folder);
     recording_.store(true);
 }
 
 void Recorder::stop() {
-    recording_.store(false);
-    {
-        const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(mutex_);
+    if (!recording_.exchange(false)) {
+        return;
+    }
+    orFail([this] {
         if (pictures_ > 0) { // the turns since the last picture
             flushTurns(lastCapture_, lastCapture_ + kFramePeriod,
                        static_cast<double>(pictures_ - 1) * kFramePeriod, 1.0);
         }
-        ending_ = true;
+    });
+    writer_->close();
+}
+
+bool Recorder::writing() const {
+    const std::lock_guard lock(mutex_);
+    return !recording_.load() && writer_ && !writer_->written();
+}
+
+void Recorder::finish() {
+    if (!writer_ || recording_.load()) {
+        return;
     }
-    more_.notify_all();
-    if (thread_.joinable()) {
-        thread_.join();
+    try {
+        writer_->finish(); // without the lock: the run's writer thread goes on meanwhile
+    } catch (const std::exception& e) {
+        const std::lock_guard lock(mutex_);
+        failure_ = failure_.empty() ? e.what() : failure_;
     }
-    for (std::ofstream* file : {&hand_, &wrench_, &touches_, &index_, &poses_}) {
-        file->close();
-    }
+    const std::lock_guard lock(mutex_);
+    writer_.reset();
+}
+
+std::string Recorder::failure() const {
+    const std::lock_guard lock(mutex_);
+    return failure_;
 }
 
 void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
@@ -83,10 +103,17 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
         return;
     }
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kMostWaiting || ending_) {
+    if (!recording()) {
+        return;
+    }
+    if (writer_->full()) {
         ++lost_;
         return;
     }
+    orFail([&] { addPicture(frame, set); });
+}
+
+void Recorder::addPicture(const PublishedFrame& frame, const Fixtures& set) {
     if (pictures_ > 0 && frame.t > lastCapture_) {
         const double start = static_cast<double>(pictures_ - 1) * kFramePeriod;
         flushTurns(lastCapture_, frame.t, start, kFramePeriod / (frame.t - lastCapture_));
@@ -94,12 +121,11 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
         turns_.clear();
     }
     lastCapture_ = frame.t;
-    numbers_.emplace_back(frame.report.index, pictures_++);
-    if (numbers_.size() > kMostWaiting) {
+    numbers_.emplace_back(frame.report.index, pictures_);
+    if (numbers_.size() > kMostNumbers) {
         numbers_.pop_front();
     }
-    waiting_.push_back({set.depth, frame.colour, set.baseTcamera});
-    more_.notify_one();
+    writer_->add({static_cast<double>(pictures_++) * kFramePeriod, set.depth, frame.colour, set.baseTcamera});
 }
 
 void Recorder::turn(const TurnRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {
@@ -116,6 +142,9 @@ void Recorder::flushTurns(double from, double to, double start, double scale) {
         }
         turns_.pop_front();
     }
+    hand_.flush();
+    wrench_.flush(); // before what touched in its turns
+    touches_.flush();
 }
 
 void Recorder::putTurn(const TurnRow& row, double t) {
@@ -124,45 +153,18 @@ void Recorder::putTurn(const TurnRow& row, double t) {
     }
     lastWritten_ = t;
     const Pose& hand = row.hand.deviceThandle;
-    hand_ << t;
-    put(hand_, hand.position);
-    hand_ << "," << hand.rotation.w << "," << hand.rotation.x << "," << hand.rotation.y << ","
-          << hand.rotation.z << "," << row.hand.buttons << "\n";
-    writeTurn(wrench_, touches_, t, pictureOf(row.record.frame), row.record);
+    std::ostream& out = hand_.lines();
+    out << t;
+    put(out, hand.position);
+    out << "," << hand.rotation.w << "," << hand.rotation.x << "," << hand.rotation.y << ","
+        << hand.rotation.z << "," << row.hand.buttons << "\n";
+    writeTurn(wrench_.lines(), touches_.lines(), t, pictureOf(row.record.frame), row.record);
 }
 
 int64_t Recorder::pictureOf(int64_t frame) const {
     const auto at = std::find_if(numbers_.rbegin(), numbers_.rend(),
                                  [&](const auto& number) { return number.first <= frame; });
     return at == numbers_.rend() ? -1 : static_cast<int64_t>(at->second);
-}
-
-void Recorder::writePictures() {
-    for (uint32_t number = 0;; ++number) {
-        Picture picture;
-        {
-            std::unique_lock lock(mutex_);
-            more_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
-            if (waiting_.empty()) {
-                return;
-            }
-            picture = std::move(waiting_.front());
-            waiting_.pop_front();
-        }
-        char name[16];
-        std::snprintf(name, sizeof name, "%06u.png", number);
-        const std::string stamp = std::to_string(number * kFramePeriod);
-        writeDepthPng(folder_ / "depth" / name, {camera_.depth.width, camera_.depth.height}, picture.depth);
-        if (camera_.hasColour) {
-            writeColourPng(folder_ / "rgb" / name, {camera_.colour.width, camera_.colour.height},
-                           picture.colour);
-            index_ << stamp << " rgb/" << name << " ";
-        }
-        index_ << stamp << " depth/" << name << "\n";
-        const Pose& p = picture.baseTcamera;
-        poses_ << stamp << " " << p.position.x << " " << p.position.y << " " << p.position.z << " "
-               << p.rotation.x << " " << p.rotation.y << " " << p.rotation.z << " " << p.rotation.w << "\n";
-    }
 }
 
 } // namespace fathom::operate

@@ -22,6 +22,8 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_ + source_->skipped(); }
+    bool live() const override { return source_->live(); }
+    uint64_t lost() const override { return source_->lost(); }
     std::string description() const override { return description_; }
 
 private:

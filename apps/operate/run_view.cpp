@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kSameBlock = 0.25; // [s] without a touch that end a block
 constexpr size_t kMostBlocks = 12;
+constexpr size_t kMostTurns = 1'000'000; // whose times are kept: a session lasts for hours
 
 } // namespace
 
@@ -45,8 +46,12 @@ void RunView::take(const TurnRow& row) {
     turn_ = row;
     ++turns_;
     late_ += row.late ? 1 : 0;
-    micros_.push_back(static_cast<float>(row.micros));
-    wokenLate_.push_back(static_cast<float>(row.wokenLate * 1e6));
+    if (micros_.size() < kMostTurns) {
+        micros_.resize(micros_.size() + 1);
+        wokenLate_.resize(micros_.size());
+    }
+    micros_[(turns_ - 1) % kMostTurns] = static_cast<float>(row.micros);
+    wokenLate_[(turns_ - 1) % kMostTurns] = static_cast<float>(row.wokenLate * 1e6);
     const TurnRecord& r = row.record;
     if (row.driven && row.told.known) {
         measured_ = Measured{r.t - row.told.age, row.told.posture};

@@ -63,7 +63,8 @@ public:
     const std::deque<TraceSample>& trace() const { return trace_; }
     const std::deque<Block>& blocks() const { return blocks_; } // newest first; one a kind, fixture and leaf
     Rates rates() const;
-    const std::vector<float>& turnMicros() const { return micros_; }         // of the whole run
+    // Of the last million turns, in no order.
+    const std::vector<float>& turnMicros() const { return micros_; }
     const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // likewise
     uint64_t lateTurns() const { return late_; }
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that had passes

@@ -152,23 +152,57 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
     (void)rooms;
 }
 
-// Below the large view's upper edge: the worst alarm; at its lower edge: what to do next.
+// In the large view, below its name: the worst alarm, in words.
+void Screen::drawAlarm(Console& console, const Alarms& alarms) const {
+    console.places.erase("alarm");
+    const Alarm* worst = alarms.worst();
+    if (worst == nullptr) {
+        return;
+    }
+    const std::string words = std::string(levelSign(worst->level)) + " " + worst->words +
+                              (worst->active ? "   Q" : " (over)   Q");
+    const float line = ImGui::GetTextLineHeight();
+    const ImVec2 at{static_cast<float>(large_->where.x) + 10.0f,
+                    static_cast<float>(large_->where.y) + 1.2f * line + 8.0f};
+    drawWords(*ImGui::GetBackgroundDrawList(), at, words, levelColour(worst->level));
+    console.places["alarm"] = {at.x, at.y, ImGui::CalcTextSize(words.c_str()).x, line};
+}
+
+namespace {
+
+// What to do next.
+std::string hintOf(const Console& console, bool driven) {
+    if (console.timeLine.on) {
+        return "A recording.   drag the time line   Space: play   arrows: pictures, with Shift turns   [ ]: "
+               "speed   Tab: 3D   F1: all keys";
+    }
+    if (console.aims()) {
+        return "Click, or arrows (Shift: slowly) and Enter   Esc: leave";
+    }
+    if (console.panels) {
+        return "Keyboard in the panels: arrows choose, Enter presses   Space: forces off   F6, Esc: back";
+    }
+    const std::string moves = driven ? "" : "drag, wheel, arrows: tool   ";
+    const std::string hint = console.forces ? "Space: forces off   G: guidance   " + moves + "F1: all keys"
+                                            : "A: arm the forces   " + moves + "Tab: 3D   F1: all keys";
+    return driven ? hint : "No haptic device: mouse and keyboard drive.   " + hint;
+}
+
+} // namespace
+
+// The keyboard's cursor, and words at the large view's lower edge.
 void Screen::drawHint(Console& console, const ScreenInput& input) const {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    if (console.cursor) {
+        const ImVec2 c = *console.cursor;
+        list.AddCircle(c, 9.0f, colour::kPicked, 0, 2.0f);
+        list.AddLine({c.x - 14.0f, c.y}, {c.x + 14.0f, c.y}, colour::kPicked);
+        list.AddLine({c.x, c.y - 14.0f}, {c.x, c.y + 14.0f}, colour::kPicked);
+    }
     const PixelRect& w = large_->where;
     const auto x = static_cast<float>(w.x) + 10.0f, bottom = static_cast<float>(w.y + w.height);
     const float line = ImGui::GetTextLineHeight() + 6.0f;
-    std::string hint = console.forces
-                           ? "Space: forces off   G: guidance   drag, wheel, arrows: tool   F1: all keys"
-                           : "A: arm the forces   drag, wheel, arrows: tool   Tab: 3D   F1: all keys";
-    if (console.timeLine.on) {
-        hint = "A recording.   drag the time line   Space: play   arrows: pictures, with Shift turns   [ ]: "
-               "speed   Tab: 3D   F1: all keys";
-    }
-    if (input.hud.noDevice) {
-        hint = "No haptic device: mouse and keyboard drive.   " + hint;
-    }
-    drawWords(list, {x, bottom - line}, hint, colour::kText);
+    drawWords(list, {x, bottom - line}, hintOf(console, input.hud.driven), colour::kText);
     if (ImGui::GetTime() < console.noticeUntil) {
         drawWords(list, {x, bottom - 2.2f * line}, console.notice, colour::kPicked);
     }
@@ -202,7 +236,7 @@ void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, c
             }
             console.tab = wanted || console.tab == console.shownTab ? tab : console.tab;
             console.shownTab = tab;
-            ImGui::BeginChild("inside");
+            ImGui::BeginChild("inside", ImVec2(0.0f, 0.0f), false, ImGuiWindowFlags_NavFlattened);
             if (tab == Tab::Fixtures) {
                 drawFixtures(console, editor, input.run.scene());
             } else if (tab == Tab::Why) {
@@ -239,6 +273,7 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     }
     drawTabs(console, editor, alarms, input, rooms.tabs);
     listenForFixtures(console, editor, input.run.scene());
+    drawAlarm(console, alarms);
     drawHint(console, input);
     for (const auto& [name, room] :
          {std::pair("traces room", &rooms.traces), std::pair("time line room", &rooms.timeLine)}) {

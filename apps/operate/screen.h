@@ -43,6 +43,7 @@ private:
                       const Rooms& rooms);
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input,
                    const Rooms& rooms);
+    void drawAlarm(Console& console, const Alarms& alarms) const;
     void drawHint(Console& console, const ScreenInput& input) const;
     void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input,
                   const PixelRect& room);

@@ -24,6 +24,8 @@ json known(double value) {
 json consoleOf(const Console& c) {
     return {{"forces", c.forces},
             {"guidance", c.guidance},
+            {"grasp", c.grasp},
+            {"panels", c.panels},
             {"frozen", c.frozen},
             {"large", c.spaceIsLarge ? "space" : "camera"},
             {"paused", c.paused},
@@ -31,6 +33,7 @@ json consoleOf(const Console& c) {
             {"tree_level", c.treeLevel},
             {"text_scale", c.textScale},
             {"tab", static_cast<int>(c.shownTab)},
+            {"cursor", c.cursor ? json{c.cursor->x, c.cursor->y} : json(nullptr)},
             {"picking", c.pick.active},
             {"picked", c.pick.taken},
             {"notice", c.notice},
@@ -80,6 +83,7 @@ json turnOf(const RunView& run, const StateExtras& extras) {
             {"pictures", run.scene().number},
             {"spheres", run.scene().set.spheres.size()},
             {"generation", run.scene().set.generation},
+            {"grasp", r.arm.posture.grasp},
             {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)},
             {"real_arm", armOf(extras.arm)}};
 }
@@ -128,6 +132,8 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
                    {"width", extras.width},
                    {"height", extras.height},
                    {"validation", extras.validationMessages}}},
+                 {"hand", extras.hand.empty() ? json(nullptr)
+                                              : json{{"name", extras.hand}, {"there", extras.handThere}}},
                  {"gpu", {{"there", extras.deviceThere}, {"made_anew", extras.renewals}}},
                  {"unknown_share", extras.unknownShare},
                  {"alarms", extras.alarms},

@@ -21,10 +21,12 @@ struct StateExtras {
     bool deviceThere = true;
     uint32_t renewals = 0; // times that the device was made anew
     double unknownShare = 0.0;
-    std::vector<std::string> alarms;          // of those that are shown: level, word
-    const Scene* scene = nullptr;             // in force
-    size_t shapes = 0, selected = 0;          // selected: points of the preview
-    const MeasuredArm* arm = nullptr;         // null = none that is real
+    std::vector<std::string> alarms;  // of those that are shown: level, word
+    const Scene* scene = nullptr;     // in force
+    size_t shapes = 0, selected = 0;  // selected: points of the preview
+    const MeasuredArm* arm = nullptr; // null = none that is real
+    std::string hand;                 // the live device; empty = none
+    bool handThere = true;
     double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the pilot in force
     std::string why;                          // of the newest block
 };

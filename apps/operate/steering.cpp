@@ -10,9 +10,10 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kSpeed = 0.12, kTurning = 0.9; // [m/s], [rad/s] of a key held down
-constexpr double kWheel = 0.008;                // [m] a notch
-constexpr double kClick = 4.0;                  // [pixels] a click may wander
+constexpr double kSpeed = 0.12, kTurning = 0.9;        // [m/s], [rad/s] of a key held down
+constexpr double kWheel = 0.008;                       // [m] a notch
+constexpr float kCursor = 240.0f, kSlowCursor = 30.0f; // [pixels/s] of a key, with Shift
+constexpr double kClick = 4.0;                         // [pixels] a click may wander
 
 bool pressed(int key) {
     return ImGui::IsKeyPressed(key, false);
@@ -25,6 +26,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Space", "forces off, always"},
         KeyHelp{"A", "arm: forces come up over 1.5 s"},
         KeyHelp{"G", "guidance on, off"},
+        KeyHelp{"J", "close the jaws of an arm, open them"},
         KeyHelp{"C held", "clutch: the hand moves, the tool stays"},
         KeyHelp{"left drag, wheel", "move the tool, away and back"},
         KeyHelp{"right drag", "turn the tool; in the 3D view turn the view"},
@@ -32,7 +34,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Tab", "swap camera and 3D view"},
         KeyHelp{"T", "bounds of the region tree, level by level"},
         KeyHelp{"F", "freeze the fixtures"},
-        KeyHelp{"K", "pick a colour: click, look, Enter adds"},
+        KeyHelp{"K", "pick a colour: click, or arrows and Enter; look, Enter adds"},
         KeyHelp{"Ctrl Z, Ctrl Y", "undo, redo of fixtures"},
         KeyHelp{"Ctrl S", "save the fixtures to the scene file"},
         KeyHelp{"P, E", "hold the traces; write them as CSV"},
@@ -40,6 +42,7 @@ std::span<const KeyHelp> keyHelp() {
         KeyHelp{"Q", "acknowledge alarms"},
         KeyHelp{"R", "record, stop"},
         KeyHelp{"of a recording", "Space plays; arrows: a picture, with Shift a turn; Home, End; [ ]: speed"},
+        KeyHelp{"F6", "keyboard to the panels: arrows choose, Enter presses; F6 or Esc: back"},
         KeyHelp{"F11", "make the window's images anew"},
         KeyHelp{"F12", "screenshot"},
         KeyHelp{"Ctrl +, Ctrl -", "larger, smaller letters"},
@@ -64,6 +67,7 @@ void Steering::turn(const dvec3& base) {
 void Steering::keys(Console& console) {
     console.forces = console.forces || pressed(GLFW_KEY_A);
     console.guidance = console.guidance != pressed(GLFW_KEY_G);
+    console.grasp = console.grasp != pressed(GLFW_KEY_J);
     console.clutch = ImGui::IsKeyDown(GLFW_KEY_C);
     console.spaceIsLarge = console.spaceIsLarge != pressed(GLFW_KEY_TAB);
     console.paused = console.paused != pressed(GLFW_KEY_P);
@@ -83,9 +87,24 @@ void Steering::keys(Console& console) {
     }
 }
 
-void Steering::moveByKeys(const ViewPort& large, bool text) {
+// Of a crosshair in the large view, that Enter clicks with.
+void Steering::moveCursor(Console& console, const ViewPort& large, const dvec3& way) {
+    const PixelRect& w = large.where;
+    ImVec2 at =
+        console.cursor.value_or(ImVec2(static_cast<float>(w.x) + 0.5f * static_cast<float>(w.width),
+                                       static_cast<float>(w.y) + 0.5f * static_cast<float>(w.height)));
     const ImGuiIO& io = ImGui::GetIO();
-    if (text) {
+    const float step = (io.KeyShift ? kSlowCursor : kCursor) * std::min(0.1f, io.DeltaTime);
+    at.x = std::clamp(at.x + step * static_cast<float>(way.x), static_cast<float>(w.x),
+                      static_cast<float>(w.x + w.width - 1));
+    at.y = std::clamp(at.y + step * static_cast<float>(way.y), static_cast<float>(w.y),
+                      static_cast<float>(w.y + w.height - 1));
+    console.cursor = at;
+}
+
+void Steering::moveByKeys(Console& console, const ViewPort& large) {
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.WantTextInput || console.panels) {
         return;
     }
     const auto axis = [](int plus, int minus) {
@@ -94,6 +113,10 @@ void Steering::moveByKeys(const ViewPort& large, bool text) {
     const dvec3 way(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP),
                     axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN));
     if (way == dvec3(0.0)) {
+        return;
+    }
+    if (console.aims()) {
+        moveCursor(console, large, way);
         return;
     }
     const double dt = std::min(0.1, double{io.DeltaTime});
@@ -128,7 +151,21 @@ void Steering::moveByMouse(Console& console, const ViewPort& large, double toolD
     }
 }
 
-bool Steering::step(Console& console, const ViewPort& large, double toolDepth) {
+// The arrows are the tool's, or the cursor's, until the panels are asked for: they cannot be both.
+void Steering::turnToPanels(Console& console) {
+    ImGuiIO& io = ImGui::GetIO();
+    if (pressed(GLFW_KEY_F6)) {
+        console.panels = !console.panels;
+        if (console.panels) {
+            ImGui::SetWindowFocus("panels");
+        }
+    }
+    console.panels = console.panels && !(pressed(GLFW_KEY_ESCAPE) && !ImGui::IsAnyItemActive());
+    io.ConfigFlags = console.panels ? io.ConfigFlags | ImGuiConfigFlags_NavEnableKeyboard
+                                    : io.ConfigFlags & ~ImGuiConfigFlags_NavEnableKeyboard;
+}
+
+std::optional<ImVec2> Steering::step(Console& console, const ViewPort& large, double toolDepth) {
     ImGuiIO& io = ImGui::GetIO();
     if (!io.WantTextInput && !io.KeyCtrl) {
         keys(console);
@@ -136,6 +173,7 @@ bool Steering::step(Console& console, const ViewPort& large, double toolDepth) {
     if (pressed(GLFW_KEY_F1)) {
         console.tab = Tab::Help;
     }
+    turnToPanels(console);
     console.remake = console.remake || pressed(GLFW_KEY_F11);
     console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
     if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {
@@ -144,7 +182,21 @@ bool Steering::step(Console& console, const ViewPort& large, double toolDepth) {
     if (io.KeyCtrl && (pressed(GLFW_KEY_MINUS) || pressed(GLFW_KEY_KP_SUBTRACT))) {
         console.textScale = std::max(0.75, console.textScale - 0.125);
     }
-    moveByKeys(large, io.WantTextInput);
+    const bool enters = console.aims() && console.cursor && !console.panels && pressed(GLFW_KEY_ENTER);
+    moveByKeys(console, large);
+    const std::optional<ImVec2> clicked = clickByMouse(large);
+    moveByMouse(console, large, toolDepth);
+    dragging_ = dragging_ && ImGui::IsMouseDown(0);
+    orbiting_ = orbiting_ && ImGui::IsMouseDown(1);
+    const std::optional<ImVec2> taken = enters ? console.cursor : clicked;
+    if (taken || !console.aims()) {
+        console.cursor.reset();
+    }
+    return taken;
+}
+
+std::optional<ImVec2> Steering::clickByMouse(const ViewPort& large) {
+    const ImGuiIO& io = ImGui::GetIO();
     const bool inside = large.holds(io.MousePos) && !io.WantCaptureMouse;
     for (int button : {0, 1}) {
         bool& held = button == 0 ? dragging_ : orbiting_;
@@ -155,14 +207,7 @@ bool Steering::step(Console& console, const ViewPort& large, double toolDepth) {
     }
     travelled_ += std::hypot(double{io.MouseDelta.x}, double{io.MouseDelta.y});
     const bool clicked = dragging_ && ImGui::IsMouseReleased(0) && travelled_ < kClick;
-    moveByMouse(console, large, toolDepth);
-    dragging_ = dragging_ && ImGui::IsMouseDown(0);
-    orbiting_ = orbiting_ && ImGui::IsMouseDown(1);
-    return clicked;
-}
-
-HandSample Steering::wish(const Console& console) const {
-    return {raw_, (console.guidance ? 1u : 0u) | (console.clutch ? 4u : 0u)};
+    return clicked ? std::optional(io.MousePos) : std::nullopt;
 }
 
 } // namespace fathom::operate

@@ -4,7 +4,9 @@
 
 #include "apps/operate/console.h"
 #include "apps/operate/view_port.h"
-#include "devices/haptic_device.h"
+
+#include <optional>
+#include <span>
 
 namespace fathom::operate {
 
@@ -20,13 +22,17 @@ public:
     Steering(const Pose& start, const Scene::Hand& hand); // raw
 
     // One window frame: reads ImGui's events. `large`: the view that the mouse drags in. toolDepth [m]: of
-    // the tool along that view's axis. Returns whether the mouse was clicked (not dragged) in the large view.
-    bool step(Console& console, const ViewPort& large, double toolDepth);
-    HandSample wish(const Console& console) const;
+    // the tool along that view's axis. Returns where the large view was clicked: by the mouse, when it was
+    // not dragged, or by Enter at the keyboard's cursor.
+    std::optional<ImVec2> step(Console& console, const ViewPort& large, double toolDepth);
+    const Pose& pose() const { return raw_; }
 
 private:
     void keys(Console& console);
-    void moveByKeys(const ViewPort& large, bool text);
+    void turnToPanels(Console& console);
+    void moveByKeys(Console& console, const ViewPort& large);
+    void moveCursor(Console& console, const ViewPort& large, const dvec3& way);
+    std::optional<ImVec2> clickByMouse(const ViewPort& large);
     void moveByMouse(Console& console, const ViewPort& large, double toolDepth);
     void shift(const dvec3& base);
     void turn(const dvec3& base); // rotation vector [rad]

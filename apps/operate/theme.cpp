@@ -10,7 +10,7 @@ namespace {
 ImFont* load(const char* name, double size) {
     const std::string file = std::string("/usr/share/fonts/truetype/dejavu/") + name;
     ImFontAtlas* atlas = ImGui::GetIO().Fonts;
-    static const ImWchar kRanges[] = {0x20,   0xff,   0x2013, 0x2022, 0x2190, 0x2193,
+    static const ImWchar kRanges[] = {0x20,   0xff,   0x2013, 0x2026, 0x2190, 0x2193,
                                       0x25a0, 0x25cf, 0x26a0, 0x26a1, 0};
     ImFontConfig config;
     config.OversampleH = 2;

@@ -58,7 +58,7 @@ void TimeLinePanel::listen(Console& console) const {
     TimeLine& line = console.timeLine;
     const ImGuiIO& io = ImGui::GetIO();
     const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, true); };
-    if (!io.WantTextInput && !io.KeyCtrl) {
+    if (!io.WantTextInput && !io.KeyCtrl && !console.panels) {
         if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) {
             line.playing = !line.playing;
             line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;

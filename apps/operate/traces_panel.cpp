@@ -79,6 +79,19 @@ void frame(const Plot& plot, const char* name, double limit, const char* unit) {
     plot.list.AddText({plot.at.x + 6.0f, plot.at.y + 3.0f}, colour::kQuiet, text);
 }
 
+const char* wordOf(TurnState state) {
+    switch (state) {
+    case TurnState::Escape:
+        return "escape";
+    case TurnState::Trapped:
+        return "trapped";
+    case TurnState::Fading:
+        return "fading";
+    default:
+        return "";
+    }
+}
+
 // Ticks where the set obeyed changes, and marks where the state does.
 void events(const Plot& plot, const std::deque<TraceSample>& trace) {
     float marked = -1e9f; // marks have room between them
@@ -93,6 +106,7 @@ void events(const Plot& plot, const std::deque<TraceSample>& trace) {
         } else if (trace[i].state != trace[i - 1].state && trace[i].state >= TurnState::Escape &&
                    x - marked > 24.0f) {
             marked = x;
+            plot.list.AddText({x + 6.0f, plot.at.y - 1.0f}, colour::kCaution, wordOf(trace[i].state));
             plot.list.AddTriangleFilled({x - 4.0f, plot.at.y}, {x + 4.0f, plot.at.y}, {x, plot.at.y + 7.0f},
                                         colour::kCaution);
         }
@@ -184,14 +198,14 @@ void TracesPanel::drawCurves(const std::deque<TraceSample>& trace, const HapticO
     const double forceScale = scaleFor(largest(trace, force), limits.forceLimit);
     const double torqueScale = scaleFor(largest(trace, torque), limits.torqueLimit);
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    drawOne({list, corner, half, now - RunView::kSpan, now, -0.6 * forceScale, forceScale}, trace, "force",
+    drawOne({list, corner, half, now - RunView::kSpan, now, -forceScale, forceScale}, trace, "force",
             limits.forceLimit, "N", colour::kForce, force);
     drawOne({list,
              {corner.x, corner.y + half.y + 4.0f},
              half,
              now - RunView::kSpan,
              now,
-             -0.6 * torqueScale,
+             -torqueScale,
              torqueScale},
             trace, "torque", limits.torqueLimit, "N m", IM_COL32(186, 140, 255, 255), torque);
     ImGui::Dummy(room);

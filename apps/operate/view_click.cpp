@@ -7,6 +7,9 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
                  ImVec2 at) {
     const auto pixel = screen.colourPixelAt(at);
     if (!pixel || console.spaceIsLarge) {
+        if (console.aims()) {
+            console.tell("in the camera view: Tab swaps");
+        }
         return;
     }
     if (console.pick.active) {

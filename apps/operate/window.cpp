@@ -68,8 +68,8 @@ Window::Window(const std::string& offscreen, const std::string& title) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // what is worth keeping is in the scene file
     if (window_ != nullptr) {
-        ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard; // offscreen there is no keyboard
         ImGui_ImplGlfw_InitForVulkan(window_, true);
+        ImGui::GetIO().KeyMap[ImGuiKey_Space] = GLFW_KEY_ENTER; // presses what is chosen: space is taken
     }
     before_ = seconds();
 }

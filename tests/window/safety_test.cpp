@@ -92,6 +92,8 @@ TEST_CASE("The space bar turns forces off while text is typed, when letters are 
     CHECK(rig.state()["console"]["guidance"] == false);
     CHECK(rig.state()["run"]["force_N"] == 0.0);
     rig.key("Escape"); // leaves the field
+    const auto frames = rig.state()["window"]["frames"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 3; }));
     rig.key("a");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
     close(rig);

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window records, when the disk is full or the process is killed.
+#include "apps/operate/recorder.h"
+
+#include "apps/operate/turn_log.h"
+#include "devices/recorded/hand_csv.h"
+#include "devices/recorded/recorded_camera.h"
+#include "engine/types/error.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <csignal>
+#include <doctest/doctest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+using namespace fathom;
+using namespace fathom::operate;
+using namespace fathom::testing;
+
+namespace {
+
+constexpr uint32_t kWidth = 64, kHeight = 48;
+
+CameraInfo someCamera() {
+    CameraInfo camera;
+    camera.depth = {kWidth, kHeight, 60.0, 60.0, 31.5, 23.5};
+    camera.metresPerUnit = 0.001;
+    camera.hasColour = false;
+    return camera;
+}
+
+// Pictures a 30th of a second apart, each with turns of one touch after it.
+class Session {
+public:
+    explicit Session(Recorder& recorder, int turns = 33)
+        : recorder_(recorder)
+        , turns_(turns) {}
+
+    void picture() {
+        PublishedFrame frame;
+        frame.t = static_cast<double>(frames_) / 30.0;
+        frame.report.index = frames_++;
+        Fixtures set;
+        set.depth.resize(size_t{kWidth} * kHeight);
+        for (uint16_t& depth : set.depth) { // does not compress
+            noise_ = noise_ * 1664525u + 1013904223u;
+            depth = static_cast<uint16_t>(noise_ >> 16 | 1u);
+        }
+        recorder_.frame(frame, set);
+        for (int k = 0; k < turns_; ++k) {
+            TurnRow row;
+            row.record.t = frame.t + 0.001 * k;
+            row.record.touchCount = 1;
+            row.record.touches[0].multiplier = 1.0 / 3.0;
+            recorder_.turn(row, nullptr, false, {});
+        }
+    }
+
+private:
+    Recorder& recorder_;
+    int turns_;
+    uint32_t frames_ = 0, noise_ = 1;
+};
+
+uint32_t picturesIn(const std::filesystem::path& folder) {
+    RecordedCamera camera(folder);
+    uint32_t pictures = 0;
+    while (camera.next()) {
+        ++pictures;
+    }
+    CHECK(camera.skipped() == 0);
+    return pictures;
+}
+
+// All of it can be read, and no line is cut.
+void checkWhole(const std::filesystem::path& folder, size_t turns) {
+    for (const char* name : {"hand.csv", "wrench.csv", "touches.csv"}) {
+        CAPTURE(name);
+        const std::string text = textOf(folder / name);
+        REQUIRE_FALSE(text.empty());
+        CHECK(text.back() == '\n');
+    }
+    const TurnLog log = readTurnLog(folder);
+    CHECK(log.moments.size() >= turns);
+    CHECK(readHandCsv(folder / "hand.csv").size() >= log.moments.size());
+}
+
+// While it lives, no file of this process grows beyond this size.
+class SmallDisk {
+public:
+    explicit SmallDisk(rlim_t bytes)
+        : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        const rlimit small{bytes, before_.rlim_max};
+        REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    }
+    ~SmallDisk() {
+        ::setrlimit(RLIMIT_FSIZE, &before_);
+        std::signal(SIGXFSZ, handler_);
+    }
+
+private:
+    rlimit before_{};
+    void (*handler_)(int);
+};
+
+} // namespace
+
+TEST_CASE("A recording that is stopped is whole: every picture, every turn until the last one's end") {
+    const ScratchFolder scratch;
+    const auto folder = scratch.path() / "rec";
+    Recorder recorder;
+    Session session(recorder);
+    session.picture(); // before it records
+    recorder.start(folder, "camera: {}\n", someCamera());
+    CHECK(recorder.recording());
+    for (int i = 0; i < 10; ++i) {
+        session.picture();
+    }
+    recorder.stop();
+    CHECK_FALSE(recorder.recording());
+    recorder.finish();
+    CHECK_FALSE(recorder.writing());
+    CHECK(recorder.failure() == "");
+    CHECK(recorder.pictures() == 10);
+    CHECK(picturesIn(folder) == 10);
+    checkWhole(folder, 9 * 33 + 30);
+    CHECK(textOf(folder / "scene.yaml") == "camera: {}\n");
+    CHECK_THROWS_AS(recorder.start(folder, "", someCamera()), BadInput); // is not written over
+    CHECK(picturesIn(folder) == 10);
+}
+
+TEST_CASE("A disk that is full ends a recording by name, and what had room can be read") {
+    const ScratchFolder scratch;
+    struct Case {
+        rlim_t bytes;
+        int turns; // a picture
+        const char* file;
+    };
+    for (const auto& [bytes, turns, file] : {Case{30000, 33, "wrench.csv"}, Case{3000, 0, "000000.png"}}) {
+        CAPTURE(file);
+        const auto folder = scratch.path() / std::to_string(bytes);
+        Recorder recorder;
+        {
+            const SmallDisk disk(bytes);
+            Session session(recorder, turns);
+            recorder.start(folder, "camera: {}\n", someCamera());
+            for (int i = 0; i < 4000 && recorder.recording(); ++i) {
+                session.picture();
+                std::this_thread::sleep_for(std::chrono::milliseconds(1));
+            }
+            CHECK_FALSE(recorder.recording());
+            recorder.stop();
+            recorder.finish();
+        }
+        CHECK_MESSAGE(recorder.failure().find(folder.string()) == 0, recorder.failure());
+        CHECK_MESSAGE(recorder.failure().find(std::string(file) + ": cannot be written") != std::string::npos,
+                      recorder.failure());
+        if (turns > 0) {
+            checkWhole(folder, 33);
+        }
+        recorder.start(scratch.path() / (std::string("after ") + file), "", someCamera()); // there is room
+        CHECK(recorder.failure() == "");
+        Session(recorder).picture();
+        recorder.stop();
+        recorder.finish();
+        CHECK(recorder.failure() == "");
+    }
+}
+
+TEST_CASE("A process that is killed while it records leaves a recording up to there") {
+    const ScratchFolder scratch;
+    const auto folder = scratch.path() / "rec";
+    const pid_t child = ::fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        Recorder recorder;
+        Session session(recorder);
+        recorder.start(folder, "camera: {}\n", someCamera());
+        for (;;) {
+            session.picture();
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        }
+    }
+    for (int i = 0; i < 20000 && !std::filesystem::exists(folder / "depth" / "000030.png"); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    CHECK(picturesIn(folder) >= 29);
+    checkWhole(folder, 29 * 33);
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything without a mouse: panels, colours and places by keys alone; and the space bar, which has the last
+// word.
+#include "tests/window/window_rig.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+// Some frames on, so that what keys did is there.
+json later(const WindowRig& rig) {
+    const auto frames = rig.state()["window"]["frames"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 4; }));
+    return rig.state();
+}
+
+void close(WindowRig& rig) {
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+    CHECK(rig.output().find("validation") == std::string::npos);
+}
+
+} // namespace
+
+TEST_CASE("Forces that are armed and let go within one frame are off, whichever key came last") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    for (int i = 0; i < 6; ++i) {
+        rig.xdo(i % 2 == 0 ? "key --delay 0 a space" : "key --delay 0 g a space");
+        const json s = later(rig);
+        CHECK(s["console"]["forces"] == false);
+        CHECK(s["console"]["guidance"] == false);
+    }
+    rig.key("a"); // alone it arms
+    CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    close(rig);
+}
+
+TEST_CASE("F6 takes arrows and Enter to the panels and back; the space bar presses nothing there") {
+    WindowRig rig;
+    const json before = rig.atRest();
+    REQUIRE(!before.is_null());
+    rig.key("F6");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["panels"] == true; }));
+    // Whatever is chosen first, the way to the row of buttons is short, and Freeze lies at its right end.
+    for (int i = 0; i < 4; ++i) {
+        rig.key("Down");
+    }
+    for (int i = 0; i < 6; ++i) {
+        rig.key("Up");
+    }
+    rig.key("Down");
+    for (int i = 0; i < 6; ++i) {
+        rig.key("Right");
+    }
+    rig.key("space");
+    CHECK(later(rig)["console"]["frozen"] == false);
+    rig.shoot("panels");
+    rig.key("Return");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["frozen"] == true; }));
+    const json there = rig.state();
+    for (int i = 0; i < 3; ++i) {
+        CHECK(there["run"]["device"][i].get<double>() ==
+              doctest::Approx(before["run"]["device"][i].get<double>()));
+    }
+    rig.key("F6");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["panels"] == false; }));
+    rig.keyDown("Up"); // the tool's again
+    CHECK(rig.await([&](const json& s) {
+        return s["run"]["device"][1].get<double>() < before["run"]["device"][1].get<double>() - 0.005;
+    }));
+    rig.keyUp("Up");
+    close(rig);
+}
+
+TEST_CASE("A colour is picked by a cursor that arrows move and Enter takes") {
+    WindowRig rig;
+    const json before = rig.atRest();
+    REQUIRE(!before.is_null());
+    rig.key("k");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["picking"] == true; }));
+    rig.keyDown("Left"); // from the middle, which is red, to the yellow square
+    const auto camera = rig.place("camera");
+    REQUIRE(rig.await([&](const json& s) {
+        const json& c = s["console"]["cursor"];
+        return c.is_array() && c[0].get<double>() < camera[0] + camera[2] * 11.0 / 64.0;
+    }));
+    rig.keyUp("Left");
+    rig.shoot("cursor");
+    rig.key("Return");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["picked"] == true; }));
+    CHECK(rig.state()["selected"] == 10 * 14);
+    CHECK(rig.state()["fixtures"].size() == 2); // the Enter that took it has not added it
+    rig.key("Return");
+    REQUIRE(rig.await([](const json& s) { return s["fixtures"].size() == 3; }));
+    const json after = rig.state();
+    for (int i = 0; i < 3; ++i) { // the arrows were not the tool's
+        CHECK(after["run"]["device"][i].get<double>() ==
+              doctest::Approx(before["run"]["device"][i].get<double>()));
+    }
+    close(rig);
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// A haptic device in the pilot's hand, instead of mouse and keyboard.
+#include "tests/rig/played_device.h"
+#include "tests/rig/run_fathom.h"
+#include "tests/window/window_rig.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <optional>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+double z(const json& s, const char* what) {
+    return s["run"][what][2];
+}
+
+bool alarm(const json& s, const std::string& words) {
+    return std::any_of(s["alarms"].begin(), s["alarms"].end(),
+                       [&](const json& a) { return a.get<std::string>().find(words) != std::string::npos; });
+}
+
+// Until the tool touches, and the hand feels it.
+bool pressUntilFelt(const WindowRig& rig, PlayedDevice& device) {
+    for (int tries = 0; tries < 20; ++tries) {
+        if (rig.state()["run"]["contacts"] > 0 && device.feels(-8.0, -0.2, 2000)) {
+            return true;
+        }
+        device.push(device.z + 0.03);
+    }
+    return false;
+}
+
+} // namespace
+
+TEST_CASE("A haptic device at its door drives the tool in the window and feels the region; the space bar "
+          "lets it go") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    const double start = z(rig.state(), "tool");
+    const auto door = rig.folder() / "hand.door";
+    PlayedDevice device(door);
+    device.z = 0.15; // wherever the handle is, the tool begins where it does without one
+    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", door.string()});
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 200; }));
+    CHECK(rig.state()["hand"]["name"].get<std::string>().find("played device") == 0);
+    CHECK(rig.state()["hand"]["there"] == true);
+    CHECK(z(rig.state(), "tool") == doctest::Approx(start).epsilon(1e-6));
+    device.push(0.17);
+    REQUIRE(
+        rig.await([&](const json& s) { return z(s, "tool") > start + 0.015; })); // forces are off, it moves
+    CHECK(device.fz == 0.0);
+    rig.keyDown("Up"); // keys do not drive beside a device
+    rig.keyUp("Up");
+    const json rests = rig.atRest();
+    REQUIRE(!rests.is_null());
+    CHECK(z(rests, "device") == doctest::Approx(start + 0.02).epsilon(0.01));
+    CHECK(rests["run"]["device"][1].get<double>() == doctest::Approx(rests["run"]["tool"][1].get<double>()));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    REQUIRE(pressUntilFelt(rig, device));
+    CHECK(z(rig.state(), "device") > z(rig.state(), "tool") + 0.0005);
+    rig.shoot("device");
+    rig.key("space");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
+    const auto turns = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 2500; })); // a soft start later
+    CHECK(device.fz == 0.0);
+    CHECK(rig.state()["run"]["force_N"] == 0.0);
+    CHECK(rig.close() == 0);
+    CHECK(rig.output().find("validation") == std::string::npos);
+}
+
+TEST_CASE(
+    "A haptic device that goes away takes its force with it, is told of, and goes on where the tool is") {
+    WindowRig rig;
+    const auto door = rig.folder() / "hand.door";
+    std::optional<PlayedDevice> device;
+    device.emplace(door);
+    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", door.string()});
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    REQUIRE(pressUntilFelt(rig, *device));
+    const double tool = z(rig.state(), "tool");
+    device.reset();
+    REQUIRE(rig.await([](const json& s) {
+        return s["hand"]["there"] == false && alarm(s, "WARNING active hand") && s["run"]["force_N"] == 0.0;
+    }));
+    rig.shoot("device-gone");
+    device.emplace(door); // its handle is far from where it was
+    REQUIRE(rig.await([](const json& s) { return s["hand"]["there"] == true; }));
+    CHECK(rig.await([](const json& s) { return alarm(s, "WARNING latched hand"); }));
+    CHECK(z(rig.state(), "tool") == doctest::Approx(tool).epsilon(0.005));
+    REQUIRE(pressUntilFelt(rig, *device)); // the pilot had not turned forces off
+    rig.key("q");
+    CHECK(rig.await([](const json& s) { return !alarm(s, "hand"); }));
+    CHECK(rig.close() == 0);
+}
+
+TEST_CASE("A haptic device that is not there, or stands beside a recording, is refused in one line") {
+    WindowRig rig;
+    CHECK(rig.close() == 0);
+    const auto scene = rig.folder() / "scene.yaml";
+    for (const auto& [more, words] :
+         {std::pair(std::vector<std::string>{"--hand-device", "/none/hand.door"}, "door: /none/hand.door"),
+          std::pair(std::vector<std::string>{"--hand-device", "/none/hand.door", "--recording", "."},
+                    "--hand-device: /none/hand.door (allowed: nothing beside a recording)")}) {
+        std::vector<std::string> arguments{"operate", scene.string(), "--offscreen", "640x480"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const ProgramRun run = runFathom(arguments);
+        CHECK(run.exitCode == 2);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK_MESSAGE(run.errorLines()[0].find(words) != std::string::npos, run.errorLines()[0]);
+    }
+}
