@@ -29,7 +29,8 @@ struct Pick {
     bool taken = false;  // a click was made
     uint32_t u = 0, v = 0;
     FixtureClass gates; // what would be added
-    int row = -1;       // of the class whose gates are re-picked; -1 = a new one
+    int row = -1;       // of the class whose gates are changed; -1 = a new one
+    bool fresh = false; // what it selects has not been looked at yet
 };
 
 // Where one is in a recording; of a run that is not one, `on` is false and nothing else counts.
@@ -61,8 +62,9 @@ struct Console {
     TimeLine timeLine;
     Pick pick;
     ShapeKind placing = ShapeKind::None; // the next click on the cloud puts one there
-    bool panels = false;                 // arrows and Enter are the panels', not the tool's
-    std::optional<ImVec2> cursor;        // [pixels] the keyboard's, while it aims
+    std::optional<dvec3> placedFrom; // base point where a line or an axis begins: the next click is its way
+    bool panels = false;             // arrows and Enter are the panels', not the tool's
+    std::optional<ImVec2> cursor;    // [pixels] the keyboard's, while it aims
     bool aims() const { return (pick.active && !pick.taken) || placing != ShapeKind::None; }
 
     std::string pilotWanted; // of the scene's; empty = as it is

@@ -144,10 +144,14 @@ void FixtureEditor::preview(Console& console, const SceneSnapshot& snapshot) {
     }
 }
 
-bool FixtureEditor::addPicked(Console& console) {
+bool FixtureEditor::takePicked(Console& console) {
     Scene next = scene_;
-    const auto spare = std::find_if(next.fixtures.begin(), next.fixtures.end(), isSpare);
-    const bool added = console.pick.taken && spare != next.fixtures.end();
+    const auto count = static_cast<int>(next.fixtures.size());
+    const int row = console.pick.row;
+    const auto spare = row >= 0 ? next.fixtures.begin() + std::min(row, count)
+                                : std::find_if(next.fixtures.begin(), next.fixtures.end(), isSpare);
+    const bool added = console.pick.taken && spare != next.fixtures.end() &&
+                       (row < 0 || spare->name == console.pick.gates.name); // an undo may have moved rows
     if (added) {
         *spare = console.pick.gates;
         enact(std::move(next));

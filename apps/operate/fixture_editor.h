@@ -26,8 +26,9 @@ public:
     void pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel);
     // The preview of the gates as they are now.
     void preview(Console& console, const SceneSnapshot& snapshot);
-    // Puts the picked class into a spare row; false when there is none left.
-    bool addPicked(Console& console);
+    // Puts the picked class into a spare row, false when there is none left; or its gates into the row that
+    // they are of.
+    bool takePicked(Console& console);
     // An authored shape at a base point with the surface's normal.
     bool place(ShapeKind kind, const dvec3& base, const dvec3& normal);
     bool change(size_t row, const FixtureClass& to); // one step of history

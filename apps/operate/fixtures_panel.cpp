@@ -7,6 +7,7 @@
 
 #include <GLFW/glfw3.h>
 #include <cmath>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -56,6 +57,14 @@ void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& sna
         return;
     }
     FixtureClass& gates = console.pick.gates;
+    if (std::exchange(console.pick.fresh, false)) {
+        editor.preview(console, snapshot);
+    }
+    const bool anew = console.pick.row < 0;
+    if (!anew) {
+        ImGui::TextColored(ImColor(colour::kPicked), "'%s':", gates.name.c_str());
+        ImGui::SameLine();
+    }
     ImGui::TextColored(ImColor(colour::kPicked), "Would select %zu points (cyan)", editor.selectedPoints());
     markPlace(console, "preview");
     histogram(editor.hues(), gates);
@@ -72,26 +81,27 @@ void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& sna
     ImGui::RadioButton("guidance", &role, 1);
     markPlace(console, "role guidance");
     gates.role = role == 0 ? Role::Forbidden : Role::Guidance;
-    console.addPicked = ImGui::Button("Add  (Enter)");
+    console.addPicked = ImGui::Button(anew ? "Add  (Enter)" : "Change  (Enter)");
     markPlace(console, "add");
 }
 
-// One fixture: name, role, radius; a change is one step of history when the slider is let go.
-// Radius of a class of points or size of a shape; true when the pilot let go of a new one.
-bool sizeSlider(Console& console, FixtureClass& now, int row) {
-    float millimetres = static_cast<float>(1e3 * (now.isPoints() ? now.radius : now.size.x));
-    const bool dragged = console.editedRow == row;
+// Radius of a class of points or a size of a shape [m]; true when the pilot let go of a new one. id: of the
+// slider among all.
+bool sizeSlider(Console& console, double& size, const char* word, const std::string& place, int id) {
+    float millimetres = static_cast<float>(1e3 * size);
+    const bool dragged = console.editedRow == id;
     millimetres = dragged ? console.editedMillimetres : millimetres;
     ImGui::SetNextItemWidth(-1.0f);
-    if (ImGui::SliderFloat("##radius", &millimetres, 2.0f, 150.0f,
-                           now.isPoints() ? "radius %.0f mm" : "size %.0f mm")) {
-        console.editedRow = row;
+    ImGui::PushID(id);
+    if (ImGui::SliderFloat("##size", &millimetres, 2.0f, 150.0f, (std::string(word) + " %.0f mm").c_str())) {
+        console.editedRow = id;
         console.editedMillimetres = millimetres;
     }
-    markPlace(console, "radius " + now.name);
+    ImGui::PopID();
+    markPlace(console, place);
     const bool done = ImGui::IsItemDeactivatedAfterEdit();
     if (done) {
-        (now.isPoints() ? now.radius : now.size.x) = 1e-3 * static_cast<double>(millimetres);
+        size = 1e-3 * static_cast<double>(millimetres);
     }
     if (!ImGui::IsItemActive() && dragged) {
         console.editedRow = -1;
@@ -99,6 +109,27 @@ bool sizeSlider(Console& console, FixtureClass& now, int row) {
     return done;
 }
 
+// Radius, or what the shape has: of a box three edges, of a cylinder radius and height.
+bool sizes(Console& console, FixtureClass& now, int row) {
+    if (now.isPoints()) {
+        return now.role == Role::Forbidden &&
+               sizeSlider(console, now.radius, "radius", "radius " + now.name, 4 * row);
+    }
+    constexpr const char* kBox[] = {"x", "y", "z"};
+    constexpr const char* kOther[] = {"size", "height", ""};
+    bool done = false;
+    for (int k = 0; k < 3; ++k) {
+        const bool box = now.shape == ShapeKind::Box;
+        if (now.size[k] > 0.0 && (box || k < 2)) {
+            done = sizeSlider(console, now.size[k], box ? kBox[k] : kOther[k],
+                              (k == 0 ? "radius " : std::string(kBox[k]) + " ") + now.name, 4 * row + k) ||
+                   done;
+        }
+    }
+    return done;
+}
+
+// One fixture: name, role, sizes; a change is one step of history when the slider is let go.
 void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot& snapshot) {
     const FixtureClass before = editor.scene().fixtures[i];
     FixtureClass now = before;
@@ -118,8 +149,10 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
         now.role = role == 0 ? Role::Forbidden : Role::Guidance;
         ImGui::SameLine();
     }
-    if (now.isPoints() ? now.role == Role::Forbidden : now.size.x > 0.0) {
-        done = sizeSlider(console, now, static_cast<int>(i)) || done;
+    const bool endless =
+        now.shape == ShapeKind::Plane || now.shape == ShapeKind::Line || now.shape == ShapeKind::Axis;
+    if (now.isPoints() ? now.role == Role::Forbidden : !endless) {
+        done = sizes(console, now, static_cast<int>(i)) || done;
     } else {
         ImGui::NewLine();
     }
@@ -143,6 +176,7 @@ void placeButtons(Console& console) {
         ImGui::SameLine(0.0f, 5.0f);
         if (ImGui::SmallButton(name)) {
             console.placing = console.placing == kind ? ShapeKind::None : kind;
+            console.placedFrom.reset();
         }
         markPlace(console, std::string("place ") + name);
     }
@@ -160,14 +194,15 @@ void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnaps
     if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) {
         console.pick = Pick{};
         console.placing = ShapeKind::None;
+        console.placedFrom.reset();
         editor.preview(console, snapshot);
     }
     const bool adds = console.pick.taken && !console.panels && !io.WantTextInput &&
                       ImGui::IsKeyPressed(GLFW_KEY_ENTER, false);
     if (adds || console.addPicked) {
         const std::string name = console.pick.gates.name;
-        console.tell(editor.addPicked(console) ? "'" + name + "' is in force"
-                                               : "no room: 8 classes of points at most");
+        console.tell(editor.takePicked(console) ? "'" + name + "' is in force"
+                                                : "no room: 8 classes of points at most");
     }
     if ((control(GLFW_KEY_Z) || console.undo) && editor.undo()) {
         console.tell("undone");

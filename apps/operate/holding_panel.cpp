@@ -74,6 +74,15 @@ bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapsh
         done = true;
     }
     markPlace(console, "box " + now.name);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("Colour")) { // its gates in the panel of a picked colour, there to be changed
+        console.pick = Pick{};
+        console.pick.active = console.pick.taken = true;
+        console.pick.gates = now;
+        console.pick.row = row;
+        console.pick.fresh = true;
+    }
+    markPlace(console, "colour " + now.name);
     if (now.frozen) {
         ImGui::SameLine();
         ImGui::TextColored(ImColor(colour::kCaution), "held still");

@@ -159,8 +159,8 @@ void Screen::drawAlarm(Console& console, const Alarms& alarms) const {
     if (worst == nullptr) {
         return;
     }
-    const std::string words = std::string(levelSign(worst->level)) + " " + worst->words +
-                              (worst->active ? "   Q" : " (over)   Q");
+    const std::string words =
+        std::string(levelSign(worst->level)) + " " + worst->words + (worst->active ? "   Q" : " (over)   Q");
     const float line = ImGui::GetTextLineHeight();
     const ImVec2 at{static_cast<float>(large_->where.x) + 10.0f,
                     static_cast<float>(large_->where.y) + 1.2f * line + 8.0f};

@@ -92,11 +92,16 @@ json fixturesOf(const Scene* scene) {
     json rows = json::array();
     for (const FixtureClass& f : scene != nullptr ? scene->fixtures : std::vector<FixtureClass>()) {
         if (!f.name.empty()) {
-            rows.push_back({{"name", f.name},
-                            {"role", f.role == Role::Forbidden ? "forbidden" : "guidance"},
-                            {"radius", f.radius},
-                            {"frozen", f.frozen},
-                            {"box", f.box ? json({vec(f.box->min), vec(f.box->max)}) : json(nullptr)}});
+            rows.push_back(
+                {{"name", f.name},
+                 {"role", f.role == Role::Forbidden ? "forbidden" : "guidance"},
+                 {"radius", f.radius},
+                 {"frozen", f.frozen},
+                 {"shape", f.isPoints() ? json(nullptr)
+                                        : json{{"at", vec(f.baseTshape.position)},
+                                               {"axis", vec(f.baseTshape.rotation * dvec3(0, 0, 1))},
+                                               {"size", vec(f.size)}}},
+                 {"box", f.box ? json({vec(f.box->min), vec(f.box->max)}) : json(nullptr)}});
         }
     }
     return rows;

@@ -1,7 +1,75 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/view_click.h"
 
+#include <cmath>
+#include <glm/geometric.hpp>
+
 namespace fathom::operate {
+
+namespace {
+
+// Base points of a depth picture.
+class Cloud {
+public:
+    explicit Cloud(const Fixtures& set)
+        : set_(set) {}
+
+    std::optional<dvec3> at(int u, int v) const {
+        const Intrinsics& lens = set_.camera.depth;
+        if (u < 0 || v < 0 || u >= static_cast<int>(lens.width) || v >= static_cast<int>(lens.height)) {
+            return std::nullopt;
+        }
+        const uint16_t raw = set_.depth[static_cast<size_t>(v) * lens.width + static_cast<size_t>(u)];
+        if (raw == 0) {
+            return std::nullopt;
+        }
+        const dvec3 ray(lens.ray(u, v), 1.0);
+        return set_.baseTcamera.apply(raw * set_.camera.metresPerUnit * ray);
+    }
+
+    // Of the surface there, towards the camera, from points around; back to the camera where there are none.
+    dvec3 normalAt(int u, int v) const {
+        const dvec3 back = glm::normalize(set_.baseTcamera.position - at(u, v).value_or(dvec3(0.0)));
+        for (const int reach : {4, 2, 1}) { // [pixels] wide is smooth
+            const auto left = at(u - reach, v), right = at(u + reach, v), up = at(u, v - reach),
+                       down = at(u, v + reach);
+            if (left && right && up && down) {
+                const dvec3 n = glm::cross(*down - *up, *right - *left);
+                const double length = glm::length(n);
+                // Steeper than 80 degrees is rather an edge between two surfaces.
+                if (length > 0.0 && std::abs(glm::dot(n, back)) > 0.17 * length) {
+                    return (glm::dot(n, back) > 0.0 ? n : -n) / length;
+                }
+            }
+        }
+        return back;
+    }
+
+private:
+    const Fixtures& set_;
+};
+
+// A line or an axis goes from the first click to the second, anything else stands on the surface.
+void placeAt(Console& console, FixtureEditor& editor, const dvec3& base, const dvec3& normal) {
+    constexpr double kShortest = 0.002; // [m]
+    const bool goes = console.placing == ShapeKind::Line || console.placing == ShapeKind::Axis;
+    if (goes && !console.placedFrom) {
+        console.placedFrom = base;
+        console.tell("and now where it leads to");
+        return;
+    }
+    const dvec3 way = goes ? base - *console.placedFrom : normal;
+    if (goes && glm::length(way) < kShortest) {
+        console.tell("too near: click where it leads to");
+        return;
+    }
+    const bool placed = editor.place(console.placing, goes ? *console.placedFrom : base, way);
+    console.tell(placed ? "placed" : "no room: 16 shapes at most");
+    console.placing = ShapeKind::None;
+    console.placedFrom.reset();
+}
+
+} // namespace
 
 void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, const SceneSnapshot& scene,
                  ImVec2 at) {
@@ -20,19 +88,15 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
         return;
     }
     const CameraInfo& camera = scene.set.camera;
-    const uint32_t u = pixel->x * camera.depth.width / screen.large().view.lens.width;
-    const uint32_t v = pixel->y * camera.depth.height / screen.large().view.lens.height;
-    const uint16_t raw = scene.set.depth[static_cast<size_t>(v) * camera.depth.width + u];
-    if (raw == 0) {
+    const auto u = static_cast<int>(pixel->x * camera.depth.width / screen.large().view.lens.width);
+    const auto v = static_cast<int>(pixel->y * camera.depth.height / screen.large().view.lens.height);
+    const Cloud cloud(scene.set);
+    const auto base = cloud.at(u, v);
+    if (!base) {
         console.tell("no depth there: click on a surface");
-    } else {
-        const double z = raw * camera.metresPerUnit;
-        const glm::dvec2 ray = camera.depth.ray(u, v);
-        const dvec3 base = scene.set.baseTcamera.apply(z * dvec3(ray, 1.0));
-        const dvec3 towards = scene.set.baseTcamera.rotation * dvec3(0.0, 0.0, -1.0);
-        console.tell(editor.place(console.placing, base, towards) ? "placed" : "no room: 16 shapes at most");
+        return;
     }
-    console.placing = ShapeKind::None;
+    placeAt(console, editor, *base, cloud.normalAt(u, v));
 }
 
 } // namespace fathom::operate

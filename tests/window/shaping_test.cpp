@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fixtures that are shaped by hand while the run goes on: gates of a class in force, rulers, boxes.
+#include "tests/window/window_rig.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+glm::dvec3 vec(const json& v) {
+    return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+}
+
+// The wall, 600 mm away, in the middle of this pixel of the picture.
+glm::dvec3 wallAt(double u, double v) {
+    return 0.6 * glm::dvec3((u - kCx) / kFocal, (v - kCy) / kFocal, 1.0);
+}
+
+void clickPixel(const WindowRig& rig, double u, double v) {
+    rig.click("camera", (u + 0.5) / kWidth, (v + 0.5) / kHeight);
+}
+
+void close(WindowRig& rig) {
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+    CHECK(rig.output().find("validation") == std::string::npos);
+}
+
+} // namespace
+
+TEST_CASE("The colour of a class in force is changed: previewed first, then obeyed, undone and done again") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 200; }));
+    const auto spheres = rig.state()["run"]["spheres"].get<size_t>();
+    rig.click("colour red");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["picked"] == true && s["selected"] > 200; }));
+    clickPixel(rig, 9, 23); // the yellow square
+    REQUIRE(rig.await([](const json& s) { return s["selected"] == 10 * 14; }));
+    CHECK(rig.state()["run"]["spheres"].get<size_t>() == spheres); // not yet in force
+    rig.shoot("gates");
+    rig.key("Return");
+    REQUIRE(rig.await([&](const json& s) {
+        return s["run"]["spheres"] > 0 && s["run"]["spheres"].get<size_t>() <= 10 * 14;
+    }));
+    CHECK(rig.state()["fixtures"].size() == 2);
+    CHECK(rig.state()["fixtures"][0]["name"] == "red"); // its name and radius are as they were
+    CHECK(rig.state()["fixtures"][0]["radius"] == 0.04);
+    rig.key("ctrl+z");
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["spheres"].get<size_t>() == spheres; }));
+    rig.key("ctrl+y");
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["spheres"].get<size_t>() <= 10 * 14; }));
+    close(rig);
+}
+
+TEST_CASE("A ruler goes from a first click to a second, a box stands on the surface and has three edges") {
+    WindowRig rig;
+    rig.xdo("windowsize --sync $W 1600 900"); // the panel has room for all rows
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100 && s["window"]["width"] == 1600; }));
+    rig.click("place line");
+    clickPixel(rig, 8, 40);
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("where it leads") != std::string::npos;
+    }));
+    CHECK(rig.state()["shapes"] == 0);
+    clickPixel(rig, 28, 44);
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
+    const json line = rig.state()["fixtures"][2];
+    CHECK(line["role"] == "guidance");
+    const glm::dvec3 way = glm::normalize(wallAt(28, 44) - wallAt(8, 40));
+    CHECK(glm::distance(vec(line["shape"]["at"]), wallAt(8, 40)) < 0.011); // a pixel is 10 mm wide
+    CHECK(glm::dot(vec(line["shape"]["axis"]), way) > 0.99);
+    rig.click("place box");
+    clickPixel(rig, 54, 8);
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 2; }));
+    const json box = rig.state()["fixtures"][3];
+    // The wall's normal, not the way back to the camera, which is 24 degrees off there.
+    CHECK(glm::dot(vec(box["shape"]["axis"]), glm::dvec3(0, 0, -1)) > 0.999);
+    rig.shoot("shapes");
+    rig.click("z box 1", 0.9);
+    REQUIRE(rig.await([](const json& s) { return s["fixtures"][3]["shape"]["size"][2] > 0.12; }));
+    CHECK(rig.state()["fixtures"][3]["shape"]["size"][0] == 0.1);
+    rig.key("ctrl+s");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("4 fixtures saved") == 0;
+    }));
+    rig.reopen(rig.folder() / "scene.yaml");
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 2; }));
+    CHECK(glm::distance(vec(rig.state()["fixtures"][2]["shape"]["axis"]), vec(line["shape"]["axis"])) < 1e-6);
+    close(rig);
+}
