@@ -12,7 +12,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <imgui.h>
+#include <iterator>
 #include <thread>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -96,19 +98,28 @@ void Window::holdTaps() {
     };
     io.KeyCtrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
     io.KeyShift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    std::vector<Tap> later;
     for (const Tap& tap : taps_) {
-        if (!io.KeysDown[tap.key]) {
-            io.KeysDown[tap.key] = true;
-            held_.push_back(tap.key);
+        const bool now = std::find(held_.begin(), held_.end(), tap.key) != held_.end();
+        held_.push_back(tap.key);
+        if (now || shown_[static_cast<size_t>(tap.key)]) { // it has to be up for a frame to go down again
+            io.KeysDown[tap.key] = now && io.KeysDown[tap.key];
+            later.push_back(tap);
+            continue;
         }
+        io.KeysDown[tap.key] = true;
         io.KeyCtrl = io.KeyCtrl || (tap.mods & GLFW_MOD_CONTROL) != 0;
         io.KeyShift = io.KeyShift || (tap.mods & GLFW_MOD_SHIFT) != 0;
     }
-    taps_.clear();
+    taps_ = std::move(later);
+    std::copy(std::begin(io.KeysDown), std::end(io.KeysDown), shown_.begin());
 }
 
 void Window::key(GLFWwindow* window, int key, int, int action, int mods) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
+    if (key == GLFW_KEY_SPACE && action == GLFW_PRESS) {
+        self->taps_.clear(); // what was struck before it comes no more
+    }
     if (key >= 0 && action == GLFW_PRESS) {
         self->taps_.push_back({key, mods});
     }

@@ -4,6 +4,7 @@
 
 #include "engine/gpu/instance.h"
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -39,7 +40,8 @@ public:
     VkExtent2D size() const; // [pixels]
 
 private:
-    // A key that went down and up between two frames still counts as pressed in the next one.
+    // A key that went down and up between two frames still counts as pressed in the next one, and one that
+    // did so twice in the next but one, too.
     void holdTaps();
 
     static void key(GLFWwindow* window, int key, int scan, int action, int mods);
@@ -48,8 +50,9 @@ private:
     struct Tap {
         int key = 0, mods = 0;
     };
-    std::vector<Tap> taps_; // since the last frame
-    std::vector<int> held_; // by holdTaps(), to be let go
+    std::vector<Tap> taps_;         // since the last frame
+    std::vector<int> held_;         // by holdTaps(), to be let go
+    std::array<bool, 512> shown_{}; // keys that the last frame had down, as many as ImGui knows
     double before_ = 0.0;
 };
 

@@ -31,13 +31,24 @@ TEST_CASE("Forces that are armed and let go within one frame are off, whichever 
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     for (int i = 0; i < 6; ++i) {
-        rig.xdo(i % 2 == 0 ? "key --delay 0 a space" : "key --delay 0 g a space");
+        rig.xdo(i % 2 == 0 ? "key --delay 0 a a space" : "key --delay 0 g a space");
         const json s = later(rig);
         CHECK(s["console"]["forces"] == false);
         CHECK(s["console"]["guidance"] == false);
     }
     rig.key("a"); // alone it arms
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    close(rig);
+}
+
+TEST_CASE("A key that is struck faster than frames are drawn counts each time") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["console"]["tree_level"] == -1; }));
+    rig.xdo("key --delay 50 t t t"); // faster still would be one that is held
+    CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 2; }));
+    rig.xdo("key --delay 50 t t t t t t");
+    CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 3; }));
+    CHECK(later(rig)["console"]["tree_level"] == 3);
     close(rig);
 }
 

@@ -61,6 +61,10 @@ TEST_CASE(
     };
     CHECK(shot.share(part(0.40, 0.35, 0.25, 0.3), isRed) > 0.5);   // the bump
     CHECK(shot.share(part(0.02, 0.02, 0.12, 0.12), isRed) < 0.02); // the wall
+    // The region reaches over grey wall beside the bump: hatched in red, within a line.
+    const auto reddish = [](int r, int g, int b) { return r > g + 15 && r > b + 15; };
+    CHECK(shot.share(part(0.33, 0.4, 0.035, 0.2), reddish) > 0.9);
+    CHECK(shot.share(part(0.27, 0.4, 0.02, 0.2), reddish) < 0.02);
     // The corner without depth: dark and bright stripes, neither the wall's grey.
     const auto bright = [](int r, int, int b) { return r > 150 && b > 170; };
     const auto dark = [](int r, int g, int b) { return r < 90 && g < 90 && b < 100; };
@@ -103,6 +107,40 @@ TEST_CASE("Keys and wheel drive the tool to the region's surface, where it stops
     CHECK(rig.await(
         [](const json& now) { return now["run"]["force_N"] == 0.0 && now["console"]["forces"] == false; },
         5.0));
+    silent(rig);
+}
+
+TEST_CASE("Forces that are armed in contact come up turn by turn, over more than a second") {
+    constexpr double kFull = 0.9;
+    WindowRig rig;
+    pushIntoBump(rig);
+    REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 1.0; }));
+    REQUIRE(!rig.atRest().is_null());
+    rig.key("space");
+    REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] == 0.0; }));
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
+    const auto begun = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > begun + 200; }));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
+    const auto armed = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > armed + 3000; }));
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
+    }));
+    const auto felt = feltIn(rig.folder() / "recording-1" / "wrench.csv", 1, 7);
+    const double most = std::max_element(felt.begin(), felt.end(), [](const Felt& a, const Felt& b) {
+                            return a.force < b.force;
+                        })->force;
+    REQUIRE(most > 0.3);
+    const auto row = [&](double share) {
+        return std::find_if(felt.begin(), felt.end(), [&](const Felt& f) { return f.force > share * most; }) -
+               felt.begin();
+    };
+    CHECK(felt.front().force == 0.0);
+    CHECK(row(kFull) - row(0.01) > 900); // turns: however late they came, they are counted
     silent(rig);
 }
 

@@ -116,22 +116,29 @@ TEST_CASE(
     std::ofstream(rig.folder() / "gpu.yaml") << rig.sceneText() << "contact: { where: gpu }\n";
     rig.reopen(rig.folder() / "gpu.yaml");
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0; }));
+    rig.click("box red");
+    REQUIRE(rig.await([](const json& s) { return !s["fixtures"][0]["box"].is_null(); }));
     rig.click("hold red");
     const auto held = [](const json& s, bool is) {
         return s["fixtures"][0]["frozen"] == is && s["fixtures"][1]["frozen"] == false;
     };
     REQUIRE(rig.await([&](const json& s) { return held(s, true); }));
     const json first = rig.state();
-    // A larger radius is one of a class that does not listen.
-    rig.drag("radius red", {0.3, 0.5}, {0.9, 0.5});
-    REQUIRE(rig.await([](const json& s) { return s["fixtures"][0]["radius"] > 0.08; }));
+    rig.drag("box max red", {0.2, 0.5}, {0.0, 0.5}); // leaves points out of a class that listens
+    REQUIRE(rig.await([&](const json& s) { return s["fixtures"][0]["box"] != first["fixtures"][0]["box"]; }));
     const int generation = rig.state()["run"]["generation"];
     REQUIRE(rig.await([&](const json& s) { return s["run"]["generation"] > generation + 5; }));
     CHECK(rig.state()["run"]["spheres"] == first["run"]["spheres"]);
     rig.shoot("held");
-    rig.key("ctrl+z"); // the radius
+    rig.click("hold red"); // lets it go
+    const int all = first["run"]["spheres"];
+    REQUIRE(rig.await([&](const json& s) { return held(s, false) && s["run"]["spheres"] < all - 20; }));
+    rig.key("ctrl+z");
+    REQUIRE(rig.await([&](const json& s) { return held(s, true); }));
+    rig.key("ctrl+z"); // the box
+    REQUIRE(rig.await([&](const json& s) { return s["fixtures"][0]["box"] == first["fixtures"][0]["box"]; }));
     rig.key("ctrl+z"); // the holding
-    REQUIRE(rig.await([&](const json& s) { return held(s, false); }));
+    REQUIRE(rig.await([&](const json& s) { return held(s, false) && s["run"]["spheres"] == all; }));
     rig.key("ctrl+y");
     REQUIRE(rig.await([&](const json& s) { return held(s, true); }));
     CHECK(rig.close() == 0);
