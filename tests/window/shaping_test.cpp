@@ -62,6 +62,8 @@ TEST_CASE("A ruler goes from a first click to a second, a box stands on the surf
     WindowRig rig;
     rig.xdo("windowsize --sync $W 1600 900"); // the panel has room for all rows
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100 && s["window"]["width"] == 1600; }));
+    const auto frames = rig.state()["window"]["frames"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 4; })); // laid out so
     rig.click("place line");
     clickPixel(rig, 8, 40);
     REQUIRE(rig.await([](const json& s) {
