@@ -29,7 +29,14 @@ ReachArm::ReachArm(SerialPort& port, const ReachOptions& options)
 }
 
 // The line's own echo is a position packet like an answer: each packet sent answers for one that is equal.
+// Only where the line does echo: the answer of an arm that rests on its setpoint is equal, too. No arm sends
+// a request, and requests are heard before the first setpoint goes out, for that needs an answer of every
+// axis.
 bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
+    echoes_ = echoes_ || packet.id == kRequest;
+    if (!echoes_) {
+        return false;
+    }
     for (Sent& sent : sent_) {
         const ReachPacket& p = sent.packet;
         if (now - sent.at <= options_.echoTime && p.id == packet.id && p.device == packet.device &&
@@ -43,9 +50,10 @@ bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
 }
 
 void ReachArm::heard(const ReachPacket& packet, double now) noexcept {
+    const bool echo = isEcho(packet, now);
     const auto value = packet.asFloat();
     const auto device = std::find(kDevice.begin(), kDevice.end(), packet.device);
-    if (!value || !std::isfinite(*value) || device == kDevice.end() || isEcho(packet, now)) {
+    if (echo || !value || !std::isfinite(*value) || device == kDevice.end()) {
         return;
     }
     const auto axis = static_cast<size_t>(device - kDevice.begin());

@@ -19,7 +19,8 @@ struct ReachOptions {
     double jawLead = 0.005; // [m] the same of the jaws
     double mostCurrent = 1.5;  // [A] of any motor, longer than overloadTime: latched hold
     double overloadTime = 0.1; // [s]
-    double echoTime = 0.05;    // [s] in which a packet equal to one sent is the line's own echo; 0 = no echo
+    double echoTime = 0.05; // [s] in which, on a line that gives back requests, a packet equal to one sent is
+                            // its own echo
 };
 
 // Axes: base, shoulder, elbow, wrist [rad], jaws [m]. Absolute sensors: no homing. Sends positions, each at
@@ -56,6 +57,7 @@ private:
     std::array<double, kAxes> overSince_{}; // [s]; infinite = not over
     std::array<Sent, 32> sent_{};           // newest overwrite oldest
     size_t nextSent_ = 0;
+    bool echoes_ = false;       // a request came back
     double nextCommand_ = -1e9; // [s]
 };
 

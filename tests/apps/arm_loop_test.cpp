@@ -34,6 +34,7 @@ struct Loop {
     PtyLine line{arm};
     SerialPort port{line.name(), 115200};
     ReachArm driver{port};
+    int stale = 0; // steps without fresh feedback, after the first 0.1 s
     double now = 0.0, deepestProxy = -1.0, deepestArm = -1.0, lag = 0.0;
 
     void run(double seconds, const Pose& target, bool hold = false) {
@@ -49,6 +50,7 @@ struct Loop {
             driver.step(now, command);
             line.exchange(now);
             arm.step(kTurn * kTurnsAStep);
+            stale += now > 0.1 && driver.feedback().stale ? 1 : 0;
             const ArmFrames frames = measured(model, driver.feedback());
             deepestArm = std::max(deepestArm, world.depth(model, frames));
             lag = std::max(lag, glm::distance(model.tip(frames).position, proxy.tip().position));
@@ -70,6 +72,7 @@ TEST_CASE("Pilot, proxy, joints, serial line, arm and spheres make a loop that k
         MESSAGE("noise " << faults.noise << ": proxy " << loop.deepestProxy * 1e6
                          << " um deep, arm on the way " << loop.deepestArm * 1e3 << " mm, at rest "
                          << resting * 1e6 << " um; lag up to " << loop.lag * 1e3 << " mm");
+        CHECK((loop.stale == 0 || faults.noise > 0.0)); // also while it rests on the region
         CHECK(loop.deepestProxy <= 1e-9);
         CHECK(loop.deepestArm <
               2e-3); // the arm's own lag bends its way: that is what a region's margin is for

@@ -86,6 +86,29 @@ TEST_CASE("Noise, lost bytes, its own echo and late answers slow a Reach arm, an
     }
 }
 
+TEST_CASE(
+    "A Reach arm that rests on its setpoint is heard all the time, on a line with an echo and without") {
+    for (const bool echo : {false, true}) {
+        CAPTURE(echo);
+        Rig rig;
+        rig.line.faults.echo = echo;
+        rig.run(0.5, kGo);
+        int stale = 0, held = 0;
+        double oldest = 0.0;
+        for (int i = 0; i < 200; ++i) {
+            rig.run(0.01, kGo);
+            const ArmFeedback& f = rig.driver.feedback();
+            stale += f.stale ? 1 : 0;
+            held += f.holding ? 1 : 0;
+            oldest = std::max(oldest, f.age);
+        }
+        CHECK(rig.error(kGo) < 1e-5); // it did rest
+        CHECK(stale == 0);
+        CHECK(held == 0);
+        CHECK(oldest < 0.045); // two periods of 20 ms and a step
+    }
+}
+
 TEST_CASE("On hold a Reach arm stands, and its own echo is not taken for feedback") {
     Rig rig;
     rig.line.faults.echo = true;
