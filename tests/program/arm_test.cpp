@@ -142,6 +142,9 @@ TEST_CASE(
     // Out of reach: the elbow stands at its limit, and the hand is held although nothing is touched.
     CHECK(run.at(13.0).joints[2] == doctest::Approx(-0.05));
     CHECK(run.at(13.0).limits > 0);
+    CHECK(glm::length(run.replay.at(13.0).force) > 5.0);
+    CHECK(run.replay.at(13.0).contacts == 0);
+    CHECK(run.replay.at(13.0).minGap > 0.005);
     CHECK(arm.at("limited_ticks").get<int>() > 500);
     // Free again at first it follows to the micrometre.
     CHECK(run.at(0.6).residual < 1e-6);
@@ -158,7 +161,20 @@ TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and
     CHECK(run.replay.at(4.4).guidance == 1.0);
     CHECK(pulled < before - 0.0015); // guidance leads by at most F_g / K_t = 2 mm
     CHECK(run.at(4.4).grasp == 0.0);
+    // Closed about the connector, as near to it as the pull has an end: 30 mm before its face, where the
+    // target is.
     CHECK(run.at(6.0).grasp == 1.0);
+    CHECK(glm::distance(run.replay.at(6.0).tool.position, goal) < 0.003);
+    // Against the valve's region the button is let go at 9.7 s, and the jaw stays closed; away from it, it
+    // opens.
+    CHECK(run.at(9.6).held == 0);
+    for (const double t : {9.8, 10.3, 11.0}) {
+        CAPTURE(t);
+        CHECK(run.at(t).held == 1);
+        CHECK(run.at(t).grasp > 0.9);
+        CHECK(run.replay.at(t).state == "contact");
+    }
+    CHECK(run.at(12.5).held == 0);
     CHECK(run.arm.back().grasp == 0.0);
 }
 
