@@ -12,6 +12,9 @@ namespace fathom {
 
 namespace {
 
+constexpr double kWholeShare =
+    0.98; // of the time that was asked: the clock starts a little after the first frame
+constexpr size_t kLeastLooks = 20; // at memory: two a tenth
 constexpr std::array<size_t, 14> kSteps{0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
 
 void printTimes(std::ostream& out, const char* name, const Histogram& h) {
@@ -101,8 +104,10 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
     }
 }
 
-bool soakHolds(const LatencyPart& part) {
-    return part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMostGrowth;
+bool soakHolds(const LatencyPart& part, double asked) {
+    const bool whole = part.seconds >= kWholeShare * asked && part.frames > 0 && part.turn.count() > 0 &&
+                       part.memory.size() >= kLeastLooks;
+    return whole && part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMostGrowth;
 }
 
 } // namespace fathom

@@ -19,7 +19,7 @@ void printHistograms(std::ostream& out, std::span<const LatencyPart> parts);
 // Throws Error when it cannot be written.
 void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart> parts, double rateHz,
                   const std::string& device);
-// No frame lost, no record lost, memory flat.
-bool soakHolds(const LatencyPart& part);
+// As long as was asked [s] and with frames, no frame lost, no record lost, memory looked at and flat.
+bool soakHolds(const LatencyPart& part, double asked);
 
 } // namespace fathom

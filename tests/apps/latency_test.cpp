@@ -64,13 +64,26 @@ TEST_CASE("What is longer than the bins is counted, and its largest is told exac
     CHECK(h.between(10'000, Histogram::kBins) == 2);
 }
 
-TEST_CASE("A soak holds when no frame is lost and memory is flat from its first tenth to its last") {
+TEST_CASE(
+    "A soak holds when it ran whole, no frame is lost and memory is flat from its first tenth to its last") {
     LatencyPart part;
-    CHECK(soakHolds(part));
+    const auto soakHolds = [](const LatencyPart& p) { return fathom::soakHolds(p, 60.0); };
+    CHECK_FALSE(soakHolds(part)); // nothing ran
+    part.frames = 1800;
+    part.seconds = 60.2;
+    part.turn.add(10.0);
+    CHECK_FALSE(soakHolds(part)); // nobody looked at memory
     for (int i = 0; i < 100; ++i) {
         part.memory.push_back(200.0 + (i == 50 ? 100.0 : 0.0) + (i > 95 ? kMostGrowth : 0.0));
     }
     CHECK(part.memoryGrowth() == kMostGrowth); // a hump between the ends is no leak
+    CHECK(soakHolds(part));
+    part.seconds = 31.0;
+    CHECK_FALSE(soakHolds(part)); // interrupted
+    part.seconds = 60.0;
+    part.frames = 0;
+    CHECK_FALSE(soakHolds(part));
+    part.frames = 1800;
     CHECK(soakHolds(part));
     part.memory.back() += 0.5;
     CHECK_FALSE(soakHolds(part));
