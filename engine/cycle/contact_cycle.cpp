@@ -17,8 +17,10 @@ ContactCycle::ContactCycle(const Tool& tool, double reach, const ArmRig* arm)
     , reach_(reach) {}
 
 ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
-                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm)
+                           cloud::FixturePool& pool, const Tool& tool, double reach, const ArmRig* arm,
+                           uint32_t gpuCapacity)
     : ContactCycle(tool, reach, arm) {
+    gpuCapacity_ = gpuCapacity;
     use(device, plan, layout, pool);
 }
 
@@ -26,7 +28,7 @@ void ContactCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout&
                        cloud::FixturePool& pool) {
     where_ = plan.query;
     if (where_ == Plan::Query::Gpu) {
-        gpu_.emplace(device, plan, layout, pool, tool_);
+        gpu_.emplace(device, plan, layout, pool, tool_, gpuCapacity_);
     }
 }
 

@@ -19,9 +19,10 @@ public:
     // arm: null = the tool moves freely; else what is asked about is the whole arm, by its posture. Without
     // a device the CPU answers, whatever the plan says.
     ContactCycle(const Tool& tool, double reach, const ArmRig* arm);
-    // The same, and use().
+    // The same, and use(). gpuCapacity: spheres of the first answer of a GPU; it doubles when they are more.
     ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
-                 const Tool& tool, double reach, const ArmRig* arm = nullptr);
+                 const Tool& tool, double reach, const ArmRig* arm = nullptr,
+                 uint32_t gpuCapacity = kGpuCapacity);
 
     // What the plan wants of a device, from the next query on; and no device any more.
     void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
@@ -36,11 +37,14 @@ public:
     QueryStatistics statistics() const;
 
 private:
+    static constexpr uint32_t kGpuCapacity = 65536;
+
     void ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out);
 
     const Tool& tool_;
     const ArmRig* arm_;
     double reach_;
+    uint32_t gpuCapacity_ = kGpuCapacity;
     Plan::Query where_ = Plan::Query::Cpu;
     CullCpu cpu_;
     QueryLoop gpuLoop_;

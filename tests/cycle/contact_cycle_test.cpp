@@ -136,6 +136,49 @@ TEST_CASE("an overflowing GPU answer halves its reach, certifies it, and doubles
     CHECK(found.size() > 16);
 }
 
+TEST_CASE("a contact answer that overflows certifies the reach that fits, and the next one the whole reach") {
+    Rig rig(twoValves(0.0, 0.0), 1);
+    const Tool tool = randomTool(3, 3);
+    const Pose pose{{-0.15, 0, 0.80}, {1, 0, 0, 0}};
+    const auto set = rig.frames.sets().newest();
+    Plan onCpu = rig.plan;
+    onCpu.query = Plan::Query::Cpu;
+    const double reach = 0.1;
+    ContactCycle cpu(vulkan().device, onCpu, rig.frames.layout(), rig.frames.sets(), tool, reach);
+    ContactSet whole;
+    cpu.query(*set, pose, whole);
+    REQUIRE(whole.size() > 256);
+    ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach, nullptr,
+                     static_cast<uint32_t>(whole.size()) - 1);
+    ContactSet first, second;
+    gpu.query(*set, pose, first);
+    CHECK(first.reach < whole.reach);
+    CHECK(first.reach > 0.49 * whole.reach - 1e-4);
+    CHECK(first.size() < whole.size());
+    CHECK(gpu.statistics().overflows == 1);
+    // Certified: whatever is not in it lies farther than its reach from every leaf. By looking at all.
+    PosedLeaves leaves;
+    poseLeaves(tool, pose, set->host.origin, leaves);
+    const RegionSpheres& all = set->host.spheres;
+    size_t within = 0;
+    for (size_t i = 0; i < all.size(); ++i) {
+        double gap = 1e9;
+        for (size_t l = 0; l < leaves.radius.size(); ++l) {
+            const dvec3 between =
+                dvec3(all.x[i], all.y[i], all.z[i]) - dvec3(leaves.x[l], leaves.y[l], leaves.z[l]);
+            gap = std::min(gap, glm::length(between) - double{all.radius[i]} - double{leaves.radius[l]});
+        }
+        const bool listed =
+            std::find(first.source.begin(), first.source.end(), all.source[i]) != first.source.end();
+        within += gap <= first.reach ? 1 : 0;
+        CHECK((listed || gap > first.reach));
+    }
+    CHECK(within > 0);
+    gpu.query(*set, pose, second);
+    checkEqual(second, whole);
+    CHECK(gpu.statistics().overflows == 1);
+}
+
 TEST_CASE("a scene without forbidden points lets the tool go anywhere and asks no device") {
     Scene scene = twoValves(0.0, 0.0);
     for (FixtureClass& f : scene.fixtures) {
