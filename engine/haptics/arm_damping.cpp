@@ -45,13 +45,19 @@ double smallestEigenvalue(std::array<std::array<double, kMost>, kMost>& a, size_
 
 double ArmNormal::smallestSingular(size_t rows) const noexcept {
     std::array<std::array<double, kMostJoints>, kMostJoints> gram{};
-    const bool wide = n_ > rows;
-    const size_t m = wide ? rows : n_;
+    std::array<std::array<double, 6>, kMostJoints> columns{};
+    size_t count = 0;
+    for (size_t k = 0; k < n_; ++k) {
+        columns[count] = columns_[k];
+        count += leftOut_[k] ? 0 : 1;
+    }
+    const bool wide = count > rows;
+    const size_t m = wide ? rows : count;
     for (size_t i = 0; i < m; ++i) {
         for (size_t j = 0; j < m; ++j) {
-            const size_t inner = wide ? n_ : 6;
+            const size_t inner = wide ? count : 6;
             for (size_t k = 0; k < inner; ++k) {
-                gram[i][j] += wide ? columns_[k][i] * columns_[k][j] : columns_[i][k] * columns_[j][k];
+                gram[i][j] += wide ? columns[k][i] * columns[k][j] : columns[i][k] * columns[j][k];
             }
         }
     }

@@ -16,8 +16,11 @@ public:
     void setColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
         columns_[joint] = {v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
     }
-    // Smallest singular value of the columns [m], or of the rows when there are more joints than rows: 6, or
-    // 3 where directions count for nothing (k = 0). By Jacobi rotations of the smaller Gram matrix.
+    // A joint without a way to go: its column says nothing of what the arm can do.
+    void leaveOut(size_t joint) noexcept { leftOut_[joint] = true; }
+    // Smallest singular value of the columns that are not left out [m], or of the rows when there are more
+    // joints than rows: 6, or 3 where directions count for nothing (k = 0). By Jacobi rotations of the
+    // smaller Gram matrix.
     double smallestSingular(size_t rows = 6) const noexcept;
     void damp(double lambda) noexcept; // fills metric()
     std::span<const double> metric() const noexcept { return {metric_.data(), n_ * n_}; }
@@ -27,6 +30,7 @@ public:
 private:
     size_t n_;
     std::array<std::array<double, 6>, kMostJoints> columns_{};
+    std::array<bool, kMostJoints> leftOut_{};
     std::array<double, kMostJoints * kMostJoints> metric_{};
 };
 

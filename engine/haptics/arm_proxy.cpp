@@ -100,6 +100,9 @@ ArmProxy::Goal ArmProxy::aim(const ArmInput& input, ArmTurn& out) noexcept {
     for (size_t j = 0; j < n_; ++j) {
         const dvec3 turning = arm_.joints[j].slides ? dvec3(0.0) : arm_.axisOf(frames_, j);
         normal.setColumn(j, arm_.motionOf(frames_, j, now.position), k * turning);
+        if (arm_.joints[j].lower == arm_.joints[j].upper) {
+            normal.leaveOut(j);
+        }
     }
     const double smallest = normal.smallestSingular(k == 0.0 ? 3 : 6);
     if (out.solves == 0) {

@@ -92,7 +92,7 @@ TEST_CASE("whatever the hand asks for, no joint leaves its limits or goes faster
 
 TEST_CASE("no leaf of any link enters a sphere, among hundreds of them, with a wild hand") {
     std::mt19937_64 random(11);
-    for (size_t joints : {4u, 6u}) {
+    for (size_t joints : {4u, 5u, 6u, 7u}) {
         const ArmModel arm = makeArm(joints, 8);
         ArmProxy proxy(arm, Pose{}, {}, JointVector{});
         World world;

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an arm's step minimises, how far it may go, and which joints count, against the formulas themselves.
+#include "engine/haptics/arm_proxy.h"
+#include "engine/reference/nearest_point.h"
+#include "tests/haptics/arm_rig.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <vector>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+
+Eigen::Vector3d toEigen(const dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// M^1/2 J of the tip, of these joints.
+Columns tipColumns(const ArmModel& arm, const ArmFrames& frames, double k,
+                   const std::vector<size_t>& joints) {
+    Columns columns(6, joints.size());
+    for (size_t i = 0; i < joints.size(); ++i) {
+        const size_t j = joints[i];
+        const dvec3 turning = arm.joints[j].slides ? dvec3(0.0) : arm.axisOf(frames, j);
+        columns.col(static_cast<Eigen::Index>(i))
+            << toEigen(arm.motionOf(frames, j, arm.tip(frames).position)),
+            k * toEigen(turning);
+    }
+    return columns;
+}
+
+std::vector<size_t> movingJoints(const ArmModel& arm) {
+    std::vector<size_t> moving;
+    for (size_t k = 0; k < arm.count(); ++k) {
+        if (arm.joints[k].lower < arm.joints[k].upper) {
+            moving.push_back(k);
+        }
+    }
+    return moving;
+}
+
+// The increments that |J dq - x|_M^2 + lambda^2 |dq|^2 asks for, with one row n^T J_leaf dq >= -gap.
+std::vector<double> nearestIncrements(const ArmModel& arm, const ArmFrames& frames, double k, const dvec3& a,
+                                      const dvec3& alpha, size_t leaf, const dvec3& normal, double gap) {
+    const size_t n = arm.count();
+    const Columns columns = tipColumns(arm, frames, k, movingJoints(arm));
+    Eigen::Matrix<double, 6, 1> wanted;
+    wanted << toEigen(a), k * toEigen(alpha);
+    const double lambda = ArmProxyOptions{}.damping;
+    const Eigen::MatrixXd metric =
+        columns.transpose() * columns + lambda * lambda * Eigen::MatrixXd::Identity(n, n);
+    const Eigen::VectorXd free = metric.ldlt().solve(columns.transpose() * wanted);
+    std::vector<double> row(n, 0.0);
+    for (size_t j = 0; j < arm.leaves[leaf].joint; ++j) {
+        row[j] = glm::dot(normal, arm.motionOf(frames, j, arm.centre(frames, leaf)));
+    }
+    const std::array<double, 1> offset{-gap};
+    const auto nearest =
+        nearestPoint({n, std::span(metric.data(), n * n), std::span(free.data(), n), row, offset});
+    REQUIRE(nearest.feasible);
+    REQUIRE(nearest.multipliers[0] > 0.0); // the row pushes
+    return nearest.x;
+}
+
+} // namespace
+
+TEST_CASE("A step against a region is the nearest one in the arm's metric, directions weighed as asked") {
+    ArmModel arm = makeArm(4, 1);
+    for (ArmJoint& joint : arm.joints) {
+        joint.speed = 50.0; // no limit of this step
+    }
+    const JointVector start{0.2, 0.5, -0.4, 0.6};
+    ArmFrames frames;
+    arm.place(start, Pose{}, frames);
+    const dvec3 towards = glm::normalize(dvec3(0.3, 0.8, 0.4));
+    World world;
+    addSphere(world.fixtures, arm.centre(frames, 3) + (0.04 + 0.03 + 0.0001) * towards, 0.03);
+    world.grid.build(world.fixtures.spheres);
+    const RegionSpheres& s = world.fixtures.spheres;
+    const dvec3 between = arm.centre(frames, 3) - world.fixtures.origin - dvec3(s.x[0], s.y[0], s.z[0]);
+    const double gap = glm::length(between) - 0.04 - static_cast<double>(s.radius[0]);
+    const dvec3 shift = 4e-4 * towards, turn{2e-4, -3e-4, 4e-4};
+    std::vector<double> other;
+    for (const double k : {0.05, 0.5}) {
+        CAPTURE(k);
+        ArmProxyOptions options;
+        options.solves = 1;
+        ArmProxy proxy(arm, Pose{}, options, start);
+        world.query(arm, proxy);
+        const Pose tip = proxy.tip();
+        const Pose target{tip.position + shift, rotationExp(turn) * tip.rotation};
+        const ArmTurn out = proxy.turn(target, k, &world.set);
+        REQUIRE(out.contacts == 1);
+        CHECK_FALSE(out.singular);
+        const auto truth = nearestIncrements(arm, frames, k, shift, turn, 3, glm::normalize(between), gap);
+        double apart = 0.0;
+        for (size_t j = 0; j < 4; ++j) {
+            CHECK(out.q[j] - start[j] == doctest::Approx(truth[j]).epsilon(2e-3).scale(1e-4));
+            apart = std::max(apart, other.empty() ? 0.0 : std::abs(other[j] - truth[j]));
+        }
+        CHECK((other.empty() || apart > 1e-5)); // another metric is another step
+        other = truth;
+    }
+}
+
+TEST_CASE(
+    "However fast its joints, no leaf of an arm goes farther in a turn than its solves may, or inside") {
+    std::mt19937_64 random(17);
+    ArmModel arm = makeArm(4, 8);
+    for (ArmJoint& joint : arm.joints) {
+        joint.speed = 50.0; // 50 mm a turn at the end of the arm, and regions of 30 mm radius
+    }
+    const ArmProxyOptions options;
+    ArmProxy proxy(arm, Pose{}, options, JointVector{});
+    World world;
+    scatter(world, arm, proxy.frames(), random, 400);
+    double farthest = 0.0, deepest = -1.0;
+    Pose target;
+    for (int i = 0; i < 1500; ++i) {
+        if (i % 100 == 0) {
+            target = {randomIn(random, 1.0), randomRotation(random)};
+        }
+        world.query(arm, proxy);
+        const ArmFrames before = proxy.frames();
+        proxy.turn(target, 0.05, &world.set);
+        for (size_t l = 0; l < arm.leaves.size(); ++l) {
+            farthest =
+                std::max(farthest, glm::distance(arm.centre(before, l), arm.centre(proxy.frames(), l)));
+        }
+        deepest = std::max(deepest, world.depth(arm, proxy.frames()));
+    }
+    MESSAGE("farthest " << farthest * 1e3 << " mm a turn, deepest " << deepest * 1e6 << " um");
+    CHECK(farthest <= options.solves * options.stepCap * (1.0 + 1e-9));
+    CHECK(farthest > options.stepCap); // it did hurry
+    CHECK(deepest <= 1e-9);
+}
+
+TEST_CASE("Six and seven joints bring the tip to a place and a direction that they can reach") {
+    for (size_t joints : {6u, 7u}) {
+        ArmModel arm = makeArm(joints, 1);
+        arm.joints[3].axis = {1, 0, 0}; // a roll in the middle, as such arms have
+        ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
+        ArmFrames there;
+        arm.place(JointVector{-0.1, 0.6, 0.1, 0.6, 0.4, -0.5, 0.1}, Pose{}, there);
+        ArmTurn turn;
+        for (int i = 0; i < 6000; ++i) {
+            turn = proxy.turn(arm.tip(there), 0.1, nullptr);
+        }
+        CAPTURE(joints);
+        CHECK(turn.residual < 1e-6);
+        const dquat apart = glm::conjugate(arm.tip(there).rotation) * turn.tip.rotation;
+        CHECK(2.0 * glm::length(dvec3(apart.x, apart.y, apart.z)) < 1e-5);
+        CHECK(glm::distance(turn.tip.position, arm.tip(there).position) < 1e-6);
+    }
+}
+
+TEST_CASE("Joints that have no way to go do not count among an arm's singular values, as of a real one") {
+    std::vector<ArmModel> arms{makeArm(4, 1), makeArm(7, 1)};
+    for (ArmModel& arm : arms) {
+        arm.joints[1].lower = arm.joints[1].upper = 0.3;
+    }
+    if (const std::filesystem::path file = "../shared/data/urdf/oberon4/oberon4.urdf";
+        std::filesystem::exists(file)) {
+        ArmOptions few;
+        few.leavesPerShape = 2;
+        arms.push_back(loadArm(file, few));
+        CHECK(movingJoints(arms.back()).size() < arms.back().count()); // its anchor is locked
+    } else {
+        MESSAGE("left out, no such file: " << file);
+    }
+    for (const ArmModel& arm : arms) {
+        CAPTURE(arm.count());
+        ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, 0.4, -0.5, 0.3, -0.2, 0.1});
+        const std::vector<size_t> moving = movingJoints(arm);
+        const Columns columns = tipColumns(arm, proxy.frames(), 0.1, moving);
+        const double truth = columns.jacobiSvd().singularValues().minCoeff();
+        Pose target = proxy.tip();
+        target.position += dvec3(0.001, 0.002, -0.001);
+        const JointVector before = proxy.joints();
+        const ArmTurn turn = proxy.turn(target, 0.1, nullptr);
+        CHECK(turn.manipulability == doctest::Approx(truth).epsilon(1e-6));
+        CHECK(turn.manipulability > 1e-4);
+        for (size_t k = 0; k < arm.count(); ++k) {
+            const bool locked = std::find(moving.begin(), moving.end(), k) == moving.end();
+            CHECK((!locked || turn.q[k] == before[k]));
+        }
+        CHECK(turn.residual < 0.0024); // it did move
+    }
+}
