@@ -17,15 +17,28 @@ namespace fathom::testing {
 namespace {
 
 constexpr std::array kTargets{
-    FuzzTarget{"bag", readBag},          FuzzTarget{"descriptors", readDescriptors},
-    FuzzTarget{"door", readDoor},        FuzzTarget{"falcon", readFalcon},
-    FuzzTarget{"index", readIndexFile},  FuzzTarget{"intrinsics", readIntrinsicsFile},
-    FuzzTarget{"jpeg", readJpegPicture}, FuzzTarget{"mesh", readMesh},
-    FuzzTarget{"pcd", readPcdFile},      FuzzTarget{"pixels", readPixels},
-    FuzzTarget{"png", readPng},          FuzzTarget{"reach", readReach},
-    FuzzTarget{"scene", readScene},      FuzzTarget{"space_mouse", readSpaceMouse},
-    FuzzTarget{"sph", readSphFile},      FuzzTarget{"spheres_yaml", readSpheresYaml},
-    FuzzTarget{"tracks", readTracks},    FuzzTarget{"urdf", readUrdfFile},
+    FuzzTarget{"bag", readBag},
+    FuzzTarget{"descriptors", readDescriptors},
+    FuzzTarget{"door", readDoor},
+    FuzzTarget{"eca", readEca},
+    FuzzTarget{"falcon", readFalcon},
+    FuzzTarget{"firmware", readFirmware},
+    FuzzTarget{"index", readIndexFile},
+    FuzzTarget{"intrinsics", readIntrinsicsFile},
+    FuzzTarget{"jpeg", readJpegPicture},
+    FuzzTarget{"mesh", readMesh},
+    FuzzTarget{"pairs", readPairs},
+    FuzzTarget{"pcd", readPcdFile},
+    FuzzTarget{"pixels", readPixels},
+    FuzzTarget{"png", readPng},
+    FuzzTarget{"reach", readReach},
+    FuzzTarget{"scene", readScene},
+    FuzzTarget{"space_mouse", readSpaceMouse},
+    FuzzTarget{"sph", readSphFile},
+    FuzzTarget{"spheres_yaml", readSpheresYaml},
+    FuzzTarget{"tracks", readTracks},
+    FuzzTarget{"turns", readTurns},
+    FuzzTarget{"urdf", readUrdfFile},
 };
 
 // Gone with the process.

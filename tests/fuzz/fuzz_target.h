@@ -46,6 +46,10 @@ void readPixels(Bytes input);
 void readFalcon(Bytes input);
 void readSpaceMouse(Bytes input);
 void readReach(Bytes input);
+void readEca(Bytes input);
 void readDoor(Bytes input);
+void readTurns(Bytes input);
+void readPairs(Bytes input);
+void readFirmware(Bytes input);
 
 } // namespace fathom::testing

@@ -2,6 +2,7 @@
 // Targets that read what devices and bridges send: descriptors, tables, pictures, packets.
 #include "devices/bridge/door_socket.h"
 #include "devices/bridge/force_gate.h"
+#include "devices/serial/eca_frame.h"
 #include "devices/serial/reach_packet.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "devices/usb/falcon_packet.h"
@@ -117,6 +118,21 @@ void readReach(Bytes input) {
             need(encodeReach(*packet, frame) > 0);
         }
     }
+}
+
+void readEca(Bytes input) {
+    EcaReader reader;
+    for (uint8_t byte : input) {
+        if (const auto frame = reader.take(byte)) {
+            need(frame->at(49) == ecaChecksum(*frame));
+            const auto status = statusOf(*frame), again = statusOf(encodeEca(status));
+            for (size_t j = 0; j < kEcaJoints; ++j) {
+                need(again[j].encoder == status[j].encoder && again[j].current == status[j].current);
+            }
+            need(encodeEca(demandsOf(*frame)).size() == frame->size());
+        }
+    }
+    need(reader.damaged() <= input.size());
 }
 
 // As they come out of the socket: a packet for the engine, or a wrench for the device's side. The first byte

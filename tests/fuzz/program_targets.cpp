@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Targets that read what the program's commands take or left: recorded turns, measured points, firmware.
+#include "apps/operate/turn_log.h"
+#include "apps/register/board_finder.h"
+#include "apps/register/point_pairs.h"
+#include "devices/usb/falcon_firmware.h"
+#include "tests/fuzz/fuzz_target.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace fathom::testing {
+
+namespace {
+
+void need(bool holds) {
+    if (!holds) {
+        std::abort();
+    }
+}
+
+} // namespace
+
+// wrench.csv, then touches.csv after the first zero byte.
+void readTurns(Bytes input) {
+    const auto zero = static_cast<size_t>(std::find(input.begin(), input.end(), 0) - input.begin());
+    const auto folder = fuzzFile(operate::kWrenchFile, input.first(zero)).parent_path();
+    fuzzFile(operate::kTouchesFile, input.subspan(std::min(zero + 1, input.size())));
+    const operate::TurnLog log = operate::readTurnLog(folder);
+    for (size_t i = 0; i < log.moments.size(); ++i) {
+        const operate::Moment& moment = log.moments[i];
+        need(std::isfinite(moment.t) && (i == 0 || moment.t > log.moments[i - 1].t));
+        need(moment.firstTouch + moment.touchCount <= log.touches.size());
+        need(log.recordAt(i).touchCount <= kMostTouches);
+    }
+}
+
+// The first byte says which: pairs of points, or where a board is.
+void readPairs(Bytes input) {
+    if (input.empty()) {
+        return;
+    }
+    const auto file = fuzzFile("points.csv", input.subspan(1));
+    if (input[0] % 2 == 0) {
+        for (const PointPair& pair : readPointPairs(file)) {
+            need(isFinite(pair.camera) && isFinite(pair.base) && !pair.name.empty());
+        }
+    } else {
+        const BoardPlace board = readBoardPlace(file);
+        need(board.columns >= 3 && board.columns <= 40 && board.rows >= 3 && board.rows <= 40);
+        need((board.columns + board.rows) % 2 == 1 && board.square > 0.0 && isFinite(board.baseTboard));
+    }
+}
+
+void readFirmware(Bytes input) {
+    const std::vector<uint8_t> firmware = readFalconFirmware(fuzzFile("firmware.bin", input));
+    need(std::equal(firmware.begin(), firmware.end(), input.begin(), input.end()));
+}
+
+} // namespace fathom::testing
