@@ -15,6 +15,7 @@
 #include "engine/haptics/device_preset.h"
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
+#include "engine/types/inside.h"
 
 #include <cmath>
 #include <spdlog/spdlog.h>
@@ -22,6 +23,12 @@
 namespace fathom {
 
 namespace {
+
+void warnOutside(const std::filesystem::path& scene, const std::string& path) {
+    if (!staysInside(path)) {
+        spdlog::warn("{}: '{}' leads out of the scene file's folder", scene.string(), path);
+    }
+}
 
 std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     if (scene.source.value == "sonar") {
@@ -77,6 +84,7 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
     }
     CameraRequest request = parseCameraRequest(scene.source.value);
     if (!request.intrinsics.empty()) { // as all paths in a scene file
+        warnOutside(scene.file, request.intrinsics.string());
         request.intrinsics = scene.file.parent_path() / request.intrinsics;
     }
     return openLive(request, pictures);
@@ -87,7 +95,7 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
 Scene openScene(const std::filesystem::path& file) {
     Scene scene = loadScene(file);
     for (const std::string& path : scene.outside) {
-        spdlog::warn("{}: '{}' leads out of the scene file's folder", file.string(), path);
+        warnOutside(file, path);
     }
     std::string names;
     for (const DevicePreset& preset : devicePresets()) {
@@ -141,10 +149,12 @@ Tool writtenTool(const Scene& scene) {
 } // namespace
 
 std::unique_ptr<ArmRig> openArm(const Scene& scene) {
-    if (!scene.arm || !scene.tool.given()) {
-        return makeArmRig(scene, {});
+    const bool tool = scene.arm && scene.tool.given();
+    auto arm = tool ? makeArmRig(scene, writtenTool(scene).leaves()) : makeArmRig(scene, {});
+    for (const std::string& note : arm ? arm->model.notes : std::vector<std::string>{}) {
+        spdlog::warn("{}: {}", scene.arm->urdf.string(), note);
     }
-    return makeArmRig(scene, writtenTool(scene).leaves());
+    return arm;
 }
 
 Tool openTool(const Scene& scene, const ArmRig* arm) {

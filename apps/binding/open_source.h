@@ -32,7 +32,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
 // registration does. Once a scene and camera.
 void takeUncertainty(Scene& scene, const Camera& camera);
 
-// The scene's arm, or null where it has none. Throws BadInput.
+// The scene's arm, or null where it has none; a warning for each of its model's notes. Throws BadInput.
 std::unique_ptr<ArmRig> openArm(const Scene& scene);
 
 // The scene's tool: listed spheres or a .sph file; what the arm's tip carries, the scene's tool included,

@@ -34,6 +34,9 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     if (arm) {
         std::cout << "arm     " << arm->model.count() << " joints, " << arm->model.leaves.size()
                   << " leaves on " << arm->model.links.size() << " links\n";
+        for (const std::string& note : arm->model.notes) {
+            std::cout << "        " << note << "\n";
+        }
     }
     std::cout << "\n";
     printPlan(std::cout, plan);

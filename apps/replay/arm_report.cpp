@@ -8,7 +8,8 @@ namespace fathom {
 
 namespace {
 
-// A joint at its speed limit went exactly that far, but for the rounding of a difference of two angles.
+// A joint at its speed limit went exactly that far, but for the rounding of a difference of two angles; so
+// did a finger that is closed to its limit.
 constexpr double kRounding = 1e-12;
 
 // No comma, quote or line break in a column's name.
@@ -54,6 +55,10 @@ double ArmReport::violation(const TickRecord& tick) const {
         const double q = tick.arm.posture.q[k], way = std::abs(q - tick.armStart.q[k]);
         const double fast = way - joint.speed * rig_.proxy.period - kRounding;
         worst = std::max({worst, joint.lower - q, q - joint.upper, fast});
+    }
+    for (const ArmFinger& finger : rig_.model.fingers) {
+        const double at = finger.open + tick.arm.posture.grasp * (finger.closed - finger.open);
+        worst = std::max({worst, finger.lower - at - kRounding, at - finger.upper - kRounding});
     }
     return worst;
 }

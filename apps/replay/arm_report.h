@@ -27,7 +27,8 @@ public:
     ReplaySummary::Arm summary(const std::vector<double>& links);
 
 private:
-    // [rad], [m] by which joints lie beyond their limits or went faster than they can; 0 = all obeyed.
+    // [rad], [m] by which joints or fingers lie beyond their limits or joints went faster than they can; 0 =
+    // all obeyed.
     double violation(const TickRecord& tick) const;
     void addDriven(const TickRecord& tick);
 

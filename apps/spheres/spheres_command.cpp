@@ -11,8 +11,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
+#include <spdlog/spdlog.h>
 #include <utility>
 
 namespace fathom {
@@ -25,7 +27,11 @@ struct SpheresOptions {
     MeshOptions file;
     std::string up, link;
     bool compare = false;
+    std::vector<std::string> given; // of the options that ask for a mesh
 };
+
+const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "--drop-stray",
+                                         "--compare", "--plot",       "--json"};
 
 class Maker {
 public:
@@ -90,7 +96,19 @@ bool isSet(const std::filesystem::path& file) {
 }
 
 void convert(const SpheresOptions& options) {
-    const SphereTree tree = readSphereTree(options.mesh, options.link);
+    if (!options.given.empty()) {
+        throw BadInput(options.mesh.string(), options.given[0], "given with spheres",
+                       "a mesh; spheres are taken as they are, but for --scale");
+    }
+    const double scale = options.file.scale.value_or(1.0);
+    if (!(scale > 0.0) || !std::isfinite(scale)) {
+        throw BadInput(options.mesh.string(), "--scale", std::to_string(scale), "a positive number");
+    }
+    SphereTree tree = readSphereTree(options.mesh, options.link);
+    for (Sphere& s : tree.nodes) {
+        s.centre *= scale;
+        s.radius *= scale;
+    }
     const auto leaves = tree.lastLevel();
     const auto used =
         std::count_if(leaves.begin(), leaves.end(), [](const Sphere& s) { return s.radius >= 0.0; });
@@ -105,9 +123,15 @@ void runSpheres(SpheresOptions options) {
         convert(options);
         return;
     }
+    if (!options.link.empty()) {
+        throw BadInput(options.mesh.string(), "--link", "given with a mesh", "spheres of a .urdf or .yaml");
+    }
     options.file.up = options.up.empty() ? '\0' : options.up[0];
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
     printMesh(std::cout, loaded);
+    if (!loaded.doubt.empty()) {
+        spdlog::warn("{}: {}; --scale says what is meant", options.mesh.string(), loaded.doubt);
+    }
     Maker maker(loaded);
     Cover cover;
     try {
@@ -151,7 +175,7 @@ void addSpheresCommand(CLI::App& app) {
     command->add_option("--leaves", options->cover.leaves, "leaf spheres at most (128)");
     command->add_option("--protrusion", options->cover.protrusion,
                         "[m] how far spheres may stand out; as few leaves as that takes");
-    command->add_option("--scale", options->file.scale, "metres a unit of the file (1)");
+    command->add_option("--scale", options->file.scale, "metres a unit of the file (1); of spheres, too");
     command->add_option("--up", options->up, "the file's axis that becomes +z (none)")
         ->check(CLI::IsMember({"x", "y", "z"}));
     command->add_flag("--drop-stray", options->file.dropStray, "leave out pieces far from the rest");
@@ -159,7 +183,14 @@ void addSpheresCommand(CLI::App& app) {
     command->add_flag("--compare", options->compare, "octree and grid spheres of the same number beside it");
     command->add_option("--plot", options->plot, "picture (PNG): protrusion against number of leaves");
     command->add_option("--json", options->json, "the report as JSON");
-    command->callback([options] { runSpheres(*options); });
+    command->callback([options, command] {
+        for (const std::string& name : kOfMeshes) {
+            if (command->count(name) > 0) {
+                options->given.push_back(name);
+            }
+        }
+        runSpheres(*options);
+    });
 }
 
 } // namespace fathom

@@ -35,6 +35,7 @@ public:
         rig_->proxy.period = 1.0 / scene_.haptics.rateHz;
         rig_->proxy.graspPerTurn = rig_->proxy.period / arm_.grasp.seconds;
         applyJoints();
+        checkFingers();
         return std::move(rig_);
     }
 
@@ -107,6 +108,21 @@ private:
                 refuse(field + ".start", text(start), text(joint.lower) + " to " + text(joint.upper));
             }
             rig_->start[k] = start;
+        }
+    }
+
+    void checkFingers() const {
+        for (size_t i = 0; i < arm_.grasp.fingers.size(); ++i) {
+            const auto& wanted = arm_.grasp.fingers[i];
+            const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
+            const auto& fingers = rig_->model.fingers;
+            const ArmFinger& finger = *std::find_if(fingers.begin(), fingers.end(), same);
+            for (const auto& [name, at] : {std::pair{"open", finger.open}, {"closed", finger.closed}}) {
+                if (at < finger.lower || at > finger.upper) {
+                    refuse("grasp.fingers[" + std::to_string(i) + "]." + name, text(at),
+                           text(finger.lower) + " to " + text(finger.upper) + ", the joint's limits");
+                }
+            }
         }
     }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,6 +35,8 @@ struct ArmFinger {
     Pose before;                     // frame after `joint` joints -> finger's frame at 0
     dvec3 axis{0.0, 0.0, 1.0};       // unit, finger's frame
     double open = 0.0, closed = 0.0; // [rad], [m]
+    double lower = -std::numeric_limits<double>::infinity(); // [rad], [m] of the URDF
+    double upper = std::numeric_limits<double>::infinity();
 };
 
 struct ArmLeaf {
@@ -63,6 +66,7 @@ public:
     std::vector<ArmLeaf> leaves;    // by link; other joints off the chain stand at 0
     std::vector<std::string> links; // that have leaves
     Pose lastTtip;                  // frame after the last joint -> tip
+    std::vector<std::string> notes; // a line each: what the files have and the leaves have not
 
     size_t count() const { return joints.size(); }
     void place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames,

@@ -12,6 +12,8 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <fstream>
+#include <new>
 #include <type_traits>
 
 #include <sys/resource.h>
@@ -24,6 +26,18 @@ namespace {
 
 constexpr rlim_t kMostSeconds = 60; // of CPU time
 constexpr size_t kMostPoints = 6'000'000;
+
+// With all its copies: a few bytes can name one mesh a million times. Ends where there are too many.
+size_t countPoints(const aiScene& scene, const aiNode& node) {
+    size_t count = 0;
+    for (unsigned m = 0; m < node.mNumMeshes; ++m) {
+        count += scene.mMeshes[node.mMeshes[m]]->mNumVertices;
+    }
+    for (unsigned c = 0; c < node.mNumChildren && count <= kMostPoints; ++c) {
+        count += countPoints(scene, *node.mChildren[c]);
+    }
+    return count;
+}
 
 void addNode(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, TriangleMesh& mesh) {
     const aiMatrix4x4 here = above * node.mTransformation;
@@ -57,11 +71,10 @@ std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh
         const std::string why = importer.GetErrorString();
         return why.empty() ? "not understood" : why.substr(0, why.find('\n'));
     }
-    addNode(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
-    if (mesh.points.size() > kMostPoints) {
-        mesh = {};
+    if (countPoints(*scene, *scene->mRootNode) > kMostPoints) {
         return "over " + std::to_string(kMostPoints) + " corners";
     }
+    addNode(*scene, *scene->mRootNode, aiMatrix4x4(), mesh);
     return "";
 }
 
@@ -96,17 +109,31 @@ bool readAll(int pipe, void* data, size_t size) {
     return moveAll<void>(::read, pipe, data, size);
 }
 
-[[noreturn]] void child(const std::filesystem::path& file, int pipe) {
+// Of this process, address space of the parent included [bytes]; 0 where the system does not tell.
+rlim_t mappedNow() {
+    rlim_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
+}
+
+[[noreturn]] void child(const std::filesystem::path& file, int pipe, uint64_t mostMemory) {
     for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM}) {
         std::signal(fault, SIG_DFL); // it dies alone, and says nothing
     }
     const rlimit none{0, 0}, time{kMostSeconds, kMostSeconds};
     ::setrlimit(RLIMIT_CORE, &none);
     ::setrlimit(RLIMIT_CPU, &time);
+    if (const rlim_t mapped = mappedNow(); mapped > 0) {
+        const rlimit memory{mapped + mostMemory, mapped + mostMemory};
+        ::setrlimit(RLIMIT_AS, &memory);
+    }
     TriangleMesh mesh;
     std::string text;
     try {
         text = readWithAssimp(file, mesh);
+    } catch (const std::bad_alloc&) {
+        mesh = {};
+        text = "takes over " + std::to_string(mostMemory >> 20) + " MiB to read";
     } catch (const std::exception&) {
         mesh = {};
         text = "not understood";
@@ -138,7 +165,7 @@ bool take(int pipe, ImportedTriangles& out) {
 
 } // namespace
 
-ImportedTriangles importTriangles(const std::filesystem::path& file) {
+ImportedTriangles importTriangles(const std::filesystem::path& file, uint64_t mostMemory) {
     std::array<int, 2> pipe{};
     if (::pipe(pipe.data()) != 0) {
         throw Error(file.string() + ": no pipe: " + std::strerror(errno));
@@ -146,7 +173,7 @@ ImportedTriangles importTriangles(const std::filesystem::path& file) {
     const pid_t reader = ::fork();
     if (reader == 0) {
         ::close(pipe[0]);
-        child(file, pipe[1]);
+        child(file, pipe[1], mostMemory);
     }
     ::close(pipe[1]);
     ImportedTriangles out;

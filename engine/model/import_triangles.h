@@ -5,6 +5,7 @@
 
 #include "engine/model/triangle_mesh.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 
@@ -15,8 +16,10 @@ struct ImportedTriangles {
     std::string fault; // one line; why nothing was read
 };
 
-// A child is forked, so that no thread is needed; it has at most a minute of CPU time. Throws Error when no
-// child can be made.
-ImportedTriangles importTriangles(const std::filesystem::path& file);
+inline constexpr uint64_t kMostImportMemory = uint64_t{4} << 30; // [bytes] of address space
+
+// A child is forked, so that no thread is needed; it has at most a minute of CPU time, and at most so much
+// memory more than this process. Throws Error when no child can be made.
+ImportedTriangles importTriangles(const std::filesystem::path& file, uint64_t mostMemory = kMostImportMemory);
 
 } // namespace fathom

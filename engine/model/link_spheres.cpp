@@ -3,6 +3,7 @@
 
 #include "engine/model/mesh_file.h"
 #include "engine/model/sphere_cover.h"
+#include "engine/types/inside.h"
 
 #include <array>
 #include <cmath>
@@ -42,7 +43,35 @@ std::filesystem::path pathOf(std::string name, const ShapeSource& source) {
     return folder / name;
 }
 
-LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source) {
+// By the words of the paths alone, as staysInside().
+bool liesOutside(const std::filesystem::path& file, const ShapeSource& source) {
+    const auto plain = [](const std::filesystem::path& path) {
+        return std::filesystem::absolute(path).lexically_normal();
+    };
+    const std::filesystem::path folder = source.meshes.empty() ? source.urdf.parent_path() : source.meshes;
+    return !staysInside(plain(file).lexically_relative(plain(folder)));
+}
+
+LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {
+    MeshOptions options;
+    options.stretch = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
+    options.dropStray = true; // an arm's parts are near each other whatever the file holds besides
+    if (!isFinite(options.stretch) || options.stretch.x * options.stretch.y * options.stretch.z == 0.0) {
+        throw ShapeRefused{"a mesh scale of 0 or no number", "three finite numbers, none 0"};
+    }
+    const std::filesystem::path file = pathOf(mesh.filename, source);
+    LoadedMesh loaded = loadMesh(file, options);
+    made.outside = liesOutside(file, source) ? file : "";
+    if (loaded.facts.strayParts > 0) {
+        made.notes.push_back(file.string() + ": stray geometry is left out: " + strayText(loaded.facts));
+    }
+    if (!loaded.doubt.empty()) {
+        made.notes.push_back(file.string() + ": " + loaded.doubt);
+    }
+    return loaded;
+}
+
+LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeSpheres& made) {
     LoadedMesh loaded;
     if (const auto* box = dynamic_cast<const urdf::Box*>(&shape)) {
         loaded.mesh = prism(4, {0.5 * box->dim.x, 0.5 * box->dim.y}, box->dim.z);
@@ -51,10 +80,7 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source) {
         const double radius = tube->radius / std::cos(3.14159265358979323846 / 24.0);
         loaded.mesh = prism(24, {radius, radius}, tube->length);
     } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape)) {
-        MeshOptions options;
-        options.scale = mesh->scale.x;
-        options.dropStray = true; // an arm's parts are near each other whatever the file holds besides
-        return loadMesh(pathOf(mesh->filename, source), options);
+        return readMesh(*mesh, source, made);
     }
     loaded.facts = tidy(loaded.mesh, 0.0);
     if (loaded.mesh.triangles.empty()) {
@@ -65,12 +91,13 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source) {
 
 } // namespace
 
-std::vector<Sphere> linkSpheres(const urdf::Geometry& shape, const ShapeSource& source) {
-    std::vector<Sphere> spheres;
+ShapeSpheres linkSpheres(const urdf::Geometry& shape, const ShapeSource& source) {
+    ShapeSpheres made;
+    std::vector<Sphere>& spheres = made.spheres;
     if (const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape)) {
         spheres.push_back({dvec3(0.0), ball->radius});
     } else {
-        const LoadedMesh loaded = meshOf(shape, source);
+        const LoadedMesh loaded = meshOf(shape, source, made);
         CoverOptions cover;
         cover.leaves = source.leaves;
         cover.effort = 0;
@@ -81,7 +108,7 @@ std::vector<Sphere> linkSpheres(const urdf::Geometry& shape, const ShapeSource& 
             throw ShapeRefused{"a sphere without radius", "radii above 0"};
         }
     }
-    return spheres;
+    return made;
 }
 
 } // namespace fathom

@@ -21,8 +21,13 @@ struct ShapeRefused {
     std::string value, allowed;
 };
 
-// In the shape's own frame; a sphere stays one. Throws ShapeRefused for sizes that cannot be, BadInput for a
-// mesh file. Any thread.
-std::vector<Sphere> linkSpheres(const urdf::Geometry& shape, const ShapeSource& source);
+struct ShapeSpheres {
+    std::vector<Sphere> spheres;    // in the shape's own frame [m]
+    std::vector<std::string> notes; // what about its file may not be as it was meant, a line each
+    std::filesystem::path outside; // that file, where it lies outside of the folder that it was looked for in
+};
+
+// A sphere stays one. Throws ShapeRefused for sizes that cannot be, BadInput for a mesh file. Any thread.
+ShapeSpheres linkSpheres(const urdf::Geometry& shape, const ShapeSource& source);
 
 } // namespace fathom

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <future>
 #include <limits>
+#include <set>
 #include <thread>
 
 namespace fathom {
@@ -145,6 +146,9 @@ private:
         }
         if (!link->collision_array.empty()) {
             model_.links.push_back(link->name);
+        } else if (!link->visual_array.empty() || link->inertial) { // else it is a mere frame
+            model_.notes.push_back("link " + link->name +
+                                   " has no collision shape: nothing keeps it off regions");
         }
         for (const auto& below : link->child_joints) {
             const LinkPtr child = urdf_->getLink(below->child_link_name);
@@ -179,7 +183,8 @@ private:
         }
         model_.fingers.push_back({joint.name, carriedBy, slides, before, glm::normalize(axis),
                                   wanted->open.value_or(joint.limits->lower),
-                                  wanted->closed.value_or(joint.limits->upper)});
+                                  wanted->closed.value_or(joint.limits->upper), joint.limits->lower,
+                                  joint.limits->upper});
         return true;
     }
 
@@ -205,7 +210,7 @@ private:
     // All processors make spheres; the first refusal in the file's order is told.
     void coverShapes() {
         std::atomic<size_t> next{0};
-        std::vector<std::promise<std::vector<Sphere>>> made(shapes_.size());
+        std::vector<std::promise<ShapeSpheres>> made(shapes_.size());
         const auto work = [&] {
             for (size_t i = next++; i < shapes_.size(); i = next++) {
                 try {
@@ -224,9 +229,13 @@ private:
         for (size_t i = 0; i < shapes_.size(); ++i) {
             addSpheres(shapes_[i], made[i].get_future().get());
         }
+        if (!outside_.empty()) {
+            model_.notes.push_back("meshes outside of the folder that they are looked for in: " +
+                                   std::to_string(outside_.size()) + ", the first " + *outside_.begin());
+        }
     }
 
-    std::vector<Sphere> coverOf(const Shape& shape) const {
+    ShapeSpheres coverOf(const Shape& shape) const {
         try {
             return linkSpheres(*shape.collision->geometry, {file_, options_.meshes, options_.leavesPerShape});
         } catch (const ShapeRefused& e) {
@@ -234,8 +243,14 @@ private:
         }
     }
 
-    void addSpheres(const Shape& shape, const std::vector<Sphere>& spheres) {
-        for (const Sphere& s : spheres) {
+    void addSpheres(const Shape& shape, const ShapeSpheres& made) {
+        for (const std::string& note : made.notes) {
+            model_.notes.push_back("link " + shape.link->name + ": " + note);
+        }
+        if (!made.outside.empty()) {
+            outside_.insert(made.outside.lexically_normal().string());
+        }
+        for (const Sphere& s : made.spheres) {
             model_.leaves.push_back({{shape.frameTshape.apply(s.centre), s.radius},
                                      shape.carrier.joint,
                                      shape.index,
@@ -249,6 +264,7 @@ private:
     ArmModel model_;
     std::vector<std::string> moving_;
     std::vector<Shape> shapes_;
+    std::set<std::string> outside_; // files
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 
@@ -13,6 +14,7 @@ namespace fathom {
 namespace {
 
 constexpr double kLeastExtent = 1e-3, kMostExtent = 10.0; // [m]
+constexpr double kDoubtfulExtent = 2.0; // [m] of tools and links; what is 80 mm long has 3.1 of it in inches
 constexpr uintmax_t kMostBytes = 512u << 20;
 constexpr size_t kMostTriangles = 2'000'000;
 
@@ -35,6 +37,11 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
     if (!std::filesystem::is_regular_file(file)) {
         throw BadInput(file.string(), "mesh", "no such file", kinds);
     }
+    std::string kind = file.extension().string();
+    std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (kind != ".stl" && kind != ".obj" && kind != ".dae") { // the library would read fifty others
+        throw BadInput(file.string(), "mesh", "kind '" + kind + "'", kinds);
+    }
     if (const auto bytes = std::filesystem::file_size(file); bytes > kMostBytes) {
         throw BadInput(file.string(), "mesh", std::to_string(bytes) + " bytes",
                        "at most " + std::to_string(kMostBytes));
@@ -50,7 +57,8 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
     return mesh;
 }
 
-void checkExtent(const std::string& file, const TriangleMesh& mesh) {
+// Returns the extent.
+double checkExtent(const std::string& file, const TriangleMesh& mesh) {
     if (mesh.triangles.empty()) {
         throw BadInput(file, "triangles", "none with an area", "at least 1");
     }
@@ -60,18 +68,29 @@ void checkExtent(const std::string& file, const TriangleMesh& mesh) {
         throw BadInput(file, "size", metres(extent),
                        "0.001 to 10 m; --scale 0.001 for millimetres, 0.0254 for inches");
     }
+    return extent;
+}
+
+// A .dae tells its unit, STL and OBJ do not.
+std::string doubtOf(const std::filesystem::path& file, const MeshOptions& options, double extent) {
+    if (options.scale || options.stretch != dvec3(1.0) || extent <= kDoubtfulExtent ||
+        file.extension() == ".dae" || file.extension() == ".DAE") {
+        return "";
+    }
+    return metres(extent) + " large if its unit is the metre, which the file does not say (inches?)";
 }
 
 } // namespace
 
 LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& options) {
-    if (!(options.scale > 0.0) || !std::isfinite(options.scale)) {
-        throw BadInput(file.string(), "--scale", std::to_string(options.scale), "a positive number");
+    const double scale = options.scale.value_or(1.0);
+    if (!(scale > 0.0) || !std::isfinite(scale)) {
+        throw BadInput(file.string(), "--scale", std::to_string(scale), "a positive number");
     }
-    LoadedMesh loaded{readTriangles(file), {}};
+    LoadedMesh loaded{readTriangles(file), {}, {}};
     TriangleMesh& mesh = loaded.mesh;
     for (dvec3& p : mesh.points) {
-        p = upright(p * options.scale, options.up);
+        p = upright(p * options.stretch * scale, options.up);
         if (!isFinite(p)) {
             throw BadInput(file.string(), "vertex", "not finite", "finite coordinates");
         }
@@ -81,13 +100,16 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
     findStray(mesh, loaded.facts, options.dropStray);
     const MeshFacts& facts = loaded.facts;
     if (facts.strayParts > 0 && !options.dropStray) {
-        throw BadInput(file.string(), "stray geometry",
-                       std::to_string(facts.strayParts) + " pieces up to " + metres(facts.strayFarthest) +
-                           " away from the rest",
+        throw BadInput(file.string(), "stray geometry", strayText(facts),
                        "one group of pieces; --drop-stray leaves them out");
     }
-    checkExtent(file.string(), mesh);
+    loaded.doubt = doubtOf(file, options, checkExtent(file.string(), mesh));
     return loaded;
+}
+
+std::string strayText(const MeshFacts& facts) {
+    return std::to_string(facts.strayParts) + " pieces up to " + metres(facts.strayFarthest) +
+           " away from the rest";
 }
 
 } // namespace fathom

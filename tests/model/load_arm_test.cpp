@@ -2,6 +2,7 @@
 #include "engine/model/arm_model.h"
 
 #include "engine/types/error.h"
+#include "tests/model/meshes.h"
 #include "tests/support/sanitized.h"
 
 #include <cmath>
@@ -152,6 +153,71 @@ TEST_CASE("real arms of four joints are read, slashes in the names and all") {
     CHECK(arm.count() >= 4);
     CHECK(arm.links[0] == "oberon4/base");
     CHECK(arm.leaves.size() > 50);
+}
+
+TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is refused") {
+    const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    const auto text = [&](const std::string& scale) {
+        return "<robot name='r'><link name='a'><collision><geometry><mesh filename='file://" +
+               box.path().string() + "' scale='" + scale + "'/></geometry></collision></link></robot>";
+    };
+    const ArmModel arm = load(text("1 2 -4"));
+    dvec3 high(-1.0);
+    for (const ArmLeaf& leaf : arm.leaves) {
+        high = glm::max(high, leaf.sphere.centre + leaf.sphere.radius);
+    }
+    CHECK(high.x > 0.05);
+    CHECK(high.x < 0.09);
+    CHECK(high.y > 0.10);
+    CHECK(high.y < 0.14);
+    CHECK(high.z > 0.20);
+    CHECK(high.z < 0.24);
+    CHECK(refusalOf(text("1 0 1")).find("link a: a mesh scale of 0") != std::string::npos);
+}
+
+TEST_CASE("What an arm's files have and its leaves have not is told in a line each") {
+    TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
+    testing::addBox(mesh, {4.0, 0.0, 0.0}, dvec3(0.01));
+    const testing::ObjFile stray(mesh), large(testing::boxMesh(dvec3(0.0), {2.5, 0.2, 0.2}));
+    const auto meshLink = [](const std::string& name, const testing::ObjFile& file) {
+        return "<link name='" + name + "'><collision><geometry><mesh filename='" + file.path().string() +
+               "'/></geometry></collision></link>";
+    };
+    const std::string seen = "<visual><geometry><sphere radius='0.1'/></geometry></visual>";
+    const ArmModel arm =
+        load("<robot name='r'>" + meshLink("a", stray) + meshLink("b", large) + "<link name='c'>" + seen +
+             "</link><link name='frame'/>" + jointOf("ab", "revolute", "a", "b") +
+             jointOf("bc", "revolute", "b", "c") + jointOf("cf", "fixed", "c", "frame", "") + "</robot>");
+    REQUIRE(arm.notes.size() == 3);
+    CHECK(arm.notes[0] == "link c has no collision shape: nothing keeps it off regions");
+    CHECK(arm.notes[1].find("link a: " + stray.path().string() +
+                            ": stray geometry is left out: 1 pieces up to") == 0);
+    CHECK(arm.notes[2].find("link b: " + large.path().string() + ": 2.5 m large") == 0);
+    CHECK(load(kArm + "</robot>").notes.empty());
+}
+
+TEST_CASE("Meshes from outside of the URDF's folder are told of once, however many there are") {
+    const auto folder =
+        std::filesystem::temp_directory_path() / ("fathom_outside_" + std::to_string(::getpid()));
+    std::filesystem::create_directories(folder / "urdf");
+    const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    std::filesystem::copy_file(one.path(), folder / "one.obj");
+    std::filesystem::copy_file(one.path(), folder / "two.obj");
+    std::filesystem::copy_file(one.path(), folder / "urdf/beside.obj");
+    const auto shape = [](const std::string& name) {
+        return "<collision><geometry><mesh filename='package://" + name + "'/></geometry></collision>";
+    };
+    const auto notes = [&](const std::string& shapes) {
+        const auto file = folder / "urdf/arm.urdf";
+        std::ofstream(file) << "<robot name='r'><link name='a'>" << shapes << "</link></robot>";
+        return loadArm(file).notes;
+    };
+    CHECK(notes(shape("beside.obj")).empty());
+    const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
+    REQUIRE(told.size() == 1);
+    CHECK(told[0] == "meshes outside of the folder that they are looked for in: 2, the first " +
+                         (folder / "one.obj").string());
+    std::filesystem::remove_all(folder);
 }
 
 TEST_CASE("A finger beside the chain is moved by the grasp from its open to its closed place") {

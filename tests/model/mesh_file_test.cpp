@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/mesh_file.h"
 
+#include "engine/model/import_triangles.h"
 #include "engine/model/mesh_distance.h"
 #include "engine/types/error.h"
 #include "tests/model/meshes.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -24,6 +26,28 @@ std::string refusalOf(const std::filesystem::path& file, const MeshOptions& opti
         return e.what();
     }
     return "";
+}
+
+// `nodes` that all name one mesh of 99 999 corners.
+void writeCopies(const std::filesystem::path& file, int nodes) {
+    std::ofstream out(file);
+    out << "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
+           "version='1.4.1'><library_geometries><geometry id='g'><mesh><source id='p'>"
+           "<float_array id='pa' count='9'>0 0 0 0.1 0 0 0 0.1 0</float_array><technique_common>"
+           "<accessor source='#pa' count='3' stride='3'><param name='X' type='float'/>"
+           "<param name='Y' type='float'/><param name='Z' type='float'/></accessor></technique_common>"
+           "</source><vertices id='v'><input semantic='POSITION' source='#p'/></vertices>"
+           "<triangles count='33333'><input semantic='VERTEX' source='#v' offset='0'/><p>";
+    for (int i = 0; i < 33333; ++i) {
+        out << "0 1 2 ";
+    }
+    out << "</p></triangles></mesh></geometry></library_geometries><library_visual_scenes>"
+           "<visual_scene id='s'>";
+    for (int i = 0; i < nodes; ++i) {
+        out << "<node><instance_geometry url='#g'/></node>";
+    }
+    out << "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene>"
+           "</COLLADA>";
 }
 
 bool present(const std::filesystem::path& file) {
@@ -101,6 +125,63 @@ TEST_CASE("a unit that nobody said is refused by its size and mended by --scale;
     CHECK(refusalOf(millimetres.path(), options).find("--scale") != std::string::npos);
     CHECK(refusalOf("no/such/mesh.stl").find("no such file") != std::string::npos);
     CHECK(refusalOf("tests/model/meshes.h").find("mesh: ") != std::string::npos);
+}
+
+TEST_CASE(
+    "Each axis of a mesh is stretched by its own factor, and a mirrored one still has its inside inside") {
+    const ObjFile file(boxMesh({0.1, 0.1, 0.1}, dvec3(0.1)));
+    MeshOptions options;
+    options.scale = 2.0;
+    options.stretch = {1.0, 2.0, -3.0};
+    const TriangleMesh mesh = loadMesh(file.path(), options).mesh;
+    CHECK(glm::distance(mesh.low(), dvec3(0.1, 0.2, -0.9)) < 1e-6);
+    CHECK(glm::distance(mesh.high(), dvec3(0.3, 0.6, -0.3)) < 1e-6);
+    CHECK(mesh.volume() == doctest::Approx(0.2 * 0.4 * 0.6).epsilon(1e-6));
+}
+
+TEST_CASE("A mesh of over two metres without a unit is doubted, unless --scale said what is meant") {
+    const ObjFile large(boxMesh(dvec3(0.0), {3.2, 1.0, 1.0})), small(boxMesh(dvec3(0.0), dvec3(1.9)));
+    CHECK(loadMesh(large.path()).doubt.find("3.2 m large") == 0);
+    CHECK(loadMesh(small.path()).doubt == "");
+    MeshOptions metres;
+    metres.scale = 1.0;
+    CHECK(loadMesh(large.path(), metres).doubt == "");
+    metres = {};
+    metres.stretch = dvec3(0.9);
+    CHECK(loadMesh(large.path(), metres).doubt == "");
+}
+
+TEST_CASE("Kinds of file that nobody promised to read are refused, whatever is in them") {
+    const ObjFile box(boxMesh(dvec3(0.0), dvec3(0.1)));
+    const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-kind.ply";
+    std::ofstream(file) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                           "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                           "end_header\n0 0 0\n0.1 0 0\n0 0.1 0\n3 0 1 2\n";
+    CHECK(importTriangles(file).fault == ""); // the library can
+    CHECK(refusalOf(file).find("kind '.ply' (allowed: a readable STL, OBJ or COLLADA") != std::string::npos);
+    std::filesystem::remove(file);
+    const std::filesystem::path upper = file.parent_path() / "fathom-mesh-kind.OBJ";
+    std::filesystem::copy_file(box.path(), upper, std::filesystem::copy_options::overwrite_existing);
+    CHECK(refusalOf(upper) == "");
+    std::filesystem::remove(upper);
+}
+
+TEST_CASE(
+    "A mesh that takes more memory than it may is refused, and copies are counted before they are made") {
+    const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-copies.dae";
+    writeCopies(file, 10);
+    CHECK(importTriangles(file).mesh.triangles.size() == 333'330);
+    writeCopies(file, 55); // 130 MB of corners
+    const ImportedTriangles large = importTriangles(file, 16 << 20);
+    CHECK(large.mesh.triangles.empty());
+    if (!kSanitized) { // an allocator under a sanitizer ends the child: a refusal, too, in other words
+        CHECK(large.fault == "takes over 16 MiB to read");
+    }
+    writeCopies(file, 1000);
+    const ImportedTriangles many = importTriangles(file, 200 << 20); // of 2400 MB that the copies would take
+    CHECK(many.fault == "over 6000000 corners");
+    CHECK(many.mesh.points.empty());
+    std::filesystem::remove(file);
 }
 
 TEST_CASE("distance and winding agree with a box's formula, inside, outside and where two boxes overlap") {

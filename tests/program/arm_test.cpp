@@ -92,7 +92,8 @@ std::string ballArm() {
     return "<robot name='r'><link name='base'>" + ball + "<link name='column'>" + ball +
            "<link name='upper'>" + ball + "<link name='fore'>" + ball +
            joint("slew", "base", "column", "-1", "1") + joint("shoulder", "column", "upper", "0", "1") +
-           joint("elbow", "upper", "fore", "-2.4", "-0.05") + "</robot>";
+           joint("elbow", "upper", "fore", "-2.4", "-0.05") + "<link name='jaw'/>" +
+           joint("pinch", "column", "jaw", "0", "0.5") + "</robot>";
 }
 
 // The red bump lies about the arm's first ball: with so large a padding nothing of it is left.
@@ -204,6 +205,24 @@ TEST_CASE("latency runs the arm of a scene that has one") {
     CHECK(part.at("arm_travel").get<double>() > 0.05);
 }
 
+TEST_CASE("A link that is drawn and has no collision shape is told of by plan, and by replay in a line") {
+    Stage stage;
+    stageArmInBump(stage, "0.2");
+    std::string urdf = ballArm();
+    urdf.replace(urdf.find("<link name='jaw'/>"), 18,
+                 "<link name='jaw'><visual><geometry><sphere radius='0.1'/></geometry></visual></link>");
+    stage.write("arm41.urdf", urdf);
+    const std::string note = "link jaw has no collision shape: nothing keeps it off regions";
+    const ProgramRun plan =
+        runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    CHECK(plan.exitCode == 0);
+    CHECK(plan.out.find("        " + note + "\n") != std::string::npos);
+    const ProgramRun run = runFathom(stage.command());
+    CHECK(run.exitCode == 0);
+    REQUIRE(run.errorLines().size() == 1);
+    CHECK(run.err.find("arm41.urdf: " + note) != std::string::npos);
+}
+
 TEST_CASE("A wrong arm section is one line that names the field, the value and what is allowed") {
     const std::string urdf = "urdf: arm41.urdf, ";
     refused("", {"arm.urdf"});
@@ -219,5 +238,9 @@ TEST_CASE("A wrong arm section is one line that names the field, the value and w
     refused(urdf + "direction: any", {"arm.direction", "any", "free"});
     refused(urdf + "grasp: {fingers: [{joint: thumb}]}", {"'thumb'", "beside the chain"});
     refused(urdf + "grasp: {fingers: [], button: 4}", {"arm.grasp", "button 4", "hand.map.clutch"});
+    refused(urdf + "grasp: {fingers: [{joint: pinch, open: 0.6, closed: 0}]}",
+            {"arm.grasp.fingers[0].open", "0.6", "0 to 0.5"});
+    refused(urdf + "grasp: {fingers: [{joint: pinch, closed: -0.1}]}",
+            {"arm.grasp.fingers[0].closed", "-0.1", "0 to 0.5"});
     refused(urdf + "leaves: 1", {"contact.where", "gpu", "cpu with an arm"}, "where: gpu");
 }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -45,17 +46,53 @@ TEST_CASE(
     CHECK(std::filesystem::file_size(out) > 200);
 }
 
+TEST_CASE("spheres scales a set of spheres as it scales a mesh, and doubts a mesh of three metres") {
+    const Folder folder;
+    const ObjFile large(boxMesh(dvec3(0.0), {3.0, 0.4, 0.4}));
+    const std::string whole = (folder.path / "whole.sph").string(),
+                      half = (folder.path / "half.sph").string();
+    const ProgramRun run = runFathom({"spheres", large.path().string(), "--out", whole, "--leaves", "8"});
+    CHECK(run.exitCode == 0);
+    REQUIRE(run.errorLines().size() == 1);
+    CHECK(run.err.find("3 m large if its unit is the metre") != std::string::npos);
+    CHECK(run.err.find("--scale says what is meant") != std::string::npos);
+    CHECK(runFathom({"spheres", whole, "--out", half, "--scale", "0.5"}).exitCode == 0);
+    std::ifstream before(whole), after(half);
+    std::string head, sameHead, line;
+    std::getline(before, head);
+    std::getline(after, sameHead);
+    CHECK(head == sameHead);
+    size_t spheres = 0;
+    for (std::string scaled; std::getline(before, line) && std::getline(after, scaled); ++spheres) {
+        std::istringstream numbers(line), halves(scaled);
+        for (int k = 0; k < 4; ++k) { // x, y, z, radius
+            double number = 0.0, other = 1.0;
+            numbers >> number;
+            halves >> other;
+            const bool unused = k == 3 && number < 0.0;
+            CHECK(other == doctest::Approx(unused ? number : 0.5 * number).epsilon(1e-6));
+        }
+    }
+    CHECK(spheres > 8);
+}
+
 TEST_CASE("spheres refuses what it cannot use in one line and with exit code 2") {
     const Folder folder;
     const std::string out = (folder.path / "tool.sph").string();
     const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
     const ObjFile good(boxMesh(dvec3(0.0), dvec3(0.1)));
+    const std::string set = (folder.path / "set.sph").string();
+    REQUIRE(runFathom({"spheres", good.path().string(), "--out", set, "--leaves", "4"}).exitCode == 0);
     for (const std::vector<std::string>& arguments :
          {std::vector<std::string>{"spheres", "no/such.stl", "--out", out},
           {"spheres", millimetres.path().string(), "--out", out},
           {"spheres", good.path().string(), "--out", out, "--leaves", "0"},
           {"spheres", good.path().string(), "--out", out, "--protrusion", "1e-9"},
           {"spheres", good.path().string(), "--out", out, "--up", "w"},
+          {"spheres", good.path().string(), "--out", out, "--link", "a"},
+          {"spheres", set, "--out", out, "--up", "x"},
+          {"spheres", set, "--out", out, "--leaves", "4"},
+          {"spheres", set, "--out", out, "--scale", "0"},
           {"spheres", good.path().string()}}) {
         const ProgramRun run = runFathom(arguments);
         CHECK(run.exitCode == 2);

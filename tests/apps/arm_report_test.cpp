@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What arm.csv and the summary say of limits, from postures that nobody could have taken.
+#include "apps/replay/arm_report.h"
+
+#include "tests/apps/scratch_folder.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// One joint of -1 to 1 rad and one finger that opens at 0.5, the upper of its limits.
+ArmRig smallRig() {
+    ArmRig rig;
+    rig.model.joints.push_back({"turn", false, {}, {0.0, 0.0, 1.0}, -1.0, 1.0, 1.0});
+    ArmFinger finger;
+    finger.name = "jaw";
+    finger.joint = 1;
+    finger.open = finger.upper = 0.5;
+    finger.lower = 0.0;
+    rig.model.fingers.push_back(finger);
+    rig.model.leaves.push_back({{dvec3(0.0), 0.1}, 1, 0});
+    rig.model.links.push_back("link");
+    rig.proxy.period = 0.001;
+    return rig;
+}
+
+double violation(const ArmRig& rig, double before, double q, double grasp) {
+    const ScratchFolder folder;
+    ArmReport report(folder.path() / "arm.csv", rig);
+    TickRecord tick;
+    tick.armStart.q[0] = before;
+    tick.arm.posture = {{q}, grasp};
+    report.add(tick);
+    return report.summary({}).limitViolation;
+}
+
+} // namespace
+
+TEST_CASE("A report of an arm finds joints and fingers beyond their limits, and joints that are too fast") {
+    ArmRig rig = smallRig();
+    CHECK(violation(rig, 1.0, 1.0, 0.0) == 0.0);
+    CHECK(violation(rig, 0.0, 0.001, 1.0) == 0.0);
+    CHECK(violation(rig, 1.1, 1.1, 0.0) == doctest::Approx(0.1));
+    CHECK(violation(rig, -1.25, -1.25, 0.0) == doctest::Approx(0.25));
+    CHECK(violation(rig, 0.0, 0.003, 0.0) == doctest::Approx(0.002));
+    rig.model.fingers[0].open = 0.7;
+    CHECK(violation(rig, 0.0, 0.0, 0.0) == doctest::Approx(0.2));
+    CHECK(violation(rig, 0.0, 0.0, 1.0) == 0.0);
+    rig.model.fingers[0].closed = -0.1;
+    CHECK(violation(rig, 0.0, 0.0, 1.0) == doctest::Approx(0.1));
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths in a scene that lead out of its folder are used, and told of.
+#include "tests/rig/stage.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+TEST_CASE("A path that leads out of the scene's folder is used and told of in one line; one inside is not") {
+    Stage stage;
+    stage.recording({bumpPicture()});
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.4}}});
+    std::filesystem::create_directories(stage / "inner");
+    std::filesystem::copy_file(stage / "hand.csv", stage / "inner/hand.csv");
+    for (const std::string path : {"../hand.csv", "hand.csv"}) {
+        SceneText scene;
+        scene.hand = "path: " + path;
+        stage.write("inner/scene.yaml", scene.text());
+        const std::string file = (stage / "inner/scene.yaml").string();
+        const ProgramRun run = runFathom({"replay", file, "--source", (stage / "rec").string(), "--device",
+                                          "llvmpipe", "--out", (stage / "out").string()});
+        CAPTURE(run.err);
+        CHECK(run.exitCode == 0);
+        REQUIRE(run.errorLines().size() == (path == "hand.csv" ? 0 : 1));
+        if (path != "hand.csv") {
+            CHECK(run.err.find(file + ": '../hand.csv' leads out of the scene file's folder") !=
+                  std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("The intrinsics that a scene names for a live camera are told of, too, where they lead out") {
+    Stage stage;
+    for (const std::string path : {"../../lens.json", "lens.json"}) {
+        SceneText scene;
+        scene.camera = "source: {v4l2: \"/dev/no_such_video,intrinsics=" + path + "\"}, near: 0.1, far: 3.0";
+        stage.scene(scene);
+        const ProgramRun run = runFathom({"plan", (stage / "scene.yaml").string()});
+        CAPTURE(run.err);
+        CHECK(run.exitCode != 0);
+        const bool told =
+            run.err.find("'" + path + "' leads out of the scene file's folder") != std::string::npos;
+        CHECK(told == (path != "lens.json"));
+    }
+}
