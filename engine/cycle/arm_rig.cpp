@@ -29,7 +29,8 @@ public:
         rig_->baseTarm = arm_.baseTarm;
         rig_->freeDirection = arm_.freeDirection;
         rig_->graspButton = arm_.grasp.fingers.empty() ? 0 : arm_.grasp.button;
-        rig_->padding = arm_.selfFilter.value_or(0.0);
+        // As regions grow: where the camera is known so well, the arm is seen that far off.
+        rig_->padding = arm_.selfFilter ? *arm_.selfFilter + 3.0 * scene_.registrationSigma : 0.0;
         rig_->proxy.stepCap = scene_.haptics.stepCap;
         rig_->proxy.solves = scene_.haptics.solves;
         rig_->proxy.period = 1.0 / scene_.haptics.rateHz;

@@ -21,7 +21,7 @@ struct ArmRig {
     ArmProxyOptions proxy; // step cap, solves and period are the scene's
     bool freeDirection = false;
     uint32_t graspButton = 0; // 0 = none
-    double padding = 0.0;     // [m] of the self-filter
+    double padding = 0.0;     // [m] of the self-filter: what the scene says and 3 sigma of the registration
 
     ArmPosture startPosture() const noexcept { return {start, 0.0}; }
     ArmFrames framesAt(const ArmPosture& posture) const noexcept;

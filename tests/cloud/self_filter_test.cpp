@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arm taken out of the cloud: classify.comp with a self-filter against its float64 twin.
 #include "engine/reference/self_filter.h"
+
+#include "engine/cycle/arm_rig.h"
 #include "engine/types/error.h"
 #include "tests/support/cloud_rig.h"
 
 #include <doctest/doctest.h>
+#include <fstream>
 #include <random>
+
+#include <unistd.h>
 
 using namespace fathom;
 using namespace fathom::test;
@@ -79,6 +84,34 @@ TEST_CASE("Points of the arm, padding included, belong to no class, and all othe
             }
         }
     }
+}
+
+TEST_CASE("An arm is taken out of a picture whose camera is off by three sigma of its registration") {
+    const auto urdf = std::filesystem::temp_directory_path() /
+                      ("fathom_registered_" + std::to_string(::getpid()) + ".urdf");
+    std::ofstream(urdf) << "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.05'/>"
+                           "</geometry></collision></link></robot>";
+    const dvec3 middle(0.0, 0.0, 0.6), off = 0.99 * 3.0 * 0.01 * glm::normalize(dvec3(0.8, 0.5, -0.4));
+    for (const double sigma : {0.0, 0.01}) {
+        CloudRig rig = filteredRig(160, 120);
+        Scene scene = plainScene();
+        scene.registrationSigma = sigma;
+        scene.arm.emplace();
+        scene.arm->urdf = urdf;
+        scene.arm->selfFilter = 0.002;
+        scene.arm->baseTarm.position = middle;
+        const auto arm = makeArmRig(scene, {});
+        rig.cycle().setArm(arm->inPicture(arm->startPosture()));
+        const std::vector<Sphere> seen{{middle + off, 0.05}};
+        rig.run(wallAndBalls(rig.camera(), seen));
+        size_t left = 0;
+        for (size_t i = 0; i < rig.host().spheres.size(); ++i) {
+            left += rig.host().spheres.z[i] + rig.origin().z < 0.9 ? 1 : 0;
+        }
+        CAPTURE(sigma);
+        CHECK((left == 0) == (sigma > 0.0));
+    }
+    std::filesystem::remove(urdf);
 }
 
 TEST_CASE("Two thousand spheres on twenty links, at a pose far from the base origin, agree with the twin") {
