@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 
 namespace fathom {
 
@@ -27,6 +28,16 @@ __attribute__((noinline)) void touchStack() noexcept {
 
 void add(std::string& refused, const char* what, int fault) {
     refused += (refused.empty() ? "" : ", ") + std::string(what) + " (" + std::strerror(fault) + ")";
+}
+
+// As touched: locking whole stacks and driver reservations would make memory resident that nobody uses. Below
+// a limit every later mapping of any thread counts against it by its whole size and fails where it goes over,
+// so what is mapped later is locked only where there is no limit: a turn maps nothing.
+int lockMemory() noexcept {
+    const rlimit none{RLIM_INFINITY, RLIM_INFINITY};
+    const bool unlimited = ::setrlimit(RLIMIT_MEMLOCK, &none) == 0;
+    const int flags = MCL_CURRENT | MCL_ONFAULT | (unlimited ? MCL_FUTURE : 0);
+    return ::mlockall(flags) == 0 ? 0 : errno;
 }
 
 } // namespace
@@ -88,9 +99,8 @@ std::string makeHapticThread(const ThreadPlacement& placement) {
     }
     ::prctl(PR_SET_TIMERSLACK, 1, 0, 0,
             0); // [ns] without real-time priority wake-ups are else rounded by 50 us
-    // As touched: locking whole stacks and driver reservations would make memory resident that nobody uses.
-    if (::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
-        add(refused, "locked memory", errno);
+    if (const int fault = lockMemory(); fault != 0) {
+        add(refused, "locked memory", fault);
     }
     touchStack();
     return refused;

@@ -6,8 +6,10 @@
 #include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
+#include <grp.h>
 #include <poll.h>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -48,6 +50,15 @@ struct Channel {
     }
 };
 
+constexpr unsigned kNobody = 65534;
+
+bool dropPrivileges() {
+    const rlimit priority{0, 0}, memory{64 << 10, 64 << 10};
+    return ::setrlimit(RLIMIT_RTPRIO, &priority) == 0 && ::setrlimit(RLIMIT_MEMLOCK, &memory) == 0 &&
+           (::getuid() != 0 ||
+            (::setgroups(0, nullptr) == 0 && ::setgid(kNobody) == 0 && ::setuid(kNobody) == 0));
+}
+
 [[noreturn]] void becomeFathom(const std::vector<std::string>& arguments, const RunSetting& setting, int out,
                                int err) {
     std::vector<std::string> words{FATHOM_PROGRAM};
@@ -63,7 +74,8 @@ struct Channel {
     ::setenv("LSAN_OPTIONS", ("print_suppressions=0:suppressions=" + leaks).c_str(), 0);
     const int nothing = ::open("/dev/null", O_RDONLY);
     const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&
-                       (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0);
+                       (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0) &&
+                       (!setting.unprivileged || dropPrivileges());
     if (ready) {
         ::execv(argv[0], argv.data());
     }

@@ -20,6 +20,7 @@ struct RunSetting {
     bool terminal = false;        // standard error is a terminal (a pseudo one), not a pipe
     double timeLimit = 240.0;     // [s]; then the child is killed
     std::filesystem::path folder; // working folder; empty = ours
+    bool unprivileged = false; // as nobody, where we are root; no real-time priority, 64 KiB of locked memory
 };
 
 // Throws std::runtime_error when no child can be made. Its standard input is empty.

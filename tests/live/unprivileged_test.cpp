@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What somebody has who was granted nothing: no real-time priority, hardly any locked memory.
+#include "tests/rig/stage.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+TEST_CASE("Without permission for priority and locked memory a live run says so in one line, and runs") {
+    Stage stage;
+    stage.recording(std::vector<Picture>(10, bumpPicture()));
+    stage.scene({});
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}, {1.0, {0.0, 0.0, 0.45}}});
+    std::filesystem::permissions(stage.path(), std::filesystem::perms::all);
+    RunSetting setting;
+    setting.unprivileged = true;
+    const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}), setting);
+    CAPTURE(run.err);
+    CHECK(run.exitCode == 0);
+    REQUIRE(run.errorLines().size() == 1);
+    for (const char* part : {"haptic thread: refused ", "real-time priority (Operation not permitted)",
+                             "locked memory (Cannot allocate memory)", "man fathom, PERMISSIONS"}) {
+        CHECK(run.err.find(part) != std::string::npos);
+    }
+    CHECK(readReplay(stage / "out", run).ticks.size() > 100);
+}
