@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
+#include <map>
 
 using namespace fathom;
 
@@ -72,8 +73,19 @@ TEST_CASE(
     "In lockstep a lost GPU ends the run with exit code 3 and one line, and leaves the old results alone") {
     Stage stage;
     setPressing(stage);
+    REQUIRE(runFathom(stage.command({"--device", "llvmpipe"})).exitCode == 0);
+    const auto results = [&] {
+        std::map<std::string, std::string> files;
+        for (const auto& file : std::filesystem::directory_iterator(stage / "out")) {
+            files[file.path().filename()] = readWhole(file.path());
+        }
+        return files;
+    };
+    const auto before = results();
+    CHECK(before.count("summary.json") == 1);
     const Losing losing(30, "lost", 0);
     const ProgramRun run = runFathom(stage.command({"--device", "llvmpipe"}));
     CHECK(run.exitCode == 3);
     CHECK(run.errorLines().size() == 1);
+    CHECK((results() == before));
 }
