@@ -68,7 +68,27 @@ private:
     uint64_t staleTurns_ = 0;
 };
 
-// Puts the alarm between the drain and the sink.
+// Tells of numbers that are none, from the hand or anywhere, when they begin; each turn of them has no force.
+class NumberAlarm {
+public:
+    void see(const TurnRow& row) {
+        const bool broken = !row.record.finite;
+        if (broken && !broken_ && row.record.t >= quietUntil_) {
+            const bool fromHand = !isFinite(row.hand.deviceThandle);
+            spdlog::warn("at {:.2f} s {} not finite: no force in such turns", row.record.t,
+                         fromHand ? "the hand's sample is" : "some number of the turn is");
+            quietUntil_ = row.record.t + kQuiet;
+        }
+        broken_ = broken;
+    }
+
+private:
+    static constexpr double kQuiet = 5.0; // [s]
+    double quietUntil_ = 0.0;
+    bool broken_ = false;
+};
+
+// Puts the alarms between the drain and the sink.
 class WatchedSink final : public RunSink {
 public:
     WatchedSink(RunSink& sink, double staleAfter)
@@ -79,6 +99,7 @@ public:
     void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override {
         alarm_.see(row.record);
+        numbers_.see(row);
         sink_.turn(row, obeyed, known, behind);
     }
     uint64_t staleTurns() const { return alarm_.staleTurns(); }
@@ -86,6 +107,7 @@ public:
 private:
     RunSink& sink_;
     AgeAlarm alarm_;
+    NumberAlarm numbers_;
 };
 
 } // namespace

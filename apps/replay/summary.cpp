@@ -49,6 +49,7 @@ Json hapticJson(const ReplaySummary::Haptic& haptic) {
             {"stalled_ticks", haptic.stalledTicks},
             {"trapped_ticks", haptic.trappedTicks},
             {"escape_ticks", haptic.escapeTicks},
+            {"not_finite_ticks", haptic.notFiniteTicks},
             {"max_penetration_m", number(haptic.maxPenetration)},
             {"max_escape_depth_m", number(haptic.maxEscapeDepth)},
             {"max_force_N", number(haptic.maxForce)},
@@ -135,6 +136,7 @@ void ReplaySummary::Haptic::take(TickTotals totals) {
     stalledTicks = totals.stalled;
     trappedTicks = totals.trapped;
     escapeTicks = totals.escape;
+    notFiniteTicks = totals.notFinite;
     maxForce = totals.maxForce;
     maxTorque = totals.maxTorque;
     maxForceStep = totals.maxForceStep;

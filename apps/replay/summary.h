@@ -29,7 +29,8 @@ struct ReplaySummary {
         uint64_t ticks = 0, late = 0;
         Percentiles turnMicros;
         uint64_t stalledTicks = 0, trappedTicks = 0, escapeTicks = 0;
-        std::optional<double> maxPenetration, maxEscapeDepth;       // [m], of the penetration audit
+        uint64_t notFiniteTicks = 0;                          // without force, because some number was none
+        std::optional<double> maxPenetration, maxEscapeDepth; // [m], of the penetration audit
         double maxForce = 0.0, maxTorque = 0.0, maxForceStep = 0.0; // [N], [N m], [N]
         std::optional<double> stiffness, rotationalStiffness;       // [N/m], [N m/rad]
         std::optional<double> marginPassiveMin, marginUncoupledMin;

@@ -49,6 +49,7 @@ struct TickRecord {
     bool late = false;            // ended more than one period after its start was due
     uint32_t solves = 0;          // linearisations
     bool infeasible = false;      // some solve had no feasible step
+    bool notFinite = false;       // some number was none, and there was no force
     ArmRecord arm;                // all zero without an arm
     ArmPosture armStart;          // that the turn started from
     bool driven = false;          // a real arm follows

@@ -24,6 +24,7 @@ void TickTotals::add(const TickRecord& tick) {
     trapped += tick.state == TickState::Trapped;
     escape += tick.state == TickState::Escape;
     infeasible += tick.infeasible;
+    notFinite += tick.notFinite;
     solves += tick.solves;
     if (isFinite(tick.wrench.force)) {
         maxForce = std::max(maxForce, glm::length(tick.wrench.force));

@@ -17,7 +17,7 @@ class TickTotals {
 public:
     void add(const TickRecord& tick);
 
-    uint64_t ticks = 0, late = 0, stalled = 0, trapped = 0, escape = 0, infeasible = 0;
+    uint64_t ticks = 0, late = 0, stalled = 0, trapped = 0, escape = 0, infeasible = 0, notFinite = 0;
     double maxForce = 0.0, maxTorque = 0.0; // [N], [N m] of the vector's norm
     double maxForceStep = 0.0;              // [N] between neighbouring ticks; the first counts from zero
     std::optional<double> minMarginPassive, minMarginUncoupled;

@@ -44,6 +44,7 @@ TickRecord tickOf(const TurnRecord& turn, const ArmPosture& armStart, double tur
     tick.late = late;
     tick.solves = turn.solves;
     tick.infeasible = turn.infeasible != 0;
+    tick.notFinite = !turn.finite;
     tick.arm = turn.arm;
     tick.armStart = armStart;
     return tick;

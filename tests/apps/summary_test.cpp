@@ -63,11 +63,11 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
           Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
     CHECK(keysOf(json["frames"]) == Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
     CHECK(keysOf(json["frames"]["gpu_ms"]) == Keys{"p50", "p99", "max"});
-    CHECK(keysOf(json["haptic"]) == Keys{"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks",
-                                         "escape_ticks", "max_penetration_m", "max_escape_depth_m",
-                                         "max_force_N", "max_torque_Nm", "max_force_step_N",
-                                         "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
-                                         "margin_passive_min", "margin_uncoupled_min", "solver"});
+    CHECK(keysOf(json["haptic"]) ==
+          Keys{"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
+               "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
+               "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
+               "margin_passive_min", "margin_uncoupled_min", "solver"});
     CHECK(keysOf(json["haptic"]["turn_us"]) == Keys{"p50", "p99", "p999", "max"});
     CHECK(keysOf(json["haptic"]["solver"]) == Keys{"solves_mean", "infeasible"});
     CHECK(keysOf(json["contact"]) == Keys{"queries", "spheres_max", "overflows", "query_us", "where"});
@@ -123,7 +123,9 @@ TEST_CASE(
     tick.marginPassive = 0.2;
     tick.stalled = true;
     tick.infeasible = true;
+    tick.notFinite = true;
     totals.add(tick);
+    tick.notFinite = false;
     tick.wrench.force = {kNan, 0, 0};
     tick.state = TickState::Free;
     tick.marginPassive = kNan;
@@ -146,6 +148,7 @@ TEST_CASE(
     CHECK(!haptic.marginUncoupledMin);
     CHECK(*haptic.solvesMean == 2.0);
     CHECK(haptic.infeasible == 2);
+    CHECK(haptic.notFiniteTicks == 1);
     CHECK(*haptic.turnMicros.max == 10.0);
     CHECK(*haptic.stiffness == 800.0);
     ReplaySummary::Haptic none;

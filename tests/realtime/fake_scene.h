@@ -101,13 +101,18 @@ class FakeHand final : public HapticDevice {
 public:
     explicit FakeHand(HandPath path)
         : path_(std::move(path)) {}
-    HandSample read(double t) noexcept override { return path_.at(t); }
+    HandSample read(double t) noexcept override {
+        HandSample sample = path_.at(t);
+        spoil(t, sample);
+        return sample;
+    }
     void write(const Wrench& wrench, double) noexcept override {
         last = wrench;
         ++writes;
     }
     Wrench last{dvec3(1.0), dvec3(1.0)};
     uint64_t writes = 0;
+    std::function<void(double, HandSample&)> spoil = [](double, HandSample&) {}; // of a test that wants it
 
 private:
     HandPath path_;

@@ -39,10 +39,11 @@ void checkSummaryKeys(const json& s) {
     for (const char* key : {"gpu_ms", "upload_ms", "latency_ms"}) {
         checkPercentiles(s.at("frames").at(key), three);
     }
-    checkKeys(s.at("haptic"), {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
-                               "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
-                               "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
-                               "margin_passive_min", "margin_uncoupled_min", "solver"});
+    checkKeys(s.at("haptic"),
+              {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
+               "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
+               "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
+               "margin_passive_min", "margin_uncoupled_min", "solver"});
     checkPercentiles(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"});
     checkKeys(s.at("haptic").at("solver"), {"solves_mean", "infeasible"});
     checkKeys(s.at("contact"), {"queries", "spheres_max", "overflows", "query_us", "where"});
@@ -157,6 +158,7 @@ void checkTicks(const Replay& replay, const Terms& terms) {
     CHECK(haptic.at("stalled_ticks") == sums.stalled);
     CHECK(haptic.at("trapped_ticks") == sums.trapped);
     CHECK(haptic.at("escape_ticks") == sums.escape);
+    CHECK(haptic.at("not_finite_ticks") == 0);
     CHECK(haptic.at("max_force_N").get<double>() == doctest::Approx(sums.force).epsilon(1e-12));
     CHECK(haptic.at("max_torque_Nm").get<double>() == doctest::Approx(sums.torque).epsilon(1e-12));
     CHECK(haptic.at("max_force_step_N").get<double>() == doctest::Approx(sums.step).epsilon(1e-12));
