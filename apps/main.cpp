@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not
 // hold or an internal error, 2 bad input, 3 device lost.
+#include "apps/arm_simulator/arm_simulator_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
 #include "apps/guard/arm_guardian_command.h"
@@ -72,6 +73,7 @@ int run(int argc, char** argv) {
     fathom::addRegisterCommand(app, global);
     fathom::addGuardCommand(app);
     fathom::addArmGuardianCommand(app);
+    fathom::addArmSimulatorCommand(app);
     fathom::addDevicesCommand(app);
     fathom::addProfileCommand(app, global);
     int result = 0;

@@ -92,7 +92,7 @@ COMP_CWORD=$((\${#COMP_WORDS[@]} - 1)); _fathom; echo \${COMPREPLY[@]}" OUTPUT_V
 endfunction()
 execute_process(COMMAND ${root}/bin/fathom --help OUTPUT_VARIABLE help)
 string(REGEX REPLACE "^.*Subcommands:" "" help "${help}")
-string(REGEX MATCHALL "\n  [a-z]+" subcommands "${help}")
+string(REGEX MATCHALL "\n  [a-z-]+" subcommands "${help}")
 list(TRANSFORM subcommands STRIP)
 list(LENGTH subcommands count)
 check("the program tells of ${count} subcommands" count GREATER_EQUAL 10)

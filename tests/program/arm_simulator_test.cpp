@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// `fathom arm-simulator`, driven by the drivers of both arms over the terminal that it opens.
+#include "devices/serial/eca_arm.h"
+#include "devices/serial/reach_arm.h"
+#include "tests/rig/refusal.h"
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <doctest/doctest.h>
+#include <functional>
+#include <sys/wait.h>
+#include <thread>
+
+using namespace fathom;
+
+namespace {
+
+// The program beside the test, told to end by SIGTERM.
+class Simulator {
+public:
+    Simulator(const std::string& protocol, std::filesystem::path link, const std::filesystem::path& said)
+        : link_(std::move(link))
+        , process_(startFathom({"arm-simulator", protocol, "--link", link_.string()}, said)) {
+        CHECK(until([&] { return std::filesystem::exists(link_); }));
+    }
+    Simulator(const Simulator&) = delete;
+    Simulator& operator=(const Simulator&) = delete;
+    ~Simulator() {
+        ::kill(process_, SIGTERM);
+        int status = 0;
+        ::waitpid(process_, &status, 0);
+        CHECK(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 0);
+        CHECK_FALSE(std::filesystem::is_symlink(link_));
+    }
+    // Looks every 5 ms; false after half a minute.
+    static bool until(const std::function<bool()>& state) {
+        for (int i = 0; i < 6000; ++i) {
+            if (state()) {
+                return true;
+            }
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        return false;
+    }
+
+private:
+    std::filesystem::path link_;
+    pid_t process_;
+};
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+} // namespace
+
+TEST_CASE("A simulated Reach goes where its driver tells it, and a simulated ECA finds its stops") {
+    Stage stage;
+    {
+        const Simulator simulator("reach_alpha5", stage / "reach", stage / "said");
+        SerialPort port((stage / "reach").string(), 115200);
+        ReachArm arm(port);
+        const ArmCommand go{{0.1, -0.1, 0.2, 0.05, 0.002}, false};
+        CHECK(Simulator::until([&] {
+            arm.step(now(), go);
+            double off = 0.0;
+            for (size_t k = 0; k < 5; ++k) {
+                off = std::max(off, std::abs(arm.feedback().position[k] - go.position[k]));
+            }
+            return !arm.feedback().stale && off < 1e-4;
+        }));
+    }
+    CHECK(stage.read("said").find("reach_alpha5 simulated at /dev/pts/") == 0);
+    const Simulator simulator("eca_5e", stage / "eca", stage / "said");
+    SerialPort port((stage / "eca").string(), 115200);
+    EcaArm arm(port);
+    CHECK(Simulator::until([&] {
+        arm.step(now(), {{}, false});
+        return arm.feedback().homed;
+    }));
+}
+
+TEST_CASE("arm-simulator refuses arms that it does not know and links that cannot be, in one line") {
+    Stage stage;
+    stage.write("file", "not to be lost");
+    checkRefusal({"arm-simulator", "oberon"}, {"arm-simulator", "oberon"});
+    checkRefusal({"arm-simulator", "eca_5e", "--link", (stage / "no/such/folder").string()},
+                 {"--link", "No such file"});
+    checkRefusal({"arm-simulator", "eca_5e", "--link", (stage / "file").string()}, {"--link", "File exists"});
+    CHECK(stage.read("file") == "not to be lost");
+}
