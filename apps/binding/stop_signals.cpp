@@ -20,13 +20,21 @@ StopSignals::StopSignals() noexcept {
     action.sa_handler = &fathomAskStop;
     action.sa_flags = SA_RESTART;
     ::sigemptyset(&action.sa_mask);
-    ::sigaction(SIGINT, &action, &interrupt_);
-    ::sigaction(SIGTERM, &action, &terminate_);
+    for (size_t i = 0; i < kStopping.size(); ++i) {
+        ::sigaction(kStopping[i], nullptr, &before_[i]);
+        if (kStopping[i] != SIGHUP || before_[i].sa_handler != SIG_IGN) {
+            ::sigaction(kStopping[i], &action, nullptr);
+        }
+    }
+    action.sa_handler = SIG_IGN;
+    ::sigaction(SIGPIPE, &action, &beforePipe_);
 }
 
 StopSignals::~StopSignals() {
-    ::sigaction(SIGINT, &interrupt_, nullptr);
-    ::sigaction(SIGTERM, &terminate_, nullptr);
+    for (size_t i = 0; i < kStopping.size(); ++i) {
+        ::sigaction(kStopping[i], &before_[i], nullptr);
+    }
+    ::sigaction(SIGPIPE, &beforePipe_, nullptr);
 }
 
 const std::atomic<bool>& StopSignals::asked() const noexcept {

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C as a flag: while one lives, SIGINT and SIGTERM ask the run to end instead of ending the program.
+// Ctrl-C as a flag: while one lives, SIGINT, SIGTERM, SIGQUIT and SIGHUP (the terminal closed) ask the run to
+// end instead of ending the program, so that the last thing a hand feels is zero force. SIGPIPE, a reader of
+// the output that went away, is no reason to end.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <csignal>
 
 namespace fathom {
 
-// At most one at a time. The earlier dispositions return with its end.
+// At most one at a time. The earlier dispositions return with its end. SIGHUP stays ignored where it was
+// (nohup).
 class StopSignals {
 public:
     StopSignals() noexcept;
@@ -19,8 +23,9 @@ public:
     const std::atomic<bool>& asked() const noexcept;
 
 private:
-    struct sigaction interrupt_ {};
-    struct sigaction terminate_ {};
+    static constexpr std::array kStopping{SIGINT, SIGTERM, SIGQUIT, SIGHUP};
+    std::array<struct sigaction, kStopping.size()> before_{};
+    struct sigaction beforePipe_ {};
 };
 
 } // namespace fathom

@@ -36,7 +36,7 @@ std::string describe(const ThreadPlacement& placement);
 
 // Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is
 // captured at (index j - index 0) / 30 s by the clock (ReplayOptions::pictureRate). Ends when frames (plus
-// one such period) and hand path both have, or on SIGINT or SIGTERM: then too every file is whole.
+// one such period) and hand path both have, or on a signal of StopSignals: then too every file is whole.
 class RealtimeReplay final : private RunSink {
 public:
     // The session must have been built on a thread confined to placement.rest: a software device's workers

@@ -94,9 +94,12 @@ int main(int argc, char** argv) {
         return 2;
     }
     struct sigaction action = {0};
-    action.sa_handler = onSignal; /* no SA_RESTART: accept() ends */
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    action.sa_handler = onSignal;                              /* no SA_RESTART: accept() ends */
+    const int stopping[] = {SIGINT, SIGTERM, SIGQUIT, SIGHUP}; /* the last: the terminal was closed */
+    for (size_t i = 0; i < sizeof stopping / sizeof *stopping; ++i) {
+        sigaction(stopping[i], &action, NULL);
+    }
+    signal(SIGPIPE, SIG_IGN); /* nobody reads what it prints: no reason to leave a force on */
     strcpy(address.sun_path, argv[1]);
     const int door = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
     unlink(argv[1]); /* the permission is set before anybody can connect */

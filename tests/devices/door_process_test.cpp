@@ -147,3 +147,33 @@ TEST_CASE(
     CHECK(bridge.wait() == 0);
     CHECK_FALSE(std::filesystem::exists(folder.door()));
 }
+
+TEST_CASE("The example bridge ends in order when its terminal is closed, and goes on without a reader") {
+    for (const int ending : {SIGINT, SIGQUIT, SIGHUP}) {
+        CAPTURE(ending);
+        DoorFolder folder;
+        const std::string door = folder.door().string();
+        Child bridge([&] {
+            std::signal(SIGHUP, SIG_DFL);
+            return ::execl(EXAMPLE_BRIDGE, "example_bridge", door.c_str(), nullptr);
+        });
+        std::unique_ptr<DoorHand> hand;
+        REQUIRE(eventually([&] {
+            try {
+                hand = std::make_unique<DoorHand>(folder.door(), 4);
+            } catch (const BadInput&) {
+            }
+            return hand != nullptr;
+        }));
+        bridge.signal(SIGPIPE);
+        CHECK(eventually([&] {
+            const HandSample sample = hand->read(0.0);
+            hand->write({{0.0, 0.0, 3.0}, {}}, 0.001);
+            pauseMs(1);
+            return sample.buttons == 0 && sample.deviceThandle.position.z > 0.009;
+        }));
+        bridge.signal(ending);
+        CHECK(bridge.wait() == 0);
+        CHECK_FALSE(std::filesystem::exists(folder.door()));
+    }
+}

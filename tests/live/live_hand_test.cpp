@@ -135,6 +135,7 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
     scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
     stage.scene(scene);
     stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
+    std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
     PlayedDevice device(stage / "hand.door");
     const pid_t engine = startFathom(
         stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"}));
@@ -157,6 +158,9 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
     SUBCASE("Ctrl-C") {
         signal = SIGINT;
     }
+    SUBCASE("the terminal is closed") {
+        signal = SIGHUP;
+    }
     SUBCASE("killed") {
         signal = SIGKILL;
     }
@@ -169,7 +173,7 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
     CHECK(device.feels(0.0, 0.0));
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     CHECK(device.fz == 0.0);
-    if (signal == SIGINT) {
+    if (signal == SIGINT || signal == SIGHUP) {
         CHECK(WIFEXITED(status));
         CHECK(WEXITSTATUS(status) == 0);
         const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));

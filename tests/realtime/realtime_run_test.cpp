@@ -161,8 +161,11 @@ TEST_CASE("A path that is shorter than the recording holds its last pose until t
     CHECK(fake.sink.rows.back().record.t > 29.0 / 30.0);
 }
 
-TEST_CASE("SIGINT and SIGTERM end a run early with zero force and every record handed over") {
-    for (int signal : {SIGINT, SIGTERM}) {
+TEST_CASE(
+    "SIGINT, SIGTERM, SIGQUIT and SIGHUP end a run early with zero force and every record handed over") {
+    std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
+    for (int signal : {SIGINT, SIGTERM, SIGQUIT, SIGHUP}) {
+        CAPTURE(signal);
         FakeRun fake(300, pressingPath(10.0));
         StopSignals signals;
         CHECK_FALSE(signals.asked().load());
@@ -177,6 +180,18 @@ TEST_CASE("SIGINT and SIGTERM end a run early with zero force and every record h
         checkEnded(fake);
         CHECK(fake.sink.rows.back().record.t < 5.0);
     }
+}
+
+TEST_CASE("A reader of the output that went away does not end a run, nor does a hang-up that is ignored") {
+    const auto before = std::signal(SIGHUP, SIG_IGN); // as under nohup
+    {
+        const StopSignals signals;
+        std::raise(SIGPIPE);
+        std::raise(SIGHUP);
+        CHECK_FALSE(signals.asked().load());
+    }
+    CHECK((std::signal(SIGHUP, before) == SIG_IGN));
+    CHECK((std::signal(SIGPIPE, SIG_DFL) == SIG_DFL)); // as it was
 }
 
 TEST_CASE("What a thread throws ends the run with zero force, and is told") {

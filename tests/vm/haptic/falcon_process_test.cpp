@@ -44,6 +44,7 @@ struct Stage {
             return !files.empty() && files[0].kind == DeviceFile::Kind::Falcon && files[0].refused.empty();
         }));
         guard = std::make_unique<Child>([this] {
+            std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
             const std::string path = folder.door().string();
             return ::execl(FATHOM_PROGRAM, "fathom", "guard", "falcon", "--door", path.c_str(), nullptr);
         });
@@ -85,12 +86,32 @@ TEST_CASE("An engine that hangs is zero force after 10 ms of silence, though its
     CHECK(eventually([&] { return stage.device.motors() != kStill; }));
 }
 
-TEST_CASE("Ctrl-C at the guardian with an engine pressing leaves zero force and exit code 0") {
+TEST_CASE("Ctrl-C at the guardian with an engine pressing leaves zero force and exit code 0, and so does a "
+          "terminal that closes") {
+    int ending = SIGINT;
+    SUBCASE("Ctrl-C") {}
+    SUBCASE("the terminal is closed") {
+        ending = SIGHUP;
+    }
+    SUBCASE("Ctrl-backslash") {
+        ending = SIGQUIT;
+    }
     Stage stage;
-    stage.guard->signal(SIGINT);
+    stage.guard->signal(ending);
     CHECK(stage.guard->wait() == 0);
     CHECK(stage.device.motors() == kStill);
     CHECK_FALSE(std::filesystem::exists(stage.folder.door()));
+}
+
+TEST_CASE("A guardian whose log nobody reads any more goes on") {
+    Stage stage;
+    stage.guard->signal(SIGPIPE);
+    const uint64_t commands = stage.device.commands;
+    CHECK(eventually([&] { return stage.device.commands > commands + 20; }));
+    CHECK(stage.device.motors() != kStill);
+    stage.guard->signal(SIGTERM);
+    CHECK(stage.guard->wait() == 0);
+    CHECK(stage.device.motors() == kStill);
 }
 
 // Not a promise: it shows what the simulated device is left with, and that nothing here can know the real
