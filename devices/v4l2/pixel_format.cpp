@@ -54,7 +54,7 @@ void rgbRow(const uint8_t* in, uint32_t width, bool redFirst, uint32_t* out) {
 
 uint32_t leastStride(uint32_t fourcc, uint32_t width) {
     if (const auto layout = depthLayout(fourcc)) {
-        return (width * layout->bitsPerPixel + 7) / 8;
+        return layout->rowBytes(width, 0);
     }
     if (fourcc == kYuyv || fourcc == kUyvy) {
         return (width + 1) / 2 * 4;
@@ -63,6 +63,11 @@ uint32_t leastStride(uint32_t fourcc, uint32_t width) {
 }
 
 } // namespace
+
+uint32_t DepthLayout::rowBytes(uint32_t width, uint32_t stride) const {
+    const uint32_t least = (width * bitsPerPixel + 7) / 8;
+    return planesBefore > 0 ? least : std::max(stride, least);
+}
 
 std::optional<DepthLayout> depthLayout(uint32_t fourcc) {
     switch (fourcc) {
@@ -97,12 +102,13 @@ size_t pictureBytes(uint32_t fourcc, VideoSize size, uint32_t stride) {
     }
     const auto layout = depthLayout(fourcc);
     const size_t rows = size_t{size.height} * (1 + (layout ? layout->planesBefore : 0));
-    return (rows - 1) * std::max<size_t>(stride, row) + row;
+    const size_t apart = layout ? layout->rowBytes(size.width, stride) : std::max<size_t>(stride, row);
+    return (rows - 1) * apart + row;
 }
 
 void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
                  std::span<uint16_t> out) {
-    const size_t row = std::max<size_t>(stride, (size_t{size.width} * layout.bitsPerPixel + 7) / 8);
+    const size_t row = layout.rowBytes(size.width, stride);
     const auto* in = reinterpret_cast<const uint8_t*>(bytes.data()) + row * size.height * layout.planesBefore;
     for (uint32_t y = 0; y < size.height; ++y, in += row) {
         uint16_t* to = out.data() + size_t{y} * size.width;

@@ -18,6 +18,10 @@ struct DepthLayout {
     uint32_t planesBefore = 0;  // pictures of the same size before it in the buffer (INZI: infrared)
     bool packed = false;        // 10 bits a pixel without gaps, most significant first (Y10B)
     uint16_t mask = 0xffff;     // bits that count
+
+    // Bytes from row to row, where the driver says `stride`. Of INZI it tells the 32 bits a pixel that both
+    // planes have together, while the rows of each lie without gaps.
+    uint32_t rowBytes(uint32_t width, uint32_t stride) const;
 };
 
 // Empty: no depth can be in that format.

@@ -272,8 +272,8 @@ bool V4l2Camera::fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::
         return false;
     }
     const DepthLayout layout = *depthLayout(depthRequest_.fourcc);
-    const size_t row = 2 * size_t{info_.depth.width};
-    if (!layout.packed && layout.mask == 0xffff && stride <= row &&
+    const uint32_t width = info_.depth.width;
+    if (!layout.packed && layout.mask == 0xffff && layout.rowBytes(width, stride) == 2 * width &&
         streams_->depth.queued() >= kDriverKeeps) {
         const auto* first = reinterpret_cast<const uint16_t*>(depth.bytes.data());
         content.depth = {first + size_t{layout.planesBefore} * info_.depth.pixels(), info_.depth.pixels()};

@@ -52,6 +52,14 @@ TEST_CASE("INZI depth is the second plane, behind the infrared one") {
     CHECK(pictureBytes(fourccOf("INZI"), {2, 1}, 4) == 8);
 }
 
+TEST_CASE("INZI rows lie without gaps, though the driver tells a stride of both planes' 32 bits a pixel") {
+    const auto in = bytesOf({9, 9, 9, 9, 9, 9, 9, 9, 1, 0, 2, 0, 3, 0, 4, 0}); // 2x2: infrared, then depth
+    CHECK(pictureBytes(fourccOf("INZI"), {2, 2}, 8) == in.size());
+    CHECK(unpacked(fourccOf("INZI"), {2, 2}, 8, in) == std::vector<uint16_t>{1, 2, 3, 4});
+    CHECK(depthLayout(fourccOf("INZI"))->rowBytes(2, 8) == 4);
+    CHECK(depthLayout(fourccOf("Z16 "))->rowBytes(2, 8) == 8); // padding of a plain format counts
+}
+
 TEST_CASE("No depth is read from a colour format, and no colour from a depth format") {
     CHECK_FALSE(depthLayout(fourccOf("YUYV")));
     std::vector<uint32_t> out(2);

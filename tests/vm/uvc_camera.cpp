@@ -28,8 +28,11 @@ UvcCamera::UvcCamera(const UvcCameraOptions& options)
     : options_(options)
     , mailbox_(kMailboxBytes, 0) {
     const uint16_t w = options.width, h = options.height;
-    streams_.emplace_back(UvcStream::Shape{UvcFormat::Z16, w, h, 1, 1, 2, options.realSense},
-                          options.paintDepth ? options.paintDepth : plainDepth(w, h));
+    const bool inzi = options.depthFormat == UvcFormat::Inzi;
+    streams_.emplace_back(UvcStream::Shape{options.depthFormat, w, h, 1, 1, 2, options.realSense},
+                          options.paintDepth ? options.paintDepth
+                          : inzi             ? plainInzi(w, h)
+                                             : plainDepth(w, h));
     if (options.colour) {
         streams_.emplace_back(
             UvcStream::Shape{options.motionJpeg ? UvcFormat::Mjpeg : UvcFormat::Yuyv, w, h, 2, 2, 5, false},

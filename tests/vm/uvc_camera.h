@@ -8,7 +8,8 @@
 namespace fathom::vm {
 
 struct UvcCameraOptions {
-    uint16_t width = 320, height = 240; // of both pictures
+    uint16_t width = 320, height = 240;     // of both pictures
+    UvcFormat depthFormat = UvcFormat::Z16; // or Inzi, whose default picture is plainInzi()
     bool colour = true, motionJpeg = false;
     bool realSense = false; // 8086:0b03 with its mailbox and tables, else 1209:d3d3
     std::string serial = "SIM0001";
@@ -55,5 +56,7 @@ UvcPainter plainDepth(uint16_t width, uint16_t height);
 UvcPainter plainColour(uint16_t width, uint16_t height);
 // A JPEG: left half red, right half blue.
 UvcPainter redAndBlueJpeg(uint16_t width, uint16_t height);
+// The same depth, behind an infrared plane whose pixels are all 777.
+UvcPainter plainInzi(uint16_t width, uint16_t height);
 
 } // namespace fathom::vm

@@ -19,6 +19,19 @@ UvcPainter plainDepth(uint16_t width, uint16_t height) {
     };
 }
 
+UvcPainter plainInzi(uint16_t width, uint16_t height) {
+    const size_t plane = size_t{2} * width * height;
+    return
+        [plane, paint = plainDepth(width, height), depth = Bytes(plane)](uint32_t n, Bytes& picture) mutable {
+            for (size_t i = 0; i < plane; i += 2) {
+                picture[i] = 777 & 255;
+                picture[i + 1] = 777 >> 8;
+            }
+            paint(n, depth);
+            std::copy(depth.begin(), depth.end(), picture.begin() + static_cast<long>(plane));
+        };
+}
+
 UvcPainter plainColour(uint16_t width, uint16_t height) {
     return [width, height](uint32_t n, Bytes& picture) {
         for (uint32_t y = 0, i = 0; y < height; ++y) {

@@ -30,13 +30,16 @@ Bytes UvcStream::formatDescriptor() const {
     if (shape_.format == UvcFormat::Mjpeg) {
         return {11, 0x24, 6, 1, 1, 1, 1, 0, 0, 0, 0};
     }
-    // The GUID is the four-character code and the base of all media subtypes.
-    const char* code = shape_.format == UvcFormat::Z16 ? "Z16 " : "YUY2";
+    // The GUID is the four-character code and the base of all media subtypes, or a maker's own (INZI).
+    const bool inzi = shape_.format == UvcFormat::Inzi;
+    const char* code = inzi ? "INZI" : shape_.format == UvcFormat::Z16 ? "Z16 " : "YUY2";
     Bytes bytes{27, 0x24, 4, 1, 1};
     for (int i = 0; i < 4; ++i) {
         bytes.push_back(static_cast<uint8_t>(code[i]));
     }
-    append(bytes, {0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71, 16, 1, 0, 0, 0, 0});
+    append(bytes, inzi ? Bytes{0x66, 0x1a, 0x42, 0xa2, 0x90, 0x65, 0xd0, 0x18, 0x14, 0xa8, 0xef, 0x8a}
+                       : Bytes{0, 0, 0x10, 0, 0x80, 0, 0, 0xaa, 0, 0x38, 0x9b, 0x71});
+    append(bytes, {static_cast<uint8_t>(8 * bytesPerPixel()), 1, 0, 0, 0, 0});
     return bytes;
 }
 

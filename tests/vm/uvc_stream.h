@@ -9,9 +9,10 @@
 
 namespace fathom::vm {
 
-enum class UvcFormat { Z16, Yuyv, Mjpeg };
+enum class UvcFormat { Z16, Inzi, Yuyv, Mjpeg };
 
-// Paints picture n: Z16 and YUYV rows of 16-bit words, or a whole JPEG.
+// Paints picture n: Z16 and YUYV rows of 16-bit words, INZI rows of infrared and then of depth, or a whole
+// JPEG.
 using UvcPainter = std::function<void(uint32_t n, Bytes& picture)>;
 
 // What may go wrong, set by a test while the camera runs. Each count is of pictures still to be spoilt.
@@ -47,7 +48,8 @@ public:
 private:
     Bytes formatDescriptor() const;
     Bytes frameDescriptor() const;
-    uint32_t pictureBytes() const { return uint32_t{2} * shape_.width * shape_.height; }
+    uint32_t bytesPerPixel() const { return shape_.format == UvcFormat::Inzi ? 4 : 2; }
+    uint32_t pictureBytes() const { return bytesPerPixel() * shape_.width * shape_.height; }
     uint32_t payloadBytes() const;
     Bytes probe() const;
     bool nextPicture();

@@ -39,7 +39,7 @@ inline bool waitForCamera(bool colour = true) {
     return waitFor([colour] {
         bool depth = false, picture = !colour;
         for (const VideoNode& node : openVideoNodes()) {
-            depth = depth || node.offers(fourccOf("Z16 "));
+            depth = depth || node.offers(fourccOf("Z16 ")) || node.offers(fourccOf("INZI"));
             picture = picture || node.offers(fourccOf("YUYV")) || node.offers(fourccOf("MJPG"));
         }
         return depth && picture;

@@ -98,6 +98,22 @@ TEST_CASE("After a pause the camera gives a picture of now, not one that waited 
     CHECK(camera->lost() >= 30);
 }
 
+TEST_CASE("INZI depth is taken where it lies, behind the infrared plane, whatever stride the driver tells") {
+    UvcCamera device({.depthFormat = UvcFormat::Inzi});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240);
+    const auto camera = openLive(",intrinsics=" + lens.path().string());
+    for (int i = 0; i < 5; ++i) {
+        const auto frame = camera->next();
+        REQUIRE(frame);
+        CHECK(isPlainDepth(*frame, 320));
+        checkColour(*frame, 320, 240, 4);
+    }
+    CHECK(camera->copied() == 0);
+    CHECK(camera->skipped() == 0);
+}
+
 TEST_CASE("Motion JPEG colour is decoded") {
     UvcCamera device({.width = 64, .height = 48, .motionJpeg = true, .paintColour = redAndBlueJpeg(64, 48)});
     device.plug();
