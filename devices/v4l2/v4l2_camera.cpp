@@ -52,8 +52,7 @@ V4l2Camera::~V4l2Camera() = default;
 void V4l2Camera::open() {
     pairing_ = FramePairing(streams_->colour ? streams_->colour->period() : 0.0);
     depthPeriod_ = streams_->depth.period();
-    lastDepth_ = lastColour_ = grace();
-    restarted_ = false;
+    depthWatch_ = colourWatch_ = {grace(), false};
 }
 
 // Retired streams stay as long as a frame shows their memory.
@@ -109,12 +108,11 @@ void V4l2Camera::gather() {
     const size_t before = arrivals_.size();
     while (const auto buffer = streams_->depth.take()) {
         arrivals_.push_back({true, *buffer});
-        lastDepth_ = std::max(lastDepth_, Clock::now());
-        restarted_ = false;
+        depthWatch_ = {std::max(depthWatch_.last, Clock::now()), false};
     }
     while (const auto buffer = streams_->colour ? streams_->colour->take() : std::nullopt) {
         arrivals_.push_back({false, *buffer});
-        lastColour_ = std::max(lastColour_, Clock::now());
+        colourWatch_ = {std::max(colourWatch_.last, Clock::now()), false};
     }
     if (arrivals_.size() > before + 1) {
         std::stable_sort(arrivals_.begin(), arrivals_.end(),
@@ -140,15 +138,16 @@ void V4l2Camera::giveUpStale() {
     recycle();
 }
 
-void V4l2Camera::watch(bool depth, CaptureStream& stream, Clock::time_point& last) {
-    const double silent = secondsSince(last);
+void V4l2Camera::watch(bool depth, CaptureStream& stream, Watch& watch) {
+    const double silent = secondsSince(watch.last);
     if (silent > 2.0 * request_.silence) {
         throw DeviceLost(stream.node().file().string() + ": no picture for " + std::to_string(silent) + " s");
     }
-    if (silent > request_.silence && !restarted_) {
+    if (silent > request_.silence && !watch.restarted) {
         spdlog::warn("{}: no {} picture for {:.1f} s: started anew", stream.node().file().string(),
                      depth ? "depth" : "colour", silent);
-        restarted_ = true;
+        watch.restarted = true;
+        ++restarts_;
         stream.restart();
     }
 }
@@ -165,9 +164,9 @@ void V4l2Camera::wait() {
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
     }
-    watch(true, streams_->depth, lastDepth_);
+    watch(true, streams_->depth, depthWatch_);
     if (streams_->colour) {
-        watch(false, *streams_->colour, lastColour_);
+        watch(false, *streams_->colour, colourWatch_);
     }
 }
 

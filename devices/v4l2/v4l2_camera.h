@@ -38,7 +38,8 @@ public:
     std::optional<double> framePeriod() const override { return depthPeriod_; }
 
     uint64_t overtaken() const { return overtaken_; }
-    uint64_t copied() const { return copied_; } // frames whose depth was not leased in place
+    uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
+    uint64_t restarts() const { return restarts_; } // silent streams that were started anew
 
 private:
     struct Streams;
@@ -46,13 +47,17 @@ private:
         bool depth = false;
         CapturedBuffer buffer;
     };
+    struct Watch {                                  // over one stream
+        std::chrono::steady_clock::time_point last; // its newest picture, or when the first must be here
+        bool restarted = false;                     // since then
+    };
 
     void open();
     void reopen();
     void close();
     void gather();
     void wait();
-    void watch(bool depth, CaptureStream& stream, std::chrono::steady_clock::time_point& last);
+    void watch(bool depth, CaptureStream& stream, Watch& watch);
     bool starved() const;
     void giveUpStale();
     std::optional<Frame> settle();
@@ -72,11 +77,10 @@ private:
     std::vector<std::unique_ptr<Streams>> retired_; // their last leases still live
     FramePairing pairing_{0.0};
     std::vector<Arrival> arrivals_; // taken, not yet paired; oldest first
-    std::chrono::steady_clock::time_point lastDepth_, lastColour_;
-    bool restarted_ = false;
+    Watch depthWatch_, colourWatch_;
     double depthPeriod_ = 0.0, lastStamp_ = 0.0;
     uint32_t delivered_ = 0, skipped_ = 0;
-    uint64_t overtaken_ = 0, copied_ = 0, missingBefore_ = 0;
+    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0;
 };
 
 } // namespace fathom

@@ -26,16 +26,6 @@ void readFrames(V4l2Camera& camera, int count) {
     }
 }
 
-// Why the camera is lost; empty while it is not.
-std::string lossOf(V4l2Camera& camera) {
-    try {
-        camera.next();
-    } catch (const DeviceLost& e) {
-        return e.what();
-    }
-    return "";
-}
-
 } // namespace
 
 TEST_CASE("Pictures that the driver throws away show as gaps of its counter, and are counted as lost") {
@@ -140,4 +130,26 @@ TEST_CASE("A stream that falls silent is started anew, and is lost when that doe
     CHECK_THROWS_AS(readFrames(camera, 5), DeviceLost);
     device.depth().faults.silent = false;
     readFrames(camera, 1); // opened anew
+}
+
+TEST_CASE("A colour stream that falls silent beside running depth is started anew once, not with each depth "
+          "picture") {
+    UvcCamera device({});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240);
+    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    request.silence = 0.4;
+    V4l2Camera camera(request);
+    readFrames(camera, 2);
+    device.colour().faults.silent = true;
+    std::string loss;
+    while (loss.empty()) {
+        loss = lossOf(camera);
+    }
+    CHECK(loss.find("no picture for") != std::string::npos);
+    CHECK(camera.restarts() == 1);
+    CHECK(camera.skipped() > 5); // depth came all the time, and found no colour
+    device.colour().faults.silent = false;
+    readFrames(camera, 2); // opened anew
 }

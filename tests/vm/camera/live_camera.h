@@ -3,6 +3,7 @@
 #pragma once
 
 #include "devices/v4l2/v4l2_camera.h"
+#include "engine/types/error.h"
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
 
@@ -59,6 +60,16 @@ inline std::string refusalOf(const std::string& text) {
     try {
         V4l2Camera camera(parseCameraRequest(text));
     } catch (const std::exception& e) {
+        return e.what();
+    }
+    return "";
+}
+
+// Why the camera is lost; empty while it is not.
+inline std::string lossOf(V4l2Camera& camera) {
+    try {
+        camera.next();
+    } catch (const DeviceLost& e) {
         return e.what();
     }
     return "";
