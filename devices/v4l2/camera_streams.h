@@ -18,6 +18,7 @@ struct V4l2Camera::Streams {
         }
     }
     uint64_t missing() const { return depth.missing(); }
+    uint64_t missingColour() const { return colour ? colour->missing() : 0; }
 };
 
 } // namespace fathom

@@ -173,9 +173,7 @@ std::optional<CapturedBuffer> CaptureStream::take() {
     }
     --queued_;
     held_[buffer.index] = true;
-    if (lastSequence_ && buffer.sequence > *lastSequence_ + 1) {
-        missing_ += buffer.sequence - *lastSequence_ - 1;
-    }
+    missing_ += lastSequence_ ? missingBetween(*lastSequence_, buffer.sequence) : 0;
     lastSequence_ = buffer.sequence;
     CapturedBuffer out;
     out.index = buffer.index;

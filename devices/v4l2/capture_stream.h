@@ -26,6 +26,13 @@ struct CapturedBuffer {
     bool damaged = false; // the driver says so
 };
 
+// Pictures missing between two numbers of a driver's counter, which begins anew after 2^32 - 1. 0 where it
+// went back: a stream that was started anew.
+constexpr uint32_t missingBetween(uint32_t before, uint32_t after) {
+    const uint32_t step = after - before;
+    return step == 0 || step >= 1u << 31 ? 0 : step - 1;
+}
+
 // Streams from construction to destruction. One thread takes; any thread gives back. Buffers stay mapped, at
 // the same addresses, as long as the object lives, even when the camera is gone.
 class CaptureStream {

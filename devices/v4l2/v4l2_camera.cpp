@@ -61,6 +61,7 @@ void V4l2Camera::close() {
     pairing_.clear();
     if (streams_) {
         missingBefore_ += streams_->missing();
+        missingColourBefore_ += streams_->missingColour();
         retired_.push_back(std::move(streams_));
     }
     std::erase_if(retired_, [](const auto& streams) { return streams->leased.load() == 0; });
@@ -78,6 +79,10 @@ void V4l2Camera::reopen() {
 
 uint64_t V4l2Camera::lost() const {
     return missingBefore_ + (streams_ ? streams_->missing() : 0) + overtaken_;
+}
+
+uint64_t V4l2Camera::lostColour() const {
+    return missingColourBefore_ + (streams_ ? streams_->missingColour() : 0);
 }
 
 std::optional<Frame> V4l2Camera::next() {

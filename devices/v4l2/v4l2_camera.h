@@ -33,8 +33,10 @@ public:
     uint32_t skipped() const override { return skipped_; }
     std::string description() const override { return description_; }
     bool live() const override { return true; }
-    // Gaps in the driver's counter, and pictures that a newer one overtook before they were asked for.
+    // Gaps in the driver's counter of depth, and pictures that a newer one overtook before they were asked
+    // for. A colour picture that is missing costs no pair as long as its neighbour is near enough.
     uint64_t lost() const override;
+    uint64_t lostColour() const; // gaps in the driver's counter of colour
     std::optional<double> framePeriod() const override { return depthPeriod_; }
 
     uint64_t overtaken() const { return overtaken_; }
@@ -80,7 +82,7 @@ private:
     Watch depthWatch_, colourWatch_;
     double depthPeriod_ = 0.0, lastStamp_ = 0.0;
     uint32_t delivered_ = 0, skipped_ = 0;
-    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0;
+    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0, missingColourBefore_ = 0;
 };
 
 } // namespace fathom

@@ -145,3 +145,13 @@ TEST_CASE("Streams with jitter and dropped pictures lose no more pairs than pict
     CHECK(result.distances.size() + result.unpaired >= depth - 2);
     CHECK(result.unpaired <= depth / 20);
 }
+
+TEST_CASE("Pictures missing between two numbers of a driver are counted over the end of its 32 bits") {
+    CHECK(missingBetween(7, 8) == 0);
+    CHECK(missingBetween(7, 11) == 3);
+    CHECK(missingBetween(0xffffffffu, 0) == 0);
+    CHECK(missingBetween(0xfffffffeu, 1) == 2);
+    CHECK(missingBetween(0xffffffffu, 2) == 2);
+    CHECK(missingBetween(7, 7) == 0);
+    CHECK(missingBetween(9, 0) == 0); // started anew
+}

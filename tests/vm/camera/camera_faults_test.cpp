@@ -45,6 +45,23 @@ TEST_CASE("Pictures that the driver throws away show as gaps of its counter, and
     CHECK(camera->skipped() == 0);
 }
 
+TEST_CASE("Gaps of the colour stream are counted apart, and cost no pair where a neighbour is near enough") {
+    UvcCamera device({});
+    device.plug();
+    REQUIRE(waitForCamera());
+    const IntrinsicsFile lens(320, 240);
+    CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
+    request.everyFrame = true;
+    V4l2Camera camera(request);
+    readFrames(camera, 3);
+    const uint64_t before = camera.lostColour(), depth = camera.lost();
+    device.colour().faults.errorBit = 3;
+    readFrames(camera, 16);
+    CHECK(device.colour().faults.errorBit == 0);
+    CHECK(camera.lostColour() >= before + 2);
+    CHECK(camera.lost() == depth);
+}
+
 TEST_CASE(
     "A short picture and one with the error bit are skipped and counted when the driver lets them through") {
     const NoDrop noDrop;
