@@ -5,6 +5,8 @@
 #include "devices/v4l2/realsense_control.h"
 #include "engine/types/error.h"
 
+#include <spdlog/spdlog.h>
+
 namespace fathom {
 
 namespace {
@@ -33,7 +35,28 @@ LiveCalibration fromFile(const CameraRequest& request, const ChosenNodes& nodes)
     return calibration;
 }
 
-std::optional<LiveCalibration> fromRealSense(const CameraRequest& request, const ChosenNodes& nodes) {
+// The camera's own colour, or none where it has no table of it: a D405 has one sensor for both, and the
+// colour that a D410 or D430 offers is an infrared picture. Who asked for that colour gets the reason.
+void addColour(const realsense::Mailbox& mailbox, const CameraRequest& request, VideoSize size,
+               ChosenNodes& nodes, CameraInfo& info) {
+    try {
+        const auto colour = realsense::colourLens(mailbox.calibrationTable(realsense::kColourTable), size);
+        info.colour = colour.lens;
+        info.colourTdepth = colour.colourTdepth;
+        info.registered = false;
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        if (request.colour != "auto" || request.colourFormat != 0 || request.colourSize) {
+            throw;
+        }
+        spdlog::warn("{}: colour is left out: it has no calibration ({}); intrinsics=FILE gives it one",
+                     nodes.depth.card(), e.what());
+        nodes.colour.reset();
+    }
+}
+
+std::optional<LiveCalibration> fromRealSense(const CameraRequest& request, ChosenNodes& nodes) {
     const auto mailbox = realsense::Mailbox::find(nodes.depth);
     if (!mailbox) {
         return std::nullopt;
@@ -45,18 +68,14 @@ std::optional<LiveCalibration> fromRealSense(const CameraRequest& request, const
     info.depth = realsense::depthLens(mailbox->calibrationTable(realsense::kDepthTable), size);
     info.metresPerUnit = mailbox->depthUnit();
     if (nodes.colour) {
-        const auto colour = realsense::colourLens(mailbox->calibrationTable(realsense::kColourTable),
-                                                  request.colourSize.value_or(size));
-        info.colour = colour.lens;
-        info.colourTdepth = colour.colourTdepth;
-        info.registered = false;
+        addColour(*mailbox, request, request.colourSize.value_or(size), nodes, info);
     }
     return calibration;
 }
 
 } // namespace
 
-LiveCalibration calibrationFor(const CameraRequest& request, const ChosenNodes& nodes) {
+LiveCalibration calibrationFor(const CameraRequest& request, ChosenNodes& nodes) {
     std::optional<LiveCalibration> calibration;
     std::string why = "missing: this camera does not tell its own";
     if (!request.intrinsics.empty()) {

@@ -12,7 +12,9 @@ struct LiveCalibration {
     std::string origin; // where the figures come from, for the user
 };
 
-// Throws BadInput when neither has them, or when they are of other sizes than the request's.
-LiveCalibration calibrationFor(const CameraRequest& request, const ChosenNodes& nodes);
+// Throws BadInput when neither has them, or when they are of other sizes than the request's. A RealSense
+// without a colour calibration (D405, D410, D430) goes on with depth alone, said in the log: then the colour
+// node that was chosen by itself is let go.
+LiveCalibration calibrationFor(const CameraRequest& request, ChosenNodes& nodes);
 
 } // namespace fathom

@@ -128,7 +128,7 @@ void UvcCamera::answerMailbox() {
     const uint32_t command = get32(mailbox_.data() + 4), parameter = get32(mailbox_.data() + 8);
     const bool understood = options_.realSense && get16(mailbox_.data() + 2) == 0xCDAB;
     Bytes data;
-    if (understood && command == 0x15 && !refuseTables) {
+    if (understood && command == 0x15 && !refuseTables && (parameter != 32 || options_.colourTable)) {
         data = simulated_realsense::table(parameter);
         if (!data.empty() && wrongChecksum) {
             data[12] ^= 1;

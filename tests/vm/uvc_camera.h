@@ -11,7 +11,8 @@ struct UvcCameraOptions {
     uint16_t width = 320, height = 240;     // of both pictures
     UvcFormat depthFormat = UvcFormat::Z16; // or Inzi, whose default picture is plainInzi()
     bool colour = true, motionJpeg = false;
-    bool realSense = false; // 8086:0b03 with its mailbox and tables, else 1209:d3d3
+    bool realSense = false;  // 8086:0b03 with its mailbox and tables, else 1209:d3d3
+    bool colourTable = true; // of the RealSense; a D410 or D430 has none
     std::string serial = "SIM0001";
     UvcPainter paintDepth, paintColour; // default: plainDepth(), plainColour()
 };
@@ -44,7 +45,10 @@ private:
 namespace simulated_realsense {
 constexpr float kFocal = 212.5f, kCentreX = 160.25f, kCentreY = 119.75f; // depth lens at 320x240 [pixels]
 constexpr uint32_t kDepthUnitMicros = 500;
-constexpr float kColourShiftMillis = 14.75f; // x of translation_rect
+constexpr float kColourShiftMillis[3] = {14.75f, -2.5f, 3.25f}; // translation_rect
+// rotation_matrix_rect, column after column: 60 degrees about (1, 1, 1).
+constexpr float kColourRotation[9] = {2 / 3.0f, 2 / 3.0f, -1 / 3.0f, -1 / 3.0f, 2 / 3.0f,
+                                      2 / 3.0f, 2 / 3.0f, -1 / 3.0f, 2 / 3.0f};
 constexpr float kColourFx = 0.71f, kColourFy = 1.27f, kColourCx = 0.02f,
                 kColourCy = -0.03f; // normalised, 16:9
 Bytes table(uint32_t number);       // 25 or 32, header included; else empty
@@ -52,11 +56,11 @@ Bytes table(uint32_t number);       // 25 or 32, header included; else empty
 
 // Pixel 0 holds the picture's number (16 bits); pixel (x, y) 1000 + x + 2 y.
 UvcPainter plainDepth(uint16_t width, uint16_t height);
+// The same depth, behind an infrared plane whose pixels are all 777.
+UvcPainter plainInzi(uint16_t width, uint16_t height);
 // YUYV: left half red, right half blue; the luma of pixel 0 holds the picture's number (8 bits).
 UvcPainter plainColour(uint16_t width, uint16_t height);
 // A JPEG: left half red, right half blue.
 UvcPainter redAndBlueJpeg(uint16_t width, uint16_t height);
-// The same depth, behind an infrared plane whose pixels are all 777.
-UvcPainter plainInzi(uint16_t width, uint16_t height);
 
 } // namespace fathom::vm

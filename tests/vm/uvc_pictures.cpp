@@ -108,10 +108,12 @@ Bytes colourBody() {
     body[129] = 1920 >> 8;
     body[130] = 1080 & 255;
     body[131] = 1080 >> 8;
-    for (size_t i = 0; i < 3; ++i) {
-        putAt(body, 168 + 16 * i, 1.0f); // the rectifying rotation: none
+    for (size_t i = 0; i < 9; ++i) {
+        putAt(body, 168 + 4 * i, kColourRotation[i]);
     }
-    putAt(body, 204, kColourShiftMillis);
+    for (size_t i = 0; i < 3; ++i) {
+        putAt(body, 204 + 4 * i, kColourShiftMillis[i]);
+    }
     return body;
 }
 

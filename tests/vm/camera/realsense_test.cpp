@@ -23,7 +23,12 @@ TEST_CASE("A RealSense tells its lenses, depth unit and extrinsics over its exte
     CHECK(info.colour.cx == doctest::Approx(0.5 * (1.0 + sim::kColourCx * 4.0 / 3.0) * 320).epsilon(1e-6));
     CHECK(info.colour.fy == doctest::Approx(0.5 * sim::kColourFy * 240).epsilon(1e-6));
     CHECK(info.colour.cy == doctest::Approx(0.5 * (1.0 + sim::kColourCy) * 240).epsilon(1e-6));
-    CHECK(info.colourTdepth.position.x == doctest::Approx(0.001 * sim::kColourShiftMillis).epsilon(1e-6));
+    // The table maps colour to depth: p_depth = R p_colour - shift. So (0.5, 0.25, 2) of the depth camera is
+    // R^T (0.51475, 0.2475, 2.00325); R's columns are (2, 2, -1), (-1, 2, 2), (2, -1, 2), each over 3.
+    const dvec3 seen = info.colourTdepth.apply({0.5, 0.25, 2.0});
+    CHECK(seen.x == doctest::Approx((2 * 0.51475 + 2 * 0.2475 - 2.00325) / 3).epsilon(1e-6));
+    CHECK(seen.y == doctest::Approx((-0.51475 + 2 * 0.2475 + 2 * 2.00325) / 3).epsilon(1e-6));
+    CHECK(seen.z == doctest::Approx((2 * 0.51475 - 0.2475 + 2 * 2.00325) / 3).epsilon(1e-6));
     for (int i = 0; i < 5; ++i) {
         const auto frame = camera->next();
         REQUIRE(frame);
@@ -48,4 +53,34 @@ TEST_CASE("A RealSense whose tables cannot be had is refused, saying why") {
     device.stallMailbox = false;
     device.mailboxDelayMs = 300; // late, but within the kernel's own limit
     CHECK(refusalOf("v4l2:auto,size=320x240").empty());
+}
+
+TEST_CASE(
+    "A RealSense without a colour calibration goes on with depth, and refuses colour that is asked for") {
+    UvcCamera device({.realSense = true, .colourTable = false});
+    device.plug();
+    REQUIRE(waitForCamera());
+    {
+        const auto camera = openLive(",size=320x240");
+        CHECK_FALSE(camera->info().hasColour);
+        CHECK(camera->info().registered);
+        CHECK(camera->info().depth.fx == doctest::Approx(sim::kFocal).epsilon(1e-7));
+        for (int i = 0; i < 5; ++i) {
+            const auto frame = camera->next();
+            REQUIRE(frame);
+            CHECK(isPlainDepth(*frame, 320));
+            CHECK((*frame)->colour.empty());
+        }
+        CHECK(camera->skipped() == 0); // nothing waits for a colour picture
+        device.unplug();
+        CHECK_FALSE(lossOf(*camera).empty());
+        REQUIRE(waitForNoCamera());
+        device.plug();
+        REQUIRE(waitForCamera());
+        CHECK(camera->next()); // found again, without its colour
+    }
+    CHECK(refusalOf("v4l2:auto,size=320x240,colour_format=YUYV").find("RealSense command 21: refused") !=
+          std::string::npos);
+    const IntrinsicsFile lens(320, 240);
+    CHECK(openLive(",intrinsics=" + lens.path().string())->info().hasColour); // who has calibrated it himself
 }
