@@ -3,10 +3,10 @@
 
 #include "apps/register/board_corners.h"
 #include "apps/register/seen_plane.h"
+#include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <sstream>
 
@@ -15,20 +15,14 @@ namespace fathom {
 BoardPlace readBoardPlace(const std::filesystem::path& file) {
     constexpr const char* kAllowed = "one row columns,rows,square_m,x,y,z,qx,qy,qz,qw: 3 to 40 inner corners "
                                      "each way, their sum odd, a positive size, a quaternion";
-    std::ifstream in(file);
-    if (!in) {
-        throw BadInput(file.string(), "file", "cannot be read", kAllowed);
-    }
     BoardPlace place;
-    int number = 0;
-    for (std::string line; std::getline(in, line);) {
-        ++number;
-        if (line.empty() || line[0] == '#' || line[0] == 'c') { // a comment, or the header
+    for (const TextLine& line : readDataLines(file)) {
+        if (line.text[0] == 'c') { // the header
             continue;
         }
-        const std::string written = line;
-        std::replace(line.begin(), line.end(), ',', ' ');
-        std::istringstream words(line);
+        std::string spaced = line.text;
+        std::replace(spaced.begin(), spaced.end(), ',', ' ');
+        std::istringstream words(spaced);
         int columns = 0, rows = 0;
         dvec3& t = place.baseTboard.position;
         dquat& q = place.baseTboard.rotation;
@@ -39,7 +33,8 @@ BoardPlace readBoardPlace(const std::filesystem::path& file) {
         const bool sized = std::min(columns, rows) >= 3 && std::max(columns, rows) <= 40;
         if (!read || words >> more || again || !sized || (columns + rows) % 2 == 0 || !(place.square > 0.0) ||
             !(glm::length(q) > 1e-6)) {
-            throw BadInput(file.string(), "line " + std::to_string(number), written, kAllowed);
+            throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
+                           kAllowed);
         }
         q = glm::normalize(q);
         place.columns = static_cast<uint32_t>(columns);

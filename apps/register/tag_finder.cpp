@@ -2,12 +2,13 @@
 #include "apps/register/tag_finder.h"
 
 #include "apps/register/seen_plane.h"
+#include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <apriltag/apriltag.h>
 #include <apriltag/tag36h11.h>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <sstream>
 
@@ -29,21 +30,14 @@ struct TagFinder::Detector {
 };
 
 std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) {
-        throw BadInput(file.string(), "file", "cannot be read", "CSV rows id,size_m,x,y,z,qx,qy,qz,qw");
-    }
     std::map<int, TagPlace> places;
-    int number = 0;
-    for (std::string line; std::getline(in, line);) {
-        ++number;
-        if (line.empty() || line[0] == '#' || line[0] == 'i') { // a comment, or the header
+    for (const TextLine& line : readDataLines(file)) {
+        if (line.text[0] == 'i') { // the header
             continue;
         }
-        for (char& c : line) {
-            c = c == ',' ? ' ' : c;
-        }
-        std::istringstream words(line);
+        std::string spaced = line.text;
+        std::replace(spaced.begin(), spaced.end(), ',', ' ');
+        std::istringstream words(spaced);
         TagPlace place;
         int id = -1;
         dvec3& t = place.baseTtag.position;
@@ -53,7 +47,7 @@ std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file) {
             static_cast<bool>(words >> id >> place.size >> t.x >> t.y >> t.z >> q.x >> q.y >> q.z >> q.w);
         if (!read || words >> more || id < 0 || !(place.size > 0.0) || !(glm::length(q) > 1e-6) ||
             places.count(id) != 0) {
-            throw BadInput(file.string(), "line " + std::to_string(number), line,
+            throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
                            "id,size_m,x,y,z,qx,qy,qz,qw: each id once, a positive size, a quaternion");
         }
         q = glm::normalize(q);

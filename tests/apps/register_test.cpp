@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Registration: known poses come back from points and from tags in drawn pictures.
+#include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
 #include "apps/register/tag_finder.h"
 #include "engine/types/error.h"
@@ -167,4 +168,12 @@ TEST_CASE("Lists of tags and points are read, and a wrong line is refused with i
     CHECK(readPointPairs(write("camera_x,y\n1,2,3,4,5,6\n"))[0].base.z == 6.0);
     CHECK_THROWS_WITH_AS(readPointPairs(write("\n1,2,3,4,5\n")), doctest::Contains("line 2"), BadInput);
     CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
+}
+
+TEST_CASE("A list of points, tags or a board whose line never ends is refused before memory is") {
+    for (const std::filesystem::path endless : {"/dev/zero", "/dev/full"}) {
+        CHECK_THROWS_WITH_AS(readPointPairs(endless), doctest::Contains("line 1"), BadInput);
+        CHECK_THROWS_WITH_AS(readTagPlaces(endless), doctest::Contains("line 1"), BadInput);
+        CHECK_THROWS_WITH_AS(readBoardPlace(endless), doctest::Contains("line 1"), BadInput);
+    }
 }
