@@ -67,6 +67,28 @@ TEST_CASE("a scene with only fixtures and a tool has the stated default everywhe
     CHECK_FALSE(scene.usesColour());
 }
 
+TEST_CASE("classes by range and intensity are taken as written, intensity as the lightness of grey") {
+    const SceneFile file(R"(
+camera: {near: 0.3, far: 8}
+fixtures:
+  - { name: echo, role: forbidden, range: [0.5, 6], intensity: [0.25, 0.75], radius: 0.05 }
+  - { name: plain, role: forbidden, radius: 0.04 }
+tool: { spheres: [[0, 0, 0, 0.01]] }
+)");
+    const Scene scene = loadScene(file.path());
+    REQUIRE(scene.fixtures.size() == 2);
+    const FixtureClass& echo = scene.fixtures[0];
+    REQUIRE(echo.lightness.has_value());
+    CHECK(echo.lightness->lo == 0.25);
+    CHECK(echo.lightness->hi == 0.75);
+    REQUIRE(echo.range.has_value());
+    CHECK(echo.range->lo == 0.5);
+    CHECK(echo.range->hi == 6.0);
+    CHECK_FALSE(echo.hue.has_value());
+    CHECK(scene.usesColour());
+    CHECK_FALSE(scene.fixtures[1].lightness.has_value());
+}
+
 TEST_CASE("camera, filter and tool are taken as written, paths from the scene's folder") {
     const SceneFile file(kEverything);
     std::filesystem::create_directories(file.folder() / "sub");

@@ -88,6 +88,8 @@ TEST_CASE("colour gates outside their range, reversed or of another form are ref
         fixture("saturation: [0.9, 0.1]", "saturation: [0.9, 0.1]", "lo <= hi"),
         fixture("lightness: [-0.1, 1]", "lightness[0]: -0.1", "from 0 to 1"),
         fixture("lightness: [0.5, 0.4]", "lightness: [0.5, 0.4]", "lo <= hi"),
+        fixture("intensity: [-0.1, 1]", "intensity[0]: -0.1", "from 0 to 1"),
+        fixture("lightness: [0, 1], intensity: [0, 1]", "intensity: [0, 1]", "in place of lightness"),
     });
 }
 
