@@ -113,7 +113,10 @@ int printDoors(std::ostream& out, const std::filesystem::path& folder) {
 
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
                       const std::filesystem::path& doors) {
-    const auto files = findDeviceFiles(root);
+    auto files = findDeviceFiles(root);
+    std::erase_if(files, [](const DeviceFile& f) { // it belongs to the camera before it
+        return f.kind == DeviceFile::Kind::Camera && isMetadataNode(f.node);
+    });
     for (const DeviceFile& file : files) {
         print(out, file);
     }

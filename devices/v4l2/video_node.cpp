@@ -160,10 +160,21 @@ std::string VideoNode::offer() const {
         }
         list += (list.empty() ? "" : ", ") + fourccName(fourcc);
         for (const VideoSize size : sizes(fourcc)) {
-            list += " " + sizeName(size);
+            list += ' ';
+            list += sizeName(size);
         }
     }
     return list.empty() ? "nothing" : list;
+}
+
+bool isMetadataNode(const fs::path& file) noexcept {
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
+    v4l2_capability capability{};
+    const bool known = descriptor >= 0 && ::ioctl(descriptor, VIDIOC_QUERYCAP, &capability) == 0;
+    if (descriptor >= 0) {
+        ::close(descriptor);
+    }
+    return known && (capability.device_caps & V4L2_CAP_META_CAPTURE) != 0;
 }
 
 std::vector<VideoNode> openVideoNodes(std::vector<std::string>* refused) {
@@ -182,7 +193,7 @@ std::vector<VideoNode> openVideoNodes(std::vector<std::string>* refused) {
         try {
             nodes.emplace_back(file);
         } catch (const Error& e) {
-            if (refused != nullptr) {
+            if (refused != nullptr && !isMetadataNode(file)) {
                 refused->push_back(e.what());
             }
         }

@@ -64,8 +64,12 @@ private:
     int descriptor_ = -1;
 };
 
+// Whether it is a node that gives no pictures but what a camera tells of each (UVC cameras have one a
+// stream).
+bool isMetadataNode(const std::filesystem::path& file) noexcept;
+
 // All capture nodes that can be opened, in order of their numbers. `refused`, when given, gets a line for
-// each that cannot.
+// each that cannot, those for metadata left out.
 std::vector<VideoNode> openVideoNodes(std::vector<std::string>* refused = nullptr);
 
 } // namespace fathom

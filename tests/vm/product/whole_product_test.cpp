@@ -156,6 +156,26 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     MESSAGE(run.out);
 }
 
+TEST_CASE(
+    "The list of devices names depth and colour of a camera with the source to write, and no metadata node") {
+    Stage stage;
+    const ProgramRun run = runFathom({"devices"});
+    INFO(run.err);
+    MESSAGE(run.out);
+    CHECK(run.exitCode == 0);
+    const auto count = [&run](const std::string& part) {
+        size_t found = 0;
+        for (size_t at = run.out.find(part); at != std::string::npos; at = run.out.find(part, at + 1)) {
+            ++found;
+        }
+        return found;
+    };
+    CHECK(count("camera  /dev/video") == 2); // of four nodes
+    CHECK(count("1209:d3d3 at usb ") == 2);
+    CHECK(count("\n          depth Z16 160x120; --source v4l2:/dev/video") == 1);
+    CHECK(count("\n          colour only: YUYV 160x120; --source v4l2:DEPTH,colour=/dev/video") == 1);
+}
+
 TEST_CASE("A live camera in lockstep is refused") {
     Stage stage;
     const ProgramRun run = runFathom({"replay", stage.file("scene.yaml"), "--out", stage.file("out")});
