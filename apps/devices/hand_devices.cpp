@@ -3,6 +3,7 @@
 
 #include "apps/binding/open_hand.h"
 #include "devices/bridge/door_socket.h"
+#include "devices/openni2/open_openni2.h"
 #include "devices/usb/device_files.h"
 #include "devices/v4l2/pixel_format.h"
 #include "devices/v4l2/video_node.h"
@@ -26,6 +27,7 @@ const char* kindOf(DeviceFile::Kind kind) {
         return "serial  ";
     case DeviceFile::Kind::Closed:
         return "other   ";
+    case DeviceFile::Kind::OpenNi:
     case DeviceFile::Kind::Camera:
         break;
     }
@@ -61,6 +63,14 @@ std::string cameraCapability(const std::filesystem::path& file) {
     }
 }
 
+std::string openNiCapability(const DeviceFile& file) {
+    try {
+        return openNi2Offer(file.vendor, file.product);
+    } catch (const BadInput& e) {
+        return std::string("REFUSED: ") + e.what();
+    }
+}
+
 std::string capabilityOf(const DeviceFile& file) {
     switch (file.kind) {
     case DeviceFile::Kind::Falcon:
@@ -70,6 +80,8 @@ std::string capabilityOf(const DeviceFile& file) {
     case DeviceFile::Kind::SerialPort:
         return "may be opened; a manipulator could be there: which one, no port can tell; --arm " +
                file.node.string();
+    case DeviceFile::Kind::OpenNi:
+        return openNiCapability(file);
     case DeviceFile::Kind::Camera:
     case DeviceFile::Kind::Closed:
         break;

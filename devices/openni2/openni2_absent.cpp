@@ -11,4 +11,9 @@ std::unique_ptr<Camera> openOpenNi2(const std::string& source) {
                    "nothing: this program was built without OpenNI2 (install libopenni2-dev, build again)");
 }
 
+std::string openNi2Offer(uint16_t, uint16_t) {
+    throw BadInput("openni2", "driver", "not built in",
+                   "a program that was built with OpenNI2 (install libopenni2-dev, build again)");
+}
+
 } // namespace fathom

@@ -17,14 +17,6 @@ namespace {
 
 constexpr int kSilenceMs = 2000;
 
-[[noreturn]] void refuse(const std::string& uri, const std::string& field, const std::string& allowed) {
-    std::string why = openni::OpenNI::getExtendedError();
-    while (!why.empty() && std::isspace(static_cast<unsigned char>(why.back())) != 0) {
-        why.pop_back();
-    }
-    throw BadInput(uri.empty() ? "openni2" : uri, field, why.empty() ? "not to be had" : why, allowed);
-}
-
 bool isDepth(openni::PixelFormat format) {
     return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
 }
@@ -47,9 +39,17 @@ std::optional<openni::VideoMode> bestMode(const openni::VideoStream& stream, con
 
 } // namespace
 
+void refuseOpenNi2(const std::string& uri, const std::string& field, const std::string& allowed) {
+    std::string why = openni::OpenNI::getExtendedError();
+    while (!why.empty() && std::isspace(static_cast<unsigned char>(why.back())) != 0) {
+        why.pop_back();
+    }
+    throw BadInput(uri.empty() ? "openni2" : uri, field, why.empty() ? "not to be had" : why, allowed);
+}
+
 OpenNi2Camera::Library::Library() {
     if (openni::OpenNI::initialize() != openni::STATUS_OK) {
-        refuse("", "OpenNI2", "its drivers installed");
+        refuseOpenNi2("", "OpenNI2", "its drivers installed");
     }
 }
 
@@ -70,7 +70,7 @@ OpenNi2Camera::OpenNi2Camera(const std::string& uri, const std::filesystem::path
     }
     if (depth_.stream.start() != openni::STATUS_OK ||
         (hasColour_ && colour_.stream.start() != openni::STATUS_OK)) {
-        refuse(uri, "stream", "a device that no other program uses");
+        refuseOpenNi2(uri, "stream", "a device that no other program uses");
     }
 }
 
@@ -85,7 +85,8 @@ OpenNi2Camera::~OpenNi2Camera() {
 
 void OpenNi2Camera::open(const std::string& uri) {
     if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
-        refuse(uri, "device", "a device of OpenNI2 that is plugged in and may be opened, or an .oni file");
+        refuseOpenNi2(uri, "device",
+                      "a device of OpenNI2 that is plugged in and may be opened, or an .oni file");
     }
     file_ = device_.isFile();
     name_ = file_ ? "recorded " + uri
@@ -96,7 +97,7 @@ void OpenNi2Camera::open(const std::string& uri) {
 void OpenNi2Camera::openDepth() {
     if (!device_.hasSensor(openni::SENSOR_DEPTH) ||
         depth_.stream.create(device_, openni::SENSOR_DEPTH) != openni::STATUS_OK) {
-        refuse(name_, "depth", "a source with depth");
+        refuseOpenNi2(name_, "depth", "a source with depth");
     }
     if (const auto mode = bestMode(depth_.stream, [](const auto& m) { return isDepth(m.getPixelFormat()); });
         mode && !file_) {

@@ -11,6 +11,9 @@
 
 namespace fathom {
 
+// Throws BadInput with what OpenNI2 says of its last fault.
+[[noreturn]] void refuseOpenNi2(const std::string& uri, const std::string& field, const std::string& allowed);
+
 // Depth in mm or 0.1 mm, colour registered to it by the device or left out; mirrored pictures are turned
 // back. The lens is a pinhole of the device's field of view, centre in the middle, as OpenNI2's own
 // conversion has it, unless intrinsics are given. Depth and colour belong together when their stamps are at
@@ -33,11 +36,14 @@ public:
     std::optional<double> framePeriod() const override { return period_; }
     std::string description() const override { return name_; }
 
-private:
-    struct Library { // OpenNI2 counts its users
+    struct Library { // OpenNI2 counts its users. Throws BadInput.
         Library();
         ~Library();
+        Library(const Library&) = delete;
+        Library& operator=(const Library&) = delete;
     };
+
+private:
     struct Stream {
         openni::VideoStream stream;
         openni::VideoFrameRef newest;

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* kDoor =
     "its protocol is closed; a program on the maker's own library can be a bridge to the "
     "door (devices/bridge/README.md)";
-constexpr const char* kOpenNi = "it talks to OpenNI2, not to the kernel; --source openni2";
+constexpr const char* kOpenNi = "";
 
 constexpr std::array kClosed{
     ClosedDevice{0x1451, 0, 0, "Force Dimension haptic device", kDoor},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Devices that people have and that no driver here serves, with the reason and the way that there is.
+// Devices that people have and that no driver of the kernel serves, with the reason and the way that there
+// is.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +10,7 @@ namespace fathom {
 struct ClosedDevice {
     uint16_t vendor = 0, product = 0, mask = 0xffff; // of the product number: the bits that count
     const char* name = "";
-    const char* why = ""; // one line: what stops it and what can be done
+    const char* why = ""; // one line: what stops it and what can be done; empty = OpenNI2 may serve it
 };
 
 // nullptr = not one of them. Sources of the numbers: the makers' public headers and drivers (OpenNI2,

@@ -95,9 +95,10 @@ void findOnBus(const fs::path& root, std::vector<DeviceFile>& out) {
             file.refused = refusalOf(file.node, R_OK | W_OK);
             out.push_back(file);
         } else if (const ClosedDevice* closed = closedDevice(file.vendor, file.product)) {
-            file.kind = DeviceFile::Kind::Closed;
+            const bool openNi = *closed->why == '\0';
+            file.kind = openNi ? DeviceFile::Kind::OpenNi : DeviceFile::Kind::Closed;
             file.name = file.name.empty() ? closed->name : file.name;
-            file.refused = closed->why;
+            file.refused = openNi ? refusalOf(file.node, R_OK | W_OK) : closed->why;
             out.push_back(file);
         }
     }

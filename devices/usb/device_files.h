@@ -10,8 +10,9 @@
 namespace fathom {
 
 struct DeviceFile {
-    // SerialPort: where a manipulator may be. Closed: known, but no driver here can serve it.
-    enum class Kind { Falcon, SpaceMouse, Camera, SerialPort, Closed } kind = Kind::Camera;
+    // OpenNi: a camera that a driver of OpenNI2 may serve. SerialPort: where a manipulator may be. Closed:
+    // known, but no driver here can serve it.
+    enum class Kind { Falcon, SpaceMouse, Camera, OpenNi, SerialPort, Closed } kind = Kind::Camera;
     std::filesystem::path node; // what is opened: /dev/hidraw0, /dev/video0, /dev/bus/usb/001/004
     std::string name;           // as the device or its driver calls itself
     std::string place;          // "usb 1-1.2"; empty = not on USB

@@ -108,15 +108,18 @@ TEST_CASE("Devices that nothing here can drive are named with the reason, their 
     Machine m;
     m.usb("1-2", "1451", "0402", "", 7);
     m.usb("1-3", "1d27", "0601", "Xtion PRO LIVE", 8);
+    write(m.root() / "dev/bus/usb/001/008", "");
     m.usb("1-4", "2bc5", "0670", "a camera of the kernel's", 9);
     m.usb("1-5", "1452", "0402", "", 10);
     const auto found = findDeviceFiles(m.root());
     REQUIRE(found.size() == 2);
-    CHECK(found[0].kind == DeviceFile::Kind::Closed);
-    CHECK(found[0].name == "Force Dimension haptic device");
-    CHECK(found[0].refused.find("devices/bridge/README.md") != std::string::npos);
-    CHECK(found[1].name == "Xtion PRO LIVE");
-    CHECK(found[1].refused.find("OpenNI2") != std::string::npos);
+    CHECK(found[0].kind == DeviceFile::Kind::OpenNi); // not the kernel's business, but OpenNI2's
+    CHECK(found[0].name == "Xtion PRO LIVE");
+    CHECK(found[0].node == m.root() / "dev/bus/usb/001/008");
+    CHECK(found[0].refused.empty());
+    CHECK(found[1].kind == DeviceFile::Kind::Closed);
+    CHECK(found[1].name == "Force Dimension haptic device");
+    CHECK(found[1].refused.find("devices/bridge/README.md") != std::string::npos);
 }
 
 TEST_CASE("A machine without devices has none, and a node that is missing says so") {
@@ -148,8 +151,8 @@ TEST_CASE("A device without permission names the udev rule, and that file names 
     }
     std::ifstream in(kUdevRuleFile);
     const std::string rules{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
-    for (const char* id :
-         {"cb48", "0403", "256f", "046d", "c603", "c626", "c62b", "video4linux", "ttyUSB", "uaccess"}) {
+    for (const char* id : {"cb48", "0403", "256f", "046d", "c603", "c626", "c62b", "1d27", "2bc5",
+                           "video4linux", "ttyUSB", "uaccess"}) {
         CHECK_MESSAGE(rules.find(id) != std::string::npos, id);
     }
 }

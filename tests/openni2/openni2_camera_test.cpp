@@ -186,6 +186,23 @@ TEST_CASE("What is not there, is no recording, or does not tell its lens is refu
     CHECK((*frame)->colour.empty());
 }
 
+TEST_CASE(
+    "A camera on USB is offered with its sizes where a driver knows it, and refused with the reason where "
+    "none does") {
+    const auto refusalFor = [](uint16_t vendor, uint16_t product) {
+        try {
+            return "offered: " + openNi2Offer(vendor, product);
+        } catch (const BadInput& e) {
+            return std::string(e.what());
+        }
+    };
+    CHECK(refusalFor(0x1d27, 0x0601).find("driver: none knows this camera") != std::string::npos);
+    ::setenv("FATHOM_TEST_PLUGGED", "1", 1);
+    CHECK(openNi2Offer(0x1d27, 0x0601) == "depth 32x24, colour 32x24; --source openni2:fathom-test");
+    CHECK(refusalFor(0x1d27, 0x0609).find("none knows") != std::string::npos); // another one
+    ::unsetenv("FATHOM_TEST_PLUGGED");
+}
+
 TEST_CASE("Requests of OpenNI2 are told from others") {
     for (const char* yes : {"openni2", "openni2:2bc5/0401@1/2", "a/b.oni", "x.oni,intrinsics=l.json"}) {
         CHECK_MESSAGE(isOpenNi2Request(yes), yes);

@@ -5,6 +5,7 @@
 #include <Driver/OniDriverAPI.h>
 #include <atomic>
 #include <chrono>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <string>
@@ -192,6 +193,21 @@ class Driver final : public oni::driver::DriverBase {
 public:
     explicit Driver(OniDriverServices* services)
         : DriverBase(services) {}
+    // A camera that is plugged in, when the test says so.
+    OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
+                         oni::driver::DeviceDisconnectedCallback gone,
+                         oni::driver::DeviceStateChangedCallback changed, void* cookie) override {
+        const OniStatus done = DriverBase::initialize(connected, gone, changed, cookie);
+        if (std::getenv("FATHOM_TEST_PLUGGED") != nullptr) {
+            OniDeviceInfo info{};
+            std::strncpy(info.uri, "fathom-test", sizeof info.uri - 1);
+            std::strncpy(info.name, "drawn camera", sizeof info.name - 1);
+            info.usbVendorId = 0x1d27;
+            info.usbProductId = 0x0601;
+            deviceConnected(&info);
+        }
+        return done;
+    }
     OniStatus tryDevice(const char* uri) override {
         if (std::string(uri).rfind("fathom-test", 0) != 0) {
             return ONI_STATUS_ERROR;
