@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// What `fathom devices` prints of hands, cameras and doors: on a made-up /sys and /dev, with real sockets.
+#include "apps/devices/hand_devices.h"
+#include "devices/bridge/door_server.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <doctest/doctest.h>
+#include <sstream>
+
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+using namespace fathom;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string printed(const fs::path& root, const fs::path& doors) {
+    std::ostringstream out;
+    printHandDevices(out, root, doors);
+    return out.str();
+}
+
+bool holds(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// A socket whose bridge is gone.
+void leaveSocket(const fs::path& file) {
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    file.string().copy(address.sun_path, sizeof address.sun_path - 1);
+    const int socket = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
+    REQUIRE(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    ::close(socket);
+}
+
+void usbDevice(const fs::path& root, const std::string& vendor, const std::string& product) {
+    const fs::path device = root / "sys/bus/usb/devices/1-3";
+    fs::create_directories(device);
+    testing::put(device / "idVendor", vendor + "\n");
+    testing::put(device / "idProduct", product + "\n");
+    testing::put(device / "busnum", "1\n");
+    testing::put(device / "devnum", "8\n");
+    fs::create_directories(root / "dev/bus/usb/001");
+    testing::put(root / "dev/bus/usb/001/008", "");
+}
+
+} // namespace
+
+TEST_CASE(
+    "A door with a bridge behind it is offered, one whose bridge is gone is refused, and a file is none") {
+    const testing::ScratchFolder root, doors;
+    CHECK(printed(root.path(), doors.path()) == "no camera, haptic device or door found\n");
+    CHECK(printed(root.path(), "") == "no camera, haptic device or door found\n");
+    testing::put(doors.path() / "file.door", "no socket");
+    CHECK(printed(root.path(), doors.path()) == "no camera, haptic device or door found\n");
+    const DoorServer server({doors.path() / "live.door", "falcon", "test device", 8.0, 0.2});
+    leaveSocket(doors.path() / "gone.door");
+    const std::string gone = (doors.path() / "gone.door").string(),
+                      live = (doors.path() / "live.door").string();
+    CHECK(printed(root.path(), doors.path()) ==
+          "door    " + gone + "\n          REFUSED: the bridge that made it is gone\n" + "door    " + live +
+              "\n          a bridge listens; --hand-device " + live + "\n");
+}
+
+TEST_CASE("A camera that cannot be asked says why, and doors are listed after devices") {
+    const testing::ScratchFolder root, doors;
+    fs::create_directories(root.path() / "sys/class/video4linux/video3");
+    testing::put(root.path() / "sys/class/video4linux/video3/name", "a camera\n");
+    fs::create_directories(root.path() / "dev");
+    testing::put(root.path() / "dev/video3", "");
+    leaveSocket(doors.path() / "gone.door");
+    const std::string text = printed(root.path(), doors.path());
+    CHECK(
+        holds(text, "camera  " + (root.path() / "dev/video3").string() + "  a camera\n          REFUSED: "));
+    CHECK(holds(text, "no video device"));
+    CHECK(text.find("door    ") > text.find("camera  "));
+}
+
+TEST_CASE("A camera of OpenNI2 that no driver knows is listed as a camera, with the reason") {
+    const testing::ScratchFolder root;
+    usbDevice(root.path(), "1d27", "0601");
+    const std::string text = printed(root.path(), "");
+    CHECK(holds(text, "camera  "));
+    CHECK(holds(text, "PrimeSense depth camera (Xtion, Carmine), 1d27:0601"));
+    CHECK(holds(text, "REFUSED: openni2"));
+}
