@@ -15,9 +15,12 @@ using namespace fathom::vm;
 namespace {
 
 struct Vivid {
-    Vivid() {
-        REQUIRE(std::system("modprobe vivid n_devs=1 node_types=1") == 0);
-        REQUIRE(waitForFile("/dev/video0"));
+    explicit Vivid(int count = 1) {
+        const std::string types = count == 1 ? "1" : "1,1";
+        REQUIRE(std::system(
+                    ("modprobe vivid n_devs=" + std::to_string(count) + " node_types=" + types).c_str()) ==
+                0);
+        REQUIRE(waitForFile("/dev/video" + std::to_string(count - 1)));
     }
     ~Vivid() {
         std::system("rmmod vivid");
@@ -62,6 +65,26 @@ TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth from a driver th
     }
     CHECK(refusalOf("v4l2:/dev/video0" + file).find("no depth on /dev/video0, which has YUYV") !=
           std::string::npos);
+}
+
+TEST_CASE("Colour of three bytes a pixel is read in either order, beside depth of another device") {
+    const Vivid vivid(2);
+    const IntrinsicsFile lens(640, 360);
+    for (const char* name : {"RGB3", "BGR3"}) {
+        CAPTURE(name);
+        V4l2Camera camera(parseCameraRequest("v4l2:/dev/video0,format=Y16,colour=/dev/video1,colour_format=" +
+                                             std::string(name) + ",intrinsics=" + lens.path().string()));
+        const auto frame = camera.next();
+        REQUIRE(frame);
+        REQUIRE((*frame)->colour.size() == 640 * 360);
+        // Eight bars: white, yellow, cyan, green, magenta, red, blue, black. Its text is above.
+        const uint32_t red = (*frame)->colour[300 * 640 + 440], blue = (*frame)->colour[300 * 640 + 520];
+        CHECK((red & 255) > 150);
+        CHECK((red >> 8 & 255) < 60);
+        CHECK((red >> 16 & 255) < 60);
+        CHECK((blue & 255) < 60);
+        CHECK((blue >> 16 & 255) > 150);
+    }
 }
 
 TEST_CASE("A stream that ends in a fatal error is started anew; a device that the driver calls disconnected "
