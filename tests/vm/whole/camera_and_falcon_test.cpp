@@ -10,6 +10,7 @@
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
 
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -159,5 +160,61 @@ TEST_CASE("What the camera sees pushes a Falcon's knob back: the wrench reaches 
     CHECK(summary["haptic"]["max_force_N"].get<double>() > 1.0);
     CHECK(summary["frames"]["count"].get<int>() > 3);
     guard.signal(SIGINT);
+    CHECK(guard.wait() == 0);
+}
+
+TEST_CASE(
+    "A recording with a live hand has every picture of 30 a second and what the knob did, and the knob felt "
+    "nothing") {
+    Stage stage;
+    Child guard([&] {
+        return runProgram(stage.file("guard.log"),
+                          {"guard", "falcon", "--door", stage.folder.door().string()});
+    });
+    REQUIRE(eventually([&] { return std::filesystem::exists(stage.folder.door()); }, 60));
+    Child record([&] {
+        return runProgram(stage.file("record.log"),
+                          {"record", stage.file("scene.yaml"), "--source",
+                           "v4l2:auto,frames=90,rate=30,intrinsics=" + stage.file("lens.json"),
+                           "--hand-device", stage.folder.door().string(), "--out", stage.file("rec")});
+    });
+    const bool begun = eventually(
+        [&] {
+            return std::filesystem::exists(stage.folder.path() / "rec/associations.txt") ||
+                   std::filesystem::exists(stage.folder.path() / "rec/depth.txt");
+        },
+        60);
+    INFO(stage.text("record.log"));
+    REQUIRE(begun);
+    bool still = true;
+    for (int i = 1; i <= 35; ++i) { // 0.35 s of the 3 s
+        stage.moveKnob(kOpen + (kPressed - kOpen) * i / 35.0);
+        pauseMs(10);
+        still = still && stage.falcon.motors() == kStill;
+    }
+    CHECK(still);
+    CHECK(record.wait() == 0);
+    const std::string said = stage.text("record.log");
+    INFO(said);
+    CHECK(said.find("90 pictures") != std::string::npos);
+    CHECK(said.find("0 skipped, 0 lost") != std::string::npos);
+    // The hand's path: from where the knob was to where it was pushed, in time, as long as the pictures.
+    std::ifstream rows(stage.file("rec/hand.csv"));
+    std::string line;
+    std::getline(rows, line);
+    CHECK(line == "t_s,x,y,z,qw,qx,qy,qz,button");
+    double t = -1.0, first = 0.0, z = 0.0;
+    int count = 0;
+    while (std::getline(rows, line)) {
+        double now = 0.0, x = 0.0, y = 0.0;
+        REQUIRE(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf", &now, &x, &y, &z) == 4);
+        CHECK(now > t);
+        t = now;
+        first = count++ == 0 ? z : first;
+    }
+    CHECK(count > 90);
+    CHECK(t == doctest::Approx(3.0).epsilon(0.05)); // of lockstep: picture j is at j / 30 s
+    CHECK(std::abs(z - first - (kPressed - kOpen)) < 0.002);
+    guard.signal(SIGTERM);
     CHECK(guard.wait() == 0);
 }
