@@ -20,8 +20,9 @@ struct StreamRequest {
 
 struct CapturedBuffer {
     uint32_t index = 0;
-    uint32_t sequence = 0; // the driver's frame counter; a gap = frames that never came here
-    double stamp = 0.0;    // [s] CLOCK_MONOTONIC, start of exposure where the driver knows it
+    uint32_t sequence = 0;          // the driver's frame counter; a gap = frames that never came here
+    double stamp = 0.0;             // [s] CLOCK_MONOTONIC, start of exposure where the driver knows it
+    std::optional<double> exposure; // [s] start of exposure as the camera itself tells it
     std::span<const std::byte> bytes;
     bool damaged = false; // the driver says so
 };

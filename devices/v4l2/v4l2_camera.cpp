@@ -62,6 +62,7 @@ void V4l2Camera::close() {
     if (streams_) {
         missingBefore_ += streams_->missing();
         missingColourBefore_ += streams_->missingColour();
+        streams_->metadata.reset();
         retired_.push_back(std::move(streams_));
     }
     std::erase_if(retired_, [](const auto& streams) { return streams->leased.load() == 0; });
@@ -79,6 +80,10 @@ void V4l2Camera::reopen() {
 
 uint64_t V4l2Camera::lost() const {
     return missingBefore_ + (streams_ ? streams_->missing() : 0) + overtaken_;
+}
+
+std::string V4l2Camera::description() const {
+    return description_ + (exposuresTold_ > 0 ? ", which tells when exposure begins" : "");
 }
 
 uint64_t V4l2Camera::lostColour() const {
@@ -111,7 +116,7 @@ std::optional<Frame> V4l2Camera::next() {
 // Everything that the driver has ready, in order of capture.
 void V4l2Camera::gather() {
     const size_t before = arrivals_.size();
-    while (const auto buffer = streams_->depth.take()) {
+    while (const auto buffer = streams_->takeDepth()) {
         arrivals_.push_back({true, *buffer});
         depthWatch_ = {std::max(depthWatch_.last, Clock::now()), false};
     }
@@ -234,7 +239,10 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
     }
     content.index = delivered_++;
     content.sourceNumber = delivered_;
-    content.captureTime = lastStamp_ = pair.depth.stamp;
+    lastStamp_ = pair.depth.stamp; // what colour is compared with, too: the same driver's
+    lastCapture_ = std::max(lastCapture_, pair.depth.exposure.value_or(pair.depth.stamp));
+    content.captureTime = lastCapture_;
+    exposuresTold_ += pair.depth.exposure ? 1 : 0;
     if (!inPlace) {
         ++copied_;
         return slot->lend(content);

@@ -14,8 +14,10 @@
 namespace fathom {
 
 // Depth of 16-bit rows without gaps is leased where the driver put it (no copy) while the driver keeps two
-// buffers; anything else is unpacked into memory of the camera's own. Capture times are CLOCK_MONOTONIC [s],
-// at the start of exposure for UVC cameras. Frames count from 0; each is new (source number index + 1).
+// buffers; anything else is unpacked into memory of the camera's own. Capture times are CLOCK_MONOTONIC [s]:
+// when the first bytes of the picture came from a UVC camera, which its driver calls the start of exposure;
+// when the exposure began where a RealSense D4xx and the kernel tell it (frame_metadata.h). Colour is paired
+// by the driver's stamps. Frames count from 0; each is new (source number index + 1).
 //
 // next() gives the newest pair there is, none from before a pause in which the driver ran out of buffers
 // (every one, in order, with everyFrame). A damaged, short or unpaired picture is skipped, counted, named in
@@ -31,7 +33,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
-    std::string description() const override { return description_; }
+    std::string description() const override;
     bool live() const override { return true; }
     // Gaps in the driver's counter of depth, and pictures that a newer one overtook before they were asked
     // for. A colour picture that is missing costs no pair as long as its neighbour is near enough.
@@ -42,6 +44,8 @@ public:
     uint64_t overtaken() const { return overtaken_; }
     uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
     uint64_t restarts() const { return restarts_; } // silent streams that were started anew
+    // Frames whose capture time is the start of exposure as the camera's own metadata tell it.
+    uint64_t exposuresTold() const { return exposuresTold_; }
 
 private:
     struct Streams;
@@ -80,9 +84,10 @@ private:
     FramePairing pairing_{0.0};
     std::vector<Arrival> arrivals_; // taken, not yet paired; oldest first
     Watch depthWatch_, colourWatch_;
-    double depthPeriod_ = 0.0, lastStamp_ = 0.0;
+    double depthPeriod_ = 0.0, lastStamp_ = 0.0, lastCapture_ = 0.0;
     uint32_t delivered_ = 0, skipped_ = 0;
-    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, missingBefore_ = 0, missingColourBefore_ = 0;
+    uint64_t overtaken_ = 0, copied_ = 0, restarts_ = 0, exposuresTold_ = 0, missingBefore_ = 0,
+             missingColourBefore_ = 0;
 };
 
 } // namespace fathom

@@ -8,6 +8,7 @@
 #include "devices/usb/falcon_packet.h"
 #include "devices/usb/space_mouse.h"
 #include "devices/v4l2/extension_unit.h"
+#include "devices/v4l2/frame_metadata.h"
 #include "devices/v4l2/pixel_format.h"
 #include "devices/v4l2/realsense_tables.h"
 #include "engine/types/error.h"
@@ -56,10 +57,13 @@ void readDescriptors(Bytes input) {
         return;
     }
     const Bytes rest = input.subspan(1);
-    if (input[0] % 3 == 0) {
+    if (input[0] % 4 == 0) {
         const auto unit = unitOf(kGuid, rest);
         need(!unit || rest.size() >= 20);
-    } else if (input[0] % 3 == 1) {
+    } else if (input[0] % 4 == 3) {
+        const auto latency = pipeLatencyOf(rest);
+        need(!latency || (*latency > 0.0 && *latency < 1.0));
+    } else if (input[0] % 4 == 1) {
         needLens(realsense::depthLens(sealed(rest), {640, 480}));
     } else {
         const realsense::ColourTable table = realsense::colourLens(sealed(rest), {1280, 720});

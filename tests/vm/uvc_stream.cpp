@@ -171,7 +171,8 @@ void UvcStream::header(Bytes& out, bool end) {
     }
     // Capture timing as a RealSense D4xx sends it: picture number, sensor stamp, readout, exposure, interval
     // [us].
-    for (const uint32_t word : {0x80000001u, 40u, 1u, 0x3fu, number_ - 1, stamp, 0u, 8500u, 33333u, 0u}) {
+    for (const uint32_t word :
+         {0x80000001u, 40u, 1u, 0x3fu, number_ - 1, stamp, 0u, 8500u, 33333u, pipeLatencyMicros.load()}) {
         put32(out, word);
     }
     out[0] = static_cast<uint8_t>(out.size());

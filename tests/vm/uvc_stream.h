@@ -43,7 +43,8 @@ public:
     Clock::time_point due() const;
 
     UvcFaults faults;
-    std::atomic<uint32_t> sent{0}; // pictures, whole or spoilt
+    std::atomic<uint32_t> sent{0};              // pictures, whole or spoilt
+    std::atomic<uint32_t> pipeLatencyMicros{0}; // as capture timing tells it, with whole payloads
 
 private:
     Bytes formatDescriptor() const;

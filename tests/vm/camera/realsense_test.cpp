@@ -2,6 +2,9 @@
 // A RealSense D4xx without librealsense: its tables through the kernel's UVC driver.
 #include "tests/vm/camera/live_camera.h"
 
+#include <array>
+#include <atomic>
+
 using namespace fathom;
 using namespace fathom::vm;
 namespace sim = fathom::vm::simulated_realsense;
@@ -33,6 +36,37 @@ TEST_CASE("A RealSense tells its lenses, depth unit and extrinsics over its exte
         const auto frame = camera->next();
         REQUIRE(frame);
         CHECK(isPlainDepth(*frame, 320));
+    }
+}
+
+TEST_CASE(
+    "A RealSense that tells how old a frame was when it came has its capture time at the exposure's start") {
+    constexpr uint32_t kLatency = 500000;         // [us] longer than any delivery here
+    std::array<std::atomic<double>, 256> drawn{}; // [s] when picture n began to be sent
+    const auto now = [] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    };
+    const auto paint = plainDepth(320, 240);
+    UvcCamera device({.colour = false, .realSense = true, .paintDepth = [&](uint32_t n, Bytes& picture) {
+                          paint(n, picture);
+                          drawn[n % drawn.size()] = now();
+                      }});
+    device.plug();
+    REQUIRE(waitForCamera(false));
+    for (const uint32_t latency : {kLatency, 0u}) {
+        CAPTURE(latency);
+        device.depth().pipeLatencyMicros = latency;
+        const auto camera = openLive(",size=320x240");
+        for (int i = 0; i < 10; ++i) {
+            const auto frame = camera->next();
+            REQUIRE(frame);
+            const double came = (*frame)->captureTime + 1e-6 * latency; // the driver's stamp
+            CHECK(came >= drawn[(*frame)->depth[0] % drawn.size()].load() - 1e-4);
+            CHECK(came <= now());
+        }
+        CHECK(camera->exposuresTold() == (latency > 0 ? 10 : 0));
+        CHECK((camera->description().find("which tells when exposure begins") != std::string::npos) ==
+              (latency > 0));
     }
 }
 
