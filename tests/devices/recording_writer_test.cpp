@@ -6,6 +6,7 @@
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <doctest/doctest.h>
@@ -175,4 +176,36 @@ TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording, every pictur
     }
     CHECK(frames >= 5);
     CHECK(camera.skipped() <= 1); // a line that was cut off is no frame
+}
+
+TEST_CASE(
+    "Pictures of 640x480 that come faster than they are encoded are all written; how many a second is told") {
+    constexpr uint32_t kMany = 120; // more than may wait
+    CameraInfo info = someCamera(true);
+    info.depth.width = info.colour.width = 640;
+    info.depth.height = info.colour.height = 480;
+    Picture picture{std::vector<uint16_t>(info.depth.pixels()), std::vector<uint32_t>(info.depth.pixels())};
+    std::mt19937 random(3);
+    for (uint32_t i = 0; i < info.depth.pixels(); ++i) { // a slope and a wall with a camera's noise
+        picture.depth[i] = static_cast<uint16_t>(900 + i % 640 / 4 + random() % 5);
+        picture.colour[i] = 0xff000000u | static_cast<uint32_t>(120 + i / 640 / 8 + random() % 8) * 0x010101u;
+    }
+    const TemporaryFolder folder;
+    const auto start = std::chrono::steady_clock::now();
+    RecordingWriter writer(folder.path() / "rec", info, 2);
+    for (uint32_t i = 0; i < kMany; ++i) {
+        picture.depth[0] = static_cast<uint16_t>(i);
+        writer.add(picture.frame(i, false));
+    }
+    writer.finish();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+    RecordedCamera camera(folder.path() / "rec");
+    uint32_t count = 0;
+    while (const auto frame = camera.next()) {
+        picture.depth[0] = static_cast<uint16_t>(count++);
+        CHECK(std::equal(picture.depth.begin(), picture.depth.end(), (*frame)->depth.begin()));
+    }
+    CHECK(count == kMany);
+    const double rate = kMany / took.count();
+    MESSAGE(rate << " pictures of 640x480 a second on two threads");
 }
