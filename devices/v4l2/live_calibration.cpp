@@ -35,12 +35,16 @@ LiveCalibration fromFile(const CameraRequest& request, const ChosenNodes& nodes)
     return calibration;
 }
 
-// The camera's own colour, or none where it has no table of it: a D405 has one sensor for both, and the
-// colour that a D410 or D430 offers is an infrared picture. Who asked for that colour gets the reason.
+// The camera's own colour, or none where it has no table of it: what a D430, without a colour sensor, offers
+// as colour is an infrared picture. Who asked for that colour gets the reason.
 void addColour(const realsense::Mailbox& mailbox, const CameraRequest& request, VideoSize size,
                ChosenNodes& nodes, CameraInfo& info) {
     try {
-        const auto colour = realsense::colourLens(mailbox.calibrationTable(realsense::kColourTable), size);
+        using realsense::ColourSensor;
+        const auto sensor =
+            nodes.depth.product() == realsense::kD405 ? ColourSensor::D405 : ColourSensor::Own;
+        const auto colour =
+            realsense::colourLens(mailbox.calibrationTable(realsense::kColourTable), size, sensor);
         info.colour = colour.lens;
         info.colourTdepth = colour.colourTdepth;
         info.registered = false;

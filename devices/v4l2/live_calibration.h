@@ -13,8 +13,8 @@ struct LiveCalibration {
 };
 
 // Throws BadInput when neither has them, or when they are of other sizes than the request's. A RealSense
-// without a colour calibration (D405, D410, D430) goes on with depth alone, said in the log: then the colour
-// node that was chosen by itself is let go.
+// without a colour calibration (D430: it has no such sensor) goes on with depth alone, said in the log: then
+// the colour node that was chosen by itself is let go.
 LiveCalibration calibrationFor(const CameraRequest& request, ChosenNodes& nodes);
 
 } // namespace fathom

@@ -100,23 +100,76 @@ Intrinsics depthLens(std::span<const uint8_t> table, VideoSize size) {
     return lens;
 }
 
-// K is normalised to -1..1 over the picture that was calibrated; a picture of another shape is cut from it.
-ColourTable colourLens(std::span<const uint8_t> table, VideoSize size) {
-    const auto bytes = body(table, kColourTable, 216);
-    double fx = real(bytes, 0), cx = real(bytes, 8), fy = real(bytes, 16), cy = real(bytes, 20);
-    const uint32_t calibrated = word(bytes, 128); // width, height: 16 bits each
-    const uint32_t width = calibrated & 0xffff, height = calibrated >> 16;
-    const double was = width > 0 && height > 0 ? static_cast<double>(height) / width : 9.0 / 16.0;
+namespace {
+
+struct Normalised {
+    double fx = 0.0, cx = 0.0, fy = 0.0, cy = 0.0;
+};
+
+// The lens of a picture from figures that are normalised to -1..1 over it.
+Intrinsics lensOver(const Normalised& k, VideoSize size) {
+    return {.width = size.width,
+            .height = size.height,
+            .fx = 0.5 * k.fx * size.width,
+            .fy = 0.5 * k.fy * size.height,
+            .cx = 0.5 * (1.0 + k.cx) * size.width,
+            .cy = 0.5 * (1.0 + k.cy) * size.height};
+}
+
+// Of a colour sensor of its own: a picture of another shape is cut from the one that was calibrated.
+Intrinsics ownSensorLens(Normalised k, VideoSize calibrated, VideoSize size) {
+    const double was = calibrated.width > 0 && calibrated.height > 0
+                           ? static_cast<double>(calibrated.height) / calibrated.width
+                           : 9.0 / 16.0;
     const double is = static_cast<double>(size.height) / size.width;
-    (is < was ? fy : fx) *= is < was ? was / is : is / was;
-    (is < was ? cy : cx) *= is < was ? was / is : is / was;
+    (is < was ? k.fy : k.fx) *= is < was ? was / is : is / was;
+    (is < was ? k.cy : k.cx) *= is < was ? was / is : is / was;
+    return lensOver(k, size);
+}
+
+// The picture in another size: scaled alike in both directions until it covers that, the rest cut off evenly.
+Intrinsics covering(const Intrinsics& lens, VideoSize size) {
+    const double scale = std::max(static_cast<double>(size.width) / lens.width,
+                                  static_cast<double>(size.height) / lens.height);
+    return {.width = size.width,
+            .height = size.height,
+            .fx = lens.fx * scale,
+            .fy = lens.fy * scale,
+            .cx = lens.cx * scale - 0.5 * (lens.width * scale - size.width),
+            .cy = lens.cy * scale - 0.5 * (lens.height * scale - size.height)};
+}
+
+// A D405 takes colour from its depth sensor of 1280x800, and its image processor crops that in other ways:
+// 640x480 is the middle of 770x480, which is the whole sensor.
+Intrinsics d405Lens(Normalised k, VideoSize calibrated, VideoSize size) {
+    if (size == VideoSize{1280, 720}) {
+        return lensOver(k, size);
+    }
+    if (calibrated.width == 0 || calibrated.height == 0) {
+        throw Error("calibration table " + std::to_string(kColourTable) + ": no size that it is for");
+    }
+    if (size != VideoSize{640, 480}) {
+        return covering(lensOver(k, calibrated), size);
+    }
+    constexpr VideoSize kSensor{1280, 800}, kScaled{770, 480};
+    k.fy *= static_cast<double>(calibrated.height) / kSensor.height;
+    k.cy *= static_cast<double>(calibrated.height) / kSensor.height;
+    Intrinsics lens = covering(lensOver(k, kSensor), kScaled);
+    lens.cx -= 0.5 * (kScaled.width - size.width);
+    lens.width = size.width;
+    return lens;
+}
+
+} // namespace
+
+ColourTable colourLens(std::span<const uint8_t> table, VideoSize size, ColourSensor sensor) {
+    const auto bytes = body(table, kColourTable, 216);
+    const Normalised k{real(bytes, 0), real(bytes, 8), real(bytes, 16), real(bytes, 20)};
+    const uint32_t both = word(bytes, 128); // width, height: 16 bits each
+    const VideoSize calibrated{both & 0xffff, both >> 16};
     ColourTable colour;
-    colour.lens = {.width = size.width,
-                   .height = size.height,
-                   .fx = 0.5 * fx * size.width,
-                   .fy = 0.5 * fy * size.height,
-                   .cx = 0.5 * (1.0 + cx) * size.width,
-                   .cy = 0.5 * (1.0 + cy) * size.height};
+    colour.lens =
+        sensor == ColourSensor::D405 ? d405Lens(k, calibrated, size) : ownSensorLens(k, calibrated, size);
     checkLens(colour.lens, kColourTable);
     std::array<double, 5> inverseCoefficients{};
     glm::dmat3 rotation;
@@ -133,7 +186,7 @@ ColourTable colourLens(std::span<const uint8_t> table, VideoSize size) {
     colour.colourTdepth = inverse(Pose{shift, glm::normalize(glm::quat_cast(rotation))});
     const auto& bend = colour.lens.distortion;
     if (!isFinite(colour.colourTdepth) ||
-        !std::all_of(bend.begin(), bend.end(), [](double k) { return std::isfinite(k); })) {
+        !std::all_of(bend.begin(), bend.end(), [](double one) { return std::isfinite(one); })) {
         throw Error("calibration table " + std::to_string(kColourTable) +
                     ": distortion or pose that are no finite numbers");
     }

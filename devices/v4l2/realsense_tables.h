@@ -22,7 +22,11 @@ struct ColourTable {
     Intrinsics lens;
     Pose colourTdepth; // maps points of the depth camera to the colour camera
 };
-ColourTable colourLens(std::span<const uint8_t> table, VideoSize size);
+// Where colour comes from, which says what its sizes show of the sensor.
+enum class ColourSensor { Own, D405 };
+constexpr uint16_t kD405 = 0x0b5b; // USB product number
+ColourTable colourLens(std::span<const uint8_t> table, VideoSize size,
+                       ColourSensor sensor = ColourSensor::Own);
 
 // CRC-32 of zlib, as in the tables' headers.
 uint32_t crc32(std::span<const uint8_t> bytes);

@@ -121,6 +121,47 @@ TEST_CASE("A RealSense colour table with a lens and a pose or distortion that is
     }
 }
 
+TEST_CASE(
+    "A D405's colour has the lens of what its image processor leaves of the sensor, by hand for each way") {
+    std::vector<uint8_t> table(16 + 240, 0);
+    table[2] = 32;
+    table[4] = 240;
+    const auto put = [&table](size_t at, float value) {
+        std::memcpy(table.data() + 16 + at, &value, sizeof value);
+    };
+    put(0, 1.0f); // fx, cx, fy, cy over 1280x720
+    put(8, 0.1f);
+    put(16, 1.8f);
+    put(20, -0.05f);
+    const uint32_t calibrated = 1280 | 720u << 16;
+    std::memcpy(table.data() + 16 + 128, &calibrated, sizeof calibrated);
+    for (size_t i : {0, 4, 8}) {
+        put(168 + 4 * i, 1.0f);
+    }
+    const uint32_t crc = realsense::crc32(std::span(table).subspan(16));
+    std::memcpy(table.data() + 12, &crc, sizeof crc);
+    struct Case {
+        VideoSize size;
+        double fx, fy, cx, cy;
+    };
+    // 640x480: 1280x800 by 0.6015625 is 770 x 481.25; 65 columns go on each side, 0.625 rows.
+    // 848x480: 1280x720 by 2/3 is 853.33 x 480; 2.67 columns go on each side.
+    for (const Case& c :
+         {Case{{1280, 720}, 640.0, 648.0, 704.0, 342.0}, Case{{640, 480}, 385.0, 389.8125, 358.5, 229.171875},
+          Case{{848, 480}, 426.6666667, 432.0, 466.6666667, 228.0}}) {
+        CAPTURE(c.size.width);
+        const Intrinsics lens = realsense::colourLens(table, c.size, realsense::ColourSensor::D405).lens;
+        CHECK(lens.width == c.size.width);
+        CHECK(lens.height == c.size.height);
+        CHECK(std::abs(lens.fx - c.fx) < 1e-4);
+        CHECK(std::abs(lens.fy - c.fy) < 1e-4);
+        CHECK(std::abs(lens.cx - c.cx) < 1e-4);
+        CHECK(std::abs(lens.cy - c.cy) < 1e-4);
+    }
+    // A colour sensor of its own shows 640x480 as the middle of 16:9.
+    CHECK(std::abs(realsense::colourLens(table, {640, 480}).lens.fx - 1280.0 / 3.0) < 1e-4);
+}
+
 TEST_CASE("Coefficients that undistort are turned into coefficients that distort, to a tenth of a pixel") {
     Intrinsics lens{.width = 1280, .height = 720, .fx = 910, .fy = 909, .cx = 640, .cy = 360};
     const std::array<double, 5> undistorting{-0.05, 0.06, 0.0005, -0.0003, -0.01};

@@ -12,7 +12,7 @@ struct UvcCameraOptions {
     UvcFormat depthFormat = UvcFormat::Z16; // or Inzi, whose default picture is plainInzi()
     bool colour = true, motionJpeg = false;
     bool realSense = false;  // 8086:0b03 with its mailbox and tables, else 1209:d3d3
-    bool colourTable = true; // of the RealSense; a D410 or D430 has none
+    bool colourTable = true; // of the RealSense; a D430 has none
     std::string serial = "SIM0001";
     UvcPainter paintDepth, paintColour; // default: plainDepth(), plainColour()
 };
