@@ -136,29 +136,43 @@ TEST_CASE("A device that falls silent is lost") {
         DeviceLost);
 }
 
+namespace {
+
+// Every picture until the end, each as it was drawn and later than the one before; how many.
+int readWhole(Camera& camera) {
+    int count = 0, before = 0;
+    double stamp = -1.0;
+    while (const auto frame = camera.next()) {
+        int n = 0;
+        CHECK(isDrawn(*frame, n));
+        CHECK(n > before);
+        CHECK((*frame)->captureTime > stamp);
+        before = n;
+        stamp = (*frame)->captureTime;
+        ++count;
+    }
+    CHECK_FALSE(camera.next());
+    MESSAGE("read ", count, " pictures");
+    return count;
+}
+
+} // namespace
+
 TEST_CASE(
     "An .oni file gives the pictures of the device that it was recorded from, to the last bit, and ends") {
     for (const bool colour : {false, true}) {
         CAPTURE(colour);
-        const auto camera = openOpenNi2(recorded("fathom-test", 6, colour) + ",registered=yes");
-        CHECK_FALSE(camera->live());
-        CHECK(camera->info().hasColour == colour);
-        CHECK(camera->info().depth.fx == doctest::Approx(16.0 / std::tan(0.5)));
-        int count = 0, before = 0;
-        double stamp = -1.0;
-        while (const auto frame = camera->next()) {
-            int n = 0;
-            CHECK(isDrawn(*frame, n));
-            CHECK(n > before);
-            CHECK((*frame)->captureTime > stamp);
-            before = n;
-            stamp = (*frame)->captureTime;
-            ++count;
+        int count = 0;
+        // On a busy machine the library's recorder leaves pictures out, those in colour first.
+        for (int asked = 6; count < 6 && asked <= 96; asked *= 2) {
+            const auto camera = openOpenNi2(recorded("fathom-test", asked, colour) + ",registered=yes");
+            CHECK_FALSE(camera->live());
+            CHECK(camera->info().hasColour == colour);
+            CHECK(camera->info().depth.fx == doctest::Approx(16.0 / std::tan(0.5)));
+            count = readWhole(*camera);
         }
         CHECK(count >= 6);
-        CHECK_FALSE(camera->next());
         CHECK_FALSE(openOpenNi2(recorded("fathom-test", 2, colour))->info().hasColour); // unless it is said
-        MESSAGE("read ", count, " pictures");
     }
     std::filesystem::remove_all(kFolder);
 }
