@@ -24,7 +24,8 @@ namespace fathom {
 
 namespace {
 
-constexpr rlim_t kMostSeconds = 60; // of CPU time
+constexpr rlim_t kMostSeconds = 60;     // of CPU time
+constexpr unsigned kMostPatience = 300; // [s] for a reader that waits for what never comes
 constexpr size_t kMostPoints = 6'000'000;
 
 // With all its copies: a few bytes can name one mesh a million times. Ends where there are too many.
@@ -109,17 +110,22 @@ bool readAll(int pipe, void* data, size_t size) {
     return moveAll<void>(::read, pipe, data, size);
 }
 
-// Of this process, address space of the parent included [bytes]; 0 where the system does not tell.
+// Of this process, address space of the parent included [bytes]; 0 where the system does not tell, or where a
+// sanitizer has mapped terabytes and maps more whenever it likes.
 rlim_t mappedNow() {
+#ifdef FATHOM_SANITIZED
+    return 0;
+#endif
     rlim_t pages = 0;
     std::ifstream("/proc/self/statm") >> pages;
     return pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE));
 }
 
 [[noreturn]] void child(const std::filesystem::path& file, int pipe, uint64_t mostMemory) {
-    for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM}) {
+    for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM, SIGALRM}) {
         std::signal(fault, SIG_DFL); // it dies alone, and says nothing
     }
+    ::alarm(kMostPatience);
     const rlimit none{0, 0}, time{kMostSeconds, kMostSeconds};
     ::setrlimit(RLIMIT_CORE, &none);
     ::setrlimit(RLIMIT_CPU, &time);

@@ -18,8 +18,9 @@ struct ImportedTriangles {
 
 inline constexpr uint64_t kMostImportMemory = uint64_t{4} << 30; // [bytes] of address space
 
-// A child is forked, so that no thread is needed; it has at most a minute of CPU time, and at most so much
-// memory more than this process. Throws Error when no child can be made.
+// A child is forked, so that no thread is needed; it has at most a minute of CPU time and five minutes in
+// all, and at most so much memory more than this process (no bound under a sanitizer, whose own memory is
+// none). Throws Error when no child can be made.
 ImportedTriangles importTriangles(const std::filesystem::path& file, uint64_t mostMemory = kMostImportMemory);
 
 } // namespace fathom
