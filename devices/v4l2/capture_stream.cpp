@@ -35,22 +35,16 @@ CaptureStream::CaptureStream(VideoNode node, const StreamRequest& request)
     , request_(request) {
     negotiate();
     setRate();
-    try {
-        map();
-        for (uint32_t i = 0; i < kBuffers; ++i) {
-            queue(i);
-        }
-        start();
-    } catch (...) {
-        unmap();
-        throw;
+    map();
+    for (uint32_t i = 0; i < kBuffers; ++i) {
+        queue(i);
     }
+    start();
 }
 
 CaptureStream::~CaptureStream() {
     int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
     node_.control(VIDIOC_STREAMOFF, &type);
-    unmap();
 }
 
 void CaptureStream::fail(const char* what) const {
@@ -117,16 +111,8 @@ void CaptureStream::map() {
         if (at == MAP_FAILED) {
             fail("buffers");
         }
-        buffers_[i] = {static_cast<std::byte*>(at), buffer.length};
-    }
-}
-
-void CaptureStream::unmap() noexcept {
-    for (auto& buffer : buffers_) {
-        if (!buffer.empty()) {
-            ::munmap(buffer.data(), buffer.size());
-            buffer = {};
-        }
+        const size_t size = buffer.length;
+        buffers_[i] = {std::shared_ptr<void>(at, [size](void* pages) { ::munmap(pages, size); }), size};
     }
 }
 
@@ -179,8 +165,10 @@ std::optional<CapturedBuffer> CaptureStream::take() {
     out.index = buffer.index;
     out.sequence = buffer.sequence;
     out.stamp = stampOf(buffer.timestamp.tv_sec, buffer.timestamp.tv_usec, buffer.flags);
-    out.bytes =
-        buffers_[buffer.index].first(std::min<size_t>(buffer.bytesused, buffers_[buffer.index].size()));
+    const Buffer& filled = buffers_[buffer.index];
+    out.bytes = {static_cast<const std::byte*>(filled.pages.get()),
+                 std::min<size_t>(buffer.bytesused, filled.size)};
+    out.memory = filled.pages;
     out.damaged = (buffer.flags & V4L2_BUF_FLAG_ERROR) != 0;
     return out;
 }

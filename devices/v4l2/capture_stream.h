@@ -7,6 +7,7 @@
 #include <array>
 #include <atomic>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -24,7 +25,8 @@ struct CapturedBuffer {
     double stamp = 0.0;             // [s] CLOCK_MONOTONIC, start of exposure where the driver knows it
     std::optional<double> exposure; // [s] start of exposure as the camera itself tells it
     std::span<const std::byte> bytes;
-    bool damaged = false; // the driver says so
+    std::shared_ptr<const void> memory; // whole pages, from the first of `bytes` on
+    bool damaged = false;               // the driver says so
 };
 
 // Pictures missing between two numbers of a driver's counter, which begins anew after 2^32 - 1. 0 where it
@@ -35,7 +37,8 @@ constexpr uint32_t missingBetween(uint32_t before, uint32_t after) {
 }
 
 // Streams from construction to destruction. One thread takes; any thread gives back. Buffers stay mapped, at
-// the same addresses, as long as the object lives, even when the camera is gone.
+// the same addresses, as long as the object lives or somebody holds their memory, even when the camera is
+// gone.
 class CaptureStream {
 public:
     static constexpr uint32_t kBuffers = 4;
@@ -68,7 +71,6 @@ private:
     void negotiate();
     void setRate();
     void map();
-    void unmap() noexcept;
     bool queue(uint32_t index) noexcept;
     void start();
     [[noreturn]] void fail(const char* what) const;
@@ -78,7 +80,11 @@ private:
     StreamRequest request_;
     uint32_t stride_ = 0;
     double period_ = 0.0;
-    std::array<std::span<std::byte>, kBuffers> buffers_;
+    struct Buffer {
+        std::shared_ptr<void> pages; // mapped
+        size_t size = 0;             // [bytes]
+    };
+    std::array<Buffer, kBuffers> buffers_;
     std::array<std::atomic<bool>, kBuffers> held_{}; // by the camera's side
     std::atomic<uint32_t> queued_{0};
     std::optional<uint32_t> lastSequence_;

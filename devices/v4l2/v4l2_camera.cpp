@@ -248,7 +248,8 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
         return slot->lend(content);
     }
     ++streams_->leased;
-    slot->name(content); // colour; depth lies in the driver's memory
+    slot->name(content); // colour
+    content.depthMemory = pair.depth.memory;
     return Frame(content, [slot, streams = streams_.get(), buffer = pair.depth.index] {
         slot->release();
         streams->depth.giveBack(buffer);

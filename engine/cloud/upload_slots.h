@@ -15,7 +15,9 @@ namespace fathom::cloud {
 class UploadSlots {
 public:
     static constexpr uint32_t kCopied = 2;    // frames in flight: double-buffered
-    static constexpr uint32_t kMost = 2 + 16; // memory that is new after that is copied
+    // Pairs of depth and colour: of a live camera four of the driver's and five of its own. Memory that is new
+    // after that is copied.
+    static constexpr uint32_t kMost = 2 + 20;
 
     UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
 

@@ -213,6 +213,7 @@ FrameReport FrameCycle::finish() {
         fillHost(f); // while the device works
         const uint32_t valid = cloud::validPixels(pool_.back().host, scene_);
         if (plan_.cloud) {
+            report.inPlace = uploads_[f.slot].depth.imported();
             timeline_.wait(ticket_);
             report.passMs = passes_.watch(f.slot).intervalsMs();
         }

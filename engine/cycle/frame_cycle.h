@@ -25,6 +25,7 @@ namespace fathom {
 struct FrameReport {
     uint32_t index = 0;
     bool unchanged = false; // the same picture again (source number): no work, only a new capture time
+    bool inPlace = false;   // the device read depth where the camera left it
     cloud::FrameCounts counts;
     uint32_t guidanceCount = 0; // pixels in guidance classes, as classify marks them
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;

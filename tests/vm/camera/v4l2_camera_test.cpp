@@ -52,6 +52,7 @@ TEST_CASE("A live camera delivers depth and colour as they were sent, stamped wi
         checkColour(*frame, 320, 240, 4);
         number = (*frame)->depth[0];
         last = (*frame)->captureTime;
+        CHECK((*frame)->depthMemory.get() == (*frame)->depth.data()); // a device may read it there
         places.insert((*frame)->depth.data());
         ++count;
     }
@@ -78,6 +79,7 @@ TEST_CASE("Frames held by the engine leave the driver two buffers, and later one
     for (const Frame& frame : held) {
         CHECK(isPlainDepth(frame, 320)); // not overwritten while it is held
     }
+    CHECK(held.back()->depthMemory.get() == held.back()->depth.data()); // of the camera's own
     CHECK_FALSE(camera->info().hasColour);
     held.clear();
     CHECK(camera->next());

@@ -150,6 +150,11 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     } else {
         MESSAGE("this machine is too slow for forces: no picture became a region within 100 ms");
     }
+    // Depth was read where the kernel's driver put it, before the plug was pulled and after.
+    const size_t inPlace = run.out.find(" read where the camera left them");
+    REQUIRE(inPlace != std::string::npos);
+    const size_t number = run.out.rfind(' ', inPlace - 1) + 1;
+    CHECK(std::stoi(run.out.substr(number, inPlace - number)) > summary["frames"]["count"].get<int>() / 2);
     CHECK(run.err.find("camera is gone") != std::string::npos);
     CHECK(run.err.find("camera is back") != std::string::npos);
     CHECK(run.err.find("forces fade") != std::string::npos);
