@@ -16,7 +16,7 @@ TEST_CASE("Without permission for priority and locked memory a live run says so 
     setting.unprivileged = true;
     const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}), setting);
     if (run.exitCode == 126) { // it lies where nobody else may look
-        MESSAGE("left out: the program cannot be started as another user here");
+        MESSAGE("SKIPPED ALOUD: the program cannot be started as another user here");
         return;
     }
     CAPTURE(run.err);

@@ -123,7 +123,7 @@ TEST_CASE("the measure sees a corner that sticks out and how far a sphere stands
 TEST_CASE("the tree of a real jaw contains the jaw: the leaves read back from the file hold every sample") {
     const std::filesystem::path file = "../shared/data/meshes/uuv_manipulators_Apache-2.0/Jaw.stl";
     if (!std::filesystem::exists(file)) {
-        MESSAGE("left out, no such file: " << file);
+        MESSAGE("SKIPPED ALOUD: no such file: " << file);
         return;
     }
     const LoadedMesh loaded = loadMesh(file);

@@ -107,7 +107,7 @@ TEST_CASE("the sphere sets that foam made of a real arm are read, every link a s
     const std::filesystem::path file =
         "../shared/data/meshes/foam_spherized_MIT/smaller_panda_spherized.urdf";
     if (!std::filesystem::exists(file)) {
-        MESSAGE("left out, no such file: " << file);
+        MESSAGE("SKIPPED ALOUD: no such file: " << file);
         return;
     }
     size_t spheres = 0;

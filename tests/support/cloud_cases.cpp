@@ -206,7 +206,7 @@ RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frame
     const std::filesystem::path folder = std::filesystem::path("../shared/data") / name;
     RecordedShots out;
     if (!std::filesystem::exists(folder)) {
-        MESSAGE("recording ", folder.string(), " is absent: not tested");
+        MESSAGE("SKIPPED ALOUD: there is no recording ", folder.string());
         return out;
     }
     RecordedCamera camera(folder);
