@@ -71,6 +71,11 @@ protected:
     // When in() may answer otherwise though nothing arrived.
     virtual Clock::time_point due() { return Clock::now() + std::chrono::milliseconds(1); }
     virtual void setInterface(int /*interface*/, int /*alternate*/) {}
+    // Whether the host waits for something from `endpoint` now.
+    bool asked(uint8_t endpoint) const {
+        const auto waiting = waiting_.find(endpoint);
+        return waiting != waiting_.end() && !waiting->second.empty();
+    }
 
     UsbDescription description_;
 

@@ -122,6 +122,7 @@ void FalconDevice::command(const Bytes& packet) {
     reply[13] = static_cast<uint8_t>(kZero + (homed && ((packet[13] - kZero) & 1) != 0 ? 0x70 : 0));
     history_.push_back(motors_);
     ++commands;
+    unasked += asked(1) ? 0 : 1;
     if (statusOnly || takeOne(faults.dropped)) {
         return;
     }

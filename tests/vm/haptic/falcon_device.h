@@ -37,6 +37,7 @@ public:
     std::vector<std::array<int16_t, 3>> history() const; // all of them
     Bytes firmware() const;
     std::atomic<uint64_t> commands{0}, statusPackets{0};
+    std::atomic<uint64_t> unasked{0}; // commands that came while no IN transfer was pending
 
     static constexpr int kFirmwareSize = 300; // that runs once it is in
 

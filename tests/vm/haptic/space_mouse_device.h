@@ -6,12 +6,14 @@
 
 #include <array>
 #include <mutex>
+#include <span>
 
 namespace fathom::vm {
 
 class SpaceMouseDevice final : public UsbDevice {
 public:
-    SpaceMouseDevice();
+    // Shift and turn in one report, as later models send them; else in two.
+    explicit SpaceMouseDevice(bool combined = false);
     ~SpaceMouseDevice() override { unplug(); }
 
     // Reported every 8 ms from now on; after zeros once, nothing, as the device does.
@@ -24,8 +26,10 @@ private:
     UsbReply control(const UsbSetup& setup, const Bytes& out) override;
     std::optional<UsbReply> in(uint8_t endpoint, size_t room) override;
     Clock::time_point due() override { return due_; }
-    Bytes motion(uint8_t id, const std::array<int16_t, 3>& axes) const;
+    Bytes motion(uint8_t id, std::span<const int16_t> axes) const;
+    void queueMotion();
 
+    bool combined_;
     Bytes reportDescriptor_;
     std::mutex mutex_;
     std::array<int16_t, 3> shift_{}, turn_{};

@@ -18,7 +18,8 @@ using fathom::vm::SpaceMouseDevice;
 namespace {
 
 struct Cap {
-    Cap() {
+    explicit Cap(bool combined = false)
+        : device(combined) {
         device.plug();
         REQUIRE(eventually([&] {
             try {
@@ -40,7 +41,12 @@ struct Cap {
 } // namespace
 
 TEST_CASE("A SpaceMouse moves the hand while it is pushed, on all axes, and holds it when let go") {
-    Cap cap;
+    bool combined = false;
+    SUBCASE("shift and turn in two reports") {}
+    SUBCASE("both in one report of twelve bytes, as later models send them") {
+        combined = true;
+    }
+    Cap cap(combined);
     cap.read();
     cap.device.deflect({350, 0, -350}, {0, 350, 0});
     CHECK(eventually([&] { return cap.read().deviceThandle.position.x > 0.01; }));
