@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/view_publisher.h"
 
+#include "engine/types/error.h"
+
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 namespace fathom {
 
@@ -16,11 +19,59 @@ void copy(const dquat& from, double (&to)[4]) noexcept {
     std::copy_n(std::array{from.w, from.x, from.y, from.z}.data(), 4, to);
 }
 
+fathom_door_fixture rowOf(const GuidancePose& pose) {
+    fathom_door_fixture row{};
+    row.fixture = pose.fixture;
+    row.kind = FATHOM_DOOR_TARGET;
+    row.flags = pose.present ? FATHOM_DOOR_SEEN : 0u;
+    row.points = pose.count;
+    copy(pose.target.position, row.base_T_position);
+    copy(pose.target.rotation, row.base_T_orientation);
+    return row;
+}
+
+uint32_t kindOf(ShapeKind kind) {
+    switch (kind) {
+    case ShapeKind::Sphere:
+        return FATHOM_DOOR_SPHERE;
+    case ShapeKind::Box:
+        return FATHOM_DOOR_BOX;
+    case ShapeKind::Plane:
+        return FATHOM_DOOR_PLANE;
+    case ShapeKind::Cylinder:
+        return FATHOM_DOOR_CYLINDER;
+    case ShapeKind::Line:
+        return FATHOM_DOOR_LINE;
+    case ShapeKind::Axis:
+        return FATHOM_DOOR_AXIS;
+    case ShapeKind::None:
+        break;
+    }
+    throw Error("a fixture of points is no shape");
+}
+
+fathom_door_fixture rowOf(const Shape& shape) {
+    fathom_door_fixture row{};
+    row.fixture = shape.fixture;
+    row.kind = kindOf(shape.kind);
+    row.flags = shape.keepIn ? FATHOM_DOOR_KEEP_IN : 0u;
+    copy(shape.baseTshape.position, row.base_T_position);
+    copy(shape.baseTshape.rotation, row.base_T_orientation);
+    copy(shape.size, row.size);
+    return row;
+}
+
 } // namespace
 
-void ViewPublisher::turn(const TurnRow& row) noexcept {
-    if (turns_++ % kPollEvery == 0 && door_.poll()) {
-        tellRegions();
+void ViewPublisher::turn(const TurnRow& row) {
+    if (turns_++ % kPollEvery == 0) {
+        const bool newcomer = door_.poll();
+        if (newcomer) {
+            tellRegions();
+        }
+        if (newcomer || shapesAreOthers()) {
+            tellFixtures();
+        }
     }
     if (!door_.watched()) {
         return;
@@ -43,11 +94,23 @@ void ViewPublisher::turn(const TurnRow& row) noexcept {
     door_.send(state_);
 }
 
-void ViewPublisher::frame(const Fixtures& set) noexcept {
+void ViewPublisher::frame(const Fixtures& set) {
     set_ = &set;
     if (set.generation != told_) {
         tellRegions();
+        tellFixtures();
     }
+}
+
+void ViewPublisher::setShapes(std::span<const Shape> shapes) {
+    const std::lock_guard lock(mutex_);
+    shapes_.assign(shapes.begin(), shapes.end());
+    othersThanTold_ = true;
+}
+
+bool ViewPublisher::shapesAreOthers() {
+    const std::lock_guard lock(mutex_);
+    return othersThanTold_;
 }
 
 void ViewPublisher::tellRegions() noexcept {
@@ -70,6 +133,30 @@ void ViewPublisher::tellRegions() noexcept {
         door_.send(regions_);
         regions_.first += regions_.count;
     } while (regions_.first < regions_.total);
+}
+
+void ViewPublisher::tellFixtures() {
+    rows_.clear();
+    {
+        const std::lock_guard lock(mutex_);
+        std::transform(shapes_.begin(), shapes_.end(), std::back_inserter(rows_),
+                       [](const Shape& shape) { return rowOf(shape); });
+        othersThanTold_ = false;
+    }
+    if (set_ != nullptr) {
+        std::transform(set_->guidance.begin(), set_->guidance.end(), std::back_inserter(rows_),
+                       [](const GuidancePose& pose) { return rowOf(pose); });
+        fixtures_.frame = set_->frame;
+        fixtures_.generation = set_->generation;
+    }
+    fixtures_.total = static_cast<uint32_t>(rows_.size());
+    fixtures_.first = 0;
+    do { // none is told, too
+        fixtures_.count = std::min<uint32_t>(FATHOM_DOOR_ROWS, fixtures_.total - fixtures_.first);
+        std::copy_n(rows_.begin() + fixtures_.first, fixtures_.count, fixtures_.rows);
+        door_.send(fixtures_);
+        fixtures_.first += fixtures_.count;
+    } while (fixtures_.first < fixtures_.total);
 }
 
 } // namespace fathom

@@ -1,27 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writer of a realtime run tells through a view door: every turn, and every new fixture set.
+// What the writer of a realtime run tells through a view door: every turn, every new fixture set, and the
+// shapes that people placed.
 #pragma once
 
 #include "apps/binding/crossings.h"
+#include "apps/binding/record_drain.h"
 #include "devices/bridge/view_door.h"
+
+#include <mutex>
+#include <vector>
 
 namespace fathom {
 
-// One thread, the writer's.
+inline constexpr const char* kViewDoorHelp =
+    "a socket where observers get every turn and fixture set (devices/bridge)";
+
+// One thread, the writer's, but for setShapes() and forget().
 class ViewPublisher {
 public:
     // Throws BadInput.
     explicit ViewPublisher(const std::filesystem::path& path)
         : door_(path) {}
 
-    void turn(const TurnRow& row) noexcept;
+    void turn(const TurnRow& row);
     // `set` must stay whole until the next call: an observer who comes later gets it then.
-    void frame(const Fixtures& set) noexcept;
+    void frame(const Fixtures& set);
+
+    // In force from now on. Any thread; waits for a writer that copies them.
+    void setShapes(std::span<const Shape> shapes);
+    // The set last given goes away: while no run is on.
+    void forget() noexcept { set_ = nullptr; }
 
     const ViewDoor& door() const noexcept { return door_; }
 
 private:
     void tellRegions() noexcept;
+    void tellFixtures();
+    bool shapesAreOthers(); // than those told
 
     static constexpr uint32_t kPollEvery = 16; // turns
 
@@ -31,6 +46,38 @@ private:
     uint32_t turns_ = 0;
     fathom_door_state state_{};
     fathom_door_regions regions_{};
+    fathom_door_fixtures fixtures_{};
+    std::vector<fathom_door_fixture> rows_;
+    std::mutex mutex_; // of the two below
+    std::vector<Shape> shapes_;
+    bool othersThanTold_ = false;
+};
+
+// Hands everything on to one sink, and tells it at the door where there is one.
+class PublishedSink final : public RunSink {
+public:
+    // Both outlive this; null: no door.
+    PublishedSink(RunSink& next, ViewPublisher* view)
+        : next_(next)
+        , view_(view) {}
+    void frame(const PublishedFrame& frame, const Fixtures& set) override {
+        next_.frame(frame, set);
+        if (view_ != nullptr) {
+            view_->frame(set);
+        }
+    }
+    void query(const QueryNote& note) override { next_.query(note); }
+    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+              std::span<const uint32_t> behind) override {
+        next_.turn(row, obeyed, known, behind);
+        if (view_ != nullptr) {
+            view_->turn(row);
+        }
+    }
+
+private:
+    RunSink& next_;
+    ViewPublisher* view_;
 };
 
 } // namespace fathom

@@ -2,6 +2,7 @@
 #include "apps/operate/operate_command.h"
 
 #include "apps/binding/open_hand.h"
+#include "apps/binding/view_publisher.h"
 #include "apps/operate/operator_run.h"
 #include "apps/operate/playback_run.h"
 #include "engine/types/error.h"
@@ -26,6 +27,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
     command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard")
         ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
+    command->add_option("--view-door", options->viewDoor, kViewDoorHelp);
     command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
         ->check(CLI::NonNegativeNumber);
@@ -42,7 +44,8 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
             options->scene /= "scene.yaml";
         }
         for (const auto& [name, value] :
-             {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice)}) {
+             {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice),
+              std::pair("--arm", &options->arm), std::pair("--view-door", &options->viewDoor)}) {
             if (!options->recording.empty() && !value->empty()) {
                 throw BadInput("operate", name, *value, "nothing beside a recording");
             }

@@ -20,6 +20,7 @@ struct OperateOptions {
     bool armed = false;     // forces are asked for from the start: of `latency`, no option
     bool path = false;      // the scene's hand path drives, not mouse and keyboard
     std::string handDevice; // a live hand (open_hand.h); empty = mouse and keyboard
+    std::string viewDoor;   // socket for observers (devices/bridge); empty = none
     std::string offscreen;  // WxH: the same frames without a surface; empty = a window
     std::string arm;        // serial line of the scene's real arm; empty = nothing moves
     std::string pilot;      // one of the scene's pilots; empty = the one that the file says

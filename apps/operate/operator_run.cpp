@@ -46,7 +46,9 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , haptics_(softly(session_.scene, session_.tool))
     , feed_(session_)
     , answers_(session_)
-    , sink_(recorder_)
+    , observers_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
+    , published_(recorder_, observers_.get())
+    , sink_(published_)
     , view_(sink_)
     , log_(options.state) {
     console_.takeSettings(session_.scene, options.textScale);

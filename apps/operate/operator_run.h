@@ -4,6 +4,7 @@
 
 #include "apps/binding/realtime_run.h"
 #include "apps/binding/stop_signals.h"
+#include "apps/binding/view_publisher.h"
 #include "apps/operate/canvas.h"
 #include "apps/operate/live_feed.h"
 #include "apps/operate/pilot_hand.h"
@@ -70,7 +71,9 @@ private:
     HapticOptions haptics_;
     LiveFeed feed_;
     LiveAnswers answers_;
+    std::unique_ptr<ViewPublisher> observers_; // null = nobody may look on
     Recorder recorder_;
+    PublishedSink published_;
     SnapshotSink sink_;
     std::unique_ptr<RealtimeRun> engine_;
     std::unique_ptr<HapticCycle> cycle_;

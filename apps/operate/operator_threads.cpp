@@ -63,6 +63,10 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
         }
         o.arm = &session_.realArm->link();
     }
+    if (observers_) { // the set that they were told of goes with the run before
+        observers_->forget();
+        observers_->setShapes(editor_ ? editor_->shapes() : shapesOf(session_.scene));
+    }
     engine_ = std::make_unique<RealtimeRun>(
         feed_, session_.cycles.plan().query != Plan::Query::None ? &answers_ : nullptr, o);
     feed_.begin();
@@ -78,6 +82,9 @@ void OperatorRun::startThreads() {
                                               [this](const Scene& scene, const std::vector<Shape>& shapes) {
                                                   feed_.setScene(scene);
                                                   engine_->setShapes(shapes);
+                                                  if (observers_) {
+                                                      observers_->setShapes(shapes);
+                                                  }
                                               });
     // This one stays: threads that it makes have the priority of the start, not that of the window.
     thread_ = std::thread([this] {

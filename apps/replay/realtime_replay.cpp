@@ -116,6 +116,9 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , answers_(session.cycles.plan().query != Plan::Query::None ? std::make_unique<Answers>(session)
                                                                 : nullptr)
     , run_(std::make_unique<RealtimeRun>(*feed_, answers_.get(), runOptions(trace))) {
+    if (view_) {
+        view_->setShapes(shapes_);
+    }
     if (options.source.empty() && session.scene.source.kind == CameraSource::Kind::Simulated) {
         spool();
     }
@@ -225,6 +228,7 @@ void RealtimeReplay::rethrowFailure() const {
 
 void RealtimeReplay::frame(const PublishedFrame& frame, const Fixtures& set) {
     recorder_.frame(frame.report, frame.t, set);
+    figures_.framesInPlace += frame.report.inPlace ? 1 : 0;
     if (view_) {
         view_->frame(set);
     }

@@ -25,6 +25,7 @@ struct RealtimeFigures {
     bool live = false;           // the camera is
     uint64_t framesLost = 0;     // by a live camera, or that one would have thrown away
     uint64_t periodsMissed = 0;  // without a turn
+    uint64_t framesInPlace = 0;  // whose depth the device read where the camera left it
     uint64_t staleTurns = 0;     // with a scene old enough for forces to fade
     uint64_t recordsLost = 0;    // the writer fell behind
     uint32_t renewals = 0;       // times that the device was made anew

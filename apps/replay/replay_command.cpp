@@ -4,6 +4,7 @@
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/open_hand.h"
 #include "apps/binding/open_source.h"
+#include "apps/binding/view_publisher.h"
 #include "apps/replay/budgets.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/realtime_replay.h"
@@ -82,8 +83,9 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
     printPart("  exposed   ", f.exposureMs, "ms before the set was published");
     std::cout << "  turns     " << s.haptic.late << " of " << s.haptic.ticks
               << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
-              << f.framesLost << (f.live ? " lost" : " that a live camera would have lost")
-              << "; scene too old in " << f.staleTurns << " turns\n";
+              << f.framesLost << (f.live ? " lost" : " that a live camera would have lost") << ", "
+              << f.framesInPlace << " read where the camera left them; scene too old in " << f.staleTurns
+              << " turns\n";
     if (f.renewals > 0) {
         std::cout << "  device    lost and made anew " << f.renewals << " times\n";
     }
@@ -164,7 +166,30 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     return summary;
 }
 
-int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
+// SCENE may be the folder of a recording: its own scene, pictures and hand, where no other is asked for.
+ReplayOptions withFolder(ReplayOptions options) {
+    const std::filesystem::path folder = options.scene;
+    if (!std::filesystem::is_directory(folder)) {
+        return options;
+    }
+    options.scene = folder / "scene.yaml";
+    if (!std::filesystem::exists(options.scene)) {
+        throw BadInput(folder.string(), "scene.yaml", "none",
+                       "a scene file, or a folder that the window recorded; other recordings are played "
+                       "with a scene file and --source");
+    }
+    if (options.source.empty()) {
+        options.source = folder.string();
+    }
+    const bool otherHand = options.hand || !options.operatorCsv.empty() || !options.handDevice.empty();
+    if (!otherHand && std::filesystem::exists(folder / "hand.csv")) {
+        options.operatorCsv = folder / "hand.csv";
+    }
+    return options;
+}
+
+int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
+    const ReplayOptions options = withFolder(asked);
     if (!options.handDevice.empty() && !options.realtime) {
         throw BadInput("replay", "--hand-device", options.handDevice, "together with --realtime");
     }
@@ -193,13 +218,13 @@ int runReplay(const ReplayOptions& options, const GlobalOptions& global) {
 void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     auto options = std::make_shared<ReplayOptions>();
     CLI::App* command = app.add_subcommand("replay", "run frames and a hand through the engine, headless");
-    command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
+    command->add_option("SCENE", options->scene, "scene file (YAML), or the folder of a recording")
+        ->required();
     command->add_option("--source", options->source, kSourceHelp);
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
     command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
     command->add_option("--hand-device", options->handDevice, kHandHelp)->excludes("--operator", "--hand");
-    command->add_option("--view-door", options->viewDoor,
-                        "a socket where observers get every turn and fixture set (devices/bridge)");
+    command->add_option("--view-door", options->viewDoor, kViewDoorHelp);
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
         ->check(CLI::NonNegativeNumber);

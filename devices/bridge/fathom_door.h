@@ -14,8 +14,8 @@
  *   tool stays where it is.
  * - A packet of another size, magic, version or kind ends the connection; nothing in it is used.
  * - VIEW DOOR: the engine listens, observers connect (up to four) and only receive: fathom_door_state once a
- *   tick, fathom_door_regions as many as a fixture set needs. An observer that does not keep up loses packets
- *   (see `sequence`), the engine never waits. */
+ *   tick, fathom_door_regions and fathom_door_fixtures as many as a fixture set needs. An observer that does
+ *   not keep up loses packets (see `sequence`), the engine never waits. */
 #pragma once
 
 #include <stdint.h>
@@ -29,6 +29,7 @@
 #define FATHOM_DOOR_WRENCH 2
 #define FATHOM_DOOR_STATE 3
 #define FATHOM_DOOR_REGIONS 4
+#define FATHOM_DOOR_FIXTURES 5
 
 /* fathom_door_hand.status: a sample moves the tool only when both are set */
 #define FATHOM_DOOR_PRESENT 1u /* the device answers */
@@ -109,4 +110,41 @@ struct fathom_door_regions {
     uint32_t count;   /* that are filled here, 0..FATHOM_DOOR_SPHERES */
     uint32_t reserved;
     struct fathom_door_sphere spheres[FATHOM_DOOR_SPHERES];
+};
+
+/* fathom_door_fixture.kind; all but the first are shapes that a person placed */
+#define FATHOM_DOOR_TARGET 0u   /* where guidance of a class pulls the tool: base_T_tool */
+#define FATHOM_DOOR_SPHERE 1u   /* size[0]: radius */
+#define FATHOM_DOOR_BOX 2u      /* size: edges, about the pose's position */
+#define FATHOM_DOOR_PLANE 3u    /* the half-space below the pose's z = 0 */
+#define FATHOM_DOOR_CYLINDER 4u /* along the pose's z; size[0]: radius, size[1]: length */
+#define FATHOM_DOOR_LINE 5u     /* the tool slides on the pose's z */
+#define FATHOM_DOOR_AXIS 6u     /* the same, the tool's z along it */
+
+/* fathom_door_fixture.flags */
+#define FATHOM_DOOR_SEEN 1u    /* a target: enough of its points are in the picture */
+#define FATHOM_DOOR_KEEP_IN 2u /* a shape: the tool stays inside, not outside */
+
+struct fathom_door_fixture {
+    uint32_t fixture; /* row of the scene's fixtures */
+    uint32_t kind, flags;
+    uint32_t points;           /* of the picture behind a target */
+    double base_T_position[3]; /* [m] */
+    double base_T_orientation[4];
+    double size[3]; /* [m] */
+};
+
+#define FATHOM_DOOR_ROWS 32
+
+/* Engine to observers, for each new fixture set and each change of a shape: what is in force besides region
+ * spheres, in parts. */
+struct fathom_door_fixtures {
+    struct fathom_door_header header;
+    int64_t frame;
+    uint64_t generation;
+    uint32_t total; /* targets and shapes */
+    uint32_t first; /* index of rows[0] among them */
+    uint32_t count; /* that are filled here, 0..FATHOM_DOOR_ROWS */
+    uint32_t reserved;
+    struct fathom_door_fixture rows[FATHOM_DOOR_ROWS];
 };

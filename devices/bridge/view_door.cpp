@@ -54,5 +54,6 @@ void ViewDoor::sendAll(T& packet, uint16_t kind) noexcept {
 
 template void ViewDoor::sendAll(fathom_door_state&, uint16_t) noexcept;
 template void ViewDoor::sendAll(fathom_door_regions&, uint16_t) noexcept;
+template void ViewDoor::sendAll(fathom_door_fixtures&, uint16_t) noexcept;
 
 } // namespace fathom

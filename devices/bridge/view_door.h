@@ -18,13 +18,14 @@ public:
     ViewDoor& operator=(const ViewDoor&) = delete;
     ~ViewDoor();
 
-    // Takes whoever connected; true when somebody new did: he has no regions yet.
+    // Takes whoever connected; true when somebody new did: he has no regions and fixtures yet.
     bool poll() noexcept;
 
     // To every observer; fills in the header. One whose queue is full loses the packet, one who left is let
     // go.
     void send(fathom_door_state& state) noexcept { sendAll(state, FATHOM_DOOR_STATE); }
     void send(fathom_door_regions& regions) noexcept { sendAll(regions, FATHOM_DOOR_REGIONS); }
+    void send(fathom_door_fixtures& fixtures) noexcept { sendAll(fixtures, FATHOM_DOOR_FIXTURES); }
 
     bool watched() const noexcept;
     uint64_t lost() const noexcept { return lost_; } // packets, over all observers

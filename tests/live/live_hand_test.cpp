@@ -58,6 +58,7 @@ struct Observer {
             fathom_door_header header;
             fathom_door_state state;
             fathom_door_regions regions;
+            fathom_door_fixtures fixtures;
         } packet;
         for (;;) {
             size_t got = 0;
@@ -75,6 +76,8 @@ struct Observer {
                 ++states;
                 generations.insert(packet.state.generation);
                 lastTool = packet.state.base_T_tool_position[2];
+            } else if (doorFault(packet.header, got, FATHOM_DOOR_FIXTURES, sizeof packet.fixtures).empty()) {
+                rows.assign(packet.fixtures.rows, packet.fixtures.rows + packet.fixtures.count);
             } else {
                 ++strange;
             }
@@ -82,6 +85,7 @@ struct Observer {
     }
     std::map<uint64_t, uint32_t> parts, total;
     std::set<uint64_t> generations;
+    std::vector<fathom_door_fixture> rows; // of the newest set
     uint64_t states = 0, strange = 0;
     float radius = 0.0f;
     double lastTool = 0.0;
@@ -93,8 +97,14 @@ struct Observer {
 TEST_CASE(
     "a live hand behind a door drives a realtime replay, and an observer sees poses, wrench and fixtures") {
     Stage stage;
-    stage.recording(std::vector<Picture>(5, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
-    stage.scene({});
+    const PixelBox corner{2, 2, 10, 10};
+    stage.recording(
+        std::vector<Picture>(5, Picture(kWidth, kHeight, 600).paint(kAll, kRed).paint(corner, kYellow)));
+    SceneText scene;
+    scene.fixtures = {SceneText::kForbidRed, SceneText::kGuideYellow,
+                      "name: pipe, role: keep_in, shape: cylinder, base_T_shape: {xyz: [0, 0, 0.5]}, size: "
+                      "[0.5, 3, 0]"};
+    stage.scene(scene);
     const Bridge bridge(stage / "hand.door");
     Observer observer(stage / "view.door");
     const ProgramRun run =
@@ -124,6 +134,18 @@ TEST_CASE(
         whole = whole || (spheres > 0 && observer.parts.at(generation) % spheres == 0);
     }
     CHECK(whole);
+    REQUIRE(observer.rows.size() == 2);
+    const fathom_door_fixture &pipe = observer.rows[0], &yellow = observer.rows[1];
+    CHECK(pipe.kind == FATHOM_DOOR_CYLINDER);
+    CHECK(pipe.flags == FATHOM_DOOR_KEEP_IN);
+    CHECK(pipe.fixture == 2);
+    CHECK(pipe.size[1] == 3.0);
+    CHECK(yellow.kind == FATHOM_DOOR_TARGET);
+    CHECK(yellow.fixture == 1);
+    CHECK(yellow.flags == FATHOM_DOOR_SEEN);
+    CHECK(yellow.points > 10);
+    CHECK(std::abs(yellow.base_T_position[2] - 0.6) < 0.15); // at the surface, or its standoff before it
+    CHECK(yellow.base_T_position[0] < 0.0);                  // of the corner
     CHECK_FALSE(std::filesystem::exists(stage / "view.door"));
 }
 
