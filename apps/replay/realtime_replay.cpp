@@ -190,7 +190,8 @@ void RealtimeReplay::runLive(const HandPath& path) {
     const Pose start = startOf(path, session_.scene);
     cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start,
                    session_.arm.get());
-    run_->run(*cycle_, hand, options_.seconds, *this, signals_.asked());
+    watched_.emplace(hand);
+    run_->run(*cycle_, *watched_, options_.seconds, *this, signals_.asked());
 }
 
 ReplayRecorder::Ending RealtimeReplay::ending() {
@@ -247,6 +248,9 @@ void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool
     recorder_.tick(tick);
     if (view_) {
         view_->turn(row);
+    }
+    if (const std::string told = watched_ ? watched_->told() : ""; !told.empty()) {
+        spdlog::warn("{}", told);
     }
     audit(row, obeyed, obeyedKnown, behind);
     if (obeyed != nullptr && recorder_.wantsMoment()) {

@@ -6,6 +6,7 @@
 #include "apps/binding/realtime_run.h"
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/view_publisher.h"
+#include "apps/binding/watched_hand.h"
 #include "apps/replay/percentiles.h"
 #include "apps/replay/progress.h"
 #include "apps/replay/replay_recorder.h"
@@ -84,6 +85,7 @@ private:
     std::unique_ptr<Answers> answers_;
     std::unique_ptr<RealtimeRun> run_;
     std::optional<HapticCycle> cycle_;
+    std::optional<WatchedHand> watched_; // of a live hand
     std::vector<float> wokenLateMicros_;
     RealtimeFigures figures_;
 };

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <set>
 #include <sys/wait.h>
 #include <thread>
@@ -203,6 +204,37 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
     } else {
         CHECK(WIFSIGNALED(status));
     }
+}
+
+TEST_CASE("A device that goes away during a run is told of when it goes and when it is back") {
+    Stage stage;
+    stage.recording(std::vector<Picture>(3, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
+    stage.scene({});
+    std::optional<PlayedDevice> device;
+    device.emplace(stage / "hand.door");
+    const pid_t engine = startFathom(
+        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "300"}),
+        stage / "said");
+    const auto says = [&](const char* words) {
+        bool found = false;
+        for (int i = 0; i < 6000 && !found; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+            found = stage.read("said").find(words) != std::string::npos;
+        }
+        return found;
+    };
+    for (int i = 0; i < 60000 && device->silent; ++i) { // until the first wrench: turns run
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    device.reset();
+    CHECK(says("gone or silent: forces go, the tool stays"));
+    device.emplace(stage / "hand.door");
+    CHECK(says("back; the tool goes on from where it is"));
+    ::kill(engine, SIGINT);
+    int status = 0;
+    ::waitpid(engine, &status, 0);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
 }
 
 TEST_CASE("a live hand without realtime, with a path, or where nobody listens, is refused in one line") {
