@@ -167,6 +167,10 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
         armFigure(input);
         markPlace(console, "head arm");
     }
+    if (!input.armHolds.empty()) {
+        figure(input, "HELD", "by the arm (W: why)", colour::kCaution);
+        markPlace(console, "head arm held");
+    }
     if (input.handGone) {
         figure(input, "GONE", "haptic device", colour::kWarning);
     }

@@ -34,9 +34,10 @@ struct HudInput {
     std::string title;
     double unknownShare = 0.0; // of the picture without depth
     double windowHz = 0.0;
-    bool driven = false;              // by a device or a path; else mouse and keyboard drive
-    const MeasuredArm* arm = nullptr; // null = none that is real
-    bool handGone = false;            // the haptic device is away
+    bool driven = false;               // by a device or a path; else mouse and keyboard drive
+    const MeasuredArm* arm = nullptr;  // null = none that is real
+    bool handGone = false;             // the haptic device is away
+    std::vector<std::string> armHolds; // measured_arm.h
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);

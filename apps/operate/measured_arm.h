@@ -31,4 +31,8 @@ struct MeasuredArm {
 // arm: null = the scene has none. wanted: its spheres where the tool has it.
 MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const Sphere> wanted);
 
+// What of the arm itself holds the tool in this turn, a phrase each: joints at their limits or their full
+// speed, a singular posture, jaws that would enter a region. Empty without an arm.
+std::vector<std::string> armHolds(const ArmRig* arm, const TurnRecord& turn);
+
 } // namespace fathom::operate

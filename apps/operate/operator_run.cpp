@@ -82,7 +82,8 @@ HudInput OperatorRun::hudInput() const {
                  windowHz_,
                  options_.path || session_.liveHand != nullptr,
                  &measured_,
-                 !hand_->there()};
+                 !hand_->there(),
+                 armHolds(session_.arm.get(), view_.turn().record)};
     return hud;
 }
 

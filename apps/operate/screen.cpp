@@ -240,7 +240,7 @@ void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, c
             if (tab == Tab::Fixtures) {
                 drawFixtures(console, editor, input.run.scene());
             } else if (tab == Tab::Why) {
-                drawWhy(console, input.run, editor.scene());
+                drawWhy(input.run, editor.scene(), input.hud.armHolds);
             } else if (tab == Tab::Alarms) {
                 drawAlarms(console, alarms);
             } else {

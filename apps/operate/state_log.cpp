@@ -84,6 +84,7 @@ json turnOf(const RunView& run, const StateExtras& extras) {
             {"spheres", run.scene().set.spheres.size()},
             {"generation", run.scene().set.generation},
             {"grasp", r.arm.posture.grasp},
+            {"arm_holds", extras.armHolds},
             {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)},
             {"real_arm", armOf(extras.arm)}};
 }

@@ -29,6 +29,7 @@ struct StateExtras {
     bool handThere = true;
     double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the pilot in force
     std::string why;                          // of the newest block
+    std::vector<std::string> armHolds;        // measured_arm.h
 };
 
 class StateLog {

@@ -48,7 +48,7 @@ std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& s
     return whoHolds(block, scene, set) + rest;
 }
 
-void drawWhy(Console& console, const RunView& run, const Scene& scene) {
+void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds) {
     constexpr double kNow = 0.1; // [s]
     const double now = run.turn().record.t;
     if (run.turn().record.state == TurnState::Trapped) {
@@ -57,6 +57,9 @@ void drawWhy(Console& console, const RunView& run, const Scene& scene) {
     if (run.turn().record.stalled) {
         ImGui::TextColored(ImColor(colour::kCaution),
                            "Waiting for the next contact set: the tool moves fast.");
+    }
+    for (const std::string& hold : armHolds) {
+        ImGui::TextColored(ImColor(colour::kCaution), "NOW  the arm: %s", hold.c_str());
     }
     if (run.blocks().empty()) {
         ImGui::TextDisabled("Nothing has stopped the tool so far.");
@@ -68,7 +71,6 @@ void drawWhy(Console& console, const RunView& run, const Scene& scene) {
                            whyBlocked(block, scene, run.scene().set).c_str());
         ImGui::PopStyleColor();
     }
-    (void)console;
 }
 
 } // namespace fathom::operate

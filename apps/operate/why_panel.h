@@ -11,6 +11,7 @@ namespace fathom::operate {
 
 // One block, as one sentence.
 std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& set);
-void drawWhy(Console& console, const RunView& run, const Scene& scene);
+// armHolds: measured_arm.h.
+void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds);
 
 } // namespace fathom::operate
