@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <tuple>
 
 namespace fathom::operate {
 
@@ -131,7 +132,8 @@ std::vector<const Alarm*> Alarms::shown() const {
         list.push_back(&alarm);
     }
     std::stable_sort(list.begin(), list.end(), [](const Alarm* a, const Alarm* b) {
-        return std::pair(a->level, !a->acknowledged) > std::pair(b->level, !b->acknowledged);
+        return std::tuple(a->level, !a->acknowledged, a->active) >
+               std::tuple(b->level, !b->acknowledged, b->active);
     });
     return list;
 }

@@ -40,7 +40,8 @@ public:
     // Raises one that no rule sees.
     void raise(Level level, const std::string& key, const std::string& words, double t);
 
-    // Shown: active, or latched and not yet acknowledged. Highest level first.
+    // Shown: active, or latched and not yet acknowledged. Highest level first,
+    // of one level what is not acknowledged, and what is still on, before the rest.
     std::vector<const Alarm*> shown() const;
     const Alarm* worst() const; // of those not acknowledged; null when none
     std::vector<std::string> inWords() const;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/traces_panel.h"
 
+#include "apps/operate/trace_columns.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -27,36 +28,17 @@ struct Plot {
     }
 };
 
-// value(sample) as one vertical stroke a column, joined to the next column's.
+// value(sample) as strokes (trace_columns.h).
 template <class Value>
 void curve(const Plot& plot, const std::deque<TraceSample>& trace, ImU32 colour, float width, Value&& value) {
-    int column = -1;
-    float low = 0.0f, high = 0.0f, before = 0.0f, last = 0.0f;
-    bool any = false;
-    const auto flush = [&] {
-        if (column >= 0) {
-            const float x = plot.at.x + static_cast<float>(column) + 0.5f;
-            low = any ? std::min(low, before) : low;
-            high = any ? std::max(high, before) : high;
-            plot.list.AddRectFilled({x - 0.5f * width, plot.y(high) - 0.5f * width},
-                                    {x + 0.5f * width, plot.y(low) + 0.5f * width}, colour);
-        }
+    const auto column = [&](const TraceSample& sample) {
+        return static_cast<int>(plot.x(sample.t) - plot.at.x);
     };
-    for (const TraceSample& sample : trace) {
-        const int at = static_cast<int>(plot.x(sample.t) - plot.at.x);
-        const float v = value(sample);
-        if (at != column) {
-            flush();
-            any = column >= 0;
-            before = last; // joins the columns
-            column = at;
-            low = high = v;
-        }
-        low = std::min(low, v);
-        high = std::max(high, v);
-        last = v;
-    }
-    flush();
+    eachColumn(trace, column, value, [&](int at, float low, float high) {
+        const float x = plot.at.x + static_cast<float>(at) + 0.5f;
+        plot.list.AddRectFilled({x - 0.5f * width, plot.y(high) - 0.5f * width},
+                                {x + 0.5f * width, plot.y(low) + 0.5f * width}, colour);
+    });
 }
 
 void frame(const Plot& plot, const char* name, double limit, const char* unit) {

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the window makes of turns, without a window: rates, blocks, modes, alarms, the columns of a trace.
+#include "apps/operate/alarms.h"
+#include "apps/operate/hud.h"
+#include "apps/operate/trace_columns.h"
+
+#include <cmath>
+#include <doctest/doctest.h>
+#include <map>
+
+using namespace fathom;
+using namespace fathom::operate;
+
+namespace {
+
+struct NoSink final : RunSink {
+    void frame(const PublishedFrame&, const Fixtures&) override {}
+    void query(const QueryNote&) override {}
+    void turn(const TurnRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override {}
+};
+
+// A run whose turns a test makes.
+struct Run {
+    TurnRow row;
+    NoSink nothing;
+    SnapshotSink sink{nothing};
+    RunView view{sink};
+    Alarms alarms;
+    Console console;
+    HapticOptions haptics;
+    Scene scene;
+
+    Run() {
+        row.record.finite = true;
+        row.record.sceneAge = 0.0;
+        row.record.state = TurnState::Free;
+        row.record.marginPassive = 1.0;
+    }
+    void turn(double dt) {
+        row.record.t += dt;
+        view.take(row);
+    }
+    void touch(uint32_t leaf, double beyond) {
+        row.record.touchCount = 1;
+        row.record.touches[0] = {};
+        row.record.touches[0].leaf = leaf;
+        row.record.touches[0].normal = {0.0, 0.0, -1.0};
+        row.record.device.position = {0.0, 0.0, beyond};
+        turn(0.001);
+    }
+    std::vector<std::string> step(const Health& health = {}) {
+        turn(0.001);
+        alarms.step(console, view, haptics, scene, health);
+        return alarms.inWords();
+    }
+};
+
+using Words = std::vector<std::string>;
+
+} // namespace
+
+TEST_CASE("Rates are those of the last second, its longest period among them") {
+    Run run;
+    for (int i = 0; i < 500; ++i) {
+        run.turn(0.010); // long ago
+    }
+    for (int i = 0; i < 1100; ++i) {
+        run.turn(i == 800 ? 0.005 : 0.001);
+    }
+    CHECK(run.view.rates().worstPeriodMs == doctest::Approx(5.0));
+    CHECK(run.view.rates().hapticHz == doctest::Approx(996.0).epsilon(0.002));
+    CHECK(run.view.turns() == 1600);
+    for (int i = 0; i < 20; ++i) {
+        run.turn(1.0);
+    }
+    CHECK(run.view.trace().size() == 11); // ten seconds
+    run.view.rewind();
+    CHECK(run.view.rates().hapticHz == 0.0);
+}
+
+TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins anew after a quarter second") {
+    Run run;
+    run.touch(3, 0.002);
+    run.touch(3, 0.007);
+    run.touch(3, 0.004);
+    REQUIRE(run.view.blocks().size() == 1);
+    CHECK(run.view.blocks()[0].deepest == doctest::Approx(0.007));
+    CHECK(run.view.blocks()[0].beyond == doctest::Approx(0.004));
+    run.touch(4, 0.001); // another sphere of the tool
+    CHECK(run.view.blocks().size() == 2);
+    CHECK(run.view.blocks()[0].touch.leaf == 4);
+    run.row.record.touchCount = 0;
+    run.turn(0.3);
+    run.touch(3, 0.001);
+    REQUIRE(run.view.blocks().size() == 3);
+    CHECK(run.view.blocks()[0].deepest == doctest::Approx(0.001));
+    for (uint32_t leaf = 10; leaf < 40; ++leaf) {
+        run.touch(leaf, 0.001);
+    }
+    CHECK(run.view.blocks().size() == 12); // the newest
+    CHECK(run.view.blocks()[0].touch.leaf == 39);
+}
+
+TEST_CASE("The mode says what forces do, in words") {
+    Run run;
+    const auto mode = [&](TurnState state, double guidance = 0.0) {
+        run.row.record.state = state;
+        run.row.record.guidance = guidance;
+        run.turn(0.001);
+        return std::string(modeOf(run.console, run.view).word);
+    };
+    CHECK(mode(TurnState::Free) == "FORCES OFF");
+    CHECK(mode(TurnState::Contact) == "FORCES OFF");
+    CHECK(mode(TurnState::Fading) == "FORCES FADING"); // they end over a while
+    run.console.forces = true;
+    CHECK(mode(TurnState::Off) == "WAITING");
+    CHECK(mode(TurnState::Free) == "ARMED");
+    CHECK(mode(TurnState::Contact) == "CONTACT");
+    CHECK(mode(TurnState::Contact, 0.5) == "GUIDANCE");
+    CHECK(mode(TurnState::Fading, 0.5) == "FADING");
+    CHECK(mode(TurnState::Escape, 0.5) == "ESCAPE");
+    CHECK(mode(TurnState::Trapped, 0.5) == "TRAPPED");
+}
+
+TEST_CASE("An alarm stays until it is over and acknowledged, and is latched anew when it comes again") {
+    Run run;
+    CHECK(run.step().empty());
+    run.row.record.state = TurnState::Trapped;
+    CHECK(run.step() == Words{"WARNING active trapped"});
+    run.row.record.state = TurnState::Free;
+    CHECK(run.step() == Words{"WARNING latched trapped"});
+    CHECK(run.step() == Words{"WARNING latched trapped"});
+    run.console.acknowledge = true;
+    CHECK(run.step().empty());
+    CHECK_FALSE(run.console.acknowledge);
+
+    run.row.record.state = TurnState::Trapped;
+    run.step();
+    run.console.acknowledge = true;
+    CHECK(run.step() == Words{"WARNING active acknowledged trapped"}); // it is not over
+    CHECK(run.alarms.worst() == nullptr);
+    run.row.record.state = TurnState::Free;
+    CHECK(run.step().empty());
+    run.row.record.state = TurnState::Trapped;
+    CHECK(run.step() == Words{"WARNING active trapped"});
+}
+
+TEST_CASE("Alarms come by their level, the highest first, and one that is acknowledged is not the worst") {
+    Run run;
+    run.console.frozen = true;
+    run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
+    CHECK(run.step({.handGone = true}) ==
+          Words{"WARNING active hand", "CAUTION active force", "ADVISORY active frozen"});
+    CHECK(run.alarms.worst()->key == "hand");
+    run.console.acknowledge = true;
+    run.step({.handGone = true});
+    run.row.record.finite = false;
+    CHECK(run.step({.handGone = true})[0] == "WARNING active finite");
+    CHECK(run.alarms.worst()->key == "finite");
+    run.alarms.raise(Level::Advisory, "note", "an event", 1.0);
+    CHECK(run.step().end()[-2] == "ADVISORY latched note"); // before what is acknowledged
+}
+
+TEST_CASE("Whoever is to blame for an old scene is named: the camera, or a GPU that is gone") {
+    Run run;
+    run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
+    CHECK(run.step() == Words{"CAUTION active stale"});
+    run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;
+    CHECK(run.step() == Words{"WARNING active camera", "CAUTION active stale"});
+    CHECK(run.step({.gpuGone = true}) ==
+          Words{"WARNING active gpu", "WARNING latched camera", "CAUTION active stale"});
+    run.console.acknowledge = true;
+    CHECK(run.step()[0] == "WARNING active acknowledged gpu"); // its first picture is not there yet
+    run.row.record.sceneAge = 0.0;
+    CHECK(run.step().empty());
+}
+
+TEST_CASE("A trace shows in each column all that its samples reach, and joins the columns") {
+    std::deque<TraceSample> trace;
+    for (int i = 0; i < 10000; ++i) {
+        TraceSample sample;
+        sample.t = 0.001 * i;
+        sample.force.x = i == 4321 ? 9.0f : i < 5000 ? 1.0f : 2.0f; // one turn's spike, and a step
+        trace.push_back(sample);
+    }
+    std::map<int, std::pair<float, float>> columns;
+    const auto at = [](const TraceSample& s) { return static_cast<int>(s.t * 64.0); };
+    const auto force = [](const TraceSample& s) { return s.force.x; };
+    const auto keep = [&](int column, float low, float high) {
+        CHECK(columns.count(column) == 0);
+        columns[column] = {low, high};
+    };
+    eachColumn(trace, at, force, keep);
+    CHECK(columns.size() == 640);
+    CHECK(columns.at(static_cast<int>(4.321 * 64.0)) == std::pair(1.0f, 9.0f));
+    CHECK(columns.at(static_cast<int>(4.9 * 64.0)) == std::pair(1.0f, 1.0f));
+    CHECK(columns.at(320) == std::pair(1.0f, 2.0f)); // the step, between its last sample and the next
+    CHECK(columns.at(321) == std::pair(2.0f, 2.0f));
+    columns.clear();
+    eachColumn({}, at, force, keep);
+    CHECK(columns.empty());
+}
