@@ -3,6 +3,7 @@
 
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <spdlog/spdlog.h>
 
 namespace fathom::cloud {
@@ -55,12 +56,16 @@ std::optional<uint32_t> UploadSlots::find(const Pictures& pictures) const {
 }
 
 std::optional<uint32_t> UploadSlots::room(std::optional<uint32_t> inFlight) const {
-    // Held by its slot here and by the slot's buffer; more by a camera that is still there, or its frames.
-    const auto gone = [](const std::shared_ptr<const void>& memory) {
-        return !memory || memory.use_count() <= 2;
+    // Held by each slot of it here and by that slot's buffer; more by a camera that is still there, or its
+    // frames. A pair of which either is gone never comes again.
+    const auto gone = [this](const std::shared_ptr<const void>& memory) {
+        const auto slots = std::count_if(pictures_.begin(), pictures_.end(), [&](const Pictures& p) {
+            return p.depth == memory || p.colour == memory;
+        });
+        return memory && memory.use_count() <= 2 * slots;
     };
     for (uint32_t i = kCopied; i < pictures_.size(); ++i) {
-        if (i != inFlight && gone(pictures_[i].depth) && gone(pictures_[i].colour)) {
+        if (i != inFlight && (gone(pictures_[i].depth) || gone(pictures_[i].colour))) {
             return i;
         }
     }

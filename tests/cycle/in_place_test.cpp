@@ -173,3 +173,29 @@ TEST_CASE("Memory that its camera has let go makes room, and what finds none is 
     CHECK(rig.choose(many).slot == 0);
     CHECK(rig.choose(many).slot == 1);
 }
+
+TEST_CASE(
+    "Depth in a driver's memory is read there again after its camera was pulled out and is back, whatever "
+    "colour it lay beside") {
+    if (!canImport()) {
+        return;
+    }
+    Slots rig;
+    Blocks colours(rig.camera, 5); // stay: the camera's own
+    auto driver = std::make_unique<Blocks>(rig.camera, 4);
+    const auto choose = [&] {
+        const Frame depth = driver->next(rig.picture), colour = colours.next(rig.picture);
+        Frame::Content content = *depth;
+        content.colour = colour->colour, content.colourMemory = colour->colourMemory;
+        return rig.slots.choose(Frame(content, nullptr), {});
+    };
+    for (int round = 0; round < 3; ++round) {
+        for (int i = 0; i < 20; ++i) { // each with each
+            const auto [slot, isNew] = choose();
+            CHECK(slot >= cloud::UploadSlots::kCopied);
+            CHECK(isNew);
+        }
+        CHECK_FALSE(choose().isNew);
+        driver = std::make_unique<Blocks>(rig.camera, 4);
+    }
+}
