@@ -162,7 +162,7 @@ TEST_CASE("a scene file that is missing, a folder, empty, no YAML or without fix
     std::filesystem::remove(stage / "scene.yaml");
     checkRefused(stage, {"scene.yaml", "file", "cannot be read", "allowed: "});
     std::filesystem::create_directories(stage / "scene.yaml");
-    checkRefused(stage, {"scene.yaml", "file", "cannot be read"});
+    checkRefused(stage, {"scene.yaml", "none", "a folder that the window recorded"});
     std::filesystem::remove(stage / "scene.yaml");
     stage.write("scene.yaml", "");
     checkRefused(stage, {"scene.yaml", "nothing", "mapping"});

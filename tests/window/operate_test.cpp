@@ -288,7 +288,7 @@ TEST_CASE("A recording made with R is one that replay plays, with the force that
     REQUIRE(firstContact(felt) > 0.0);
     CHECK(std::abs(firstContact(felt) - firstContact(again)) < 0.25);
     const double last = felt.back().force, replayed = again[again.size() - 200].force;
-    MESSAGE("felt " << last << " N, replayed " << replayed << " N, turns " << (even ? "even" : "uneven"));
+    MESSAGE("felt " << last << " N, replayed " << replayed << " N, turns even: " << even);
     CHECK(last > 1.0);
     // Late turns make the springs softer for two seconds (StiffnessWatch); a replay is never late.
     CHECK(replayed > 0.95 * last);
