@@ -46,6 +46,14 @@ uint32_t parseFourcc(const std::string& all, const std::string& name, const std:
     return code;
 }
 
+double parseRate(const std::string& all, const std::string& name, const std::string& value) {
+    double rate = 0.0;
+    if (!parse(std::string_view(value), rate) || !(rate >= 1.0 && rate <= 300.0)) {
+        refuse(all, name, value, "1 to 300 pictures a second");
+    }
+    return rate;
+}
+
 void set(CameraRequest& request, const std::string& name, const std::string& value) {
     if (name == "colour" || name == "color") {
         request.colour = value;
@@ -58,10 +66,9 @@ void set(CameraRequest& request, const std::string& name, const std::string& val
     } else if (name == "colour_size" || name == "color_size") {
         request.colourSize = parseSize(request.text, name, value);
     } else if (name == "rate") {
-        if (!parse(std::string_view(value), request.rate) ||
-            !(request.rate >= 1.0 && request.rate <= 300.0)) {
-            refuse(request.text, name, value, "1 to 300 pictures a second");
-        }
+        request.rate = parseRate(request.text, name, value);
+    } else if (name == "colour_rate" || name == "color_rate") {
+        request.colourRate = parseRate(request.text, name, value);
     } else if (name == "intrinsics") {
         request.intrinsics = value;
     } else if (name == "frames") {

@@ -18,14 +18,17 @@ struct CameraRequest {
     uint32_t colourFormat = 0;   // 0 = the best that there is
     std::optional<VideoSize> size, colourSize; // default: the intrinsics', else 640x480
     double rate = 30.0;                        // [1/s]
-    std::filesystem::path intrinsics;          // as intrinsics.json of a recording; empty = ask the camera
-    uint64_t frames = 0;                       // the source ends after so many; 0 = never
+    double colourRate = 0.0;                   // [1/s] of colour; 0 = as depth
+    double colourRateAsked() const { return colourRate > 0.0 ? colourRate : rate; }
+    std::filesystem::path intrinsics; // as intrinsics.json of a recording; empty = ask the camera
+    uint64_t frames = 0;              // the source ends after so many; 0 = never
     bool everyFrame = false; // hand out every picture, late or not, in place of the newest (recording)
     double silence = 3.0;    // [s] without a picture: the stream is started anew, after twice that it is lost
 
     static constexpr const char* kAllowed =
         "v4l2:auto or v4l2:/dev/videoN, then any of ,colour=auto|none|/dev/videoN ,format=NAME "
-        ",colour_format=NAME ,size=WxH ,colour_size=WxH ,rate=N ,intrinsics=FILE ,frames=N";
+        ",colour_format=NAME ,size=WxH ,colour_size=WxH ,rate=N ,colour_rate=N ,intrinsics=FILE "
+        ",frames=N";
 };
 
 // Whether `text` names a live camera and no file.

@@ -28,12 +28,13 @@ std::string refusal(const std::string& text) {
 TEST_CASE("A camera request names device, sizes, formats, rate and a number of frames") {
     const CameraRequest request =
         parseCameraRequest("v4l2:/dev/video2,colour=/dev/video4,size=848x480,colour_size=1280x720,rate=90,"
-                           "format=Z16,colour_format=MJPG,intrinsics=a/b.json,frames=12");
+                           "colour_rate=15,format=Z16,colour_format=MJPG,intrinsics=a/b.json,frames=12");
     CHECK(request.device == "/dev/video2");
     CHECK(request.colour == "/dev/video4");
     CHECK(*request.size == VideoSize{848, 480});
     CHECK(*request.colourSize == VideoSize{1280, 720});
     CHECK(request.rate == 90.0);
+    CHECK(request.colourRate == 15.0);
     CHECK(request.format == fourccOf("Z16 "));
     CHECK(request.colourFormat == fourccOf("MJPG"));
     CHECK(request.intrinsics == "a/b.json");
@@ -48,8 +49,8 @@ TEST_CASE("A camera request that is not understood is refused in one line with w
     for (const char* text :
          {"v4l2:", "v4l2:video0", "v4l2:auto,", "v4l2:auto,/dev/video1", "v4l2:auto,speed=3",
           "v4l2:auto,size=640", "v4l2:auto,size=0x480", "v4l2:auto,size=640x480x2", "v4l2:auto,size=9999x480",
-          "v4l2:auto,rate=0", "v4l2:auto,rate=nan", "v4l2:auto,frames=0", "v4l2:auto,frames=-1",
-          "v4l2:auto,format=TOOLONG"}) {
+          "v4l2:auto,rate=0", "v4l2:auto,rate=nan", "v4l2:auto,colour_rate=0", "v4l2:auto,frames=0",
+          "v4l2:auto,frames=-1", "v4l2:auto,format=TOOLONG"}) {
         const std::string said = refusal(text);
         CHECK_MESSAGE(said.find("(allowed: ") != std::string::npos, text);
         CHECK(said.find('\n') == std::string::npos);

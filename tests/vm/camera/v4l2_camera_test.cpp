@@ -129,6 +129,41 @@ TEST_CASE("Motion JPEG colour is decoded") {
     }
 }
 
+TEST_CASE("A colour camera of its own, with its size, rate and place, gives each depth picture its nearest") {
+    UvcCamera depth({.colour = false});
+    depth.plug();
+    REQUIRE(waitForCamera(false));
+    const std::string depthNode = openVideoNodes().front().file().string();
+    UvcCamera other({.width = 640, .height = 480, .serial = "COLOUR"}); // its depth is left alone
+    other.plug();
+    REQUIRE(waitForCamera());
+    std::string colourNode;
+    for (const VideoNode& node : openVideoNodes()) {
+        colourNode = node.offers(fourccOf("YUYV")) ? node.file().string() : colourNode;
+    }
+    const std::filesystem::path lens = std::filesystem::temp_directory_path() / "two-lenses.json";
+    std::ofstream(lens) << R"({"registered_to_color": false, "depth_scale_m_per_unit": 0.001,
+ "depth": {"width": 320, "height": 240, "fx": 300, "fy": 300, "cx": 160, "cy": 120},
+ "color": {"width": 640, "height": 480, "fx": 610, "fy": 610, "cx": 320, "cy": 240},
+ "extrinsics_topic_tf": {"Color": {"t": [0.1, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})";
+    V4l2Camera camera(parseCameraRequest("v4l2:" + depthNode + ",colour=" + colourNode +
+                                         ",rate=30,colour_rate=15,frames=20,intrinsics=" + lens.string()));
+    CHECK(camera.info().colourTdepth.position.x == 0.1);
+    std::set<uint32_t> colours; // pixel 0 tells its number
+    uint32_t count = 0;
+    while (const auto frame = camera.next()) {
+        CHECK(isPlainDepth(*frame, 320));
+        checkColour(*frame, 640, 480, 4);
+        colours.insert((*frame)->colour[0]);
+        ++count;
+    }
+    CHECK(count == 20);
+    CHECK(colours.size() >= 5);
+    CHECK(colours.size() <= 14); // each serves two
+    CHECK(camera.skipped() == 0);
+    std::filesystem::remove(lens);
+}
+
 TEST_CASE("What a camera does not have is refused with what it has") {
     UvcCamera device({});
     device.plug();
