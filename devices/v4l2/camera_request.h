@@ -19,7 +19,7 @@ struct CameraRequest {
     std::optional<VideoSize> size, colourSize; // default: the intrinsics', else 640x480
     double rate = 30.0;                        // [1/s]
     double colourRate = 0.0;                   // [1/s] of colour; 0 = as depth
-    double colourRateAsked() const { return colourRate > 0.0 ? colourRate : rate; }
+    double rateOfColour() const { return colourRate > 0.0 ? colourRate : rate; }
     std::filesystem::path intrinsics; // as intrinsics.json of a recording; empty = ask the camera
     uint64_t frames = 0;              // the source ends after so many; 0 = never
     bool everyFrame = false; // hand out every picture, late or not, in place of the newest (recording)

@@ -39,8 +39,7 @@ V4l2Camera::V4l2Camera(const CameraRequest& request)
     description_ =
         "camera " + nodes.depth.card() + " (" + nodes.depth.file().string() + ", " + calibration.origin + ")";
     depthRequest_ = {nodes.depthFormat, {info_.depth.width, info_.depth.height}, request.rate};
-    colourRequest_ = {
-        nodes.colourFormat, {info_.colour.width, info_.colour.height}, request.colourRateAsked()};
+    colourRequest_ = {nodes.colourFormat, {info_.colour.width, info_.colour.height}, request.rateOfColour()};
     known_ = KnownCamera{nodes.depth.identity(), nodes.colour ? nodes.colour->identity() : ""};
     slots_ = std::make_unique<FrameSlots>(std::max(info_.depth.pixels(), info_.colour.pixels()),
                                           info_.hasColour, kFramesInFlight + 1);
