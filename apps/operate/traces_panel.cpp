@@ -41,7 +41,8 @@ void curve(const Plot& plot, const std::deque<TraceSample>& trace, ImU32 colour,
     });
 }
 
-void frame(const Plot& plot, const char* name, double limit, const char* unit) {
+// Returns where its title ends.
+float frame(const Plot& plot, const char* name, double limit, const char* unit) {
     plot.list.AddRectFilled(plot.at, {plot.at.x + plot.size.x, plot.at.y + plot.size.y},
                             IM_COL32(12, 16, 23, 255), 4.0f);
     for (double s = std::ceil(plot.from); s <= plot.to; s += 1.0) {
@@ -59,6 +60,7 @@ void frame(const Plot& plot, const char* name, double limit, const char* unit) {
     char text[96];
     std::snprintf(text, sizeof text, "%s [%s]   limit %.3g   scale %.3g", name, unit, limit, plot.high);
     plot.list.AddText({plot.at.x + 6.0f, plot.at.y + 3.0f}, colour::kQuiet, text);
+    return plot.at.x + 6.0f + ImGui::CalcTextSize(text).x;
 }
 
 const char* wordOf(TurnState state) {
@@ -74,9 +76,11 @@ const char* wordOf(TurnState state) {
     }
 }
 
-// Ticks where the set obeyed changes, and marks where the state does.
-void events(const Plot& plot, const std::deque<TraceSample>& trace) {
-    float marked = -1e9f; // marks have room between them
+// Ticks where the set obeyed changes, and marks where the state does, each with its word unless that would
+// lie on the title or beyond the end. title: where it ends [pixels].
+void events(const Plot& plot, const std::deque<TraceSample>& trace, float title) {
+    constexpr float kRoom = 24.0f; // from mark to mark, and more for a word
+    float free = -1e9f;
     for (size_t i = 1; i < trace.size(); ++i) {
         const float x = plot.x(trace[i].t), bottom = plot.at.y + plot.size.y;
         if (trace[i].frame != trace[i - 1].frame) {
@@ -85,10 +89,14 @@ void events(const Plot& plot, const std::deque<TraceSample>& trace) {
         if (trace[i].guided != trace[i - 1].guided) {
             plot.list.AddTriangleFilled({x - 4.0f, plot.at.y}, {x + 4.0f, plot.at.y}, {x, plot.at.y + 7.0f},
                                         colour::kGuidance);
-        } else if (trace[i].state != trace[i - 1].state && trace[i].state >= TurnState::Escape &&
-                   x - marked > 24.0f) {
-            marked = x;
-            plot.list.AddText({x + 6.0f, plot.at.y - 1.0f}, colour::kCaution, wordOf(trace[i].state));
+        } else if (trace[i].state != trace[i - 1].state && trace[i].state >= TurnState::Escape && x > free) {
+            free = x + kRoom;
+            const char* word = wordOf(trace[i].state);
+            const float end = x + 6.0f + ImGui::CalcTextSize(word).x;
+            if (x > title && end < plot.at.x + plot.size.x) {
+                plot.list.AddText({x + 6.0f, plot.at.y - 1.0f}, colour::kCaution, word);
+                free = end + 6.0f;
+            }
             plot.list.AddTriangleFilled({x - 4.0f, plot.at.y}, {x + 4.0f, plot.at.y}, {x, plot.at.y + 7.0f},
                                         colour::kCaution);
         }
@@ -110,12 +118,12 @@ double largest(const std::deque<TraceSample>& trace, Vector&& vector) {
 template <class Vector>
 void drawOne(const Plot& plot, const std::deque<TraceSample>& trace, const char* name, double limit,
              const char* unit, ImU32 colour, Vector&& vector) {
-    frame(plot, name, limit, unit);
+    const float title = frame(plot, name, limit, unit);
     for (int axis = 0; axis < 3; ++axis) {
         curve(plot, trace, kAxes[axis], 1.0f, [&](const TraceSample& s) { return vector(s)[axis]; });
     }
     curve(plot, trace, colour, 2.0f, [&](const TraceSample& s) { return glm::length(vector(s)); });
-    events(plot, trace);
+    events(plot, trace, title);
 }
 
 // Enough for what is there, in steps, so that the scale does not crawl; the limit shows when it is near.
