@@ -36,7 +36,8 @@ UploadSlots::Pictures UploadSlots::inPlace(const Frame& frame) const {
     if (!plan_.inPlace || refused_) {
         return pictures;
     }
-    if (frame->depthMemory.get() == frame->depth.data() && frame->depth.size() >= camera_.depth.pixels()) {
+    if (!depthRefused_ && frame->depthMemory.get() == frame->depth.data() &&
+        frame->depth.size() >= camera_.depth.pixels()) {
         pictures.depth = frame->depthMemory;
     }
     if (plan_.colour && frame->colourMemory.get() == frame->colour.data() &&
@@ -83,8 +84,9 @@ bool UploadSlots::import(uint32_t slot, const Pictures& pictures) {
         pictures_[slot] = pictures;
         return true;
     } catch (const Error& e) {
-        spdlog::debug("pictures are copied: {}", e.what());
-        refused_ = true;
+        refused_ = depthRefused_ || !pictures.depth || !pictures.colour;
+        depthRefused_ = true;
+        spdlog::debug("{} copied: {}", refused_ ? "pictures are" : "depth is", e.what());
         return false;
     }
 }

@@ -14,9 +14,9 @@ namespace fathom::cloud {
 // its own when that memory is seen first; a camera's few blocks come round again and again. One thread.
 class UploadSlots {
 public:
-    static constexpr uint32_t kCopied = 2;    // frames in flight: double-buffered
-    // Pairs of depth and colour: of a live camera four of the driver's and five of its own. Memory that is new
-    // after that is copied.
+    static constexpr uint32_t kCopied = 2; // frames in flight: double-buffered
+    // Pairs of depth and colour: of a live camera four of the driver's and five of its own. Memory that is
+    // new after that is copied.
     static constexpr uint32_t kMost = 2 + 20;
 
     UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
@@ -26,7 +26,8 @@ public:
         bool isNew; // its buffers were made just now
     };
     // A slot for the frame, never the one that is in flight. Memory that nobody but a slot holds any more
-    // makes room for memory that is new. A device that refuses to import is not asked again.
+    // makes room for memory that is new. A device that refuses to import both is asked for colour alone
+    // (depth may lie in a driver's pages), and then not again.
     Choice choose(const Frame& frame, std::optional<uint32_t> inFlight);
 
     const UploadBuffers& operator[](uint32_t slot) const { return *slots_[slot]; }
@@ -47,7 +48,7 @@ private:
     std::vector<std::unique_ptr<UploadBuffers>> slots_;
     std::vector<Pictures> pictures_; // a slot
     uint32_t nextCopied_ = 0;
-    bool refused_ = false;
+    bool depthRefused_ = false, refused_ = false;
 };
 
 } // namespace fathom::cloud

@@ -44,7 +44,8 @@ Buffer::Buffer(const Device& device, const HostPages& pages, const char* name)
     import.pHostPointer = const_cast<void*>(pages_.get()); // read only: no pass writes what was uploaded
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &import};
     allocate.allocationSize = (bytes_ + page - 1) / page * page;
-    if (types == 0 || needs.size > allocate.allocationSize) {
+    const bool whole = reinterpret_cast<uintptr_t>(pages_.get()) % page == 0;
+    if (types == 0 || !whole || needs.size > allocate.allocationSize) {
         throw Error(std::string(name) + ": " + device.facts().name + " cannot read the host's memory there");
     }
     allocate.memoryTypeIndex = static_cast<uint32_t>(std::countr_zero(types));

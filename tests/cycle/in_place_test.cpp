@@ -199,3 +199,28 @@ TEST_CASE(
         driver = std::make_unique<Blocks>(rig.camera, 4);
     }
 }
+
+TEST_CASE("Where the device cannot import depth it is copied, and colour is read in place as before") {
+    if (!canImport()) {
+        return;
+    }
+    Slots rig;
+    Blocks blocks(rig.camera, 2);
+    const auto choose = [&] {
+        const Frame frame = blocks.next(rig.picture);
+        Frame::Content content = *frame;
+        // A picture in the middle of a page, as no device takes it.
+        content.depth = content.depth.subspan(8);
+        content.depthMemory = {content.depthMemory, content.depth.data()};
+        return rig.slots.choose(Frame(content, nullptr), {});
+    };
+    rig.camera.depth.height -= 1; // of which enough is left there
+    CHECK(choose().slot == 0);
+    const auto [slot, isNew] = choose();
+    CHECK(slot == 2);
+    CHECK(isNew);
+    CHECK_FALSE(rig.slots[slot].depth.imported());
+    CHECK(rig.slots[slot].colour.imported());
+    choose();
+    CHECK_FALSE(choose().isNew);
+}
