@@ -63,6 +63,10 @@ std::vector<DevicePreset> makePresets() {
     presets.push_back(chai("omega6", 12.0, 5000.0, std::nullopt, kTranslation, kAll, noTorque));
     presets.push_back(chai("sigma", 12.0, 4000.0, 0.2, kAll, kAll, torque));
     presets.push_back(chai("lambda", 12.0, 8000.0, 0.2, kAll, kAll, torque));
+    presets.push_back({"inverse3", 500.0, std::nullopt, std::nullopt, std::nullopt, 5.0, kShownTorque,
+                       kTranslation, kAll,
+                       "Haply Inverse3 behind its maker's service, with a VerseGrip that senses orientation. "
+                       "500 N/m and 5 N are assumptions, below what such devices render; b is unknown."});
     presets.push_back(
         {"none", 1000.0, std::nullopt, std::nullopt, std::nullopt, 20.0, 2.0, kNone, kAll,
          "A mouse, SpaceMouse or arm without force: everything is residual and is only shown."});
