@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/haply/haply_guard.h"
+
+#include "engine/types/error.h"
+
+#include <spdlog/spdlog.h>
+#include <thread>
+
+namespace fathom {
+
+namespace {
+
+constexpr auto kConnect = std::chrono::milliseconds(2000);
+constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, until the door is looked at again
+constexpr auto kSearchPause = std::chrono::milliseconds(250);
+constexpr double kNoTorque = 0.0; // the handle turns freely
+constexpr const char* kName = "fathom";
+
+} // namespace
+
+HaplyGuard::HaplyGuard(const Options& options)
+    : options_(options)
+    , device_(options.device)
+    , door_({options.door, "inverse3", "Haply Inverse3", kForceLimit, kNoTorque}) {
+    connect();
+}
+
+HaplyGuard::~HaplyGuard() {
+    close();
+}
+
+// On connection the service tells all that it has. The device that was taken once is the one that is taken
+// again: the pilot's hand is on it.
+void HaplyGuard::connect() {
+    auto service = std::make_unique<WebSocket>(options_.host, options_.port, kConnect);
+    const auto inventory = service->receive(kConnect);
+    if (!inventory) {
+        throw Error(service->place() + ": says nothing");
+    }
+    const auto state = readHaplyState(*inventory, device_);
+    if (!state) {
+        throw Error(service->place() + ": has no Inverse3" + (device_.empty() ? "" : " '" + device_ + "'"));
+    }
+    device_ = state->device;
+    sample_ = state->sample;
+    place_ = service->place();
+    service_ = std::move(service);
+    introduced_ = awaiting_ = false;
+    there_ = true;
+    heardAt_ = Clock::now();
+}
+
+void HaplyGuard::ask(const dvec3& force) {
+    service_->send(haplyForce(device_, force, introduced_ ? "" : kName));
+    introduced_ = awaiting_ = true;
+    askedAt_ = Clock::now();
+}
+
+// Takes an answer, if one comes in time. Without the device in it, the device is away.
+bool HaplyGuard::answered(std::chrono::microseconds most) {
+    const auto message = service_->receive(most);
+    if (!message) {
+        return false;
+    }
+    awaiting_ = false;
+    heardAt_ = Clock::now();
+    ++figures_.replies;
+    try {
+        const auto state = readHaplyState(*message, device_);
+        if (there_ != state.has_value()) {
+            there_ = state.has_value();
+            figures_.losses += there_ ? 0 : 1;
+            spdlog::warn("inverse3 {}: {}", device_, there_ ? "back" : "gone from the service");
+        }
+        if (state) {
+            sample_ = state->sample;
+        }
+    } catch (const Error& e) { // the next one may be better
+        ++figures_.faults;
+        spdlog::debug("{}", e.what());
+        return false;
+    }
+    return true;
+}
+
+void HaplyGuard::exchange() {
+    door_.poll();
+    const auto now = Clock::now();
+    if (awaiting_ && now - askedAt_ > kReplyTime) {
+        awaiting_ = false;
+        ++figures_.late;
+    }
+    if (now - heardAt_ > kDeaf) {
+        throw DeviceLost(place_ + ": silent");
+    }
+    if (!awaiting_) {
+        if (const auto since = now - askedAt_; since < kPeriod) {
+            std::this_thread::sleep_for(kPeriod - since);
+            door_.poll();
+        }
+        ask(there_ ? door_.wrench().force : dvec3(0.0));
+    }
+    if (answered(kWait)) {
+        door_.send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
+    }
+}
+
+// Zero force, confirmed by an answer if one comes in time.
+void HaplyGuard::close() noexcept {
+    if (!service_) {
+        return;
+    }
+    try {
+        ask(dvec3(0.0));
+        answered(kReplyTime);
+    } catch (const std::exception&) { // it has gone before
+    }
+    service_.reset();
+    there_ = false;
+}
+
+void HaplyGuard::waitForService(const std::atomic<bool>& stop) {
+    const auto until = Clock::now() + kSearchPause;
+    while (!stop.load() && Clock::now() < until) {
+        door_.poll();
+        door_.send(sample_, 0);
+        std::this_thread::sleep_for(2 * kWait);
+    }
+    try {
+        connect();
+        spdlog::warn("inverse3 {}: back at {}", device_, place_);
+    } catch (const Error& e) { // not there yet
+        spdlog::debug("{}", e.what());
+    }
+}
+
+void HaplyGuard::run(const std::atomic<bool>& stop) {
+    while (!stop.load()) {
+        if (!service_) {
+            waitForService(stop);
+            continue;
+        }
+        try {
+            exchange();
+        } catch (const DeviceLost& e) {
+            ++figures_.losses;
+            spdlog::warn("{}: the engine is told, looking for it again", e.what());
+            close();
+        }
+    }
+    close();
+}
+
+} // namespace fathom

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The guardian of a Haply Inverse3, which Haply's own service drives: a hand door to that service. Whatever
+// becomes of the engine, the service is told zero force.
+#pragma once
+
+#include "devices/bridge/door_server.h"
+#include "devices/haply/haply_message.h"
+#include "devices/haply/web_socket.h"
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+
+namespace fathom {
+
+struct HaplyFigures {
+    uint64_t replies = 0, losses = 0;
+    uint64_t late = 0;   // requests without an answer in kReplyTime
+    uint64_t faults = 0; // answers that were none
+};
+
+// One thread. When this process dies the service ends the force itself: it is for a tick only (its
+// documentation; never tried on the device).
+class HaplyGuard {
+public:
+    struct Options {
+        std::filesystem::path door;
+        std::string host = "localhost";
+        uint16_t port = 10001;
+        std::string device; // device_id; empty = the first Inverse3
+    };
+    // Connects, and opens the door. Throws Error (no service, no Inverse3), BadInput (door).
+    explicit HaplyGuard(const Options& options);
+    ~HaplyGuard(); // zero force
+
+    // Exchanges until `stop`, then zero force. A service or a device that goes away is looked for four times
+    // a second, and the engine is told meanwhile.
+    void run(const std::atomic<bool>& stop);
+
+    std::string place() const { return device_ + " at " + place_; }
+    const HaplyFigures& figures() const noexcept { return figures_; }
+    uint64_t losses() const noexcept { return figures_.losses; }
+    const DoorServer& door() const noexcept { return door_; }
+
+    static constexpr double kForceLimit = 5.0; // [N] of the preset "inverse3"
+    static constexpr auto kReplyTime = std::chrono::milliseconds(20);
+    static constexpr auto kDeaf = std::chrono::milliseconds(500);   // without an answer: it is lost
+    static constexpr auto kPeriod = std::chrono::microseconds(500); // from request to request, at least
+
+private:
+    using Clock = std::chrono::steady_clock;
+    void connect();
+    void close() noexcept;
+    void ask(const dvec3& force);
+    bool answered(std::chrono::microseconds most);
+    void exchange();
+    void waitForService(const std::atomic<bool>& stop);
+
+    Options options_;
+    std::unique_ptr<WebSocket> service_;
+    std::string device_, place_;
+    bool introduced_ = false, awaiting_ = false, there_ = false;
+    Clock::time_point askedAt_{}, heardAt_{};
+    HandSample sample_;
+    HaplyFigures figures_;
+    DoorServer door_;
+};
+
+} // namespace fathom

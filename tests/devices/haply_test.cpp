@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// The guardian of an Inverse3 between an engine and a service that the test plays.
+#include "devices/bridge/door_hand.h"
+#include "devices/haply/haply_guard.h"
+#include "engine/types/error.h"
+#include "tests/devices/door_rig.h"
+#include "tests/devices/haply_service.h"
+
+#include <cmath>
+#include <optional>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+// The guardian on a thread of its own, and an engine that pushes with 2 N along z.
+struct Loop {
+    explicit Loop(uint16_t port)
+        : guard({folder.door(), "127.0.0.1", port, ""})
+        , thread([this] { guard.run(stop); })
+        , hand(folder.door(), 4) {}
+    ~Loop() { end(); }
+    void end() {
+        stop = true;
+        if (thread.joinable()) {
+            thread.join();
+        }
+    }
+    HandSample turn() {
+        const HandSample sample = hand.read(t += 0.001);
+        hand.write({{0.0, 0.0, 2.0}, {}}, 0.001);
+        pauseMs(1);
+        return sample;
+    }
+    bool until(const std::function<bool(const HandSample&)>& wanted) {
+        return eventually([&] { return wanted(turn()); });
+    }
+
+    DoorFolder folder;
+    HaplyGuard guard;
+    std::atomic<bool> stop{false};
+    std::thread thread;
+    DoorHand hand;
+    double t = 0.0;
+};
+
+std::string refusal(const std::function<void()>& body) {
+    try {
+        body();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE(
+    "An Inverse3's handle reaches the engine, the engine's force the service, and at the end it is zero") {
+    HaplyService service;
+    Loop loop(service.port());
+    CHECK(loop.guard.place().find("049D at ws://127.0.0.1:") == 0);
+    CHECK(loop.hand.preset() == "inverse3");
+    CHECK(
+        loop.until([](const HandSample& s) { return s.deviceThandle.position == dvec3(0.01, -0.12, 0.1); }));
+    service.z = 0.15;
+    CHECK(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.15; }));
+    CHECK(loop.until([&](const HandSample&) { return service.force() == std::array{0.0, 0.0, 2.0}; }));
+    CHECK(service.first()["session"]["configure"]["profile"]["name"] == "fathom");
+    loop.end(); // with the engine still pushing
+    CHECK(service.force() == std::array{0.0, 0.0, 0.0});
+    CHECK(loop.guard.figures().faults == 0);
+}
+
+TEST_CASE("An engine that is silent for 10 ms is zero force at the service") {
+    HaplyService service;
+    Loop loop(service.port());
+    CHECK(loop.until([&](const HandSample&) { return service.force()[2] == 2.0; }));
+    CHECK(eventually([&] { return service.force()[2] == 0.0; })); // no turn meanwhile
+    CHECK(loop.until([&](const HandSample&) { return service.force()[2] == 2.0; }));
+}
+
+TEST_CASE("A VerseGrip gives orientation and buttons, and a device without it turns nowhere") {
+    HaplyService service;
+    Loop loop(service.port());
+    CHECK(loop.until([&](const HandSample& s) { return s.deviceThandle.position.z == 0.1; }));
+    CHECK(loop.turn().deviceThandle.rotation == dquat(1.0, 0.0, 0.0, 0.0));
+    CHECK(loop.turn().buttons == 0);
+    service.grip = service.button = true;
+    CHECK(loop.until([](const HandSample& s) {
+        return std::abs(s.deviceThandle.rotation.x) > 0.999 && (s.buttons & FATHOM_DOOR_GUIDANCE) != 0;
+    }));
+}
+
+TEST_CASE("Answers in fragments with a ping between, broken and missing ones leave the exchange going") {
+    HaplyService service;
+    Loop loop(service.port());
+    service.fragments = true;
+    service.z = 0.2;
+    CHECK(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.2; }));
+    CHECK(eventually([&] { return service.pongs > 0; }));
+    service.fragments = false;
+    service.garbage = 3;
+    service.z = 0.21;
+    CHECK(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.21; }));
+    const uint64_t asked = service.messages;
+    service.mute = true;
+    CHECK(eventually([&] { return service.messages > asked + 2; })); // asked again
+    service.mute = false;
+    service.z = 0.22;
+    CHECK(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.22; }));
+    loop.end();
+    CHECK(loop.guard.figures().faults == 3);
+    CHECK(loop.guard.figures().late >= 2);
+}
+
+TEST_CASE("A device pulled out of the service, and a service that ends, open the dead-man switch until they "
+          "are back") {
+    std::optional<HaplyService> service(std::in_place);
+    const uint16_t port = service->port();
+    Loop loop(port);
+    const auto there = [&](bool wanted) { // and stays so
+        int turns = 0;
+        return loop.until([&](const HandSample&) {
+            turns = loop.hand.alive() == wanted ? turns + 1 : 0;
+            return turns >= 20;
+        });
+    };
+    REQUIRE(there(true));
+    service->other = true;
+    service->z = 0.3;
+    CHECK(loop.until([](const HandSample& s) { return s.deviceThandle.position.z == 0.3; }));
+    CHECK(there(true));
+    service->device = false; // the other one is not taken for it
+    CHECK(there(false));
+    CHECK(eventually([&] { return service->force()[2] == 0.0; }));
+    service->device = true;
+    CHECK(there(true));
+    service->hangUps = 1; // closes in the middle of it
+    CHECK(there(false));
+    CHECK(there(true));
+    service.reset();
+    CHECK(there(false));
+    service.emplace(port);
+    CHECK(there(true));
+    CHECK(loop.until([&](const HandSample&) { return service->force()[2] == 2.0; }));
+    loop.end();
+    CHECK(loop.guard.losses() >= 3);
+}
+
+TEST_CASE(
+    "Without a service, without a WebSocket, without an Inverse3 or with another one the guardian says so") {
+    DoorFolder folder;
+    const auto said = [&](uint16_t port, const std::string& device = "") {
+        return refusal([&] { HaplyGuard({folder.door(), "127.0.0.1", port, device}); });
+    };
+    uint16_t port = 0;
+    {
+        HaplyService service;
+        port = service.port();
+        CHECK(said(port, "0123").find("has no Inverse3 '0123'") != std::string::npos);
+        service.strange = true;
+        CHECK(said(port).find("no WebSocket there") != std::string::npos);
+        service.strange = false;
+        service.device = false;
+        CHECK(said(port).find("has no Inverse3") != std::string::npos);
+    }
+    CHECK(said(port).find("Connection refused") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.door()));
+}
