@@ -23,8 +23,8 @@ std::unique_ptr<LiveHand> open(const std::string& name, uint32_t clutchBit) {
         return std::make_unique<SpaceMouseHand>(name.substr(std::min(name.size(), kSpaceMouse.size() + 1)),
                                                 options);
     }
-    return std::make_unique<DoorHand>(name == "falcon" ? defaultDoor(name) : std::filesystem::path(name),
-                                      clutchBit);
+    const bool guarded = name == "falcon" || name == "haply"; // by `fathom guard`, at its default door
+    return std::make_unique<DoorHand>(guarded ? defaultDoor(name) : std::filesystem::path(name), clutchBit);
 }
 
 std::string listed(const AxisMask& axes) {

@@ -13,11 +13,11 @@ namespace fathom {
 
 // What --hand-device takes.
 inline constexpr const char* kHandHelp =
-    "a live hand: falcon, spacemouse[:/dev/hidrawN], or the socket of a bridge's door";
+    "a live hand: falcon, haply, spacemouse[:/dev/hidrawN], or the socket of a bridge's door";
 
-// name: "falcon" (the default door of `fathom guard falcon`), "spacemouse", "spacemouse:/dev/hidrawN", or the
-// path of a hand door. The device's own preset takes the place of the scene's haptics.device. Throws
-// BadInput.
+// name: "falcon" or "haply" (the default door of `fathom guard` of it), "spacemouse",
+// "spacemouse:/dev/hidrawN", or the path of a hand door. The device's own preset takes the place of the
+// scene's haptics.device. Throws BadInput.
 std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene);
 
 // Which axes it senses and drives, in one line: "x y z sensed, x y z driven; torque is shown, not felt".

@@ -3,9 +3,12 @@
 
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/thread_placement.h"
+#include "devices/haply/haply_guard.h"
 #include "devices/usb/falcon_guard.h"
+#include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <iostream>
 #include <memory>
 #include <spdlog/spdlog.h>
@@ -18,6 +21,8 @@ struct GuardOptions {
     std::string kind;
     std::string door;
     std::string firmware;
+    std::string service = "localhost:10001"; // of Haply
+    std::string device;                      // its id; empty = the first
 };
 
 // Real-time priority, on any CPU: the engine's haptic thread has one for itself and they take turns.
@@ -30,19 +35,41 @@ void hurry() {
     }
 }
 
-void runGuard(const GuardOptions& options) {
-    const StopSignals signals;
-    const std::filesystem::path door =
-        options.door.empty() ? defaultDoor(options.kind) : std::filesystem::path(options.door);
-    FalconGuard guard({door, options.firmware});
+template <class Guard>
+void runGuard(Guard& guard, const GuardOptions& options, const StopSignals& signals) {
     std::cout << options.kind << " at " << guard.place() << ", door " << guard.door().path().string()
               << "; Ctrl-C ends with zero force" << std::endl;
     hurry();
     guard.run(signals.asked());
-    const FalconFigures& f = guard.figures();
+    const auto& f = guard.figures();
     std::cout << "ended with zero force after " << f.replies << " exchanges; " << f.late << " answers late, "
               << f.faults << " packets broken, " << guard.losses() << " times unplugged, "
               << guard.door().gate().silences() << " silences of the engine" << std::endl;
+}
+
+HaplyGuard::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& door) {
+    HaplyGuard::Options haply{door, "", 0, options.device};
+    const size_t colon = options.service.rfind(':');
+    const std::string port = colon == std::string::npos ? "" : options.service.substr(colon + 1);
+    const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), haply.port);
+    if (colon == 0 || error != std::errc() || end != port.data() + port.size() || haply.port == 0) {
+        throw BadInput("guard", "--service", options.service, "HOST:PORT");
+    }
+    haply.host = options.service.substr(0, colon);
+    return haply;
+}
+
+void guardDevice(const GuardOptions& options) {
+    const StopSignals signals;
+    const std::filesystem::path door =
+        options.door.empty() ? defaultDoor(options.kind) : std::filesystem::path(options.door);
+    if (options.kind == "haply") {
+        HaplyGuard guard(haplyOptions(options, door));
+        runGuard(guard, options, signals);
+    } else {
+        FalconGuard guard({door, options.firmware});
+        runGuard(guard, options, signals);
+    }
 }
 
 } // namespace
@@ -52,12 +79,14 @@ void addGuardCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("guard", "own a haptic device and open a door to it");
     command->add_option("DEVICE", options->kind, "what to guard")
         ->required()
-        ->check(CLI::IsMember({"falcon"}));
+        ->check(CLI::IsMember({"falcon", "haply"}));
     command->add_option("--door", options->door,
                         "socket to listen at (default $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
     command->add_option("--firmware", options->firmware,
                         "the Falcon's firmware, for after power-on; none is shipped");
-    command->callback([options] { runGuard(*options); });
+    command->add_option("--service", options->service, "HOST:PORT of Haply's Inverse Service");
+    command->add_option("--device", options->device, "id of the Inverse3; else the first");
+    command->callback([options] { guardDevice(*options); });
 }
 
 } // namespace fathom
