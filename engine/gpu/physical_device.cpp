@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cstring>
 #include <thread>
@@ -14,6 +15,15 @@ namespace fathom::gpu {
 namespace {
 
 constexpr uint32_t kMostBindings = 20; // of our largest pass
+
+// Whatever the case of letters; of nothing, always.
+bool contains(const std::string& name, const std::string& part) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+    };
+    return std::search(name.begin(), name.end(), part.begin(), part.end(), same) != name.end() ||
+           part.empty();
+}
 
 DeviceKind kindOf(VkPhysicalDeviceType type) {
     switch (type) {
@@ -143,7 +153,7 @@ VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::strin
     int bestRank = 99;
     for (size_t i = 0; i < devices.size(); ++i) {
         const DeviceFacts facts = readFacts(devices[i]);
-        const bool named = byIndex ? i == wanted : facts.name.find(selector) != std::string::npos;
+        const bool named = byIndex ? i == wanted : contains(facts.name, selector);
         if (named && refusal(devices[i]).empty() && rank(facts.kind) < bestRank) {
             best = devices[i];
             bestRank = rank(facts.kind);

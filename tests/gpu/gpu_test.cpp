@@ -4,6 +4,8 @@
 #include "engine/types/error.h"
 #include "tests/support/vulkan.h"
 
+#include <algorithm>
+#include <cctype>
 #include <doctest/doctest.h>
 #include <string>
 
@@ -29,6 +31,17 @@ TEST_CASE("a device that does not exist is refused with the list of those that d
         CHECK(std::string(e.what()).find(here) != std::string::npos);
     }
     CHECK_THROWS_AS(gpu::Device(vulkan().instance, "99"), BadInput);
+}
+
+TEST_CASE("a device is chosen by a part of its name, whatever the case of its letters") {
+    std::string name = vulkan().device.facts().name;
+    for (const bool upper : {false, true}) {
+        std::string part = name.substr(1, 5);
+        std::transform(part.begin(), part.end(), part.begin(), [&](unsigned char c) {
+            return static_cast<char>(upper ? std::toupper(c) : std::tolower(c));
+        });
+        CHECK(gpu::Device(vulkan().instance, part).facts().name == name);
+    }
 }
 
 TEST_CASE("fill, update and copy land in the order they were recorded") {
