@@ -35,14 +35,21 @@ private:
 
 // Owners before their borrowers.
 struct Canvas::OnDevice {
-    OnDevice(const Window& window, const gpu::Instance& instance, gpu::Device& device)
-        : surface(window, instance) {
-        if (surface.handle() != VK_NULL_HANDLE) {
-            swapchain.emplace(device, surface.handle());
+    OnDevice(const Window& window, const gpu::Instance& instance, gpu::Device& device) {
+        surface.emplace(window, instance);
+        if (surface->handle() != VK_NULL_HANDLE) {
+            swapchain.emplace(device, surface->handle());
         }
         painter.emplace(instance, device, swapchain ? &*swapchain : nullptr);
     }
-    Surface surface;
+    // A window has one surface at a time with images on it.
+    void renewSurface(const Window& window, const gpu::Instance& instance) {
+        swapchain->leave();
+        surface.reset();
+        surface.emplace(window, instance);
+        swapchain->moveTo(surface->handle());
+    }
+    std::optional<Surface> surface;
     std::optional<Swapchain> swapchain; // empty: offscreen
     std::optional<Painter> painter;
 };
@@ -83,6 +90,9 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
     ImGui::Render();
     if (std::exchange(console.remake, false) && onDevice_ && onDevice_->swapchain) {
         onDevice_->swapchain->lose();
+    }
+    if (onDevice_ && onDevice_->swapchain && onDevice_->swapchain->surfaceLost()) {
+        onDevice_->renewSurface(window_, instance_);
     }
     if (onDevice_ && !window_.minimised()) {
         onDevice_->painter->draw(window_.size(), layers, ImGui::GetDrawData(), busy);

@@ -46,20 +46,41 @@ VkPresentModeKHR chooseMode(const gpu::Device& device, VkSurfaceKHR surface) {
 } // namespace
 
 Swapchain::Swapchain(gpu::Device& device, VkSurfaceKHR surface)
-    : device_(device)
-    , surface_(surface) {
-    VkBool32 shows = VK_FALSE;
-    check(vkGetPhysicalDeviceSurfaceSupportKHR(device.physical(), device.drawFamily(), surface, &shows),
-          "vkGetPhysicalDeviceSurfaceSupportKHR");
-    if (shows == VK_FALSE) {
-        throw Error("device " + device.facts().name + " cannot show pictures in this window");
-    }
-    format_ = chooseFormat(device.physical(), surface);
+    : device_(device) {
+    moveTo(surface);
 }
 
 Swapchain::~Swapchain() {
+    leave();
+}
+
+void Swapchain::moveTo(VkSurfaceKHR next) {
+    VkBool32 shows = VK_FALSE;
+    check(vkGetPhysicalDeviceSurfaceSupportKHR(device_.physical(), device_.drawFamily(), next, &shows),
+          "vkGetPhysicalDeviceSurfaceSupportKHR");
+    if (shows == VK_FALSE) {
+        throw Error("device " + device_.facts().name + " cannot show pictures in this window");
+    }
+    format_ = chooseFormat(device_.physical(), next);
+    surface_ = next;
+    surfaceLost_ = false;
+}
+
+void Swapchain::leave() {
     destroyImages();
     vkDestroySwapchainKHR(device_.handle(), handle_, nullptr);
+    handle_ = VK_NULL_HANDLE;
+    lost_ = true;
+}
+
+bool Swapchain::good(VkResult result, const char* call) {
+    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_ERROR_SURFACE_LOST_KHR) {
+        lost_ = true;
+        surfaceLost_ = surfaceLost_ || result == VK_ERROR_SURFACE_LOST_KHR;
+        return false;
+    }
+    check(result, call);
+    return true;
 }
 
 void Swapchain::destroyImages() {
@@ -79,8 +100,10 @@ bool Swapchain::fit(VkExtent2D wanted) {
         return true;
     }
     VkSurfaceCapabilitiesKHR can;
-    check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &can),
-          "surface capabilities");
+    if (!good(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_.physical(), surface_, &can),
+              "surface capabilities")) {
+        return false;
+    }
     const bool free = can.currentExtent.width == UINT32_MAX;
     const VkExtent2D size = free ? wanted : can.currentExtent;
     if (size.width == 0 || size.height == 0) {
@@ -89,11 +112,10 @@ bool Swapchain::fit(VkExtent2D wanted) {
     if ((can.supportedUsageFlags & VK_IMAGE_USAGE_TRANSFER_DST_BIT) == 0) {
         throw Error("the window's images cannot be copied to");
     }
-    create(can, size);
-    return true;
+    return create(can, size);
 }
 
-void Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
+bool Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
     VkSwapchainCreateInfoKHR info{VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR};
     info.surface = surface_;
     info.minImageCount = can.minImageCount + 1;
@@ -114,7 +136,9 @@ void Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
     handle_ = VK_NULL_HANDLE;
     const VkResult made = vkCreateSwapchainKHR(device_.handle(), &info, nullptr, &handle_);
     vkDestroySwapchainKHR(device_.handle(), old, nullptr);
-    check(made, "vkCreateSwapchainKHR");
+    if (!good(made, "vkCreateSwapchainKHR")) {
+        return false;
+    }
     uint32_t count = 0;
     check(vkGetSwapchainImagesKHR(device_.handle(), handle_, &count, nullptr), "vkGetSwapchainImagesKHR");
     images_.resize(count);
@@ -128,6 +152,7 @@ void Swapchain::create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size) {
     size_ = size;
     lost_ = false;
     ++remade_;
+    return true;
 }
 
 VkImage Swapchain::acquire(VkSemaphore ready) {
@@ -137,12 +162,8 @@ VkImage Swapchain::acquire(VkSemaphore ready) {
     if (result == VK_NOT_READY || result == VK_TIMEOUT) {
         return VK_NULL_HANDLE;
     }
-    if (result == VK_ERROR_OUT_OF_DATE_KHR) {
-        lost_ = true;
-        return VK_NULL_HANDLE;
-    }
-    check(result, "vkAcquireNextImageKHR"); // suboptimal is good enough to fill
-    return images_[index_];
+    // Suboptimal is good enough to fill.
+    return good(result, "vkAcquireNextImageKHR") ? images_[index_] : VK_NULL_HANDLE;
 }
 
 void Swapchain::show() {
@@ -153,11 +174,8 @@ void Swapchain::show() {
     info.pSwapchains = &handle_;
     info.pImageIndices = &index_;
     const VkResult result = device_.present(info);
-    if (result == VK_ERROR_OUT_OF_DATE_KHR || result == VK_SUBOPTIMAL_KHR) {
-        lost_ = true;
-        return;
-    }
-    check(result, "vkQueuePresentKHR");
+    lost_ = lost_ || result == VK_SUBOPTIMAL_KHR;
+    good(result, "vkQueuePresentKHR");
 }
 
 } // namespace fathom::operate

@@ -8,7 +8,7 @@
 
 namespace fathom::operate {
 
-// The surface is the caller's and outlives this. Thread: the window's.
+// The surface is the caller's and outlives this, or leave() comes before its end. Thread: the window's.
 class Swapchain {
 public:
     // Throws Error when the device cannot show pictures on this surface.
@@ -20,6 +20,10 @@ public:
     // Makes the images anew for a window of this size; false when there is nothing to show (minimised).
     bool fit(VkExtent2D wanted);
     void lose() { lost_ = true; } // the next fit() makes new ones
+    // After a call that says so the surface can show nothing any more: leave() it, and go on with another.
+    bool surfaceLost() const { return surfaceLost_; }
+    void leave();                   // nothing is on the surface after it
+    void moveTo(VkSurfaceKHR next); // throws as the constructor
     // The next image to fill, or null when there is none in time or the images are lost; `ready` is
     // signalled.
     VkImage acquire(VkSemaphore ready);
@@ -30,8 +34,9 @@ public:
     uint32_t remade() const { return remade_; } // times that fit() made images
 
 private:
+    bool good(VkResult result, const char* call); // false: images or surface are lost
     void destroyImages();
-    void create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size);
+    bool create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size); // false: as good()
 
     gpu::Device& device_;
     VkSurfaceKHR surface_;
@@ -41,7 +46,7 @@ private:
     std::vector<VkImage> images_;
     std::vector<VkSemaphore> filled_; // one an image
     uint32_t index_ = 0, remade_ = 0;
-    bool lost_ = true;
+    bool lost_ = true, surfaceLost_ = false;
 };
 
 } // namespace fathom::operate

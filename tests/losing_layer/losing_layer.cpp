@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Vulkan layer that loses a device: from some call on, the device that an application opened answers
-// VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some of the openings that follow fail. Below
-// the program, so that what runs is the program as it ships.
+// VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some of the openings that follow fail. It also
+// takes a window's images or its surface away. Below the program, so that what runs is the program as it
+// ships.
 //   FATHOM_LOSE_AT       submission of the first device, from 1, that is the first to fail
 //   FATHOM_LOSE_FILE     or: a file with one word; any device is lost in the first such call that finds the
 //                        file, and the file goes: passes (submissions with a timeline), drawing (other ones),
-//                        presenting
+//                        presenting. Or what is not of the device: acquire-outdated, present-outdated (that
+//                        call once, VK_ERROR_OUT_OF_DATE_KHR), surface (VK_ERROR_SURFACE_LOST_KHR by the next
+//                        presentation, and again by whatever would make images on it)
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS openings of a device that fail after each loss
-#include <cstdio>
-#include <cstdlib>
+#include "tests/losing_layer/asked.h"
+
 #include <cstring>
 #include <map>
 #include <mutex>
@@ -17,6 +20,8 @@
 #include <vulkan/vulkan.h>
 
 namespace {
+
+using namespace losing;
 
 struct NextDevice {
     VkDevice handle = VK_NULL_HANDLE;
@@ -28,6 +33,7 @@ struct NextDevice {
     PFN_vkWaitForFences waitFences = nullptr;
     PFN_vkQueuePresentKHR present = nullptr; // null: no swapchains
     PFN_vkAcquireNextImageKHR acquire = nullptr;
+    PFN_vkCreateSwapchainKHR createSwapchain = nullptr;
     bool first = false, lost = false;
     long submissions = 0;
 };
@@ -36,30 +42,6 @@ std::mutex mutex;
 std::map<void*, NextDevice> devices; // by the loader's dispatch table, which queues share with their device
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
 long opened = 0, refused = 0; // refused: since the last loss
-
-long number(const char* name) {
-    const char* text = std::getenv(name);
-    return text == nullptr ? 0 : std::strtol(text, nullptr, 10);
-}
-
-VkResult lossOf() {
-    const char* by = std::getenv("FATHOM_LOSE_BY");
-    return by != nullptr && std::strcmp(by, "memory") == 0 ? VK_ERROR_OUT_OF_DEVICE_MEMORY
-                                                           : VK_ERROR_DEVICE_LOST;
-}
-
-// Whether the file names this call; then it goes. The mutex is held.
-bool askedFor(const char* call) {
-    const char* name = std::getenv("FATHOM_LOSE_FILE");
-    char word[32] = {};
-    std::FILE* file = name == nullptr ? nullptr : std::fopen(name, "r");
-    if (file == nullptr) {
-        return false;
-    }
-    const bool read = std::fscanf(file, "%31s", word) == 1;
-    std::fclose(file);
-    return read && std::strcmp(word, call) == 0 && std::remove(name) == 0;
-}
 
 void* keyOf(void* handle) {
     return *static_cast<void**>(handle);
@@ -118,6 +100,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
         next.waitFences = find<PFN_vkWaitForFences>(address, *device, "vkWaitForFences");
         next.present = find<PFN_vkQueuePresentKHR>(address, *device, "vkQueuePresentKHR");
         next.acquire = find<PFN_vkAcquireNextImageKHR>(address, *device, "vkAcquireNextImageKHR");
+        next.createSwapchain = find<PFN_vkCreateSwapchainKHR>(address, *device, "vkCreateSwapchainKHR");
         next.first = opened++ == 0;
     }
     return result;
@@ -184,14 +167,22 @@ VKAPI_ATTR VkResult VKAPI_CALL waitFences(VkDevice device, uint32_t count, const
 
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     PFN_vkQueuePresentKHR pass = nullptr;
+    VkResult after = VK_SUCCESS; // whatever becomes of the picture, its semaphores have been waited for
     {
         const std::lock_guard lock(mutex);
         if (loses(devices[keyOf(queue)], "presenting")) {
             return lossOf();
         }
         pass = devices[keyOf(queue)].present;
+        if (askedFor("surface")) {
+            loseSurface();
+            after = VK_ERROR_SURFACE_LOST_KHR;
+        } else if (askedFor("present-outdated")) {
+            after = VK_ERROR_OUT_OF_DATE_KHR;
+        }
     }
-    return pass(queue, info);
+    const VkResult result = pass(queue, info);
+    return after == VK_SUCCESS ? result : after;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR swapchain, uint64_t timeout,
@@ -202,9 +193,31 @@ VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice device, VkSwapchainKHR swapchain
         if (devices[keyOf(device)].lost) {
             return lossOf();
         }
+        if (askedFor("acquire-outdated")) {
+            return VK_ERROR_OUT_OF_DATE_KHR;
+        }
         pass = devices[keyOf(device)].acquire;
     }
     return pass(device, swapchain, timeout, semaphore, fence, index);
+}
+
+VKAPI_ATTR VkResult VKAPI_CALL createSwapchain(VkDevice device, const VkSwapchainCreateInfoKHR* info,
+                                               const VkAllocationCallbacks* memory,
+                                               VkSwapchainKHR* swapchain) {
+    const std::lock_guard lock(mutex);
+    if (isLost(info->surface)) {
+        return VK_ERROR_SURFACE_LOST_KHR;
+    }
+    hasImages(info->surface);
+    return devices[keyOf(device)].createSwapchain(device, info, memory, swapchain);
+}
+
+VKAPI_ATTR void VKAPI_CALL destroySurface(VkInstance instance, VkSurfaceKHR surface,
+                                          const VkAllocationCallbacks* memory) {
+    const std::lock_guard lock(mutex);
+    forget(surface);
+    reinterpret_cast<PFN_vkDestroySurfaceKHR>(nextInstance(instance, "vkDestroySurfaceKHR"))(instance,
+                                                                                             surface, memory);
 }
 
 template <class Call>
@@ -236,6 +249,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceAddress(VkDevice device, const ch
     if (next.acquire != nullptr && std::strcmp(name, "vkAcquireNextImageKHR") == 0) {
         return plain(acquire);
     }
+    if (next.createSwapchain != nullptr && std::strcmp(name, "vkCreateSwapchainKHR") == 0) {
+        return plain(createSwapchain);
+    }
     return next.address(device, name);
 }
 
@@ -251,6 +267,9 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceAddress(VkInstance instance, co
     }
     if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
         return plain(deviceAddress);
+    }
+    if (std::strcmp(name, "vkDestroySurfaceKHR") == 0) {
+        return plain(destroySurface);
     }
     return nextInstance == nullptr ? nullptr : nextInstance(instance, name);
 }

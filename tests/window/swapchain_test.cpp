@@ -22,6 +22,10 @@ double figureIn(const std::string& text, const std::string& name) {
                                                                                                        : -1.0;
 }
 
+bool isGrey(int r, int g, int b) { // the wall
+    return std::abs(r - g) < 3 && std::abs(g - b) < 3 && r > 100;
+}
+
 } // namespace
 
 TEST_CASE(
@@ -37,10 +41,26 @@ TEST_CASE(
                    s["run"]["turns"] > before["run"]["turns"].get<int>() + 50;
         }));
     }
-    const auto grey = [](int r, int g, int b) {
-        return std::abs(r - g) < 3 && std::abs(g - b) < 3 && r > 100;
-    };
-    CHECK(rig.shoot("after-loss").share(rig.place("camera"), grey) > 0.3);
+    CHECK(rig.shoot("after-loss").share(rig.place("camera"), isGrey) > 0.3);
+    CHECK(rig.close() == 0);
+    CHECK(rig.output().find("validation") == std::string::npos);
+}
+
+TEST_CASE("A minimised window draws nothing while the hand goes on, and is whole again afterwards") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    rig.minimise(true);
+    json still;
+    REQUIRE(rig.await([&](const json& s) { // no frame for 500 turns
+        if (still.is_null() || s["window"]["frames"] != still["window"]["frames"]) {
+            still = s;
+        }
+        return s["run"]["turns"] > still["run"]["turns"].get<int>() + 500;
+    }));
+    rig.minimise(false);
+    REQUIRE(rig.await(
+        [&](const json& s) { return s["window"]["frames"] > still["window"]["frames"].get<int>() + 5; }));
+    CHECK(rig.shoot("after-minimise").share(rig.place("camera"), isGrey) > 0.3);
     CHECK(rig.close() == 0);
     CHECK(rig.output().find("validation") == std::string::npos);
 }

@@ -2,6 +2,7 @@
 #include "tests/window/window_rig.h"
 
 #include "devices/recorded/png_image.h"
+#include "tests/window/iconify.h"
 
 #include <algorithm>
 #include <chrono>
@@ -252,6 +253,10 @@ void WindowRig::wheel(int notches) const {
     for (int i = 0; i < std::abs(notches); ++i) {
         xdo(notches > 0 ? "click 4" : "click 5");
     }
+}
+
+void WindowRig::minimise(bool on) const {
+    REQUIRE(iconify(display_, window_, on));
 }
 
 Screenshot WindowRig::shoot(const std::string& keep) const {

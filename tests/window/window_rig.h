@@ -55,6 +55,7 @@ public:
     void drag(const std::string& place, glm::dvec2 from, glm::dvec2 to) const;
     void wheel(int notches) const;                   // positive: away
     void xdo(const std::string& words) const;        // xdotool; $W is the window
+    void minimise(bool on) const;                    // as a window manager does
     Screenshot shoot(const std::string& keep) const; // F12; `keep`: name under the kept pictures
 
     // Ends the program (exit code checked) and starts it anew on this scene or recording.
