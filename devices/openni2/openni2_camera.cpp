@@ -10,12 +10,14 @@
 #include <cstring>
 #include <spdlog/spdlog.h>
 #include <sstream>
+#include <thread>
 
 namespace fathom {
 
 namespace {
 
 constexpr int kSilenceMs = 2000;
+constexpr auto kPlayerRests = std::chrono::milliseconds(30);
 
 bool isDepth(openni::PixelFormat format) {
     return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
@@ -65,7 +67,8 @@ OpenNi2Camera::OpenNi2Camera(const std::string& uri, const std::filesystem::path
     readLens(intrinsics);
     slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
     if (file_) {
-        device_.getPlaybackControl()->setRepeatEnabled(false);
+        // At the end of a file that is not repeated the library's thread would spin.
+        device_.getPlaybackControl()->setRepeatEnabled(true);
         device_.getPlaybackControl()->setSpeed(-1.0f); // as fast as it is asked
     }
     if (depth_.stream.start() != openni::STATUS_OK ||
@@ -78,6 +81,11 @@ OpenNi2Camera::~OpenNi2Camera() {
     for (Stream* s : {&depth_, &colour_}) {
         s->newest.release();
         s->stream.stop();
+    }
+    if (file_) { // its player walks over the list of streams without a lock, when all stand still every 10 ms
+        std::this_thread::sleep_for(kPlayerRests);
+    }
+    for (Stream* s : {&depth_, &colour_}) {
         s->stream.destroy();
     }
     device_.close();
@@ -183,7 +191,13 @@ bool OpenNi2Camera::readAny() {
     if (s.stream.readFrame(&s.newest) != openni::STATUS_OK || !s.newest.isValid()) {
         return false;
     }
-    s.fresh = true;
+    const uint64_t stamp = s.newest.getTimestamp();
+    if (file_ && s.any && stamp <= s.stamp) { // it begins anew
+        ended_ = true;
+        return false;
+    }
+    s.stamp = stamp;
+    s.fresh = s.any = true;
     if (which == 0) {
         --left_;
         const int number = s.newest.getFrameIndex();
@@ -206,7 +220,7 @@ bool OpenNi2Camera::paired() const {
 
 std::optional<Frame> OpenNi2Camera::next() {
     while (!paired()) {
-        if (file_ && left_ <= 0 && !(hasColour_ && depth_.fresh)) {
+        if (ended_ || (file_ && left_ <= 0 && !(hasColour_ && depth_.fresh))) {
             return std::nullopt;
         }
         skipped_ += depth_.fresh && colour_.fresh ? 1 : 0;

@@ -47,7 +47,8 @@ private:
     struct Stream {
         openni::VideoStream stream;
         openni::VideoFrameRef newest;
-        bool mirrored = false, fresh = false;
+        bool mirrored = false, fresh = false, any = false;
+        uint64_t stamp = 0; // of the newest, where there is any
     };
     void open(const std::string& uri);
     void openDepth();
@@ -64,6 +65,7 @@ private:
     CameraInfo info_;
     std::string name_;
     double period_ = 1.0 / 30.0; // [s]
+    bool ended_ = false;         // all of the file
     int64_t left_ = 0;           // depth pictures of the file that are to come
     uint32_t index_ = 0, skipped_ = 0;
     int lastNumber_ = -1;
