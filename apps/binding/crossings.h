@@ -71,6 +71,8 @@ struct PublishedFrame {
     Fixtures fixtures;
     RegionGrid grid; // over fixtures.spheres
     std::vector<uint32_t> colour;
+    uint64_t edit = 0;  // of a window: number of the newest change of fixtures that the set obeys
+    bool still = false; // and the pilot holds all of them: no set is made
 };
 
 // One thread at each end, named by the cadence. Sized once; only the note's vector may grow, on the contact

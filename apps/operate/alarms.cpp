@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/alarms.h"
 
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/theme.h"
 
@@ -109,7 +110,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
             "Hand and tool are over 100 mm apart", r.t);
         set(console.frozen, Level::Advisory, "frozen", "Fixtures are frozen: the camera moves nothing", r.t);
         for (const GuidancePose& g : run.scene().set.guidance) {
-            const bool named = g.fixture < scene.fixtures.size() && !scene.fixtures[g.fixture].name.empty();
+            const bool named = g.fixture < scene.fixtures.size() && !isSpare(scene.fixtures[g.fixture]);
             if (named) {
                 const std::string& name = scene.fixtures[g.fixture].name;
                 set(!g.present, Level::Advisory, ("target " + name).c_str(),

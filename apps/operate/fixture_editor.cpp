@@ -240,6 +240,13 @@ bool FixtureEditor::redo() {
     return true;
 }
 
+void FixtureEditor::showFixtures(const Scene& scene) {
+    scene_.fixtures = scene.fixtures;
+    shapes_ = shapesOf(scene_);
+    past_.clear();
+    future_.clear();
+}
+
 void FixtureEditor::tell() {
     shapes_ = shapesOf(scene_);
     onChange_(scene_, shapes_);

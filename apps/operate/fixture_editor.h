@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/operate/console.h"
+#include "apps/operate/recorder.h"
 #include "apps/operate/snapshots.h"
 #include "engine/contact/shapes.h"
 
@@ -40,7 +41,11 @@ public:
     // Writes `fixtures:`, `pilot:` and `window:` of the scene file anew and leaves the rest of it; returns
     // what happened in words.
     std::string save() const;
-    std::string text() const; // of the scene file with the fixtures in force
+    // Of the scene file with the fixtures in force; spares: with rows for classes that wait for a pick, too,
+    // so that each class has its row whatever was removed.
+    std::string text(bool spares = false) const;
+    // Other fixtures than the pilot's, told to nobody: those of another moment. The history ends.
+    void showFixtures(const Scene& scene);
 
     const std::vector<uint8_t>& selection() const { return selection_; } // of the depth picture
     uint64_t selectionNumber() const { return selectionNumber_; }        // changes with it
@@ -62,6 +67,9 @@ private:
     size_t selected_ = 0;
     std::array<float, 72> hues_{};
 };
+
+// What a recording keeps of the fixtures in force.
+RecordedScene recordedScene(const FixtureEditor& editor);
 
 // Keys and buttons of the editor, whatever panel is open; once a frame.
 void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);

@@ -30,16 +30,18 @@ std::optional<RunClock::Time> LiveFeed::captured() const {
     return session_.camera->live() ? std::optional(RunClock::sinceBoot(taken_)) : std::nullopt;
 }
 
-void LiveFeed::setScene(const Scene& scene) {
+uint64_t LiveFeed::setScene(const Scene& scene) {
     const std::lock_guard lock(sceneMutex_);
     pending_ = scene;
     edited_.store(true);
+    return ++told_;
 }
 
 void LiveFeed::takeScene() {
     if (edited_.exchange(false)) {
         const std::lock_guard lock(sceneMutex_);
         session_.cycles.frames().setScene(pending_);
+        inForce_ = told_;
     }
 }
 
@@ -76,6 +78,8 @@ void LiveFeed::publish(double t, PublishedFrame& out) {
     colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
     out.report = {};
     out.report.index = (*next_)->index;
+    out.edit = inForce_;
+    out.still = false;
     try {
         publishNew(out);
     } catch (const DeviceFailed&) {
@@ -93,11 +97,12 @@ void LiveFeed::publishNew(PublishedFrame& out) {
     if (lost()) { // by the window
         throw DeviceLost(session_.handover.why());
     }
-    out.report.unchanged = frozen_.load() && published_;
-    if (!out.report.unchanged) {
+    out.still = out.report.unchanged = frozen_.load() && published_;
+    if (!out.still) {
         takeScene();
         out.report = process();
     }
+    out.edit = inForce_;
     out.changed = !out.report.unchanged;
     if (out.changed) {
         session_.cycles.newestSet(out.fixtures, out.grid);

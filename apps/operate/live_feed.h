@@ -27,8 +27,9 @@ public:
 
     // A run begins: should its first picture find the device lost, the set that was is what it begins with.
     void begin() { begins_ = true; }
-    // Takes effect with the next picture. Same classes of points as before.
-    void setScene(const Scene& scene);
+    // Takes effect with the next picture, whose PublishedFrame::edit has this number or a later one's. Same
+    // classes of points as before.
+    uint64_t setScene(const Scene& scene);
     // Frozen: pictures are taken and shown but the set in force stays, for all fixtures.
     void freeze(bool frozen) { frozen_.store(frozen); }
     // Passes are on the device: who shares its queue waits.
@@ -46,6 +47,8 @@ private:
     std::atomic<bool> busy_{false}, frozen_{false}, edited_{false};
     std::mutex sceneMutex_; // of pending_; never taken by the haptic thread
     Scene pending_;
+    uint64_t told_ = 0;    // changes; with sceneMutex_
+    uint64_t inForce_ = 0; // the newest of them that pictures obey
     bool published_ = false, begins_ = false;
 };
 

@@ -10,7 +10,9 @@
 #include "engine/types/error.h"
 #include "shaders/shared/frame_params.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -25,7 +27,7 @@ FixtureClass spareClass(Role role) {
     spare.name = kSpare;
     spare.role = role;
     spare.hue = Band{0.0, 0.0};
-    spare.box = Box{dvec3(1e6), dvec3(-1e6)}; // no point is there
+    spare.box = Box{dvec3(1e6), dvec3(1e6)}; // no point is there
     return spare;
 }
 
@@ -58,15 +60,6 @@ std::unique_ptr<Camera> endless(Scene& scene, const OperateOptions& options, con
     return camera;
 }
 
-// Radii may change while it runs: what the scene at first could leave out for its radii stays in.
-Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device) {
-    Scene editable = scene;
-    editable.contact.where = Scene::Contact::Where::Cpu; // classes that are held still are the host's only
-    Plan plan = makePlan(editable, camera, static_cast<uint32_t>(tool.leafCount()), device);
-    plan.leaks = plan.spheres;
-    return plan;
-}
-
 // As the file has it, or with another pilot.
 Scene sceneFor(const OperateOptions& options) {
     Scene scene = openScene(options.scene);
@@ -81,22 +74,25 @@ Scene sceneFor(const OperateOptions& options) {
     return scene;
 }
 
-} // namespace
-
-bool isSpare(const FixtureClass& fixture) {
-    return fixture.isPoints() && fixture.name == kSpare;
+SceneEdits takeAll(Scene& scene, const std::string& recording) {
+    SceneEdits edits = takeEdits(scene, recording);
+    scene = withSpareClasses(std::move(scene));
+    return edits;
 }
 
+} // namespace
+
 Scene withSpareClasses(Scene scene) {
-    size_t points = 0;
-    for (const FixtureClass& f : scene.fixtures) {
-        points += f.isPoints() ? 1 : 0;
+    auto& rows = scene.fixtures;
+    auto shapes =
+        std::stable_partition(rows.begin(), rows.end(), [](const FixtureClass& f) { return f.isPoints(); });
+    if (std::any_of(rows.begin(), shapes, isSpare)) {
+        return scene; // a recording's: it has them
     }
     // One forbidden and one guiding: together they put every pass into the plan.
     for (Role role : {Role::Forbidden, Role::Guidance}) {
-        if (points < shared::kMaxClasses) {
-            scene.fixtures.push_back(spareClass(role));
-            ++points;
+        if (static_cast<size_t>(shapes - rows.begin()) < shared::kMaxClasses) {
+            shapes = rows.insert(shapes, spareClass(role)) + 1;
         }
     }
     return scene;
@@ -105,7 +101,8 @@ Scene withSpareClasses(Scene scene) {
 OperateSession::OperateSession(const OperateOptions& options, const GlobalOptions& global,
                                gpu::Drawing drawing, std::span<const char* const> extensions,
                                const std::atomic<bool>& stop)
-    : scene(withSpareClasses(sceneFor(options)))
+    : scene(sceneFor(options))
+    , edits(takeAll(scene, options.recording))
     , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(endless(scene, options, stop))
     , arm(openArm(scene))
@@ -114,7 +111,9 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
     , instance(gpu::Validation{options.validate, false}, extensions)
     , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), kReaders, drawing},
              [this](const DeviceFacts& facts) { return planToEdit(scene, camera->info(), tool, facts); })
-    , passNames(cycles.frames().passNames()) {}
+    , passNames(cycles.frames().passNames()) {
+    edits.takeUncertainty(*camera);
+}
 
 std::string OperateSession::title() const {
     return scene.file.stem().string() + ", " + camera->description();

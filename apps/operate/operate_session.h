@@ -4,6 +4,7 @@
 
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/device_handover.h"
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/operate_command.h"
 #include "devices/camera.h"
 #include "devices/live_hand.h"
@@ -19,9 +20,9 @@
 namespace fathom::operate {
 
 // The scene with spare classes of points behind its own: what the pilot picks by colour takes one of them, so
-// that no buffer or pipeline changes while forces are on. A spare class marks no pixel.
+// that no buffer or pipeline changes while forces are on. A spare class marks no pixel. Shapes are behind all
+// of them: they come and go, and classes keep their rows.
 Scene withSpareClasses(Scene scene);
-bool isSpare(const FixtureClass& fixture);
 
 // Owners before their borrowers.
 struct OperateSession {
@@ -30,6 +31,7 @@ struct OperateSession {
                    std::span<const char* const> extensions, const std::atomic<bool>& stop);
 
     Scene scene;                        // with spare classes
+    SceneEdits edits;                   // of a recording that is looked at
     std::unique_ptr<LiveHand> liveHand; // null = mouse and keyboard, or a path
     std::unique_ptr<Camera> camera;
     std::unique_ptr<ArmRig> arm;        // null = the tool moves freely

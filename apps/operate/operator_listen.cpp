@@ -53,7 +53,7 @@ void OperatorRun::startRecording() {
         const std::filesystem::path folder = freshRecording();
         editor_->keep(console_.settings(), session_.scene.pilot);
         const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
-        recorder_.start(folder, editor_->text(), session_.camera->info());
+        recorder_.start(folder, editor_->text(), session_.camera->info(), recordedScene(*editor_));
         recordingTo_ = folder.string();
         console_.tell("recording to " + recordingTo_ +
                       (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));

@@ -80,7 +80,10 @@ void OperatorRun::startThreads() {
     makeEngine({}, nullptr);
     editor_ = std::make_unique<FixtureEditor>(session_.scene,
                                               [this](const Scene& scene, const std::vector<Shape>& shapes) {
-                                                  feed_.setScene(scene);
+                                                  const uint64_t number = feed_.setScene(scene);
+                                                  if (recorder_.recording()) {
+                                                      recorder_.edit(number, recordedScene(*editor_));
+                                                  }
                                                   engine_->setShapes(shapes);
                                                   if (observers_) {
                                                       observers_->setShapes(shapes);

@@ -25,6 +25,14 @@ PastScene::PastScene(OperateSession& session)
     }
 }
 
+void PastScene::takeEdit(uint32_t index) {
+    const SceneEdit* edit = session_.edits.empty() ? nullptr : &session_.edits.at(index);
+    if (edit != std::exchange(edit_, edit)) {
+        session_.cycles.frames().setScene(edit->scene);
+        newScene_ = &edit->scene;
+    }
+}
+
 bool PastScene::process(uint32_t index, PublishedFrame& out) {
     session_.camera->seek(index);
     std::optional<Frame> frame = session_.camera->next();
@@ -32,6 +40,7 @@ bool PastScene::process(uint32_t index, PublishedFrame& out) {
         return false;
     }
     out.t = (*frame)->index * kPeriod;
+    takeEdit((*frame)->index);
     frame->retime(out.t);
     out.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
     out.report = session_.cycles.frames().process(std::move(*frame));

@@ -5,6 +5,8 @@
 #include "apps/operate/operate_session.h"
 #include "apps/operate/snapshots.h"
 
+#include <utility>
+
 namespace fathom::operate {
 
 // Thread: the window's; no other uses the session's frame cycle.
@@ -25,14 +27,20 @@ public:
     void retake() { any_ = false; }           // the next show() makes the picture anew, on another device
     // Other fixtures, of the same classes of points; the next show() makes the picture anew.
     void setScene(const Scene& scene);
+    // The pilot's own, of the picture that is shown, when they are others than at the call before; else null.
+    // While pictures were without a set of their own, all fixtures held, they have one here.
+    const Scene* newScene() { return std::exchange(newScene_, nullptr); }
 
 private:
     bool process(uint32_t index, PublishedFrame& out);
+    void takeEdit(uint32_t index);
 
     OperateSession& session_;
     uint32_t pictures_, lead_;
     uint32_t asked_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;
+    const SceneEdit* edit_ = nullptr; // in force
+    const Scene* newScene_ = nullptr;
 };
 
 } // namespace fathom::operate

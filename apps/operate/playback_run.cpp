@@ -212,6 +212,9 @@ void PlaybackRun::followTime(double dt) {
     line.t = std::clamp(line.t, 0.0, line.duration);
     const auto picture = static_cast<uint32_t>(line.t / PastScene::kPeriod + 1e-6);
     past_.show(picture, !line.dragged, sink_);
+    if (const Scene* scene = past_.newScene()) {
+        editor_.showFixtures(*scene);
+    }
     line.picture = past_.shown();
     line.wholeMemory = past_.whole();
     if (line.t != shown_) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/recorder.h"
 
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/turn_log.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
 #include <fstream>
 #include <spdlog/spdlog.h>
+#include <utility>
 
 namespace fathom::operate {
 
@@ -40,14 +42,20 @@ void Recorder::openFiles(const std::filesystem::path& folder) {
     touches_.open(folder / kTouchesFile, touchesHead());
 }
 
-void Recorder::start(const std::filesystem::path& folder, const std::string& scene,
-                     const CameraInfo& camera) {
+void Recorder::start(const std::filesystem::path& folder, const std::string& scene, const CameraInfo& camera,
+                     const RecordedScene& edited) {
     stop();
     finish();
     const std::lock_guard lock(mutex_);
     failure_.clear();
     turns_.clear();
     numbers_.clear();
+    upcoming_.clear();
+    edits_.close();
+    folder_ = folder;
+    edited_ = edited;
+    scenes_ = 0;
+    still_ = false;
     lastCapture_ = lastWritten_ = -1.0;
     lost_ = pictures_ = 0;
     writer_ = std::make_unique<RecordingWriter>(folder, camera, 1);
@@ -125,7 +133,54 @@ void Recorder::addPicture(const PublishedFrame& frame, const Fixtures& set) {
     if (numbers_.size() > kMostNumbers) {
         numbers_.pop_front();
     }
+    addEdit(frame);
     writer_->add({static_cast<double>(pictures_++) * kFramePeriod, set.depth, frame.colour, set.baseTcamera});
+}
+
+void Recorder::edit(uint64_t number, RecordedScene scene) {
+    const std::lock_guard lock(mutex_);
+    if (recording()) {
+        upcoming_.emplace_back(number, std::move(scene));
+    }
+}
+
+// The first file is that of the start: written once there is a second.
+void Recorder::addEdit(const PublishedFrame& frame) {
+    bool changed = frame.still != still_;
+    const RecordedScene before = edited_;
+    for (; !upcoming_.empty() && upcoming_.front().first <= frame.edit; upcoming_.pop_front()) {
+        edited_ = std::move(upcoming_.front().second);
+        changed = true;
+    }
+    if (!changed) {
+        return;
+    }
+    if (!edits_.isOpen()) {
+        edits_.open(folder_ / SceneEdits::kFile, SceneEdits::kHead);
+        if (pictures_ > 0) {
+            const RecordedScene now = std::exchange(edited_, before);
+            putEdit(0, still_);
+            edited_ = now;
+        }
+    }
+    still_ = frame.still;
+    putEdit(pictures_, still_);
+}
+
+void Recorder::putEdit(uint64_t picture, bool still) {
+    const std::string name = "scene-" + std::to_string(scenes_++) + ".yaml";
+    std::ofstream text(folder_ / name);
+    text << edited_.text << std::flush;
+    if (!text) {
+        throw Error((folder_ / name).string() + ": cannot be written");
+    }
+    std::ostream& out = edits_.lines();
+    out << picture << "," << name << ",";
+    for (size_t i = 0; i < edited_.held.size(); ++i) {
+        out << (i == 0 ? "" : " ") << edited_.held[i];
+    }
+    out << "," << (still ? 1 : 0) << "\n";
+    edits_.flush();
 }
 
 void Recorder::turn(const TurnRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {

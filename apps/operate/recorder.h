@@ -16,8 +16,15 @@
 
 namespace fathom::operate {
 
+// What the fixtures of a recording are, at its start or from an edit on.
+struct RecordedScene {
+    std::string text;           // of a scene file
+    std::vector<uint32_t> held; // rows of classes that are held still
+};
+
 // A TUM RGB-D folder with hand.csv (raw poses and buttons), wrench.csv and touches.csv (what the hand felt,
-// turn_log.h) and scene.yaml.
+// turn_log.h) and scene.yaml; where fixtures were edited meanwhile, also with edits.csv and the scenes that
+// it names (apps/binding/scene_edits.h).
 // Frame j of a replay comes at j / 30 s, so the times of hand and wrench are bent to that, frame by frame.
 // PNG files are written on a thread of the writer's; pictures that it cannot keep up with are counted in
 // lost(). A session that is killed leaves a shorter recording; so does a disk that is full, which ends it.
@@ -27,7 +34,11 @@ public:
 
     // Window thread. scene: the text of its file in force. Waits for what was recorded before. Throws Error
     // that names what cannot be written.
-    void start(const std::filesystem::path& folder, const std::string& scene, const CameraInfo& camera);
+    void start(const std::filesystem::path& folder, const std::string& scene, const CameraInfo& camera,
+               const RecordedScene& edited = {});
+    // Window thread: the fixtures from change `number` on (PublishedFrame::edit), those of start() being
+    // `edited`. Nothing when it is not recording.
+    void edit(uint64_t number, RecordedScene scene);
     // No more is recorded; returns while pictures that wait are still written. Nothing when it is not
     // recording.
     void stop();
@@ -50,6 +61,8 @@ private:
     void orFail(const Job& job); // with mutex_ held
     void openFiles(const std::filesystem::path& folder);
     void addPicture(const PublishedFrame& frame, const Fixtures& set);
+    void addEdit(const PublishedFrame& frame);
+    void putEdit(uint64_t picture, bool still);
     void flushTurns(double from, double to, double start, double scale);
     void putTurn(const TurnRow& row, double t);
     int64_t pictureOf(int64_t frame) const; // of this recording; -1 = from before it
@@ -62,7 +75,12 @@ private:
     std::deque<TurnRow> turns_;                        // since the last picture
     std::deque<std::pair<int64_t, uint64_t>> numbers_; // of late pictures: index in the run, in the recording
     double lastCapture_ = -1.0, lastWritten_ = -1.0;
-    LineFile hand_, wrench_, touches_;
+    LineFile hand_, wrench_, touches_, edits_;
+    std::filesystem::path folder_;
+    RecordedScene edited_;                                    // in force
+    std::deque<std::pair<uint64_t, RecordedScene>> upcoming_; // by number of the change
+    uint32_t scenes_ = 0;                                     // files scene-N.yaml
+    bool still_ = false;
 };
 
 } // namespace fathom::operate

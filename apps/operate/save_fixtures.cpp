@@ -121,24 +121,37 @@ std::string windowBlock(const Scene::Window& window) {
 
 } // namespace
 
-std::string FixtureEditor::text() const {
+std::string FixtureEditor::text(bool spares) const {
     std::ifstream in(scene_.file);
     std::stringstream old;
     old << in.rdbuf();
     std::ostringstream block;
     block << std::setprecision(10) << "fixtures:\n";
-    size_t rows = 0;
-    for (const FixtureClass& f : scene_.fixtures) {
-        if (!isSpare(f)) {
+    size_t rows = 0, row = 0;
+    for (FixtureClass f : scene_.fixtures) {
+        if (!isSpare(f) || spares) {
+            f.name = isSpare(f) ? spareName(row) : f.name;
             putRow(block, f);
             ++rows;
         }
+        ++row;
     }
     std::string text = withBlock(old.str(), "fixtures:", rows == 0 ? "fixtures: []\n" : block.str());
     if (!scene_.pilot.empty()) {
         text = withBlock(text, "pilot:", "pilot: " + quoted(scene_.pilot) + "\n");
     }
     return scene_.window ? withBlock(text, "window:", windowBlock(*scene_.window)) : text;
+}
+
+RecordedScene recordedScene(const FixtureEditor& editor) {
+    RecordedScene recorded{editor.text(true), {}};
+    const std::vector<FixtureClass>& rows = editor.scene().fixtures;
+    for (uint32_t row = 0; row < rows.size(); ++row) {
+        if (rows[row].isPoints() && rows[row].frozen) {
+            recorded.held.push_back(row);
+        }
+    }
+    return recorded;
 }
 
 std::string FixtureEditor::save() const {

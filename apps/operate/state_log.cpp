@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/state_log.h"
 
+#include "apps/binding/scene_edits.h"
 #include "engine/types/error.h"
 
 #include <chrono>
@@ -92,7 +93,7 @@ json turnOf(const RunView& run, const StateExtras& extras) {
 json fixturesOf(const Scene* scene) {
     json rows = json::array();
     for (const FixtureClass& f : scene != nullptr ? scene->fixtures : std::vector<FixtureClass>()) {
-        if (!f.name.empty()) {
+        if (!isSpare(f)) {
             rows.push_back(
                 {{"name", f.name},
                  {"role", f.role == Role::Forbidden ? "forbidden" : "guidance"},

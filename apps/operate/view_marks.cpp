@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/view_marks.h"
 
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/shape_marks.h"
 #include "apps/operate/theme.h"
 
@@ -246,7 +247,7 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
         drawShape(list, input.port, shape);
     }
     for (const FixtureClass& f : input.scene.fixtures) {
-        if (f.isPoints() && f.box && !f.name.empty()) {
+        if (f.isPoints() && f.box && !isSpare(f)) {
             Shape box;
             box.baseTshape.position = 0.5 * (f.box->min + f.box->max);
             box.size = f.box->max - f.box->min;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/why_panel.h"
 
+#include "apps/binding/scene_edits.h"
 #include "apps/operate/theme.h"
 
 #include <cstdio>
@@ -11,10 +12,9 @@ namespace {
 
 std::string whoHolds(const Block& block, const Scene& scene, const Fixtures& set) {
     const Touch& touch = block.touch;
-    const std::string name =
-        touch.fixture < scene.fixtures.size() && !scene.fixtures[touch.fixture].name.empty()
-            ? "'" + scene.fixtures[touch.fixture].name + "'"
-            : "a fixture that is gone";
+    const std::string name = touch.fixture < scene.fixtures.size() && !isSpare(scene.fixtures[touch.fixture])
+                                 ? "'" + scene.fixtures[touch.fixture].name + "'"
+                                 : "a fixture that is gone";
     switch (touch.kind) {
     case ContactRow::Kind::Sphere: {
         const uint32_t width = std::max(1u, set.camera.depth.width),

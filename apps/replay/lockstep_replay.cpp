@@ -46,14 +46,33 @@ void LockstepReplay::fetch() {
     }
 }
 
+// As the pilot had it from this picture on: gates with its set, shapes now, which is within a picture of when
+// they were placed.
+void LockstepReplay::takeEdit(uint32_t picture) {
+    const SceneEdit* edit = session_.newEdit(picture);
+    if (edit == nullptr) {
+        return;
+    }
+    session_.cycles.frames().setScene(edit->scene);
+    shapes_ = shapesOf(edit->scene);
+    if (cycle_) {
+        cycle_->setShapes(shapes_);
+    }
+}
+
 void LockstepReplay::processNext() {
+    takeEdit((*next_)->index);
     lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
     if (session_.cycles.plan()
             .selfFilter) { // the arm as the picture shows it, or as it is when the picture is due
         const bool now = cycle_ && !session_.scene.source.showsArm;
         session_.cycles.frames().setArm(session_.arm->inPicture(now ? cycle_->place().arm : taken_));
     }
-    ready_ = session_.cycles.frames().process(std::move(*next_));
+    if (session_.heldStill() && !kept_.empty()) {
+        ready_ = session_.cycles.frames().without((*next_)->index);
+    } else {
+        ready_ = session_.cycles.frames().process(std::move(*next_));
+    }
     if (trace_ != nullptr) {
         trace_->frame(*ready_);
     }

@@ -38,6 +38,7 @@ private:
 
     void fetch();       // the next usable frame from the camera, stamped with its lockstep time
     void processNext(); // through the frame cycle
+    void takeEdit(uint32_t picture);
     void takeDueFrames(double t);
     bool ended(double t) const;
     void query(double t);

@@ -35,8 +35,10 @@ std::string describe(const ThreadPlacement& placement) {
 // Camera and frame cycle as the frame loop sees them.
 class RealtimeReplay::Feed final : public FrameFeed {
 public:
-    explicit Feed(ReplaySession& session)
-        : session_(session) {
+    // edited: told of authored shapes that the pilot changed.
+    Feed(ReplaySession& session, std::function<void(const std::vector<Shape>&)> edited)
+        : session_(session)
+        , edited_(std::move(edited)) {
         if (session_.cycles.plan().selfFilter) {
             session_.cycles.frames().setArm(session_.arm->inPicture(session_.arm->startPosture()));
         }
@@ -61,7 +63,14 @@ public:
     void publish(double t, PublishedFrame& out) override {
         next_->retime(t);
         colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
-        out.report = session_.cycles.frames().process(std::move(*next_));
+        if (const SceneEdit* edit = session_.newEdit((*next_)->index)) {
+            session_.cycles.frames().setScene(edit->scene);
+            edited_(shapesOf(edit->scene));
+        }
+        FrameCycle& frames = session_.cycles.frames();
+        out.report = session_.heldStill() && any_ ? frames.without((*next_)->index)
+                                                  : frames.process(std::move(*next_));
+        any_ = true;
         next_.reset();
         if (const auto taken = captured()) {
             using Millis = std::chrono::duration<float, std::milli>;
@@ -83,9 +92,11 @@ public:
 
 private:
     ReplaySession& session_;
+    std::function<void(const std::vector<Shape>&)> edited_;
     double taken_ = 0.0; // [s] on the camera's clock
     std::optional<Frame> next_;
     std::vector<uint32_t> colour_;
+    bool any_ = false; // a set is in force
 };
 
 // Contact answers over the newest fixture set.
@@ -112,7 +123,7 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , haptics_(makeHapticOptions(session.scene, session.tool))
     , audit_(session.tool, session.arm.get())
     , view_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
-    , feed_(std::make_unique<Feed>(session))
+    , feed_(std::make_unique<Feed>(session, [this](const std::vector<Shape>& shapes) { takeShapes(shapes); }))
     , answers_(session.cycles.plan().query != Plan::Query::None ? std::make_unique<Answers>(session)
                                                                 : nullptr)
     , run_(std::make_unique<RealtimeRun>(*feed_, answers_.get(), runOptions(trace))) {
@@ -125,6 +136,16 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
 }
 
 RealtimeReplay::~RealtimeReplay() = default;
+
+// Camera thread. The first picture comes before the run is made: the scene is that picture's.
+void RealtimeReplay::takeShapes(const std::vector<Shape>& shapes) {
+    if (run_) {
+        run_->setShapes(shapes);
+    }
+    if (view_) {
+        view_->setShapes(shapes);
+    }
+}
 
 RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     RealtimeOptions o;

@@ -65,6 +65,7 @@ private:
               std::span<const uint32_t> behind) override;
     void audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                std::span<const uint32_t> behind);
+    void takeShapes(const std::vector<Shape>& shapes);
     RealtimeOptions runOptions(CadenceTrace* trace);
     void spool();
     void runLive(const HandPath& path);

@@ -9,6 +9,8 @@
 #include "devices/simulated/simulated_hand.h"
 #include "engine/types/error.h"
 
+#include <utility>
+
 namespace fathom {
 
 namespace {
@@ -38,6 +40,7 @@ std::unique_ptr<Camera> openReplayCamera(Scene& scene, const ReplayOptions& opti
 
 ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers)
     : scene(sceneOf(options))
+    , edits(takeEdits(scene, options.source))
     , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
     , camera(openReplayCamera(scene, options))
     , arm(openArm(scene))
@@ -45,8 +48,17 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
     , tool(openTool(scene, arm.get()))
     , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), readers},
              [this](const DeviceFacts& facts) {
-                 return makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
-             }) {}
+                 return edits.empty()
+                            ? makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts)
+                            : planToEdit(scene, camera->info(), tool, facts);
+             }) {
+    edits.takeUncertainty(*camera);
+}
+
+const SceneEdit* ReplaySession::newEdit(uint32_t picture) {
+    const SceneEdit* edit = edits.empty() ? nullptr : &edits.at(picture);
+    return edit == std::exchange(edit_, edit) ? nullptr : edit;
+}
 
 std::string ReplaySession::title() const {
     return scene.file.stem().string() + ", " + camera->description();

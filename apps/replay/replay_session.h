@@ -3,6 +3,7 @@
 #pragma once
 
 #include "apps/binding/arm_thread.h"
+#include "apps/binding/scene_edits.h"
 #include "apps/replay/replay_command.h"
 #include "devices/camera.h"
 #include "devices/haptic_device.h"
@@ -20,6 +21,7 @@ struct ReplaySession {
     ReplaySession(const ReplayOptions& options, const GlobalOptions& global, uint32_t readers);
 
     Scene scene;
+    SceneEdits edits;                   // of a recording of the window
     std::unique_ptr<LiveHand> liveHand; // null = scripted or simulated
     std::unique_ptr<Camera> camera;
     std::unique_ptr<ArmRig> arm;        // null = the tool moves freely
@@ -28,8 +30,15 @@ struct ReplaySession {
     gpu::Instance instance;
     DeviceCycles cycles;
 
+    // What the pilot had changed from this picture on; null = nothing since the picture asked about before.
+    const SceneEdit* newEdit(uint32_t picture);
+    bool heldStill() const { return edit_ != nullptr && edit_->still; } // all fixtures, in that picture
+
     std::string title() const; // scene, source
     std::string where() const; // of the contact query
+
+private:
+    const SceneEdit* edit_ = nullptr;
 };
 
 // The hand of a replay: the CSV that the options or the scene name, or the built-in path over the first

@@ -198,6 +198,14 @@ void FrameCycle::fillHost(const InFlight& f) {
     host.depth.assign(f.frame->depth.begin(), f.frame->depth.end());
 }
 
+FrameReport FrameCycle::without(uint32_t index) const {
+    FrameReport report;
+    report.index = index;
+    report.unchanged = true;
+    report.passMs.assign(passNames().size(), 0.0);
+    return report;
+}
+
 FrameReport FrameCycle::finish() {
     InFlight f = std::move(*submitted_);
     submitted_.reset();

@@ -56,6 +56,8 @@ public:
 
     // One frame through, start to end.
     FrameReport process(Frame frame);
+    // In place of it, of a picture that is to make no set: the one in force stays.
+    FrameReport without(uint32_t index) const;
     // Other gates, radii, roles, boxes and frozen classes for the frames from now on. The scene must have as
     // many classes of points as before, and the same plan; throws Error otherwise.
     void setScene(const Scene& scene);

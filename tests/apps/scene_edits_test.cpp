@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the pilot changes while the window records, from the recorder to the scenes of a replay.
+#include "apps/binding/scene_edits.h"
+
+#include "apps/operate/fixture_editor.h"
+#include "apps/operate/operate_session.h"
+#include "engine/cloud/frame_params.h"
+#include "engine/types/error.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::operate;
+using namespace fathom::testing;
+
+namespace {
+
+constexpr const char* kScene = R"(camera: {near: 0.1, far: 3.0}
+fixtures:
+  - {name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, 1]}}
+  - {name: red, role: forbidden, hue: [345, 20], radius: 0.04}
+  - {name: yellow, role: guidance, hue: [40, 70]}
+tool: {spheres: [[0, 0, 0, 0.01]]}
+)";
+
+// An editor, a recorder and pictures, as a session has them.
+struct Pilot {
+    Pilot()
+        : scene(loaded()) {
+        recorder.start(folder.path() / "rec", editor.text(), camera(), recordedScene(editor));
+    }
+    Scene loaded() {
+        put(folder.path() / "scene.yaml", kScene);
+        return withSpareClasses(loadScene(folder.path() / "scene.yaml"));
+    }
+    static CameraInfo camera() {
+        CameraInfo info;
+        info.depth = {8, 6, 10.0, 10.0, 3.5, 2.5};
+        info.metresPerUnit = 0.001;
+        info.hasColour = false;
+        return info;
+    }
+    // edit: of the changes so far, the newest that it obeys.
+    void picture(uint64_t edit, bool still = false) {
+        PublishedFrame frame;
+        frame.t = pictures / 30.0;
+        frame.report.index = pictures++;
+        frame.edit = edit;
+        frame.still = still;
+        Fixtures set;
+        set.depth.resize(48, 500);
+        recorder.frame(frame, set);
+    }
+    SceneEdits end() {
+        recorder.stop();
+        recorder.finish();
+        CHECK(recorder.failure().empty());
+        return SceneEdits(folder.path() / "rec");
+    }
+    size_t rowOf(const std::string& name) const {
+        const auto& rows = editor.scene().fixtures;
+        return static_cast<size_t>(
+            std::find_if(rows.begin(), rows.end(), [&](const auto& f) { return f.name == name; }) -
+            rows.begin());
+    }
+
+    ScratchFolder folder;
+    Scene scene;
+    Recorder recorder;
+    uint64_t changes = 0;
+    uint32_t pictures = 0;
+    FixtureEditor editor{scene, [this](const Scene&, const std::vector<Shape>&) {
+                             recorder.edit(++changes, recordedScene(editor));
+                         }};
+};
+
+std::vector<std::string> namesOf(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const FixtureClass& f : scene.fixtures) {
+        names.push_back(isSpare(f) ? "" : f.name);
+    }
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("Classes of points keep their rows whatever shapes come and go") {
+    Pilot pilot;
+    const std::vector<uint32_t> rows = cloud::classRows(pilot.editor.scene());
+    CHECK(rows == std::vector<uint32_t>{0, 1, 2, 3}); // red, yellow, two spare
+    CHECK(pilot.editor.remove(pilot.rowOf("wall")));
+    CHECK(cloud::classRows(pilot.editor.scene()) == rows);
+    CHECK(pilot.editor.place(ShapeKind::Sphere, dvec3(0.0), dvec3(0.0, 0.0, -1.0)));
+    CHECK(cloud::classRows(pilot.editor.scene()) == rows);
+}
+
+TEST_CASE(
+    "A recording has each change of fixtures from the picture on that obeyed it, in the rows that classes "
+    "had") {
+    Pilot pilot;
+    pilot.picture(0);
+    pilot.picture(0);
+    FixtureClass wide = pilot.editor.scene().fixtures[1];
+    wide.radius = 0.05;
+    wide.frozen = true;
+    pilot.editor.remove(0);       // change 1: red goes, its row is spare
+    pilot.picture(0);             // was on its way already
+    pilot.editor.change(1, wide); // change 2
+    pilot.picture(2);
+    pilot.picture(2, true);
+    pilot.picture(2);
+    pilot.editor.undo(); // change 3
+    const SceneEdits edits = pilot.end();
+    REQUIRE_FALSE(edits.empty());
+    using Names = std::vector<std::string>;
+    const Names all{"red", "yellow", "", "", "wall"}, fewer{"", "yellow", "", "", "wall"};
+    for (uint32_t picture : {0u, 1u, 2u}) {
+        CHECK(namesOf(edits.at(picture).scene) == all);
+        CHECK_FALSE(edits.at(picture).still);
+    }
+    for (uint32_t picture : {3u, 4u, 5u, 900u}) {
+        const SceneEdit& edit = edits.at(picture);
+        CHECK(namesOf(edit.scene) == fewer);
+        CHECK(edit.scene.fixtures[1].radius == 0.05);
+        CHECK(edit.scene.fixtures[1].frozen);
+        CHECK(edit.still == (picture == 4));
+    }
+    CHECK(cloud::classRows(edits.at(0).scene) == cloud::classRows(edits.at(3).scene));
+}
+
+TEST_CASE("A recording without changes has none, and neither has one that is played with another scene") {
+    Pilot pilot;
+    pilot.picture(0);
+    pilot.picture(0);
+    CHECK(pilot.end().empty());
+    CHECK_FALSE(std::filesystem::exists(pilot.folder.path() / "rec" / SceneEdits::kFile));
+    Pilot changed;
+    changed.picture(0);
+    changed.editor.remove(0);
+    changed.picture(1);
+    CHECK_FALSE(changed.end().empty());
+    Scene other = changed.scene;
+    CHECK(takeEdits(other, changed.folder.path() / "rec").empty());
+    CHECK(other.contact.where == changed.scene.contact.where);
+    Scene own = loadScene(changed.folder.path() / "rec" / "scene.yaml");
+    CHECK_FALSE(takeEdits(own, changed.folder.path() / "rec").empty());
+    CHECK(own.contact.where == Scene::Contact::Where::Cpu);
+    CHECK(own.file.filename() == "scene.yaml");
+}
+
+TEST_CASE("Damaged edits are refused with file, line, column and what is allowed") {
+    Pilot pilot;
+    pilot.picture(0);
+    pilot.editor.remove(0);
+    pilot.picture(1);
+    REQUIRE_FALSE(pilot.end().empty());
+    const auto folder = pilot.folder.path() / "rec";
+    const auto refused = [&](const std::string& rows) {
+        put(folder / SceneEdits::kFile, rows);
+        try {
+            SceneEdits{folder};
+        } catch (const BadInput& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    const std::string head = std::string(SceneEdits::kHead) + "\n";
+    const std::vector<std::pair<std::string, std::string>> cases{
+        {"", "header picture,scene,held,still"},
+        {"picture,scene\n", "header picture,scene,held,still"},
+        {head + "0,scene-0.yaml,\n", "picture,scene,held,still"},
+        {head + "1,scene-0.yaml,,0\n", "0: the scene of the start"},
+        {head + "0,scene-0.yaml,,0\n-1,scene-1.yaml,,0\n", "a whole number from 0"},
+        {head + "0,scene-0.yaml,,0\n7,scene-1.yaml,,0\n6,scene-1.yaml,,0\n", "none before the row above"},
+        {head + "0,../rec/scene-0.yaml,,0\n", "the name of a scene file beside it"},
+        {head + "0,nothing.yaml,,0\n", "nothing.yaml"},
+        {head + "0,scene-0.yaml,4,0\n", "rows of classes of points"},
+        {head + "0,scene-0.yaml,x,0\n", "rows of classes of points"},
+        {head + "0,scene-0.yaml,,2\n", "0 or 1"},
+        {head + "0,scene.yaml,,0\n1,scene-0.yaml,,0\n", "classes of points in the rows"},
+    };
+    for (const auto& [rows, words] : cases) {
+        CAPTURE(rows);
+        CHECK(refused(rows).find(words) != std::string::npos);
+    }
+}

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recording in which fixtures are edited, played again and looked back at.
+#include "tests/rig/run_fathom.h"
+#include "tests/window/felt.h"
+#include "tests/window/window_rig.h"
+
+#include <doctest/doctest.h>
+#include <fstream>
+#include <sstream>
+
+using namespace fathom;
+using namespace fathom::window;
+using nlohmann::json;
+
+namespace {
+
+// Column of a table, as many rows as it has.
+std::vector<int> columnOf(const std::filesystem::path& file, size_t column) {
+    std::ifstream in(file);
+    std::vector<int> values;
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+        std::stringstream row(line);
+        std::string cell;
+        for (size_t i = 0; i <= column; ++i) {
+            std::getline(row, cell, ',');
+        }
+        values.push_back(std::stoi(cell));
+    }
+    return values;
+}
+
+void waitTurns(const WindowRig& rig, int turns) {
+    const auto now = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + turns; }));
+}
+
+// Against the bump; the red class goes and a sphere comes; both are undone; all is held still for a while.
+void fly(const WindowRig& rig) {
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
+    rig.key("a");
+    REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
+    rig.xdo("mousemove --window $W 300 300");
+    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
+        rig.wheel(8);
+    }
+    REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
+    waitTurns(rig, 500);
+    rig.click("remove red");
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] == 0 && s["run"]["contacts"] == 0; }));
+    rig.click("place sphere");
+    rig.click("camera", 0.8, 0.2);
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
+    waitTurns(rig, 1000);
+    rig.key("ctrl+z");
+    REQUIRE(rig.await([](const json& s) { return s["shapes"] == 0; }));
+    rig.key("ctrl+z");
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 200; }));
+    rig.key("f");
+    waitTurns(rig, 500);
+    rig.key("f");
+    waitTurns(rig, 500);
+    rig.key("r");
+    REQUIRE(rig.await([](const json& s) {
+        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
+    }));
+}
+
+} // namespace
+
+TEST_CASE(
+    "What the pilot edits while a recording is made is obeyed by its replay and shown on its time line, "
+    "from the same picture on") {
+    WindowRig rig;
+    REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
+    fly(rig);
+    const auto folder = rig.folder() / "recording-1", out = rig.folder() / "out";
+    const std::vector<int> pictures = columnOf(folder / "edits.csv", 0),
+                           still = columnOf(folder / "edits.csv", 3);
+    REQUIRE(pictures.size() == 7); // start, removed, placed, twice undone, held, let go
+    CHECK(pictures[0] == 0);
+    CHECK(still == std::vector<int>{0, 0, 0, 0, 0, 1, 0});
+    const ProgramRun run =
+        runFathom({"replay", folder.string(), "--device", "llvmpipe", "--out", out.string()});
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    const std::vector<int> spheres = columnOf(out / "frames.csv", 4);
+    REQUIRE(static_cast<int>(spheres.size()) > pictures[6]);
+    for (int i = 0; i < static_cast<int>(spheres.size()); ++i) {
+        CAPTURE(i);
+        const bool gone = i >= pictures[1] && i < pictures[4];
+        const bool held = i >= pictures[5] && i < pictures[6]; // no set is made
+        CHECK((held || (spheres[static_cast<size_t>(i)] == 0) == gone));
+    }
+    const auto felt = feltIn(folder / "wrench.csv", 1, 7), again = feltIn(out / "haptics.csv", 15, 21);
+    REQUIRE(firstContact(felt) > 0.0);
+    CHECK(std::abs(firstContact(felt) - firstContact(again)) < 0.25);
+    constexpr double kAfter = 0.2; // [s] until every turn obeys the newer set
+    const double from = pictures[1] / 30.0 + kAfter, to = pictures[3] / 30.0 - kAfter;
+    REQUIRE(to > from);
+    for (const auto* rows : {&felt, &again}) {
+        size_t within = 0;
+        for (const Felt& f : *rows) {
+            within += f.t > from && f.t < to ? 1 : 0;
+            CHECK_FALSE((f.t > from && f.t < to && f.contact));
+        }
+        CHECK(within > 300);
+        CHECK(rows->back().contact);
+    }
+    rig.reopen(folder);
+    const double middle = 0.5 * (pictures[2] + pictures[3]) / 30.0,
+                 all = rig.state()["console"]["time_line"]["duration"];
+    rig.click("time line", middle / all);
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] == 0 && s["shapes"] == 1; }));
+    CHECK(rig.state()["fixtures"][0]["name"] == "yellow");
+    rig.click("time line", 0.1 * from / all);
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 200 && s["shapes"] == 0; }));
+    CHECK(rig.state()["fixtures"][0]["name"] == "red");
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+}
+
+TEST_CASE("A shape that a scene file brings is removed while its classes of points go on") {
+    WindowRig rig;
+    const auto scene = rig.folder() / "shaped.yaml";
+    std::string text = rig.sceneText();
+    const size_t at = text.find("fixtures:");
+    REQUIRE(at != std::string::npos);
+    text.insert(text.find('\n', at) + 1,
+                "  - {name: ball, role: forbidden, shape: sphere, base_T_shape: {xyz: "
+                "[0.2, 0, 0.5]}, size: [0.02, 0, 0]}\n");
+    std::ofstream(scene) << text;
+    rig.reopen(scene);
+    REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 200 && s["shapes"] == 1; }));
+    const json before = rig.state();
+    rig.click("remove ball");
+    REQUIRE(rig.await([&](const json& s) {
+        return s["shapes"] == 0 && s["run"]["pictures"] > before["run"]["pictures"].get<int>() + 10;
+    }));
+    CHECK(rig.state()["run"]["spheres"] == before["run"]["spheres"]);
+    rig.key("ctrl+z");
+    CHECK(rig.await([](const json& s) { return s["shapes"] == 1; }));
+    const int code = rig.close();
+    CHECK_MESSAGE(code == 0, rig.output());
+}
