@@ -70,7 +70,8 @@ void Alarms::raise(Level level, const std::string& key, const std::string& words
 // set.
 void Alarms::stepScene(const TurnRecord& turn, const HapticOptions& haptics, bool deviceGone) {
     const bool stale = turn.sceneAge > haptics.staleAfter;
-    waits_ = deviceGone || (waits_ && stale);
+    lostFrame_ = deviceGone ? turn.frame : lostFrame_;
+    waits_ = deviceGone || (waits_ && stale && turn.frame == lostFrame_);
     set(waits_, Level::Warning, "gpu", "GPU is gone: no picture, forces fade; it is looked for", turn.t);
     set(!waits_ && turn.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
         print("Camera silent: scene %.1f s old", turn.sceneAge), turn.t);
