@@ -31,7 +31,8 @@ const Json* stateOf(const Json& all, const char* kind, const std::string& device
     }
     for (const Json& one : *list) {
         const bool whole = one.is_object() && one.contains("device_id") && one["device_id"].is_string() &&
-                           one.contains("state") && one["state"].is_object();
+                           !one["device_id"].get_ref<const std::string&>().empty() && one.contains("state") &&
+                           one["state"].is_object();
         if (whole && (device.empty() || one["device_id"].get<std::string>() == device)) {
             found = one["device_id"].get<std::string>();
             return &one["state"];

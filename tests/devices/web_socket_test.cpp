@@ -84,7 +84,8 @@ TEST_CASE("A state of Haply's service is read, and one that is none is told by w
     CHECK(state->sample.deviceThandle.position == dvec3(4.0, 5.0, 6.0));
     CHECK_FALSE(state->grip);
     for (const char* none : {"{}", R"({"inverse3": 3})", R"({"inverse3": []})", R"({"inverse3": [7]})",
-                             R"({"inverse3": [{"device_id": 7, "state": {}}]})"}) {
+                             R"({"inverse3": [{"device_id": 7, "state": {}}]})",
+                             R"({"inverse3": [{"device_id": "", "state": {}}]})"}) {
         CHECK_FALSE(readHaplyState(none, ""));
     }
     const auto fault = [](const char* text) {
