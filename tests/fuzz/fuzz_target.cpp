@@ -23,6 +23,7 @@ constexpr std::array kTargets{
     FuzzTarget{"eca", readEca},
     FuzzTarget{"falcon", readFalcon},
     FuzzTarget{"firmware", readFirmware},
+    FuzzTarget{"haply", readHaply},
     FuzzTarget{"index", readIndexFile},
     FuzzTarget{"intrinsics", readIntrinsicsFile},
     FuzzTarget{"jpeg", readJpegPicture},

@@ -48,6 +48,7 @@ void readSpaceMouse(Bytes input);
 void readReach(Bytes input);
 void readEca(Bytes input);
 void readDoor(Bytes input);
+void readHaply(Bytes input);
 void readTurns(Bytes input);
 void readPairs(Bytes input);
 void readFirmware(Bytes input);

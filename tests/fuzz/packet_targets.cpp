@@ -2,6 +2,8 @@
 // Targets that read what devices and bridges send: descriptors, tables, pictures, packets.
 #include "devices/bridge/door_socket.h"
 #include "devices/bridge/force_gate.h"
+#include "devices/haply/haply_message.h"
+#include "devices/haply/web_socket.h"
 #include "devices/serial/eca_frame.h"
 #include "devices/serial/reach_packet.h"
 #include "devices/usb/falcon_kinematics.h"
@@ -170,6 +172,30 @@ void readDoor(Bytes input) {
         gate.accept(w, wrench.header.time_ns);
         const Wrench out = gate.at(wrench.header.time_ns + 1000);
         need(isFinite(out.force) && isFinite(out.torque) && glm::length(out.force) <= 8.0 + 1e-9);
+    }
+}
+
+// As they come out of a WebSocket: the first byte says how many arrive at a time.
+void readHaply(Bytes input) {
+    if (input.empty()) {
+        return;
+    }
+    const std::string_view bytes(reinterpret_cast<const char*>(input.data()) + 1, input.size() - 1);
+    const size_t step = size_t{input[0]} + 1;
+    WebSocketFrames frames;
+    std::string text;
+    for (size_t at = 0; at < bytes.size(); at += step) {
+        frames.add(bytes.substr(at, step));
+        auto event = frames.next(text);
+        for (; event != WebSocketFrames::Event::None; event = frames.next(text)) {
+            need(text.size() <= WebSocketFrames::kMostBytes);
+            if (event == WebSocketFrames::Event::Fault || event == WebSocketFrames::Event::Closed) {
+                return;
+            }
+            const auto state =
+                event == WebSocketFrames::Event::Text ? readHaplyState(text, "") : std::nullopt;
+            need(!state || (isFinite(state->sample.deviceThandle) && !state->device.empty()));
+        }
     }
 }
 
