@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Jaws of an arm behind a serial line, closed and opened by the button of a hand.
+#include "tests/rig/arm_stage.h"
+
+#include <chrono>
+#include <doctest/doctest.h>
+#include <future>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kOpen = 18.0, kClosed = 2.0; // [mm]
+
+// The hand stands still and its button is down from half a second to three seconds.
+void setUpJaws(const Stage& stage) {
+    setUp(stage, std::string(kReach) + ", jaws: {open: 0.018, closed: 0.002}",
+          {{0.0, {0, 0, 0}}, {0.5, {0, 0, 0}, {1, 0, 0, 0}, 8}, {3.0, {0, 0, 0}}, {5.0, {0, 0, 0}}});
+    stage.write("scene.yaml", stage.read("scene.yaml") + "  grasp: {fingers: [{joint: pinch, open: 0.5, "
+                                                         "closed: 0}], button: 8, seconds: 1}\n");
+    std::string model = urdf();
+    model.insert(model.find("</robot>"),
+                 "<link name='jaw'><collision><geometry><sphere radius='0.01'/></geometry></collision></link>"
+                 "<joint name='pinch' type='revolute'><parent link='three'/><child link='jaw'/><origin "
+                 "xyz='0.2 0 0'/><axis xyz='0 0 1'/><limit effort='1' velocity='0.4' lower='0' upper='0.5'/>"
+                 "</joint>");
+    stage.write("arm.urdf", model);
+}
+
+ProgramRun runArm(const Stage& stage) {
+    return runFathom(stage.command({"--realtime", "--arm", (stage / "line").string()}));
+}
+
+} // namespace
+
+TEST_CASE(
+    "Jaws close over the line while the button is down, no faster than the scene says, and open again") {
+    const Stage stage;
+    setUpJaws(stage);
+    ReachSimulator arm;
+    setStart(arm);
+    arm.position[1] = kOpen;
+    ArmBench bench(arm, stage / "line");
+    auto running = std::async(std::launch::async, runArm, std::cref(stage));
+    REQUIRE(bench.wait([&] { return arm.position[1] < kOpen - 1.0; }));
+    const auto begun = Clock::now();
+    REQUIRE(bench.wait([&] { return arm.position[1] < kClosed + 1.0; }));
+    CHECK(std::chrono::duration<double>(Clock::now() - begun).count() >
+          0.6); // 14 of 16 mm, a second the whole
+    REQUIRE(bench.wait([&] { return arm.position[1] > kOpen - 0.5; }));
+    const ProgramRun run = running.get();
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    const auto q = bench.with([&] { return jointsOf(arm); });
+    for (size_t j = 0; j < 3; ++j) { // nothing else moved
+        CHECK(std::abs(q[j] - kStart[j]) < 0.01);
+    }
+}
+
+TEST_CASE("Jaws that close on something hold still with the whole arm, and the log says so") {
+    const Stage stage;
+    setUpJaws(stage);
+    ReachSimulator arm;
+    setStart(arm);
+    arm.position[1] = kOpen;
+    ArmBench bench(arm, stage / "line");
+    auto running = std::async(std::launch::async, runArm, std::cref(stage));
+    REQUIRE(bench.wait([&] { return arm.position[1] < 10.0; }));
+    bench.with([&] { arm.current[1] = 2500.0; }); // [mA]
+    const ProgramRun run = running.get();
+    REQUIRE_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(run.out.find("overloaded") != std::string::npos);
+    CHECK(bench.with([&] { return arm.position[1]; }) > kClosed + 0.5);
+    const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));
+    CHECK(summary.at("arm").at("driven").at("turns").at("overloaded").get<uint64_t>() > 300);
+}
