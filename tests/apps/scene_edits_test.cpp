@@ -166,7 +166,7 @@ TEST_CASE("Damaged edits are refused with file, line, column and what is allowed
         }
         return std::string();
     };
-    const std::string head = std::string(SceneEdits::kHead) + "\n";
+    const std::string head = "picture,scene,held,still\n";
     const std::vector<std::pair<std::string, std::string>> cases{
         {"", "header picture,scene,held,still"},
         {"picture,scene\n", "header picture,scene,held,still"},
