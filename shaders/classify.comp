@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Which pixels can matter: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation
-// four pixels of a row. The first pixel with a class puts its patch on the list of work; no result depends on the list's order.
+// kRows rows of four pixels of a sub-patch. The first pixel with a class puts its patch on the list of work; no result depends on
+// the list's order.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
@@ -14,15 +15,16 @@ layout(constant_id = 4) const uint kGroupSubs = 64; // invocations of the sub-pa
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the loop over them unrolls
 layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
 layout(constant_id = 7) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
-layout(constant_id = 8) const uint kFour = 0;       // 1: the width is a multiple of four: a texel of depth is four pixels
+layout(constant_id = 8) const uint kFour = 0;       // the width is a multiple of four: a texel is four pixels 1: of depth, 2: of registered colour, too
 layout(constant_id = 9) const uint kRange = 0;      // 1: some class asks for the range
 layout(constant_id = 10) const uint kArm = 0;       // 1: what the arm's spheres hold is no point of any class
 layout(constant_id = 11) const uint kWater = 0;     // 1: colours are put right for what water took of them
+layout(constant_id = 12) const uint kRows = 1;      // 1, 2 or 4 rows an invocation: counts and the list are asked as often less
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel
+layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel; kFour = 2: a word a pixel, four a texel
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // a byte a slot: class bits
 layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> 1 when on the list
@@ -38,13 +40,9 @@ layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/slots.glsl"
 
-// The colour of a depth pixel; false when the colour camera does not see the point.
-bool colourOf(uint pixel, vec3 p, out vec3 rgb) {
+// The colour of a point, looked up; false when the colour camera does not see the point.
+bool colourOf(vec3 p, out vec3 rgb) {
     rgb = vec3(0.0);
-    if (kColour == 1) {
-        rgb = vec3(texelFetch(colours, int(pixel)).xyz);
-        return true;
-    }
     vec3 q = transformPoint(params.colourTdepth, p);
     if (q.z <= 0.0) {
         return false;
@@ -111,10 +109,10 @@ void putOnList(uint patchIndex) {
     }
 }
 
-uint classBits(uvec2 at, uint pixel, float z) {
+// rgb: the pixel's own colour, where colours are registered.
+uint classBits(uvec2 at, float z, vec3 rgb) {
     vec3 p = vec3(rayOf(at) * z, z);
-    vec3 rgb = vec3(0.0);
-    bool seen = kColour != 0 && colourOf(pixel, p, rgb);
+    bool seen = kColour == 2 ? colourOf(p, rgb) : kColour == 1;
     Hsl colourHere = hslOf(withoutWater(rgb, p));
     vec3 base = kBox != 0 || kArm != 0 ? transformPoint(params.baseTcamera, p) : vec3(0.0);
     float range = kRange != 0 ? length(p) : 0.0;
@@ -130,7 +128,7 @@ uint classBits(uvec2 at, uint pixel, float z) {
     return mask;
 }
 
-shared uint found[kMaxClasses];
+shared uint found[kMaxClasses]; // pixels of the group, a class
 
 // Depths of four pixels of a row [m]; 0 outside the picture and where there is no measurement.
 vec4 depthsAt(uvec2 at) {
@@ -149,10 +147,31 @@ vec4 depthsAt(uvec2 at) {
     return z;
 }
 
-void countPixels(uvec4 mask) {
+// Registered colours of four pixels of a row; anything outside the picture.
+vec3[4] coloursAt(uvec2 at) {
+    vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    bool inside = all(lessThan(at, params.size.xy));
+    uint pixel = inside ? at.y * params.size.x + at.x : 0u;
+    if (kColour == 1 && kFour == 2) {
+        uvec4 word = texelFetch(colours, int(pixel >> 2));
+        [[unroll]] for (uint k = 0; k < 4u; ++k) {
+            rgb[k] = vec3(word[k] & 255u, word[k] >> 8 & 255u, word[k] >> 16 & 255u);
+        }
+    } else if (kColour == 1) {
+        [[unroll]] for (uint k = 0; k < 4u; ++k) {
+            rgb[k] = vec3(texelFetch(colours, int(at.x + k < params.size.x ? pixel + k : 0u)).xyz);
+        }
+    }
+    return rgb;
+}
+
+// words: class bits of four pixels of a row, a byte each.
+void countPixels(uint words[kRows]) {
     for (uint c = 0; c < kClasses; ++c) {
-        uvec4 bits = mask >> c & 1u;
-        uint pixels = bits.x + bits.y + bits.z + bits.w;
+        uint pixels = 0;
+        [[unroll]] for (uint r = 0; r < kRows; ++r) {
+            pixels += uint(bitCount(words[r] & 0x01010101u << c));
+        }
         if (pixels == 0) {
             continue;
         }
@@ -164,6 +183,17 @@ void countPixels(uvec4 mask) {
     }
 }
 
+// Of four pixels of a row, a byte each.
+uint classBitsOfFour(uvec2 at) {
+    vec4 z = depthsAt(at);
+    vec3 rgb[4] = coloursAt(at);
+    uint word = 0;
+    [[unroll]] for (uint k = 0; k < 4u; ++k) {
+        word |= classBits(at + uvec2(k, 0), z[k], rgb[k]) << (8u * k);
+    }
+    return word;
+}
+
 void main() {
     if (kGather != 0) {
         for (uint c = gl_LocalInvocationID.x; c < kMaxClasses; c += gl_WorkGroupSize.x) {
@@ -173,17 +203,17 @@ void main() {
     }
     // Groups are laid out as the patches are: no division finds the pixel.
     uint patchIndex = gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x;
-    uint inside = (gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x) * 4u;
-    uint slot = patchIndex * 256u + inside;
+    uint inside = (gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x) * 4u * kRows;
+    uint slot = patchIndex * 256u + inside, some = 0;
     uvec2 at = gl_WorkGroupID.xy * 16u + pixelInPatch(inside);
-    vec4 z = depthsAt(at);
-    uvec4 mask = uvec4(0);
-    [[unroll]] for (uint k = 0; k < 4u; ++k) {
-        mask[k] = classBits(at + uvec2(k, 0), at.y * params.size.x + at.x + k, z[k]);
+    uint words[kRows];
+    [[unroll]] for (uint r = 0; r < kRows; ++r) {
+        words[r] = classBitsOfFour(at + uvec2(0, r));
+        masks[(slot >> 2) + r] = words[r];
+        some |= words[r];
     }
-    masks[slot >> 2] = mask.x | mask.y << 8 | mask.z << 16 | mask.w << 24;
-    countPixels(mask);
-    if (any(notEqual(mask, uvec4(0))) || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
+    countPixels(words);
+    if (some != 0 || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
         putOnList(patchIndex);
     }
     if (kGather != 0) {

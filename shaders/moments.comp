@@ -1,27 +1,33 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Moments of every guidance class in every listed patch: count, mean, sums of products about the mean. One group of 16
-// invocations a patch, one invocation a sub-patch; the first merges them in fixed order (Chan, Golub, LeVeque 1979).
+// Moments of every guidance class in every listed patch: count, mean, sums of products about the mean. Those of sub-patches are
+// merged in fixed order (Chan, Golub, LeVeque 1979), by an invocation a patch or (kShared) by the first of a group of 16, an
+// invocation a sub-patch.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in; // 16
+layout(local_size_x_id = 0) in; // kShared: 16
+layout(constant_id = 1) const uint kShared = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
+layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(binding = 2) uniform samplerBuffer points; // a slot: base point about the origin, w = 0: none
 layout(std430, binding = 3) readonly buffer List { uint list[]; };
 layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; }; // patch * kMaxClasses + k-th guidance class
+layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
 
-shared PatchMoments part[16];
+#include "shaders/lib/masks.glsl"
+
+shared PatchMoments part[kShared != 0 ? 16 : 1];
 
 // Without a branch: a CPU device walks both sides of each.
 PatchMoments subMoments(uint sub, uint c) {
     vec4 point[16]; // w = 1: of the class
+    uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
         point[p] = texelFetch(points, int(sub * 16u + p));
-        uint bit = masks[sub * 4u + (p >> 2)] >> ((p & 3u) * 8u + c) & 1u;
+        uint bit = maskInRow(rows[p >> 2], p & 3u) >> c & 1u;
         point[p].w = all(bvec2(point[p].w != 0.0, bit != 0u)) ? 1.0 : 0.0;
     }
     vec3 sum = vec3(0.0), anchor = vec3(0.0);
@@ -52,23 +58,40 @@ PatchMoments merge(PatchMoments a, PatchMoments b) {
     return PatchMoments(vec4(a.anchor.xyz, n), vec4(a.offset.xyz + d * (b.anchor.w / n), 0.0), first, second);
 }
 
+PatchMoments wholePatch(uint patchIndex, uint c) {
+    PatchMoments m = subMoments(patchIndex * 16u, c);
+    for (uint s = 1; s < 16u; ++s) {
+        m = merge(m, subMoments(patchIndex * 16u + s, c));
+    }
+    return m;
+}
+
+// All of the group call it; the first has the result.
+PatchMoments patchOfGroup(uint patchIndex, uint c) {
+    barrier(); // the class before is read
+    part[gl_LocalInvocationID.x] = subMoments(patchIndex * 16u + gl_LocalInvocationID.x, c);
+    barrier();
+    PatchMoments m = part[0];
+    for (uint s = 1; gl_LocalInvocationID.x == 0 && s < 16u; ++s) {
+        m = merge(m, part[s]);
+    }
+    return m;
+}
+
 void main() {
-    uint patchIndex = list[gl_WorkGroupID.x];
-    uint k = 0;
+    uint index = kShared != 0 ? gl_WorkGroupID.x : gl_GlobalInvocationID.x;
+    if (index >= counters.patchGroups.x) {
+        return;
+    }
+    uint patchIndex = list[index], k = 0;
     for (uint c = 0; c < params.depthBand.z; ++c) {
         if (params.classes[c].role.z == 0.0) {
             continue;
         }
-        part[gl_LocalInvocationID.x] = subMoments(patchIndex * 16u + gl_LocalInvocationID.x, c);
-        barrier();
-        if (gl_LocalInvocationID.x == 0) {
-            PatchMoments m = part[0];
-            for (uint s = 1; s < 16u; ++s) {
-                m = merge(m, part[s]);
-            }
+        PatchMoments m = kShared != 0 ? patchOfGroup(patchIndex, c) : wholePatch(patchIndex, c);
+        if (kShared == 0 || gl_LocalInvocationID.x == 0) {
             moments[patchIndex * kMaxClasses + k] = m;
         }
-        barrier();
         ++k;
     }
 }

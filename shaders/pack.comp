@@ -12,7 +12,7 @@ layout(std430, binding = 0) readonly buffer List { uint list[]; };
 layout(std430, binding = 1) readonly buffer Begins { uint begins[]; };   // patch -> place of its first sphere
 layout(std430, binding = 2) readonly buffer Spheres { vec4 spheres[]; }; // slot -> centre, R; R < 0 = none
 layout(std430, binding = 3) readonly buffer Held { vec4 held[]; };
-layout(std430, binding = 4) readonly buffer Classes { uint classes[]; };
+layout(std430, binding = 4) readonly buffer Classes { uint classes[]; }; // a byte a slot
 layout(std430, binding = 5) writeonly buffer Packed { vec4 packedSpheres[]; };
 layout(std430, binding = 6) writeonly buffer Tags { uint tags[]; }; // (patch * 512 + layer * 256 + slot in the patch) * 8 + class
 
@@ -48,9 +48,9 @@ void main() {
     for (uint place = gl_LocalInvocationID.x; place < kPlaces; place += gl_WorkGroupSize.x) {
         if ((present[place >> 5] >> (place & 31u) & 1u) != 0) {
             uint to = begins[patchIndex] + rankOf(place);
-            uint both = classes[patchIndex * 256u + (place & 255u)];
+            uint slot = patchIndex * 256u + (place & 255u), both = classes[slot >> 2] >> ((slot & 3u) * 8u);
             packedSpheres[to] = sphereAt(patchIndex, place);
-            tags[to] = (patchIndex * 512u + place) * 8u + ((place >= 256u ? both >> 8 : both) & 7u);
+            tags[to] = (patchIndex * 512u + place) * 8u + ((place >= 256u ? both >> 4 : both) & 7u);
         }
     }
 }

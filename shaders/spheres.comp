@@ -17,22 +17,26 @@ layout(constant_id = 7) const uint kBeam = 0;       // 1: spheres grow by 3 sigm
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
-layout(std430, binding = 2) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
+layout(binding = 2) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(binding = 3) uniform samplerBuffer points; // a slot: base point about the origin, w = z [m]; 0 = none
 layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 5) readonly buffer List { uint list[]; };
-layout(std430, binding = 6) readonly buffer Cells { vec4 growth[]; };
+layout(binding = 6) uniform samplerBuffer growth; // a sub-patch: what thin.comp decided
 layout(std430, binding = 7) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 8) buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
-layout(std430, binding = 9) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
-layout(std430, binding = 10) buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
+layout(std430, binding = 8) writeonly buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
+layout(std430, binding = 9) writeonly buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
+layout(std430, binding = 10) writeonly buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
 layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory
 layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
-layout(std430, binding = 14) writeonly buffer Classes { uint classes[]; };      // slot -> class of the sphere | class of the held one << 8
+layout(std430, binding = 14) writeonly buffer Classes { uvec4 classes[]; };     // a byte a slot: class of the sphere | class of the held one << 4
 layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
+// The same three, to read: an invocation reads a slot before it writes it, and no other does either.
+layout(binding = 18) uniform samplerBuffer seenBefore;
+layout(binding = 19) uniform samplerBuffer keptBefore;
+layout(binding = 20) uniform usamplerBuffer keptTimeBefore;
 
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
@@ -66,7 +70,7 @@ const uint kLayers = kHold != 0 ? 2u : 1u;
 // patch, then held ones; and notes as in PixelResult.
 shared vec4 cells[kByPixel != 0 && kThin != 0 ? 25 : 1];
 shared vec4 all[kByPixel != 0 ? 256 * kLayers : 1];
-shared uint noted[kByPixel != 0 ? 256 : 1];
+shared uint notesOfPatch[kByPixel != 0 ? 256 : 1];
 
 CellsAround cellsOfGroup(uint sub) {
     uint at = (sub >> 2) * 5u + (sub & 3u); // of the corner cell
@@ -93,7 +97,7 @@ vec4 seenSphere(vec4 point, const uint p, uint c, float more, CellsAround around
 
 struct PixelResult {
     vec4 sphere, held; // R < 0 = none
-    uint note;         // 1 = a forbidden class; 2 x points remembered
+    uint note;         // 1 = a forbidden class; 2 x points remembered; 256 x class of the sphere; 4096 x class of the held one
 };
 
 // Pixel p (0..15) of the sub-patch `sub`, whose corner lies at `corner`.
@@ -113,20 +117,34 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
         held[slot] = heldSphere;
     }
     spheres[slot] = sphere;
-    classes[slot] = (c == kNone ? 0u : c) | heldClass << 8;
-    return PixelResult(sphere, heldSphere, (mask != 0u ? 1u : 0u) + 2u * remembered);
+    uint classBits = (c == kNone ? 0u : c) | heldClass << 4;
+    return PixelResult(sphere, heldSphere, (mask != 0u ? 1u : 0u) | remembered << 1 | classBits << 8);
+}
+
+// What the pixels of a sub-patch say together.
+struct Notes {
+    uint marks, remembered; // a bit a pixel of a forbidden class; points
+    uvec4 classes;          // a byte a pixel
+};
+
+Notes noted(Notes n, const uint p, uint note) {
+    n.marks |= (note & 1u) << p;
+    n.remembered += note >> 1 & 127u;
+    n.classes[p >> 2] |= note >> 8 << ((p & 3u) * 8u);
+    return n;
 }
 
 // Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
-void putBound(uint sub, vec3 centre, float radius, uint count, uint marks, uint remembered) {
-    bits[sub] = marks;
+void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
+    bits[sub] = notes.marks;
+    classes[sub] = notes.classes;
     nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
     nodeCounts[sub] = count;
     if (count != 0) {
         atomicAdd(counters.nodes, 1u);
     }
-    if (kHold != 0 && remembered != 0) {
-        atomicAdd(live[sub >> 4], remembered);
+    if (kHold != 0 && notes.remembered != 0) {
+        atomicAdd(live[sub >> 4], notes.remembered);
     }
 }
 
@@ -137,16 +155,17 @@ void wholeSub(uint sub) {
     if (kThin != 0) {
         around = cellsOfSub(ivec2(corner));
     }
-    uint count = 0, marks = 0, remembered = 0;
+    Notes notes = Notes(0, 0, uvec4(0));
+    uint count = 0;
+    uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
-        uint mask = masks[sub * 4u + (p >> 2)] >> ((p & 3u) * 8u) & params.depthBand.w;
+        uint mask = maskInRow(rows[p >> 2], p & 3u) & params.depthBand.w;
         PixelResult r = handlePixel(sub, p, corner, mask, around);
         mine[p] = r.sphere;
         if (kHold != 0) {
             mine[16u * (kLayers - 1u) + p] = r.held;
         }
-        marks |= (r.note & 1u) << p;
-        remembered += r.note >> 1;
+        notes = noted(notes, p, r.note);
     }
     vec3 sum = vec3(0.0);
     [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
@@ -159,13 +178,13 @@ void wholeSub(uint sub) {
         float reach = distance(mine[k].xyz, centre) + mine[k].w;
         radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
     }
-    putBound(sub, centre, radius, count, marks, remembered);
+    putBound(sub, centre, radius, count, notes);
 }
 
 // The same from what the group shares.
 void boundOfGroup(uint patchIndex, uint s) {
     vec3 sum = vec3(0.0);
-    uint count = 0, marks = 0, remembered = 0;
+    uint count = 0;
     for (uint k = 0; k < 16u * kLayers; ++k) {
         vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
         sum += sphere.w >= 0.0 ? sphere.xyz : vec3(0.0);
@@ -177,11 +196,11 @@ void boundOfGroup(uint patchIndex, uint s) {
         vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
         radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
     }
-    for (uint p = 0; p < 16u; ++p) {
-        marks |= (noted[s * 16u + p] & 1u) << p;
-        remembered += noted[s * 16u + p] >> 1;
+    Notes notes = Notes(0, 0, uvec4(0));
+    [[unroll]] for (uint p = 0; p < 16u; ++p) {
+        notes = noted(notes, p, notesOfPatch[s * 16u + p]);
     }
-    putBound(patchIndex * 16u + s, centre, radius, count, marks, remembered);
+    putBound(patchIndex * 16u + s, centre, radius, count, notes);
 }
 
 void wholePatch(uint patchIndex) {
@@ -203,7 +222,7 @@ void wholePatch(uint patchIndex) {
         if (kHold != 0) {
             all[256u * (kLayers - 1u) + i] = r.held;
         }
-        noted[i] = r.note;
+        notesOfPatch[i] = r.note;
     }
     barrier();
     for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Points of the listed patches: flying and isolated pixels rejected, the paper's Cartesian bilateral filter (eq. 1-2),
-// base frame. One group a patch, one invocation a pixel, or (kRow) four pixels of a row that share their window in registers.
+// base frame. One group a patch, one invocation a pixel, or (kBlock) a 4x4 sub-patch, whose pixels share their window and weights in registers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
@@ -12,14 +12,14 @@ layout(constant_id = 2) const uint kRadius = 2;  // filter window (2 r + 1)^2; 0
 layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejected
 layout(constant_id = 4) const uint kTiled = 0;   // 1: the window comes from shared memory (the paper); 0: direct reads
 
-layout(constant_id = 5) const uint kRow = 0;     // 1: four pixels of a row an invocation, radius at most 2
-layout(constant_id = 6) const uint kEven = 0;    // 1: the width is even and rows are read: a texel of depth is two pixels
+layout(constant_id = 5) const uint kBlock = 0;   // 1: a 4x4 sub-patch an invocation, radius at most 2; groups of 16
+layout(constant_id = 6) const uint kFour = 0;    // 1: blocks, and four divides the width: a texel of depth is four pixels
 layout(constant_id = 7) const uint kPolynomial = 0; // 1: weights by a power of a line, which has no exp and ends at 0
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kEven: two a texel
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(std430, binding = 3) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
+layout(binding = 3) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot -> base point about the origin, w = z [m]; 0 = none
 
@@ -131,18 +131,18 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
     return p.z + sum / weights; // weights >= 1: the centre itself
 }
 
-// The window of four pixels of a row: points of the camera frame, z = 0 where there is no depth.
-const int kReach = 2;
-const int kWide = 4 + 2 * kReach, kHigh = 1 + 2 * kReach;
+// The window of a 4x4 sub-patch: points of the camera frame, z = 0 where there is no depth.
+const int kReach = 2, kWide = 4 + 2 * kReach;
 
-// Of a pixel in an even column and its right neighbour.
-vec2 pairOfDepths(ivec2 q) {
-    if (kEven == 0) {
-        return vec2(depthOfPixel(q), depthOfPixel(q + ivec2(1, 0)));
+// Of four pixels of a row, the first in a column that four divides.
+vec4 fourDepths(ivec2 q) {
+    if (kFour == 0) {
+        return vec4(depthOfPixel(q), depthOfPixel(q + ivec2(1, 0)), depthOfPixel(q + ivec2(2, 0)), depthOfPixel(q + ivec2(3, 0)));
     }
-    bool beyond = outside(q); // both are or none
-    uvec2 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * params.size.x + uint(q.x)) >> 1)).xy;
-    return beyond ? vec2(0.0) : vec2(metresOf(raw.x), metresOf(raw.y));
+    bool beyond = outside(q); // all are or none
+    uvec4 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * params.size.x + uint(q.x)) >> 2));
+    vec4 z = vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
+    return beyond ? vec4(0.0) : z;
 }
 
 vec3 pointIn(ivec2 q, float z) {
@@ -152,39 +152,45 @@ vec3 pointIn(ivec2 q, float z) {
     return z != 0.0 ? pointAt(q, z) : vec3(0.0); // rays are a table of the pixels inside
 }
 
-void loadRow(ivec2 at, out vec3 window[kHigh * kWide]) {
-    [[unroll]] for (int y = 0; y < kHigh; ++y) {
-        [[unroll]] for (int x = 0; x < kWide; x += 2) {
-            ivec2 q = at + ivec2(x - kReach, y - kReach);
-            vec2 z = pairOfDepths(q);
-            window[y * kWide + x] = pointIn(q, z.x);
-            window[y * kWide + x + 1] = pointIn(q + ivec2(1, 0), z.y);
+void loadWindow(ivec2 at, out vec3 window[kWide * kWide]) {
+    [[unroll]] for (int y = 0; y < kWide; ++y) {
+        ivec2 left = at + ivec2(-4, y - kReach);
+        vec4 before = fourDepths(left), own = fourDepths(left + ivec2(4, 0)), after = fourDepths(left + ivec2(8, 0));
+        float z[kWide] = float[kWide](before.z, before.w, own.x, own.y, own.z, own.w, after.x, after.y);
+        [[unroll]] for (int x = 0; x < kWide; ++x) {
+            window[y * kWide + x] = pointIn(at + ivec2(x, y) - kReach, z[x]);
         }
     }
 }
 
-// The same decisions and sums as below, pixel by pixel, in the same order.
-float surfaceInRow(vec3 window[kHigh * kWide], int k, uint mask) {
+// From the earlier point of the window to the later one, so that both ask for the same square and the same weight: half of them
+// are computed once for two pixels.
+vec3 between(vec3 window[kWide * kWide], const int a, const int b) {
+    return window[max(a, b)] - window[min(a, b)];
+}
+
+// The same decisions and sums as below, pixel by pixel, in the same order. centre: place of the pixel in the window.
+float surfaceInWindow(vec3 window[kWide * kWide], const int centre, uint mask) {
     float n[9];
     uint near = 0;
-    vec3 p = window[kReach * kWide + kReach + k];
+    vec3 p = window[centre];
     float limit = max(params.filterParams.z, params.filterParams.w * p.z);
     [[unroll]] for (int i = 0; i < 9; ++i) {
-        vec3 q = window[(kReach + i / 3 - 1) * kWide + kReach + k + i % 3 - 1];
-        n[i] = q.z;
-        bool beside = distance(q, p) <= limit;
-        near += i != 4 ? uint(q.z != 0.0) * uint(beside) : 0u;
+        const int at = centre + (i / 3 - 1) * kWide + i % 3 - 1;
+        n[i] = window[at].z;
+        bool beside = length(between(window, centre, at)) <= limit;
+        near += i != 4 ? uint(n[i] != 0.0) * uint(beside) : 0u;
     }
     bool flying = kEdge != 0 ? isFlying(n) : false;
     bool rejected = any(bvec3(flying, near < 2u, mask == 0u));
     float sum = 0.0, weights = 0.0;
     [[unroll]] for (int dy = -int(min(kRadius, 2u)); dy <= int(min(kRadius, 2u)); ++dy) {
         [[unroll]] for (int dx = -int(min(kRadius, 2u)); dx <= int(min(kRadius, 2u)); ++dx) {
-            vec3 q = window[(kReach + dy) * kWide + kReach + k + dx];
-            vec3 apart = q - p;
+            const int at = centre + dy * kWide + dx;
+            vec3 apart = between(window, centre, at);
             float weight = weightOf(dot(apart, apart) * params.filterParams.x);
-            weight = q.z != 0.0 ? weight : 0.0;
-            sum += (q.z - p.z) * weight;
+            weight = window[at].z != 0.0 ? weight : 0.0;
+            sum += (window[at].z - p.z) * weight;
             weights += weight;
         }
     }
@@ -192,25 +198,23 @@ float surfaceInRow(vec3 window[kHigh * kWide], int k, uint mask) {
     return rejected ? 0.0 : z;
 }
 
-void filterRow(uint patchIndex, uint row) {
-    uint slot = patchIndex * 256u + row * 4u;
-    uvec4 mask = uvec4(masks[slot >> 2]) >> uvec4(0, 8, 16, 24) & 255u;
-    ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
-    vec3 window[kHigh * kWide];
-    loadRow(at, window);
-    [[unroll]] for (int k = 0; k < 4; ++k) {
-        float z = surfaceInRow(window, k, mask[k]);
-        vec3 base = transformPoint(params.baseTcamera, pointAt(at + ivec2(k, 0), z));
-        points[slot + uint(k)] = z != 0.0 ? vec4(base, z) : vec4(0.0);
+void filterBlock(uint sub) {
+    ivec2 at = ivec2(pixelOfSlot(sub * 16u, params.size.z));
+    vec3 window[kWide * kWide];
+    loadWindow(at, window);
+    uvec4 rows = rowsOfMasks(sub);
+    [[unroll]] for (int k = 0; k < 16; ++k) {
+        ivec2 in4 = ivec2(k & 3, k >> 2);
+        float z = surfaceInWindow(window, (in4.y + kReach) * kWide + in4.x + kReach, maskInRow(rows[k >> 2], uint(k & 3)));
+        vec3 base = transformPoint(params.baseTcamera, pointAt(at + in4, z));
+        points[sub * 16u + uint(k)] = z != 0.0 ? vec4(base, z) : vec4(0.0);
     }
 }
 
 void main() {
     uint patchIndex = list[gl_WorkGroupID.x];
-    if (kRow != 0) {
-        for (uint row = gl_LocalInvocationID.x; row < 64u; row += gl_WorkGroupSize.x) {
-            filterRow(patchIndex, row);
-        }
+    if (kBlock != 0) {
+        filterBlock(patchIndex * 16u + gl_LocalInvocationID.x);
         return;
     }
     ivec2 patchOrigin = ivec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16;

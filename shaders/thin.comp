@@ -15,7 +15,7 @@ layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kClasses = 1; // classes of points
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(std430, binding = 1) readonly buffer Masks { uint masks[]; }; // a byte a slot: class bits
+layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(binding = 2) uniform samplerBuffer points; // a slot: base point about the origin, w = 0: none
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
@@ -31,21 +31,34 @@ const uint kEdge = 5u; // points of a 4x4 cell with the corners of the next ones
 vec3 point[kEdge * kEdge];
 uint kind[kEdge * kEdge]; // forbidden class, kNone
 
+// The four sub-patches that the points lie in: own, right, below, across; their class bits, none outside the picture and in
+// patches without work.
+struct Quarter {
+    uint slot; // of its first pixel
+    uvec4 rows;
+};
+
+Quarter quarterAt(uvec2 at) {
+    bool inside = all(lessThan(at, params.size.xy));
+    uint slot = slotOfPixel(inside ? at : uvec2(0), params.size.z);
+    uint used = listed[slot >> 8];
+    uvec4 rows = rowsOfMasks(slot >> 4) & params.depthBand.w * 0x01010101u;
+    return Quarter(slot, all(bvec2(inside, used != 0)) ? rows : uvec4(0));
+}
+
 // Everything is read before anything is looked at: one delay of the memory, not 25.
 void readPoints(uvec2 at) {
-    uint marks[kEdge * kEdge];
+    Quarter quarters[4] = Quarter[4](quarterAt(at), quarterAt(at + uvec2(4, 0)), quarterAt(at + uvec2(0, 4)), quarterAt(at + uvec2(4, 4)));
     float ranges[kEdge * kEdge];
     [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
-        uvec2 p = at + uvec2(i % kEdge, i / kEdge);
-        bool inside = all(lessThan(p, params.size.xy));
-        uint slot = slotOfPixel(inside ? p : at, params.size.z);
-        uint mark = maskAt(slot) & params.depthBand.w, used = listed[slot >> 8];
-        vec4 here = texelFetch(points, int(slot));
-        marks[i] = all(bvec2(inside, used != 0)) ? mark : 0u;
+        const uint x = i % kEdge, y = i / kEdge;
+        vec4 here = texelFetch(points, int(quarters[y / 4u * 2u + x / 4u].slot + (y & 3u) * 4u + (x & 3u)));
         point[i] = here.xyz, ranges[i] = here.w;
     }
     [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
-        kind[i] = forbiddenClass(ranges[i] != 0.0 ? marks[i] : 0u);
+        const uint x = i % kEdge, y = i / kEdge;
+        uint mark = maskInRow(quarters[y / 4u * 2u + x / 4u].rows[y & 3u], x & 3u);
+        kind[i] = forbiddenClass(ranges[i] != 0.0 ? mark : 0u);
     }
 }
 

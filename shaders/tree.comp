@@ -7,6 +7,7 @@
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kPatches = 0; // 1: the level of patches, whose children an earlier dispatch wrote; 0: those above
 
 layout(push_constant) uniform Push { TreeParams tree; } ;
 layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
@@ -14,43 +15,72 @@ layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 4) writeonly buffer Begins { uint begins[]; }; // patch -> spheres of the patches before it
+// kPatches: nodes and counts of the sub-patches, four counts a texel.
+layout(binding = 5) uniform samplerBuffer subNodes;
+layout(binding = 6) uniform usamplerBuffer subCounts;
 
 // Index of child k of node `at` on `level`; kNoChild when it lies outside. No branch: a CPU device walks both sides of each.
 const uint kNoChild = 0xffffffffu;
-uint childOf(uvec2 at, uint level, uint k, uint index, uint used) {
+uint childOf(uvec2 at, uint level, uint k) {
     uvec4 below = tree.levels[level - 1u];
     uvec2 child = at * 4u + uvec2(k & 3u, k >> 2);
-    uint above = all(lessThan(child, below.xy)) ? below.z + child.y * below.x + child.x : kNoChild;
-    uint inPatch = used != 0u ? index * 16u + k : kNoChild; // sub-patches of an unlisted patch hold old data
-    return level == 1u ? inPatch : above;
+    return all(lessThan(child, below.xy)) ? below.z + child.y * below.x + child.x : kNoChild;
+}
+
+struct Children {
+    vec4 node[16];
+    uint count[16];
+};
+
+Children subPatchesOf(uint patchIndex) {
+    Children c;
+    bool used = listed[patchIndex] != 0u; // sub-patches of an unlisted patch hold old data
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
+        c.node[k] = texelFetch(subNodes, int(patchIndex * 16u + k));
+    }
+    [[unroll]] for (uint k = 0; k < 16u; k += 4u) {
+        uvec4 four = texelFetch(subCounts, int(patchIndex * 4u + k / 4u));
+        four = used ? four : uvec4(0);
+        c.count[k] = four.x, c.count[k + 1u] = four.y, c.count[k + 2u] = four.z, c.count[k + 3u] = four.w;
+    }
+    return c;
+}
+
+Children nodesBelow(uint level, uint index) {
+    uvec2 at = uvec2(index % tree.levels[level].x, index / tree.levels[level].x);
+    Children c;
+    [[unroll]] for (uint k = 0; k < 16u; ++k) {
+        uint child = childOf(at, level, k);
+        uint safe = child != kNoChild ? child : 0u;
+        c.node[k] = nodes[safe];
+        c.count[k] = child != kNoChild ? nodeCounts[safe] : 0u;
+    }
+    return c;
 }
 
 // All children are read before any is looked at: the reads are on their way together, a node costs one of their delays, not 32.
 void buildNode(uint level, uint index) {
-    uvec4 here = tree.levels[level];
-    uvec2 at = uvec2(index % here.x, index / here.x);
-    vec4 child[16];
-    uint below[16], used = listed[level == 1u ? index : 0u];
-    [[unroll]] for (uint k = 0; k < 16u; ++k) {
-        uint c = childOf(at, level, k, index, used);
-        uint safe = c != kNoChild ? c : 0u;
-        child[k] = nodes[safe];
-        below[k] = c != kNoChild ? nodeCounts[safe] : 0u;
+    Children below;
+    if (kPatches != 0) {
+        below = subPatchesOf(index);
+    } else {
+        below = nodesBelow(level, index);
     }
     vec3 sum = vec3(0.0);
     uint count = 0;
     [[unroll]] for (uint k = 0; k < 16u; ++k) {
-        sum += below[k] != 0 ? child[k].xyz * float(below[k]) : vec3(0.0);
-        count += below[k];
+        sum += below.count[k] != 0 ? below.node[k].xyz * float(below.count[k]) : vec3(0.0);
+        count += below.count[k];
     }
     vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
     float radius = -1.0;
     [[unroll]] for (uint k = 0; k < 16u; ++k) {
-        float reach = distance(child[k].xyz, centre) + child[k].w;
-        radius = below[k] != 0 ? max(radius, reach) : radius;
+        float reach = distance(below.node[k].xyz, centre) + below.node[k].w;
+        radius = below.count[k] != 0 ? max(radius, reach) : radius;
     }
-    nodes[here.z + index] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
-    nodeCounts[here.z + index] = count;
+    uint here = tree.levels[level].z + index;
+    nodes[here] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
+    nodeCounts[here] = count;
     if (count != 0) {
         atomicAdd(counters.nodes, 1u);
     }
@@ -85,7 +115,7 @@ void placePatches() {
 }
 
 void main() {
-    if (tree.run.w != 0) {
+    if (kPatches == 0) {
         placePatches();
     }
     for (uint level = tree.run.x; level <= tree.run.y; ++level) {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kEdgeJump = 0.02; // relative depth jump of the truth that makes an edge
 constexpr int kEdgeReach = 3;      // [pixels] from the jump that still count as edge
 
-enum class Window { Direct, Tiles, Rows }; // how a pixel's window is read
+enum class Window { Direct, Tiles, Blocks }; // how a pixel's window is read
 
 struct Setting {
     uint32_t radius;
@@ -24,16 +24,16 @@ struct Setting {
 };
 
 Window windowOf(const Plan& plan) {
-    return plan.filterRow ? Window::Rows : plan.tiled ? Window::Tiles : Window::Direct;
+    return plan.filterBlock ? Window::Blocks : plan.tiled ? Window::Tiles : Window::Direct;
 }
 
-// Rows in registers are there up to 5x5.
+// Blocks in registers are there up to 5x5.
 Window windowFor(uint32_t radius, Window wanted) {
-    return wanted == Window::Rows && radius > 2 ? Window::Direct : wanted;
+    return wanted == Window::Blocks && radius > 2 ? Window::Direct : wanted;
 }
 
 std::string nameOf(const Setting& s, Window usual) {
-    const char* windows[] = {" direct", " tiles", " rows"};
+    const char* windows[] = {" direct", " tiles", " blocks"};
     std::string name = std::to_string(2 * s.radius + 1) + "x" + std::to_string(2 * s.radius + 1);
     name = s.radius == 0 ? "none" : name + " s" + digits(s.sigma * 1e3) + "mm";
     name +=
@@ -52,7 +52,7 @@ std::vector<Setting> settingsOf(const Scene& scene, bool quick, Window usual) {
             list.push_back({radius, s, windowFor(radius, usual), false});
         }
     }
-    for (Window window : {Window::Direct, Window::Tiles, Window::Rows}) {
+    for (Window window : {Window::Direct, Window::Tiles, Window::Blocks}) {
         if (window != usual) {
             list.push_back({2, sigma, window, false});
         }
@@ -152,7 +152,7 @@ Scene sceneFor(const Settings& settings, const Setting& s) {
 StudyRow rowOf(const StudyContext& context, const ShotSource& source, const Setting& s, Window usual) {
     FrameBench bench(context.device, sceneFor(context.settings, s), source.camera, [&](Plan& plan) {
         plan.tiled = s.window == Window::Tiles;
-        plan.filterRow = s.window == Window::Rows;
+        plan.filterBlock = s.window == Window::Blocks;
     });
     StudyRow row;
     row.source = source.name;

@@ -14,13 +14,19 @@ uint32_t colourMode(const Plan& plan) {
     return !plan.colour ? 0 : (plan.occlusion ? 2 : 1);
 }
 
-bool inFours(const CloudContext& c) {
-    return c.camera.depth.width % 4 == 0;
+// How many of depth and registered colour are fetched in fours. A GPU that reads colours where the camera
+// left them is quicker pixel by pixel.
+uint32_t inFours(const CloudContext& c) {
+    const bool colours = colourMode(c.plan) == 1 && !c.plan.byPixel;
+    return c.camera.depth.width % 4 != 0 ? 0u : (colours ? 2u : 1u);
 }
 
-// Four pixels an invocation: 64 do a patch.
+// Four pixels of one row an invocation, or of four: 64 or 16 do a patch.
+uint32_t rowsOf(const Plan& plan) {
+    return plan.byPixel ? 1u : 4u;
+}
 uint32_t groupOf(const Plan& plan) {
-    return std::min(64u, plan.pixelGroup);
+    return std::min(64u / rowsOf(plan), plan.pixelGroup);
 }
 
 } // namespace
@@ -35,11 +41,12 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
                  0,
                  std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
                             c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
-                            uint32_t{c.plan.groupCounts}, uint32_t{inFours(c)}, uint32_t{c.plan.range},
-                            uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water}},
-                 {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kColourTexels}}})
+                            uint32_t{c.plan.groupCounts}, inFours(c), uint32_t{c.plan.range},
+                            uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water}, rowsOf(c.plan)},
+                 {{1, inFours(c) != 0 ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels},
+                  {3, inFours(c) == 2 ? VK_FORMAT_R32G32B32A32_UINT : kColourTexels}}})
     , work_(c.work)
-    , groups_{c.layout.across, c.layout.down, 64 / groupOf(c.plan)} {}
+    , groups_{c.layout.across, c.layout.down, 64 / rowsOf(c.plan) / groupOf(c.plan)} {}
 
 void ClassifyPass::bind(uint32_t upload, const UploadBuffers& up) {
     const WorkBuffers& w = context_.work;

@@ -46,7 +46,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
     if (plan.spheres) {
-        classes = Buffer(device, slots * 4, slotMemory(plan), "classes");
+        classes = Buffer(device, slots, slotMemory(plan), "classes");
         begins = Buffer(device, patches * 4, MemoryKind::Device, "begins");
     }
     if (plan.query == Plan::Query::Cpu) {

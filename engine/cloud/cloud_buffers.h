@@ -29,7 +29,7 @@ struct WorkBuffers {
     gpu::Buffer nearest;              // uint a cell of the colour picture: occlusion
     gpu::Buffer rays;                 // vec2 a pixel, row-major
     gpu::Buffer spheres, held;        // vec4 a slot, R < 0 = none; empty with a GPU query: a set has its own
-    gpu::Buffer classes;              // uint a slot: class of the sphere | class of the held one << 8
+    gpu::Buffer classes;              // uint8 a slot: class of the sphere | class of the held one << 4
     gpu::Buffer begins;               // uint a patch: spheres of the patches before it
     // spheres, held and classes are what the CPU reads when the plan packs nothing.
     gpu::Buffer unused; // stands in for what the plan leaves out
@@ -37,10 +37,11 @@ struct WorkBuffers {
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
 };
 
-// How passes fetch what a frame uploads, and points.
+// How passes fetch what a frame uploads, points and class bits.
 inline constexpr VkFormat kDepthTexels = VK_FORMAT_R16_UINT;
 inline constexpr VkFormat kPointTexels = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kColourTexels = VK_FORMAT_R8G8B8A8_UINT;
+inline constexpr VkFormat kMaskTexels = VK_FORMAT_R32G32B32A32_UINT; // a texel a sub-patch
 
 // What one frame uploads: parameters, and pictures, which are copied unless they can be read where they are.
 struct UploadBuffers {

@@ -149,7 +149,7 @@ void takeSlots(const FixtureSet& set, const WorkBuffers& work, bool hold, const 
     const auto listed = set.device.listed.as<uint32_t>();
     const std::array<std::span<const glm::vec4>, 2> layers{slotSpheres(work, set.device).as<glm::vec4>(),
                                                            slotHeld(work, set.device).as<glm::vec4>()};
-    const auto classes = work.classes.as<uint32_t>();
+    const auto classes = work.classes.as<uint8_t>();
     std::array<uint16_t, 512> places; // that hold a sphere
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
         uint32_t n = 0;
@@ -160,7 +160,7 @@ void takeSlots(const FixtureSet& set, const WorkBuffers& work, bool hold, const 
         if (n > 0) {
             columns.put(patch, n, [&](uint32_t i) {
                 const uint32_t layer = places[i] >> 8u, slot = patch * 256u + (places[i] & 255u);
-                return Placed{layers[layer][slot], places[i], classes[slot] >> (8 * layer) & 255};
+                return Placed{layers[layer][slot], places[i], classes[slot] >> (4 * layer) & 15u};
             });
         }
     }

@@ -13,13 +13,19 @@ SpheresPass::SpheresPass(const CloudContext& c)
     , pipeline_(c.device,
                 {"spheres",
                  spheres_spv,
-                 18,
+                 21,
                  true,
                  0,
                  std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup, uint32_t{c.plan.thin},
                             uint32_t{c.plan.hold}, uint32_t{c.plan.byPixel}, uint32_t{c.plan.leaks},
                             c.plan.classes, uint32_t{c.plan.fan}, uint32_t{c.plan.beam}},
-                 {{1, kDepthTexels}, {3, kPointTexels}}})
+                 {{1, kDepthTexels},
+                  {2, kMaskTexels},
+                  {3, kPointTexels},
+                  {6, VK_FORMAT_R32G32B32A32_SFLOAT},
+                  {18, VK_FORMAT_R32G32B32A32_SFLOAT},
+                  {19, VK_FORMAT_R32G32B32A32_SFLOAT},
+                  {20, VK_FORMAT_R32_UINT}}})
     , work_(c.work)
     , hold_(c.plan.hold)
     , byPixel_(c.plan.byPixel) {}
@@ -29,11 +35,27 @@ void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
     bindings_[upload].clear();
     for (const SetBuffers* s : context_.sets) {
         bindings_[upload].emplace_back(context_.device, pipeline_,
-                                       std::initializer_list<const gpu::Buffer*>{
-                                           &up.params, &up.depth, &w.masks, &w.points, &w.listed, &w.list,
-                                           &w.growth, &w.counters, &w.seen, &w.kept, &w.keptTime, &w.live,
-                                           &slotSpheres(w, *s), &slotHeld(w, *s), &w.classes, &s->bits,
-                                           &s->nodes, &s->nodeCounts},
+                                       std::initializer_list<const gpu::Buffer*>{&up.params,
+                                                                                 &up.depth,
+                                                                                 &w.masks,
+                                                                                 &w.points,
+                                                                                 &w.listed,
+                                                                                 &w.list,
+                                                                                 &w.growth,
+                                                                                 &w.counters,
+                                                                                 &w.seen,
+                                                                                 &w.kept,
+                                                                                 &w.keptTime,
+                                                                                 &w.live,
+                                                                                 &slotSpheres(w, *s),
+                                                                                 &slotHeld(w, *s),
+                                                                                 &w.classes,
+                                                                                 &s->bits,
+                                                                                 &s->nodes,
+                                                                                 &s->nodeCounts,
+                                                                                 &w.seen,
+                                                                                 &w.kept,
+                                                                                 &w.keptTime},
                                        w.unused);
     }
 }

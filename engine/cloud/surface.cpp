@@ -11,13 +11,13 @@ namespace fathom::cloud {
 
 namespace {
 
-// A row of four pixels an invocation: 64 do a patch.
+// A sub-patch an invocation: 16 do a patch.
 uint32_t groupOf(const Plan& plan) {
-    return plan.filterRow ? std::min(64u, plan.pixelGroup) : plan.pixelGroup;
+    return plan.filterBlock ? 16u : plan.pixelGroup;
 }
 
-bool inPairs(const CloudContext& c) {
-    return c.plan.filterRow && c.camera.depth.width % 2 == 0;
+bool inFours(const CloudContext& c) {
+    return c.plan.filterBlock && c.camera.depth.width % 4 == 0;
 }
 
 } // namespace
@@ -30,10 +30,10 @@ SurfacePass::SurfacePass(const CloudContext& c)
                            true,
                            0,
                            std::array{groupOf(c.plan), uint32_t{c.plan.rays}, c.plan.filterRadius,
-                                      uint32_t{c.plan.edge}, uint32_t{c.plan.tiled && !c.plan.filterRow},
-                                      uint32_t{c.plan.filterRow}, uint32_t{inPairs(c)},
+                                      uint32_t{c.plan.edge}, uint32_t{c.plan.tiled && !c.plan.filterBlock},
+                                      uint32_t{c.plan.filterBlock}, uint32_t{inFours(c)},
                                       uint32_t{c.plan.polynomialWeights}},
-                           {{1, inPairs(c) ? VK_FORMAT_R16G16_UINT : kDepthTexels}}})
+                           {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kMaskTexels}}})
     , counters_(c.work.counters) {}
 
 void SurfacePass::bind(uint32_t upload, const UploadBuffers& up) {

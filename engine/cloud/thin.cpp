@@ -10,9 +10,13 @@ namespace fathom::cloud {
 
 ThinPass::ThinPass(const CloudContext& c)
     : context_(c)
-    , pipeline_(
-          c.device,
-          {"thin", thin_spv, 7, true, 0, std::array{c.plan.subGroup, c.plan.classes}, {{2, kPointTexels}}})
+    , pipeline_(c.device, {"thin",
+                           thin_spv,
+                           7,
+                           true,
+                           0,
+                           std::array{c.plan.subGroup, c.plan.classes},
+                           {{1, kMaskTexels}, {2, kPointTexels}}})
     , counters_(c.work.counters) {}
 
 void ThinPass::bind(uint32_t upload, const UploadBuffers& up) {

@@ -6,18 +6,27 @@
 
 namespace fathom::cloud {
 
-TreePass::TreePass(const CloudContext& c)
-    : pipeline_(c.device,
-                {"tree", tree_spv, 5, false, sizeof(shared::TreeParams), std::array{c.plan.subGroup}})
-    , layout_(c.layout) {
+TreePass::Levels::Levels(const CloudContext& c, bool patches)
+    : pipeline(c.device, {"tree",
+                          tree_spv,
+                          7,
+                          false,
+                          sizeof(shared::TreeParams),
+                          std::array{c.plan.subGroup, uint32_t{patches}},
+                          {{5, VK_FORMAT_R32G32B32A32_SFLOAT}, {6, VK_FORMAT_R32G32B32A32_UINT}}}) {
     for (const SetBuffers* s : c.sets) {
-        bindings_.emplace_back(c.device, pipeline_,
-                               std::initializer_list<const gpu::Buffer*>{&c.work.listed, &s->nodes,
-                                                                         &s->nodeCounts, &c.work.counters,
-                                                                         &c.work.begins},
-                               c.work.unused);
+        bindings.emplace_back(c.device, pipeline,
+                              std::initializer_list<const gpu::Buffer*>{
+                                  &c.work.listed, &s->nodes, &s->nodeCounts, &c.work.counters, &c.work.begins,
+                                  &s->nodes, &s->nodeCounts},
+                              c.work.unused);
     }
 }
+
+TreePass::TreePass(const CloudContext& c)
+    : patches_(c, true)
+    , above_(c, false)
+    , layout_(c.layout) {}
 
 void TreePass::record(gpu::Commands& commands, uint32_t set) const {
     shared::TreeParams params{};
@@ -26,11 +35,12 @@ void TreePass::record(gpu::Commands& commands, uint32_t set) const {
         params.levels[l] = {layout_.levels[l].across, layout_.levels[l].down, layout_.levels[l].first, 0};
     }
     params.run = {1, 1, levels, 0};
-    const uint32_t group = pipeline_.groupSize();
-    commands.dispatch(pipeline_, bindings_[set], (layout_.patches() + group - 1) / group, &params);
+    const uint32_t group = patches_.pipeline.groupSize();
+    commands.dispatch(patches_.pipeline, patches_.bindings[set], (layout_.patches() + group - 1) / group,
+                      &params);
     commands.barrier();
-    params.run = {2, levels - 1, levels, 1};
-    commands.dispatch(pipeline_, bindings_[set], 1, &params);
+    params.run = {2, levels - 1, levels, 0};
+    commands.dispatch(above_.pipeline, above_.bindings[set], 1, &params);
 }
 
 } // namespace fathom::cloud

@@ -14,8 +14,12 @@ public:
     void record(gpu::Commands& commands, uint32_t set) const;
 
 private:
-    gpu::Pipeline pipeline_;
-    std::vector<gpu::Bindings> bindings_; // a set
+    struct Levels {
+        Levels(const CloudContext& context, bool patches);
+        gpu::Pipeline pipeline;
+        std::vector<gpu::Bindings> bindings; // a set
+    };
+    Levels patches_, above_;
     const PatchLayout& layout_;
 };
 

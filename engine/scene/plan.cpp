@@ -65,7 +65,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
     plan.groupCounts = device.kind != DeviceKind::Cpu; // there a barrier costs more than the counts
     plan.byPixel = device.kind != DeviceKind::Cpu;     // there shared memory made it twice as slow
-    plan.filterRow = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
+    plan.filterBlock = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
                          (scene.contact.where == Scene::Contact::Where::Auto && !plan.arm &&
@@ -89,9 +89,9 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.filterRow ? ", rows of four from registers"
-                                       : plan.tiled   ? ", shared-memory tiles"
-                                                      : ", direct reads") +
+                                      (plan.filterBlock ? ", 4x4 blocks from registers"
+                                       : plan.tiled     ? ", shared-memory tiles"
+                                                        : ", direct reads") +
                                       (plan.polynomialWeights ? ", polynomial weights" : "")
                                 : "no filter: points as measured",
          "the scene has no class of points");
@@ -132,7 +132,7 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
-    buffer("sphere slots", plan.spheres, slots * (plan.hold ? 36u : 20u),
+    buffer("sphere slots", plan.spheres, slots * (plan.hold ? 33u : 17u),
            plan.query == Plan::Query::Gpu ? "of one fixture set: the GPU query reads them"
                                           : "handed from pass to pass");
     buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u),

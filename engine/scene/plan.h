@@ -33,22 +33,24 @@ struct Plan {
     bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
     // Variants.
-    bool rays = false;      // distorted lens, or a fan
-    bool colour = false;    // some class asks for colour: it is uploaded
-    bool inPlace = false;   // pictures in whole pages are read where the camera left them, not copied
-    bool tiled = false;     // the filter's window from shared memory
-    bool filterRow = false; // four pixels of a row an invocation, their window in registers (radius <= 2)
-    uint32_t classes = 0;   // classes of points
-    bool box = false;       // some class has a box
-    bool range = false;     // some class asks for the range
-    bool fan = false;       // the sensor's pixels are beams at equal angles
-    bool beam = false;      // each point's sphere grows by its own sigma
+    bool rays = false;        // distorted lens, or a fan
+    bool colour = false;      // some class asks for colour: it is uploaded
+    bool inPlace = false;     // pictures in whole pages are read where the camera left them, not copied
+    bool tiled = false;       // the filter's window from shared memory
+    bool filterBlock = false; // a 4x4 sub-patch an invocation, its window in registers (radius <= 2)
+    uint32_t classes = 0;     // classes of points
+    bool box = false;         // some class has a box
+    bool range = false;       // some class asks for the range
+    bool fan = false;         // the sensor's pixels are beams at equal angles
+    bool beam = false;        // each point's sphere grows by its own sigma
     bool leaks = false; // neighbours may be a region radius apart somewhere in near..far: it is looked for
     bool polynomialWeights = false; // the filter's, in place of exp
     uint32_t filterRadius = 0;
     bool edge = false;
-    bool groupCounts = false;  // classify counts in shared memory before it counts for all
-    bool byPixel = false;      // spheres: an invocation a pixel, bounds from shared memory; else a sub-patch
+    bool groupCounts = false; // classify counts in shared memory before it counts for all
+    // spheres an invocation a pixel, moments one a sub-patch, the rest from shared memory; else a sub-patch
+    // and a patch
+    bool byPixel = false;
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
     bool arm = false;   // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory of points that a new frame does not contradict (design 4, hold). Two places a slot: the point the slot showed last
-// frame, and the point that it holds. Needs params, forbidden.glsl, seen, kept,
-// keptTime, kFan, kBeam, depth.glsl, lens.glsl, beam.glsl.
+// frame, and the point that it holds. Needs params, forbidden.glsl, seen, kept, keptTime (written) and seenBefore, keptBefore,
+// keptTimeBefore (read), kFan, kBeam, depth.glsl, lens.glsl, beam.glsl.
 
 // What is remembered of a point beside its place: class + 1, 0 = nothing; with beams, above these four bits, what its sphere
 // grows by, rounded up to 10 um. Small enough for any float to keep the bits.
@@ -32,8 +32,8 @@ bool uncontradicted(vec3 p) {
 // grows by `grown` for its sigma [m]. Returns the held sphere
 // (R < 0: none), its class, and counts what is remembered.
 vec4 updateMemory(uint slot, vec3 point, uint now, float grown, out uint heldClass, inout uint remembered) {
-    vec4 last = seen[slot], old = kept[slot];
-    uint lastNote = floatBitsToUint(last.w), oldNote = floatBitsToUint(old.w), when = keptTime[slot];
+    vec4 last = texelFetch(seenBefore, int(slot)), old = texelFetch(keptBefore, int(slot));
+    uint lastNote = floatBitsToUint(last.w), oldNote = floatBitsToUint(old.w), when = texelFetch(keptTimeBefore, int(slot)).x;
     bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, uncontradicted(last.xyz)));
     bool oldStays = all(bvec3(oldNote != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));

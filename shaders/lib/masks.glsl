@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Class bits of pixels, a byte a slot. Needs masks.
+// Class bits of pixels: a byte a slot, a texel a sub-patch, whose four words are its rows. Needs masks.
+
+uvec4 rowsOfMasks(uint sub) {
+    return texelFetch(masks, int(sub));
+}
+
+// Of the pixel in column x (0..3) of a row.
+uint maskInRow(uint row, uint x) {
+    return row >> (x * 8u) & 255u;
+}
 
 uint maskAt(uint slot) {
-    return masks[slot >> 2] >> ((slot & 3u) * 8u) & 255u;
+    return maskInRow(rowsOfMasks(slot >> 4)[slot >> 2 & 3u], slot & 3u);
 }

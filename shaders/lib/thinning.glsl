@@ -7,7 +7,7 @@ vec4 cellAt(ivec2 at) {
     uvec2 p = inside ? uvec2(at) : uvec2(0);
     uint patchIndex = (p.y >> 4) * params.size.z + (p.x >> 4);
     uint used = listed[patchIndex];
-    vec4 cell = growth[patchIndex * 16u + ((p.y >> 2) & 3u) * 4u + ((p.x >> 2) & 3u)];
+    vec4 cell = texelFetch(growth, int(patchIndex * 16u + ((p.y >> 2) & 3u) * 4u + ((p.x >> 2) & 3u)));
     return all(bvec2(inside, used != 0u)) ? cell : vec4(0.0);
 }
 

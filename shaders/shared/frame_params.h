@@ -71,7 +71,7 @@ FATHOM_SIZE(PatchMoments, 64);
 FATHOM_CONST kMaxLevels = 6;
 struct TreeParams {
     uvec4 levels[6]; // nodes across, down; index of the first node; -
-    uvec4 run; // first level and last level of this dispatch; number of levels; 1 = patches get their places
+    uvec4 run; // first level and last level of this dispatch; number of levels; -
 };
 FATHOM_SIZE(TreeParams, 112);
 

@@ -48,7 +48,7 @@ Scene edgeScene(double edge) {
     return scene;
 }
 
-// Rows are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
+// Blocks are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
 bool onCpu() {
     return vulkan().device.facts().kind == DeviceKind::Cpu;
 }
@@ -74,7 +74,7 @@ TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixe
             all.rejected, " pixels rejected, ", all.unsure, " on a threshold");
 }
 
-TEST_CASE("Windows from shared memory, direct reads and rows in registers give the same points") {
+TEST_CASE("Windows from shared memory, direct reads and blocks in registers give the same points") {
     for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
         for (const double edge : {0.0, 0.03}) {
             if (kSanitized && edge == 0.0) {
@@ -82,20 +82,20 @@ TEST_CASE("Windows from shared memory, direct reads and rows in registers give t
             }
             CAPTURE(radius);
             CAPTURE(edge);
-            const CameraInfo camera = radius % 2 == 0 ? pinholeCamera(edge > 0.0 ? 67 : 66, 41)
-                                                      : freiburgCamera(edge > 0.0 ? 66 : 67, 41);
+            const CameraInfo camera = radius % 2 == 0 ? pinholeCamera(edge > 0.0 ? 67 : 68, 41)
+                                                      : freiburgCamera(edge > 0.0 ? 68 : 67, 41);
             Scene scene = edgeScene(edge);
             scene.filter.radius = radius;
             const Picture picture = stressPicture(camera, radius + 20);
-            CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterRow = false; });
-            CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterRow = false; });
-            CloudRig rows(scene, camera, [&](Plan& plan) { plan.filterRow = radius <= 2; });
-            direct.run(picture), tiled.run(picture), rows.run(picture);
+            CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterBlock = false; });
+            CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
+            CloudRig blocks(scene, camera, [&](Plan& plan) { plan.filterBlock = radius <= 2; });
+            direct.run(picture), tiled.run(picture), blocks.run(picture);
             CHECK((!onCpu() ||
-                   (rows.points().z == direct.points().z && rows.points().at == direct.points().at)));
-            const Agreement ofRows = comparePoints(rows);
-            CHECK(ofRows.wrong == 0);
-            CHECK(ofRows.worst < 1e-6);
+                   (blocks.points().z == direct.points().z && blocks.points().at == direct.points().at)));
+            const Agreement ofBlocks = comparePoints(blocks);
+            CHECK(ofBlocks.wrong == 0);
+            CHECK(ofBlocks.worst < 1e-6);
             const reference::PointPicture a = direct.points(), b = tiled.points();
             CHECK(a.z == b.z);
             CHECK(a.at == b.at);
@@ -119,17 +119,17 @@ TEST_CASE("Polynomial weights follow their own twin and stay within 3 % of the n
         scene.filter.radius = radius;
         CloudRig exact(scene, camera);
         scene.filter.weights = Scene::Filter::Weights::Polynomial;
-        CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterRow = false; });
-        CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterRow = false; });
-        CloudRig rows(scene, camera, [&](Plan& plan) { plan.filterRow = radius <= 2; });
-        exact.run(picture), direct.run(picture), tiled.run(picture), rows.run(picture);
-        const Agreement agreement = comparePoints(rows);
+        CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterBlock = false; });
+        CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
+        CloudRig blocks(scene, camera, [&](Plan& plan) { plan.filterBlock = radius <= 2; });
+        exact.run(picture), direct.run(picture), tiled.run(picture), blocks.run(picture);
+        const Agreement agreement = comparePoints(blocks);
         CHECK(agreement.points == 67 * 41);
         CHECK(agreement.wrong == 0);
         CHECK(agreement.worst < 1e-6);
-        CHECK((!onCpu() || rows.points().z == direct.points().z));
+        CHECK((!onCpu() || blocks.points().z == direct.points().z));
         CHECK(tiled.points().z == direct.points().z);
-        const std::vector<double> a = exact.points().z, b = rows.points().z;
+        const std::vector<double> a = exact.points().z, b = blocks.points().z;
         double apart = 0.0;
         for (size_t i = 0; i < a.size(); ++i) {
             apart = std::max(apart, std::abs(a[i] - b[i]));

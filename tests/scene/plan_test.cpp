@@ -129,8 +129,8 @@ TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter an
     const CameraInfo camera = cameraOf(640, 480);
     CHECK(planOf(scene, camera, DeviceKind::Discrete).tiled);
     CHECK_FALSE(planOf(scene, camera, DeviceKind::Cpu).tiled);
-    CHECK(planOf(scene, camera, DeviceKind::Cpu).filterRow);
-    CHECK_FALSE(planOf(scene, camera, DeviceKind::Discrete).filterRow);
+    CHECK(planOf(scene, camera, DeviceKind::Cpu).filterBlock);
+    CHECK_FALSE(planOf(scene, camera, DeviceKind::Discrete).filterBlock);
     scene.filter.radius = 1;
     CHECK_FALSE(planOf(scene, camera, DeviceKind::Discrete).tiled);
     CHECK(planOf(scene, camera, DeviceKind::Discrete, DeviceFacts{}.gpuQueryLeaves - 1).query ==

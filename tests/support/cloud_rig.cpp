@@ -94,7 +94,7 @@ std::vector<reference::CellThinning> CloudRig::thinning() const {
 std::vector<reference::RegionSphere> CloudRig::spheres(bool held) const {
     const auto slots = read<glm::vec4>(held ? cloud::slotHeld(cycle_->work(), set().device)
                                             : cloud::slotSpheres(cycle_->work(), set().device));
-    const auto classes = read<uint32_t>(cycle_->work().classes);
+    const auto classes = read<uint8_t>(cycle_->work().classes);
     const auto work = listed();
     std::vector<reference::RegionSphere> out;
     for (int v = 0; v < height(); ++v) {
@@ -103,7 +103,7 @@ std::vector<reference::RegionSphere> CloudRig::spheres(bool held) const {
             reference::RegionSphere& sphere = out.emplace_back();
             if (work[s / 256] != 0 && slots[s].w >= 0.0f) {
                 sphere = {dvec3(slots[s]) + origin(), slots[s].w,
-                          static_cast<int>(classes[s] >> (held ? 8 : 0) & 255)};
+                          static_cast<int>(classes[s] >> (held ? 4 : 0) & 15)};
             }
         }
     }

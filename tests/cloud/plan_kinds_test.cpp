@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Passes are written twice where a CPU device and a GPU want it otherwise (Plan). Both must say the same,
+// whichever device the tests run on.
+#include "tests/support/cloud_rig.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+void forCpu(Plan& plan) {
+    plan.byPixel = plan.groupCounts = plan.tiled = plan.pack = false;
+    plan.filterBlock = plan.filterRadius <= 2;
+}
+
+void forGpu(Plan& plan) {
+    plan.byPixel = plan.groupCounts = plan.tiled = plan.pack = true;
+    plan.filterBlock = false;
+}
+
+bool samePoses(const Fixtures& a, const Fixtures& b) {
+    bool same = a.guidance.size() == b.guidance.size();
+    for (size_t i = 0; same && i < a.guidance.size(); ++i) {
+        same = a.guidance[i].count == b.guidance[i].count &&
+               a.guidance[i].position == b.guidance[i].position &&
+               a.guidance[i].normal == b.guidance[i].normal;
+    }
+    return same;
+}
+
+// Pictures that differ, so that points are held where there is a memory.
+void compareFrames(const CloudCase& c) {
+    CAPTURE(c.name);
+    CloudRig cpu(c.scene, c.camera, forCpu), gpu(c.scene, c.camera, forGpu);
+    for (uint64_t frame = 0; frame < 3; ++frame) {
+        const Picture picture = frame == 0 ? c.picture : stressPicture(c.camera, 70 + frame);
+        const FrameReport one = cpu.run(picture), other = gpu.run(picture);
+        CHECK(one.counts.classPixels == other.counts.classPixels);
+        CHECK(cpu.masks() == gpu.masks());
+        const Fixtures &a = cpu.host(), &b = gpu.host();
+        CHECK(a.forbiddenBits == b.forbiddenBits);
+        // A compiler for a GPU may contract sums otherwise in one of them, and then a point more or less be
+        // thinned.
+        if (vulkan().device.facts().kind == DeviceKind::Cpu) {
+            CHECK(one.counts.classSpheres == other.counts.classSpheres);
+            CHECK(one.counts.nodes == other.counts.nodes);
+            CHECK(a.spheres.fixture == b.spheres.fixture);
+            CHECK(a.spheres.source == b.spheres.source);
+            CHECK((a.spheres.x == b.spheres.x && a.spheres.y == b.spheres.y && a.spheres.z == b.spheres.z));
+            CHECK(a.spheres.radius == b.spheres.radius);
+            CHECK(samePoses(a, b));
+        }
+    }
+}
+
+} // namespace
+
+TEST_CASE("What a CPU's plan makes in registers and a GPU's in shared memory is the same") {
+    bool holds = false;
+    for (CloudCase& c : cloudCases()) {
+        holds = !holds;
+        c.scene.holdSeconds = holds ? 1.0 : 0.0;
+        compareFrames(c);
+    }
+}
