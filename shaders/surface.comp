@@ -145,20 +145,13 @@ vec4 fourDepths(ivec2 q) {
     return beyond ? vec4(0.0) : z;
 }
 
-vec3 pointIn(ivec2 q, float z) {
-    if (kRays == 0) {
-        return pointAt(q, z);
-    }
-    return z != 0.0 ? pointAt(q, z) : vec3(0.0); // rays are a table of the pixels inside
-}
-
 void loadWindow(ivec2 at, out vec3 window[kWide * kWide]) {
     [[unroll]] for (int y = 0; y < kWide; ++y) {
         ivec2 left = at + ivec2(-4, y - kReach);
         vec4 before = fourDepths(left), own = fourDepths(left + ivec2(4, 0)), after = fourDepths(left + ivec2(8, 0));
         float z[kWide] = float[kWide](before.z, before.w, own.x, own.y, own.z, own.w, after.x, after.y);
         [[unroll]] for (int x = 0; x < kWide; ++x) {
-            window[y * kWide + x] = pointIn(at + ivec2(x, y) - kReach, z[x]);
+            window[y * kWide + x] = pointAt(at + ivec2(x, y) - kReach, z[x]);
         }
     }
 }

@@ -14,10 +14,10 @@ float depthAt(uint pixel) {
     return metresOf(rawDepth(pixel));
 }
 
-// (x / z, y / z) of the ray through a pixel's centre.
+// (x / z, y / z) of the ray through a pixel's centre; of a pixel outside of the picture, where nothing is measured, any.
 vec2 rayOf(uvec2 pixel) {
     if (kRays != 0) {
-        return rays[pixel.y * params.size.x + pixel.x];
+        return rays[min(pixel.y * params.size.x + pixel.x, params.size.x * params.size.y - 1u)];
     }
     return (vec2(pixel) - params.lens.zw) / params.lens.xy;
 }
