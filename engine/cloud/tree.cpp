@@ -4,7 +4,19 @@
 #include "shaders/shared/frame_params.h"
 #include "shaders/tree.h"
 
+#include <algorithm>
+
 namespace fathom::cloud {
+
+namespace {
+
+// The levels above the patches are one group's: on a GPU a larger one, whose invocations wait for memory side
+// by side.
+uint32_t groupOf(const Plan& plan, bool patches) {
+    return !patches && plan.byPixel ? std::max(plan.subGroup, plan.pixelGroup) : plan.subGroup;
+}
+
+} // namespace
 
 TreePass::Levels::Levels(const CloudContext& c, bool patches)
     : pipeline(c.device, {"tree",
@@ -12,7 +24,7 @@ TreePass::Levels::Levels(const CloudContext& c, bool patches)
                           7,
                           false,
                           sizeof(shared::TreeParams),
-                          std::array{c.plan.subGroup, uint32_t{patches}},
+                          std::array{groupOf(c.plan, patches), uint32_t{patches}},
                           {{5, VK_FORMAT_R32G32B32A32_SFLOAT}, {6, VK_FORMAT_R32G32B32A32_UINT}}}) {
     for (const SetBuffers* s : c.sets) {
         bindings.emplace_back(c.device, pipeline,
