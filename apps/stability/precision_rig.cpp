@@ -97,7 +97,7 @@ std::vector<reference::CellThinning> PrecisionRig::thinning() const {
 std::vector<reference::RegionSphere> PrecisionRig::spheres(bool held) const {
     const auto slots = read<glm::vec4>(held ? cloud::slotHeld(cycle_->work(), lease_->device)
                                             : cloud::slotSpheres(cycle_->work(), lease_->device));
-    const auto classes = read<uint32_t>(cycle_->work().classes);
+    const auto classes = read<uint8_t>(cycle_->work().classes);
     const auto listed = read<uint32_t>(cycle_->work().listed);
     std::vector<reference::RegionSphere> out;
     for (int v = 0; v < height(); ++v) {
@@ -106,7 +106,7 @@ std::vector<reference::RegionSphere> PrecisionRig::spheres(bool held) const {
             reference::RegionSphere& sphere = out.emplace_back();
             if (listed[s / 256] != 0 && slots[s].w >= 0.0f) {
                 sphere = {dvec3(slots[s]) + origin(), slots[s].w,
-                          static_cast<int>(classes[s] >> (held ? 8 : 0) & 255)};
+                          static_cast<int>(classes[s] >> (held ? 4 : 0) & 15)};
             }
         }
     }
