@@ -29,10 +29,11 @@ foreach(wanted bin/fathom share/fathom/scenes/demo.yaml share/fathom/scenes/task
     check("${wanted} is not installed" wanted IN_LIST files)
 endforeach()
 list(FILTER files INCLUDE REGEX "(cmake|pc|conf|rules|h|yaml)$")
+string(REGEX REPLACE "([][+.*()^$?\\])" "\\\\\\1" sources "${SOURCE}/") # at the head of a path: sources may lie in /fathom
 foreach(file ${files})
     file(READ ${root}/${file} text)
-    string(FIND "${text}" "${SOURCE}/" at)
-    check("${file} names the folder that it was built from" at EQUAL -1)
+    string(REGEX MATCH "(^|-[IL]|[^]A-Za-z0-9_./})-])${sources}" named "${text}")
+    check("${file} names the folder that it was built from" NOT named)
 endforeach()
 
 # The program, from there.
@@ -60,7 +61,7 @@ find_package(fathom ${VERSION} CONFIG REQUIRED)
 add_executable(consumer consumer.cpp)
 target_link_libraries(consumer PRIVATE fathom::cycle)
 ")
-execute_process(COMMAND ${CMAKE_COMMAND} -S ${stage}/consumer -B ${stage}/consumer/build -DCMAKE_PREFIX_PATH=${root} -DCMAKE_CXX_COMPILER=${CXX}
+execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${stage}/consumer -B ${stage}/consumer/build -DCMAKE_PREFIX_PATH=${root} -DCMAKE_CXX_COMPILER=${CXX}
                 OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE result)
 if(result EQUAL 0)
     execute_process(COMMAND ${CMAKE_COMMAND} --build ${stage}/consumer/build OUTPUT_VARIABLE log ERROR_VARIABLE log RESULT_VARIABLE result)
