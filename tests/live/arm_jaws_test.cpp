@@ -30,28 +30,42 @@ void setUpJaws(const Stage& stage) {
     stage.write("arm.urdf", model);
 }
 
-ProgramRun runArm(const Stage& stage) {
-    return runFathom(stage.command({"--realtime", "--arm", (stage / "line").string()}));
+ReachSimulator openArm() {
+    ReachSimulator arm;
+    setStart(arm);
+    arm.position[1] = kOpen;
+    return arm;
 }
+
+// The program drives an arm whose jaws begin open.
+struct JawsAtWork {
+    JawsAtWork() {
+        setUpJaws(stage);
+        running = std::async(std::launch::async, [this] {
+            return runFathom(stage.command({"--realtime", "--arm", (stage / "line").string()}));
+        });
+    }
+
+    Stage stage;
+    ReachSimulator arm = openArm();
+    ArmBench bench{arm, stage / "line"};
+    std::future<ProgramRun> running;
+};
 
 } // namespace
 
 TEST_CASE(
     "Jaws close over the line while the button is down, no faster than the scene says, and open again") {
-    const Stage stage;
-    setUpJaws(stage);
-    ReachSimulator arm;
-    setStart(arm);
-    arm.position[1] = kOpen;
-    ArmBench bench(arm, stage / "line");
-    auto running = std::async(std::launch::async, runArm, std::cref(stage));
+    JawsAtWork work;
+    ArmBench& bench = work.bench;
+    ReachSimulator& arm = work.arm;
     REQUIRE(bench.wait([&] { return arm.position[1] < kOpen - 1.0; }));
     const auto begun = Clock::now();
     REQUIRE(bench.wait([&] { return arm.position[1] < kClosed + 1.0; }));
     CHECK(std::chrono::duration<double>(Clock::now() - begun).count() >
           0.6); // 14 of 16 mm, a second the whole
     REQUIRE(bench.wait([&] { return arm.position[1] > kOpen - 0.5; }));
-    const ProgramRun run = running.get();
+    const ProgramRun run = work.running.get();
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     const auto q = bench.with([&] { return jointsOf(arm); });
     for (size_t j = 0; j < 3; ++j) { // nothing else moved
@@ -60,19 +74,15 @@ TEST_CASE(
 }
 
 TEST_CASE("Jaws that close on something hold still with the whole arm, and the log says so") {
-    const Stage stage;
-    setUpJaws(stage);
-    ReachSimulator arm;
-    setStart(arm);
-    arm.position[1] = kOpen;
-    ArmBench bench(arm, stage / "line");
-    auto running = std::async(std::launch::async, runArm, std::cref(stage));
+    JawsAtWork work;
+    ArmBench& bench = work.bench;
+    ReachSimulator& arm = work.arm;
     REQUIRE(bench.wait([&] { return arm.position[1] < 10.0; }));
     bench.with([&] { arm.current[1] = 2500.0; }); // [mA]
-    const ProgramRun run = running.get();
+    const ProgramRun run = work.running.get();
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     CHECK(run.out.find("overloaded") != std::string::npos);
     CHECK(bench.with([&] { return arm.position[1]; }) > kClosed + 0.5);
-    const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));
+    const auto summary = nlohmann::json::parse(work.stage.read("out/summary.json"));
     CHECK(summary.at("arm").at("driven").at("turns").at("overloaded").get<uint64_t>() > 300);
 }
