@@ -7,7 +7,6 @@
 #include "engine/scene/scene.h"
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 

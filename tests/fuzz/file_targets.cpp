@@ -27,10 +27,6 @@ void need(bool holds) {
     }
 }
 
-Bytes textOf(std::string_view text) {
-    return {reinterpret_cast<const uint8_t*>(text.data()), text.size()};
-}
-
 void drain(Camera& camera) {
     const CameraInfo& info = camera.info();
     need(info.depth.width > 0 && info.depth.width <= kMaxImageWidth && info.depth.height <= kMaxImageHeight);
