@@ -146,22 +146,18 @@ void Recorder::edit(uint64_t number, RecordedScene scene) {
 
 // The first file is that of the start: written once there is a second.
 void Recorder::addEdit(const PublishedFrame& frame) {
-    bool changed = frame.still != still_;
-    const RecordedScene before = edited_;
-    for (; !upcoming_.empty() && upcoming_.front().first <= frame.edit; upcoming_.pop_front()) {
-        edited_ = std::move(upcoming_.front().second);
-        changed = true;
-    }
-    if (!changed) {
+    const auto inForce = [&] { return !upcoming_.empty() && upcoming_.front().first <= frame.edit; };
+    if (!inForce() && frame.still == still_) {
         return;
     }
     if (!edits_.isOpen()) {
         edits_.open(folder_ / SceneEdits::kFile, SceneEdits::kHead);
         if (pictures_ > 0) {
-            const RecordedScene now = std::exchange(edited_, before);
             putEdit(0, still_);
-            edited_ = now;
         }
+    }
+    for (; inForce(); upcoming_.pop_front()) {
+        edited_ = std::move(upcoming_.front().second);
     }
     still_ = frame.still;
     putEdit(pictures_, still_);
