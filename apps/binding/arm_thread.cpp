@@ -4,10 +4,10 @@
 #include "devices/serial/eca_arm.h"
 #include "devices/serial/reach_arm.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -125,8 +125,8 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
             return posture;
         }
         if (!told && !feedback.stale) {
-            spdlog::warn("{}: homing, each joint goes to its stop; nothing looks at what is in its way",
-                         description());
+            log::warn("{}: homing, each joint goes to its stop; nothing looks at what is in its way",
+                      description());
             told = true;
         }
         if (stop.load()) {
@@ -170,7 +170,7 @@ bool ArmThread::guarded(double now) noexcept {
     }
     nextGuardian_ = now + kRetry;
     try {
-        spdlog::warn("{}: its guardian was ended; the arm is held until there is another", description());
+        log::warn("{}: its guardian was ended; the arm is held until there is another", description());
         guardian = std::make_unique<ArmGuardian>(line_->port, driver_.protocol);
     } catch (const std::exception&) { // no process to be had now
         guardian.reset();
@@ -203,11 +203,11 @@ void ArmThread::note(const ArmTold& told, double now) {
         return;
     }
     if (isFault(told.state)) {
-        spdlog::warn("{}: {}: it is held, the tool stands still, forces go", description(),
-                     armStateName(told.state));
+        log::warn("{}: {}: it is held, the tool stands still, forces go", description(),
+                  armStateName(told.state));
         quietUntil_ = now + kQuiet;
     } else if (isFault(noted_)) {
-        spdlog::warn("{}: can follow again", description());
+        log::warn("{}: can follow again", description());
     }
     noted_ = told.state;
 }

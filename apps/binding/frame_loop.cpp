@@ -2,10 +2,10 @@
 #include "apps/binding/frame_loop.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
 #include <thread>
 #include <utility>
 
@@ -44,18 +44,18 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
         try {
             const std::optional<uint32_t> index = feed_.fetch();
             if (std::exchange(cameraGone_, false)) {
-                spdlog::warn("camera is back");
+                log::warn("camera is back");
                 origin_ = clock_.now() - period_ * ((index ? *index : firstIndex_) - firstIndex_);
             }
             ended_ = !index;
             return index;
         } catch (const DeviceLost& e) {
             if (!std::exchange(cameraGone_, true)) {
-                spdlog::warn("camera is gone ({}): the scene ages, forces fade", e.what());
+                log::warn("camera is gone ({}): the scene ages, forces fade", e.what());
                 tell();
             }
             if (feed_.lost()) {
-                spdlog::warn("GPU is gone, too: it is looked for");
+                log::warn("GPU is gone, too: it is looked for");
                 renew(stop);
             }
             clock_.sleepUntil(clock_.now() + pause, stop);
@@ -102,7 +102,7 @@ void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
         if (!feed_.renewable()) {
             throw;
         }
-        spdlog::warn("GPU is gone ({}): the scene ages, forces fade; it is looked for", e.what());
+        log::warn("GPU is gone ({}): the scene ages, forces fade; it is looked for", e.what());
     }
     renew(stop);
 }
@@ -116,12 +116,12 @@ void FrameLoop::renew(const std::atomic<bool>& stop) {
         retry_ = std::min(2.0 * retry_, kLongestRetry);
         try {
             feed_.renew(stop);
-            spdlog::warn("GPU is back");
+            log::warn("GPU is back");
             deviceGone_ = false;
             tell();
             return;
         } catch (const DeviceFailed& e) {
-            spdlog::debug("GPU: {}", e.what());
+            log::debug("GPU: {}", e.what());
         }
     }
 }

@@ -5,9 +5,9 @@
 #include "devices/usb/space_mouse_hand.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <chrono>
-#include <spdlog/spdlog.h>
 #include <thread>
 
 namespace fathom {
@@ -79,7 +79,7 @@ bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop) {
             return false;
         }
         if (!told && std::chrono::steady_clock::now() - began > std::chrono::seconds(1)) {
-            spdlog::warn("waiting for {}: plugged in and homed?", hand.description());
+            log::warn("waiting for {}: plugged in and homed?", hand.description());
             told = true;
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(1));

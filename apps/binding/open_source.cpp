@@ -16,9 +16,9 @@
 #include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
+#include "engine/types/log.h"
 
 #include <cmath>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -26,7 +26,7 @@ namespace {
 
 void warnOutside(const std::filesystem::path& scene, const std::string& path) {
     if (!staysInside(path)) {
-        spdlog::warn("{}: '{}' leads out of the scene file's folder", scene.string(), path);
+        log::warn("{}: '{}' leads out of the scene file's folder", scene.string(), path);
     }
 }
 
@@ -152,7 +152,7 @@ std::unique_ptr<ArmRig> openArm(const Scene& scene) {
     const bool tool = scene.arm && scene.tool.given();
     auto arm = tool ? makeArmRig(scene, writtenTool(scene).leaves()) : makeArmRig(scene, {});
     for (const std::string& note : arm ? arm->model.notes : std::vector<std::string>{}) {
-        spdlog::warn("{}: {}", scene.arm->urdf.string(), note);
+        log::warn("{}: {}", scene.arm->urdf.string(), note);
     }
     return arm;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/realtime_run.h"
 
+#include "engine/types/log.h"
+
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
 #include <thread>
 
 namespace fathom {
@@ -48,12 +49,11 @@ public:
         const bool stale = record.sceneAge > staleAfter_;
         staleTurns_ += stale ? 1 : 0;
         if (stale && !stale_ && record.t >= quietUntil_) {
-            spdlog::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t,
-                         record.sceneAge * 1e3);
+            log::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t, record.sceneAge * 1e3);
             quietUntil_ = record.t + kQuiet;
             told_ = true;
         } else if (!stale && told_) {
-            spdlog::warn("at {:.2f} s the scene is fresh again", record.t);
+            log::warn("at {:.2f} s the scene is fresh again", record.t);
             told_ = false;
         }
         stale_ = stale;
@@ -75,8 +75,8 @@ public:
         const bool broken = !row.record.finite;
         if (broken && !broken_ && row.record.t >= quietUntil_) {
             const bool fromHand = !isFinite(row.hand.deviceThandle);
-            spdlog::warn("at {:.2f} s {} not finite: no force in such turns", row.record.t,
-                         fromHand ? "the hand's sample is" : "some number of the turn is");
+            log::warn("at {:.2f} s {} not finite: no force in such turns", row.record.t,
+                      fromHand ? "the hand's sample is" : "some number of the turn is");
             quietUntil_ = row.record.t + kQuiet;
         }
         broken_ = broken;
@@ -160,10 +160,9 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
-                spdlog::warn(
-                    "haptic thread: refused {}; wake-ups will be later (how to permit it: man fathom, "
-                    "PERMISSIONS)",
-                    refused);
+                log::warn("haptic thread: refused {}; wake-ups will be later (how to permit it: man fathom, "
+                          "PERMISSIONS)",
+                          refused);
             }
             haptic.run(stop_);
         });

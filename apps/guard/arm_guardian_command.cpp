@@ -4,11 +4,11 @@
 #include "apps/binding/arm_guardian.h"
 #include "devices/serial/line_guard.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <memory>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -30,9 +30,9 @@ void guardArm(const std::string& protocol) {
     const bool reach = protocol == protocolName(Protocol::ReachAlpha5);
     const int found = guardLine(kGuardianEngine, kGuardianLine, reach ? reachStandStill() : ecaStandStill());
     if (found > 0) {
-        spdlog::warn("arm's guardian: the engine ended or was silent for {} s, {} times: the arm was told to "
-                     "stand still",
-                     LineGuard::kSilence, found);
+        log::warn("arm's guardian: the engine ended or was silent for {} s, {} times: the arm was told to "
+                  "stand still",
+                  LineGuard::kSilence, found);
     }
 }
 

@@ -6,12 +6,12 @@
 #include "devices/haply/haply_guard.h"
 #include "devices/usb/falcon_guard.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <iostream>
 #include <memory>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -31,7 +31,7 @@ void hurry() {
     placement.haptic = placement.all;
     const std::string refused = makeHapticThread(placement);
     if (!refused.empty()) {
-        spdlog::warn("guard: refused {}; the exchange will be slower at times", refused);
+        log::warn("guard: refused {}; the exchange will be slower at times", refused);
     }
 }
 

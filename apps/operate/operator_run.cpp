@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <spdlog/spdlog.h>
 #include <utility>
 
 namespace fathom::operate {

@@ -6,21 +6,21 @@
 #include "devices/recorded/hand_csv.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <limits>
-#include <spdlog/spdlog.h>
 
 namespace fathom::operate {
 
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 60.0;              // [s] of the window, at best
+constexpr double kDrawPeriod = 1.0 / 60.0;               // [s] of the window, at best
 constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
 
-double seconds() {
+double playedSeconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
@@ -103,10 +103,10 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
 }
 
 uint32_t PlaybackRun::run() {
-    double last = started_ = seconds();
+    double last = started_ = playedSeconds();
     while (!wantsToEnd()) {
-        window_.beginFrame(std::clamp(kFramePeriod - (seconds() - last), 0.0, kFramePeriod));
-        const double now = seconds(), dt = now - last;
+        window_.beginFrame(std::clamp(kDrawPeriod - (playedSeconds() - last), 0.0, kDrawPeriod));
+        const double now = playedSeconds(), dt = now - last;
         windowHz_ += 0.05 * (1.0 / std::max(1e-3, dt) - windowHz_);
         last = now;
         frame(dt);
@@ -117,7 +117,7 @@ uint32_t PlaybackRun::run() {
 
 bool PlaybackRun::wantsToEnd() const {
     return window_.closed() || console_.quit || signals_.asked().load() ||
-           (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
+           (options_.seconds > 0.0 && playedSeconds() - started_ >= options_.seconds);
 }
 
 void PlaybackRun::frame(double dt) {
@@ -135,27 +135,27 @@ void PlaybackRun::frame(double dt) {
 }
 
 void PlaybackRun::loseDevice(const std::string& why) {
-    spdlog::warn("GPU is gone ({}): it is looked for", why);
+    log::warn("GPU is gone ({}): it is looked for", why);
     ImGui::EndFrame(); // nothing where it had ended
     canvas_->drop();
     retry_ = kFirstRetry;
-    retryAt_ = seconds() + retry_;
+    retryAt_ = playedSeconds() + retry_;
 }
 
 void PlaybackRun::lookForDevice() {
-    if (seconds() < retryAt_) {
+    if (playedSeconds() < retryAt_) {
         return;
     }
     try {
         session_.cycles.renew();
         canvas_->open(session_.cycles.device());
     } catch (const Error& e) { // a driver that is being started anew may say anything
-        spdlog::debug("GPU: {}", e.what());
+        log::debug("GPU: {}", e.what());
         retry_ = std::min(2.0 * retry_, kLongestRetry);
-        retryAt_ = seconds() + retry_;
+        retryAt_ = playedSeconds() + retry_;
         return;
     }
-    spdlog::warn("GPU is back");
+    log::warn("GPU is back");
     console_.tell("The GPU was gone and is back");
     past_.retake();
     screen_.redraw();

@@ -4,18 +4,18 @@
 #include "apps/binding/scene_edits.h"
 #include "apps/operate/turn_log.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <fstream>
-#include <spdlog/spdlog.h>
 #include <utility>
 
 namespace fathom::operate {
 
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 30.0; // [s] of a replay
-constexpr size_t kMostNumbers = 60;         // pictures that a turn may have obeyed
+constexpr double kPicturePeriod = 1.0 / 30.0; // [s] of a replay
+constexpr size_t kMostNumbers = 60;           // pictures that a turn may have obeyed
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -30,7 +30,7 @@ void Recorder::orFail(const Job& job) {
         job();
     } catch (const std::exception& e) {
         failure_ = e.what();
-        spdlog::warn("recording has ended: {}", failure_);
+        log::warn("recording has ended: {}", failure_);
         recording_.store(false);
         writer_->close();
     }
@@ -75,8 +75,8 @@ void Recorder::stop() {
     }
     orFail([this] {
         if (pictures_ > 0) { // the turns since the last picture
-            flushTurns(lastCapture_, lastCapture_ + kFramePeriod,
-                       static_cast<double>(pictures_ - 1) * kFramePeriod, 1.0);
+            flushTurns(lastCapture_, lastCapture_ + kPicturePeriod,
+                       static_cast<double>(pictures_ - 1) * kPicturePeriod, 1.0);
         }
     });
     writer_->close();
@@ -123,8 +123,8 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
 
 void Recorder::addPicture(const PublishedFrame& frame, const Fixtures& set) {
     if (pictures_ > 0 && frame.t > lastCapture_) {
-        const double start = static_cast<double>(pictures_ - 1) * kFramePeriod;
-        flushTurns(lastCapture_, frame.t, start, kFramePeriod / (frame.t - lastCapture_));
+        const double start = static_cast<double>(pictures_ - 1) * kPicturePeriod;
+        flushTurns(lastCapture_, frame.t, start, kPicturePeriod / (frame.t - lastCapture_));
     } else {
         turns_.clear();
     }
@@ -134,7 +134,8 @@ void Recorder::addPicture(const PublishedFrame& frame, const Fixtures& set) {
         numbers_.pop_front();
     }
     addEdit(frame);
-    writer_->add({static_cast<double>(pictures_++) * kFramePeriod, set.depth, frame.colour, set.baseTcamera});
+    writer_->add(
+        {static_cast<double>(pictures_++) * kPicturePeriod, set.depth, frame.colour, set.baseTcamera});
 }
 
 void Recorder::edit(uint64_t number, RecordedScene scene) {

@@ -7,8 +7,7 @@
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/turn_to_tick.h"
 #include "engine/types/error.h"
-
-#include <spdlog/spdlog.h>
+#include "engine/types/log.h"
 
 namespace fathom {
 
@@ -164,7 +163,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
 // On all CPUs: nothing else runs yet.
 void RealtimeReplay::spool() {
     if (session_.scene.source.showsArm) {
-        spdlog::warn("the simulated camera's pictures are taken beforehand: they do not show the arm");
+        log::warn("the simulated camera's pictures are taken beforehand: they do not show the arm");
     }
     const CpuConfinement everywhere(placement_.all);
     session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(),
@@ -271,7 +270,7 @@ void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool
         view_->turn(row);
     }
     if (const std::string told = watched_ ? watched_->told() : ""; !told.empty()) {
-        spdlog::warn("{}", told);
+        log::warn("{}", told);
     }
     audit(row, obeyed, obeyedKnown, behind);
     if (obeyed != nullptr && recorder_.wantsMoment()) {

@@ -7,6 +7,7 @@
 #include "engine/model/sphere_sets.h"
 #include "engine/reference/cell_cover.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <cmath>
 #include <iostream>
 #include <memory>
-#include <spdlog/spdlog.h>
 #include <utility>
 
 namespace fathom {
@@ -130,7 +130,7 @@ void runSpheres(SpheresOptions options) {
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
     printMesh(std::cout, loaded);
     if (!loaded.doubt.empty()) {
-        spdlog::warn("{}: {}; --scale says what is meant", options.mesh.string(), loaded.doubt);
+        log::warn("{}: {}; --scale says what is meant", options.mesh.string(), loaded.doubt);
     }
     Maker maker(loaded);
     Cover cover;

@@ -3,10 +3,10 @@
 
 #include "devices/bag/ros_messages.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -219,7 +219,7 @@ std::optional<Frame> BagCamera::next() {
         }
         ++skipped_;
         firstFault_ = firstFault_.empty() ? fault : firstFault_;
-        spdlog::warn("{}: frame {} skipped: {}", bag_.file().string(), index, fault);
+        log::warn("{}: frame {} skipped: {}", bag_.file().string(), index, fault);
     }
     slot->release();
     if (!delivered_) {

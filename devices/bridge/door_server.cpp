@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/bridge/door_server.h"
 
+#include "engine/types/log.h"
+
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <spdlog/spdlog.h>
 
 #include <unistd.h>
 
@@ -13,7 +14,7 @@ namespace fathom {
 namespace {
 
 constexpr int kBacklog = 1;
-constexpr int kMostPackets = 256; // a poll: an engine that floods must not hold the device up
+constexpr int kMostRequests = 256; // a poll: an engine that floods must not hold the device up
 
 template <size_t N>
 void copyText(char (&to)[N], const std::string& from) {
@@ -46,19 +47,19 @@ void DoorServer::poll() {
 void DoorServer::takeNewcomers() {
     for (DoorSocket newcomer = door_.accept(); newcomer.open(); newcomer = door_.accept()) {
         if (engine_.open()) {
-            spdlog::warn("{}: a second engine is turned away", path_.string());
+            log::warn("{}: a second engine is turned away", path_.string());
             continue; // closes it
         }
         engine_ = std::move(newcomer);
         gate_.close();
         hand_.wrench_sequence = 0;
-        spdlog::info("{}: engine connected", path_.string());
+        log::info("{}: engine connected", path_.string());
     }
 }
 
 void DoorServer::takeWrenches() {
     fathom_door_wrench packet;
-    for (int i = 0; i < kMostPackets && engine_.open(); ++i) {
+    for (int i = 0; i < kMostRequests && engine_.open(); ++i) {
         size_t got = 0;
         switch (engine_.receive(packet, FATHOM_DOOR_WRENCH, &got)) {
         case DoorEvent::Empty:
@@ -87,10 +88,10 @@ void DoorServer::drop(const std::string& why) {
     gate_.close();
     engine_.close();
     if (why.empty()) {
-        spdlog::info("{}: engine gone, zero force", path_.string());
+        log::info("{}: engine gone, zero force", path_.string());
     } else {
         ++dropped_;
-        spdlog::warn("{}: engine dropped, zero force: {}", path_.string(), why);
+        log::warn("{}: engine dropped, zero force: {}", path_.string(), why);
     }
 }
 

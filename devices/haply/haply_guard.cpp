@@ -2,8 +2,8 @@
 #include "devices/haply/haply_guard.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
-#include <spdlog/spdlog.h>
 #include <thread>
 
 namespace fathom {
@@ -70,14 +70,14 @@ bool HaplyGuard::answered(std::chrono::microseconds most) {
         if (there_ != state.has_value()) {
             there_ = state.has_value();
             figures_.losses += there_ ? 0 : 1;
-            spdlog::warn("inverse3 {}: {}", device_, there_ ? "back" : "gone from the service");
+            log::warn("inverse3 {}: {}", device_, there_ ? "back" : "gone from the service");
         }
         if (state) {
             sample_ = state->sample;
         }
     } catch (const Error& e) { // the next one may be better
         ++figures_.faults;
-        spdlog::debug("{}", e.what());
+        log::debug("{}", e.what());
         return false;
     }
     return true;
@@ -128,9 +128,9 @@ void HaplyGuard::waitForService(const std::atomic<bool>& stop) {
     }
     try {
         connect();
-        spdlog::warn("inverse3 {}: back at {}", device_, place_);
+        log::warn("inverse3 {}: back at {}", device_, place_);
     } catch (const Error& e) { // not there yet
-        spdlog::debug("{}", e.what());
+        log::debug("{}", e.what());
     }
 }
 
@@ -144,7 +144,7 @@ void HaplyGuard::run(const std::atomic<bool>& stop) {
             exchange();
         } catch (const DeviceLost& e) {
             ++figures_.losses;
-            spdlog::warn("{}: the engine is told, looking for it again", e.what());
+            log::warn("{}: the engine is told, looking for it again", e.what());
             close();
         }
     }

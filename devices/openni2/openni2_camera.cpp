@@ -4,11 +4,11 @@
 #include "devices/openni2/open_openni2.h"
 #include "devices/recorded/recording_intrinsics.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <chrono>
 #include <cmath>
 #include <cstring>
-#include <spdlog/spdlog.h>
 #include <sstream>
 #include <thread>
 
@@ -146,8 +146,8 @@ void OpenNi2Camera::openColour(bool registered) {
         device_.setDepthColorSyncEnabled(true);
     }
     if (!registered || !fits(colour_.stream.getVideoMode())) {
-        spdlog::warn("{}: colour is left out: {}", name_,
-                     registered ? "not RGB of the depth's size" : "not known to be registered to depth");
+        log::warn("{}: colour is left out: {}", name_,
+                  registered ? "not RGB of the depth's size" : "not known to be registered to depth");
         colour_.stream.destroy();
         return;
     }

@@ -3,10 +3,10 @@
 
 #include "devices/recorded/png_image.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <glm/geometric.hpp>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -135,7 +135,7 @@ void RecordedCamera::skip(uint32_t index, const std::string& fault) {
 
 void RecordedCamera::nameSkipped() {
     for (const std::string& line : unnamed_) {
-        spdlog::warn("{}: {}", folder_.string(), line);
+        log::warn("{}: {}", folder_.string(), line);
     }
     unnamed_.clear();
 }

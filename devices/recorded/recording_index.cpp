@@ -4,10 +4,10 @@
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <cmath>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -55,12 +55,12 @@ std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* na
         const std::vector<std::string_view> words = splitWords(line.text);
         StampedFile entry;
         if (words.size() != 2 || !parseStamp(words[0], entry.stamp)) {
-            spdlog::warn("{}: line {} is not 't path': left out", (folder / name).string(), line.number);
+            log::warn("{}: line {} is not 't path': left out", (folder / name).string(), line.number);
             continue;
         }
         if (!staysInside(words[1])) {
-            spdlog::warn("{}: line {} leads out of the recording's folder: left out",
-                         (folder / name).string(), line.number);
+            log::warn("{}: line {} leads out of the recording's folder: left out", (folder / name).string(),
+                      line.number);
             continue;
         }
         entry.file = folder / words[1];
@@ -140,8 +140,8 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vec
         }
     }
     if (index.size() < depth.size()) {
-        spdlog::info("{} of {} depth pictures have no colour picture of their own within {} s",
-                     depth.size() - index.size(), depth.size(), within);
+        log::info("{} of {} depth pictures have no colour picture of their own within {} s",
+                  depth.size() - index.size(), depth.size(), within);
     }
     return index;
 }

@@ -2,12 +2,12 @@
 #include "devices/serial/serial_port.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
 #include <linux/serial.h>
-#include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -68,8 +68,8 @@ SerialPort::SerialPort(const std::filesystem::path& device, uint32_t baud, bool 
         serial_rs485 direction{};
         direction.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
         if (ioctl(file_, TIOCSRS485, &direction) != 0) {
-            spdlog::info("{}: no RS-485 direction control ({}): the adapter must switch by itself",
-                         device.string(), std::strerror(errno));
+            log::info("{}: no RS-485 direction control ({}): the adapter must switch by itself",
+                      device.string(), std::strerror(errno));
         }
     }
 }

@@ -3,8 +3,8 @@
 
 #include "devices/usb/falcon_firmware.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
-#include <spdlog/spdlog.h>
 #include <thread>
 
 namespace fathom {
@@ -35,7 +35,7 @@ void FalconGuard::open() {
     place_ = device->port.place();
     device_ = std::move(device);
     told_.reset();
-    spdlog::warn("falcon: back at {}", place_);
+    log::warn("falcon: back at {}", place_);
 }
 
 void FalconGuard::close() noexcept {
@@ -56,7 +56,7 @@ void FalconGuard::close() noexcept {
 void FalconGuard::tellHoming(bool homed) {
     if (told_ != homed) {
         told_ = homed;
-        spdlog::warn(homed ? "falcon: homed" : "falcon: not homed: pull the knob out and push it in");
+        log::warn("falcon: {}", homed ? "homed" : "not homed: pull the knob out and push it in");
     }
 }
 
@@ -85,7 +85,7 @@ void FalconGuard::waitForDevice(const std::atomic<bool>& stop) {
     try {
         open();
     } catch (const Error& e) { // not there yet, or not ready
-        spdlog::debug("falcon: {}", e.what());
+        log::debug("falcon: {}", e.what());
     }
 }
 
@@ -99,7 +99,7 @@ void FalconGuard::run(const std::atomic<bool>& stop) {
             exchange();
         } catch (const DeviceLost& e) {
             ++losses_;
-            spdlog::warn("falcon: {}: the engine is told, looking for it again", e.what());
+            log::warn("falcon: {}: the engine is told, looking for it again", e.what());
             close();
         }
     }

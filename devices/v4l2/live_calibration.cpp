@@ -4,8 +4,7 @@
 #include "devices/recorded/recording_intrinsics.h"
 #include "devices/v4l2/realsense_control.h"
 #include "engine/types/error.h"
-
-#include <spdlog/spdlog.h>
+#include "engine/types/log.h"
 
 namespace fathom {
 
@@ -54,8 +53,8 @@ void addColour(const realsense::Mailbox& mailbox, const CameraRequest& request, 
         if (request.colour != "auto" || request.colourFormat != 0 || request.colourSize) {
             throw;
         }
-        spdlog::warn("{}: colour is left out: it has no calibration ({}); intrinsics=FILE gives it one",
-                     nodes.depth.card(), e.what());
+        log::warn("{}: colour is left out: it has no calibration ({}); intrinsics=FILE gives it one",
+                  nodes.depth.card(), e.what());
         nodes.colour.reset();
     }
 }

@@ -2,9 +2,9 @@
 #include "devices/v4l2/realsense_control.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <array>
-#include <spdlog/spdlog.h>
 
 namespace fathom::realsense {
 
@@ -70,7 +70,7 @@ double Mailbox::depthUnit() const {
             return unit;
         }
     } catch (const Error& e) {
-        spdlog::info("{}: {} m is taken for the depth unit", e.what(), kDefault);
+        log::info("{}: {} m is taken for the depth unit", e.what(), kDefault);
     }
     return kDefault;
 }

@@ -5,10 +5,10 @@
 #include "devices/v4l2/live_calibration.h"
 #include "devices/v4l2/pixel_format.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
 #include <poll.h>
-#include <spdlog/spdlog.h>
 #include <thread>
 
 namespace fathom {
@@ -154,8 +154,8 @@ void V4l2Camera::watch(bool depth, CaptureStream& stream, Watch& watch) {
         throw DeviceLost(stream.node().file().string() + ": no picture for " + std::to_string(silent) + " s");
     }
     if (silent > request_.silence && !watch.restarted) {
-        spdlog::warn("{}: no {} picture for {:.1f} s: started anew", stream.node().file().string(),
-                     depth ? "depth" : "colour", silent);
+        log::warn("{}: no {} picture for {:.1f} s: started anew", stream.node().file().string(),
+                  depth ? "depth" : "colour", silent);
         watch.restarted = true;
         ++restarts_;
         stream.restart();
@@ -218,7 +218,7 @@ void V4l2Camera::recycle() {
 
 void V4l2Camera::skip(uint32_t sequence, const std::string& fault) {
     ++skipped_;
-    spdlog::warn("{}: picture {} skipped: {}", description_, sequence, fault);
+    log::warn("{}: picture {} skipped: {}", description_, sequence, fault);
 }
 
 std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {

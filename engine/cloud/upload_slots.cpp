@@ -2,9 +2,9 @@
 #include "engine/cloud/upload_slots.h"
 
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <algorithm>
-#include <spdlog/spdlog.h>
 
 namespace fathom::cloud {
 
@@ -86,7 +86,7 @@ bool UploadSlots::import(uint32_t slot, const Pictures& pictures) {
     } catch (const Error& e) {
         refused_ = depthRefused_ || !pictures.depth || !pictures.colour;
         depthRefused_ = true;
-        spdlog::debug("{} copied: {}", refused_ ? "pictures are" : "depth is", e.what());
+        log::debug("{} copied: {}", refused_ ? "pictures are" : "depth is", e.what());
         return false;
     }
 }

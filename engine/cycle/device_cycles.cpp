@@ -2,8 +2,7 @@
 #include "engine/cycle/device_cycles.h"
 
 #include "engine/types/error.h"
-
-#include <spdlog/spdlog.h>
+#include "engine/types/log.h"
 
 namespace fathom {
 
@@ -86,7 +85,7 @@ bool DeviceCycles::answer(const ToolPlace& place, ContactSet& out) {
     try {
         contact_.query(set, place, out);
     } catch (const DeviceFailed& e) {
-        spdlog::warn("contact query: {}: the CPU answers", e.what());
+        log::warn("contact query: {}: the CPU answers", e.what());
         contact_.dropDevice();
         contact_.query(set, place, out);
     }

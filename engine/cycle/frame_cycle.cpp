@@ -4,9 +4,9 @@
 #include "engine/cloud/frame_params.h"
 #include "engine/cloud/frame_upload.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <chrono>
-#include <spdlog/spdlog.h>
 
 namespace fathom {
 
@@ -257,9 +257,9 @@ void FrameCycle::warnLeaks(const cloud::FrameCounts& counts) {
         if (counts.leakSpacing[c] > 0.0f && leakWarned_[c] == 0) {
             leakWarned_[c] = 1;
             const FixtureClass& f = scene_.fixtures[cloud::classRows(scene_)[c]];
-            spdlog::warn("fixture '{}' leaks: at {:.2f} m its points are {:.1f} mm apart and its spheres "
-                         "have a radius of {:.1f} mm",
-                         f.name, counts.leakRange[c], counts.leakSpacing[c] * 1e3, f.radius * 1e3);
+            log::warn("fixture '{}' leaks: at {:.2f} m its points are {:.1f} mm apart and its spheres "
+                      "have a radius of {:.1f} mm",
+                      f.name, counts.leakRange[c], counts.leakSpacing[c] * 1e3, f.radius * 1e3);
         }
     }
 }

@@ -5,10 +5,10 @@
 #include "engine/gpu/query_crossover.h"
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <filesystem>
 #include <fstream>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 namespace fathom::gpu {
@@ -29,7 +29,7 @@ Device::Device(const Instance& instance, const std::string& selector, Drawing dr
         vkGetDeviceQueue(handle_, drawFamily_, drawIndex_, &drawQueue_);
     }
     loadPipelineCache();
-    spdlog::info("device {} ({})", facts_.name, facts_.driver);
+    log::info("device {} ({})", facts_.name, facts_.driver);
 }
 
 // A queue of its own wherever there is one: of the compute family, else of the first family that draws.
@@ -215,7 +215,7 @@ void Device::savePipelineCache() const noexcept {
         std::ofstream(fresh, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
         std::filesystem::rename(fresh, target);
     } catch (const std::exception& e) {
-        spdlog::debug("pipeline cache not kept: {}", e.what());
+        log::debug("pipeline cache not kept: {}", e.what());
     }
 }
 

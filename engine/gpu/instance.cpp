@@ -3,11 +3,11 @@
 
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
+#include "engine/types/log.h"
 
 #include <cstring>
 #include <dlfcn.h>
 #include <link.h>
-#include <spdlog/spdlog.h>
 
 namespace fathom::gpu {
 
@@ -26,7 +26,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
         return VK_FALSE;
     }
     static_cast<std::atomic<uint32_t>*>(user)->fetch_add(1);
-    spdlog::error("Vulkan validation: {}", data->pMessage);
+    log::error("Vulkan validation: {}", data->pMessage);
     return VK_FALSE;
 }
 

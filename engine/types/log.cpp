@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/types/log.h"
+
+#include <spdlog/spdlog.h>
+
+namespace fathom::log {
+
+void write(Level level, fmt::string_view format, fmt::format_args values) {
+    constexpr spdlog::level::level_enum levels[]{spdlog::level::debug, spdlog::level::info,
+                                                 spdlog::level::warn, spdlog::level::err};
+    spdlog::logger* const logger = spdlog::default_logger_raw();
+    const auto wanted = levels[static_cast<int>(level)];
+    if (logger->should_log(wanted)) {
+        logger->log(wanted, spdlog::string_view_t(fmt::vformat(format, values)));
+    }
+}
+
+} // namespace fathom::log
