@@ -166,7 +166,7 @@ TEST_CASE("No hand, however violent, and no lateness of the contact answers make
     for (World& world : worlds) {
         for (const double speed : {0.05, 0.5, 5.0}) {
             for (const uint32_t slowest : {0u, 3u, 100u}) {
-                if (kSanitized && speed != 0.5) {
+                if (kSanitized && (speed != 0.5 || slowest == 0)) {
                     continue;
                 }
                 ProxyRig rig(world.tool, world.fixtures, world.start);

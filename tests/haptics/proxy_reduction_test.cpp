@@ -4,6 +4,7 @@
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
+#include <array>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -11,7 +12,7 @@ using namespace fathom::testing;
 
 namespace {
 
-struct World {
+struct Walls {
     std::string name;
     Fixtures fixtures;
     dvec3 start;
@@ -19,8 +20,8 @@ struct World {
     double into;   // [m] downwards from there to the middle of the hand's way
 };
 
-World corner() {
-    World w{"corner", emptySet(), dvec3(0.09, 0.09, 0.09), 0.06, 0.05};
+Walls wallCorner() {
+    Walls w{"corner", emptySet(), dvec3(0.09, 0.09, 0.09), 0.06, 0.05};
     const dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     addWall(w.fixtures, dvec3(0.06, 0.06, 0), x, y, 0.12, 0.006, 0.03);
     addWall(w.fixtures, dvec3(0, 0.06, 0.06), y, z, 0.12, 0.006, 0.03);
@@ -28,8 +29,8 @@ World corner() {
     return w;
 }
 
-World groove() { // 40 degrees between the walls
-    World w{"groove", emptySet(), dvec3(0, 0, 0.2), 0.05, 0.08};
+Walls wallGroove() { // 40 degrees between the walls
+    Walls w{"groove", emptySet(), dvec3(0, 0, 0.2), 0.05, 0.08};
     for (const double side : {-1.0, 1.0}) {
         const dvec3 up(side * std::sin(0.349), 0, std::cos(0.349));
         addWall(w.fixtures, up * 0.1, dvec3(0, 1, 0), up, 0.1, 0.005, 0.02);
@@ -37,7 +38,7 @@ World groove() { // 40 degrees between the walls
     return w;
 }
 
-World rubble() {
+Walls wallRubble() {
     std::mt19937_64 random(7);
     return {"rubble", randomCloud(random, 1500, 0.2, 0.004, 0.02), dvec3(0, 0, 0.3), 0.08, 0.1};
 }
@@ -55,7 +56,7 @@ ProxyOptions optionsOf(const RowReduction& rows) {
 }
 
 // A hand that leans into the regions, wanders and turns.
-Pose handAt(const World& w, int turn) {
+Pose handAt(const Walls& w, int turn) {
     const double t = 0.001 * turn;
     const dvec3 about(std::sin(5.1 * t), std::sin(6.7 * t + 1.0), std::sin(4.3 * t + 2.0));
     return {w.fixtures.origin + w.start - dvec3(0, 0, w.into * std::min(1.0, 4.0 * t)) + w.spread * about,
@@ -70,7 +71,7 @@ struct Against {
 };
 
 // Every turn from the pose of the proxy that solves on all rows.
-Against compare(const World& w, const RowReduction& rows) {
+Against compare(const Walls& w, const RowReduction& rows) {
     const Pose start{w.fixtures.origin + w.start, dquat(1, 0, 0, 0)};
     ProxyRig all(manyLeaves(), w.fixtures, start, optionsOf({})),
         few(manyLeaves(), w.fixtures, start, optionsOf(rows));
@@ -96,9 +97,10 @@ Against compare(const World& w, const RowReduction& rows) {
 } // namespace
 
 TEST_CASE("Solving on few rows with a look at the rest gives the optimum over all rows, turn by turn") {
-    for (const World& world : {corner(), groove(), rubble()}) {
+    const std::array worlds{wallCorner(), wallGroove(), wallRubble()};
+    for (const Walls& world : worlds) {
         for (const uint32_t first : {1u, 3u, 8u, 33u}) {
-            if (kSanitized && first != 3) {
+            if (kSanitized && (first != 3 || &world != &worlds.back())) {
                 continue;
             }
             CAPTURE(world.name);
@@ -116,12 +118,13 @@ TEST_CASE("Solving on few rows with a look at the rest gives the optimum over al
 TEST_CASE(
     "No choice of rows lets a leaf enter a region, and rows left out unseen are told by where they lead") {
     double farthest = 0.0;
-    for (const World& world : {corner(), groove(), rubble()}) {
+    const std::array worlds{wallCorner(), wallGroove(), wallRubble()};
+    for (const Walls& world : worlds) {
         for (const RowReduction& rows :
              {RowReduction{2.0, NarrowPhase::kCone, 1, false},
               RowReduction{2.0, NarrowPhase::kCone, 4, false}, RowReduction{0.0, 0.0},
               RowReduction{1.0, 0.5 * M_PI}, RowReduction{4.0, NarrowPhase::kCone}}) {
-            if (kSanitized && rows.first != 1) {
+            if (kSanitized && (rows.first != 1 || &world != &worlds.back())) {
                 continue;
             }
             CAPTURE(world.name);
