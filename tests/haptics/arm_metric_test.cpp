@@ -4,9 +4,11 @@
 #include "engine/reference/nearest_point.h"
 #include "tests/haptics/arm_rig.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <doctest/doctest.h>
+#include <numeric>
 #include <vector>
 
 using namespace fathom;
@@ -14,24 +16,72 @@ using namespace fathom::testing;
 
 namespace {
 
-using Columns = Eigen::Matrix<double, 6, Eigen::Dynamic>;
+using Columns = std::vector<std::array<double, 6>>;
 
-Eigen::Vector3d toEigen(const dvec3& v) {
-    return {v.x, v.y, v.z};
+double dot(std::span<const double> a, std::span<const double> b) {
+    return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+std::array<double, 6> stacked(const dvec3& upper, const dvec3& lower) {
+    return {upper.x, upper.y, upper.z, lower.x, lower.y, lower.z};
 }
 
 // M^1/2 J of the tip, of these joints.
 Columns tipColumns(const ArmModel& arm, const ArmFrames& frames, double k,
                    const std::vector<size_t>& joints) {
-    Columns columns(6, joints.size());
-    for (size_t i = 0; i < joints.size(); ++i) {
-        const size_t j = joints[i];
+    Columns columns;
+    for (const size_t j : joints) {
         const dvec3 turning = arm.joints[j].slides ? dvec3(0.0) : arm.axisOf(frames, j);
-        columns.col(static_cast<Eigen::Index>(i))
-            << toEigen(arm.motionOf(frames, j, arm.tip(frames).position)),
-            k * toEigen(turning);
+        columns.push_back(stacked(arm.motionOf(frames, j, arm.tip(frames).position), k * turning));
     }
     return columns;
+}
+
+// J^T J + damping^2, row by row.
+std::vector<double> squares(const Columns& columns, double damping) {
+    std::vector<double> out;
+    for (const auto& row : columns) {
+        for (const auto& column : columns) {
+            out.push_back(dot(row, column) + (&row == &column ? damping * damping : 0.0));
+        }
+    }
+    return out;
+}
+
+// x of a x = b; a is symmetric and positive definite, so no pivot is looked for.
+std::vector<double> solve(std::vector<double> a, std::vector<double> b) {
+    const size_t n = b.size();
+    for (size_t p = 0; p < n; ++p) {
+        for (size_t i = 0; i < n; ++i) {
+            const double share = i == p ? 0.0 : a[i * n + p] / a[p * n + p];
+            for (size_t j = p; j < n; ++j) {
+                a[i * n + j] -= share * a[p * n + j];
+            }
+            b[i] -= share * b[p];
+        }
+    }
+    for (size_t i = 0; i < n; ++i) {
+        b[i] /= a[i * n + i];
+    }
+    return b;
+}
+
+// By inverse iteration; the start has a part in every direction.
+double smallestSingularValue(const Columns& columns) {
+    std::vector<double> direction;
+    for (size_t i = 0; i < columns.size(); ++i) {
+        direction.push_back(1.0 / static_cast<double>(i + 2));
+    }
+    const std::vector<double> matrix = squares(columns, 0.0);
+    double length = 0.0;
+    for (int step = 0; step < 200; ++step) {
+        direction = solve(matrix, direction);
+        length = std::sqrt(dot(direction, direction));
+        for (double& d : direction) {
+            d /= length;
+        }
+    }
+    return 1.0 / std::sqrt(length);
 }
 
 std::vector<size_t> movingJoints(const ArmModel& arm) {
@@ -49,19 +99,18 @@ std::vector<double> nearestIncrements(const ArmModel& arm, const ArmFrames& fram
                                       const dvec3& alpha, size_t leaf, const dvec3& normal, double gap) {
     const size_t n = arm.count();
     const Columns columns = tipColumns(arm, frames, k, movingJoints(arm));
-    Eigen::Matrix<double, 6, 1> wanted;
-    wanted << toEigen(a), k * toEigen(alpha);
-    const double lambda = ArmProxyOptions{}.damping;
-    const Eigen::MatrixXd metric =
-        columns.transpose() * columns + lambda * lambda * Eigen::MatrixXd::Identity(n, n);
-    const Eigen::VectorXd free = metric.ldlt().solve(columns.transpose() * wanted);
+    const std::vector<double> metric = squares(columns, ArmProxyOptions{}.damping);
+    std::vector<double> pull;
+    for (const auto& column : columns) {
+        pull.push_back(dot(column, stacked(a, k * alpha)));
+    }
+    const std::vector<double> free = solve(metric, pull);
     std::vector<double> row(n, 0.0);
     for (size_t j = 0; j < arm.leaves[leaf].joint; ++j) {
         row[j] = glm::dot(normal, arm.motionOf(frames, j, arm.centre(frames, leaf)));
     }
     const std::array<double, 1> offset{-gap};
-    const auto nearest =
-        nearestPoint({n, std::span(metric.data(), n * n), std::span(free.data(), n), row, offset});
+    const auto nearest = nearestPoint({n, metric, free, row, offset});
     REQUIRE(nearest.feasible);
     REQUIRE(nearest.multipliers[0] > 0.0); // the row pushes
     return nearest.x;
@@ -178,7 +227,7 @@ TEST_CASE("Joints that have no way to go do not count among an arm's singular va
         ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, 0.4, -0.5, 0.3, -0.2, 0.1});
         const std::vector<size_t> moving = movingJoints(arm);
         const Columns columns = tipColumns(arm, proxy.frames(), 0.1, moving);
-        const double truth = columns.jacobiSvd().singularValues().minCoeff();
+        const double truth = smallestSingularValue(columns);
         Pose target = proxy.tip();
         target.position += dvec3(0.001, 0.002, -0.001);
         const JointVector before = proxy.joints();
