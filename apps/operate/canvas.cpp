@@ -9,32 +9,28 @@
 
 namespace fathom::operate {
 
-namespace {
-
-// The surface of a window; of one that is offscreen, none.
-class Surface {
-public:
-    Surface(const Window& window, const gpu::Instance& instance)
-        : instance_(instance)
-        , handle_(window.offscreen() ? VK_NULL_HANDLE : window.makeSurface(instance)) {}
-    ~Surface() {
-        if (handle_ != VK_NULL_HANDLE) { // else the instance may have no such call
-            vkDestroySurfaceKHR(instance_.handle(), handle_, nullptr);
-        }
-    }
-    Surface(const Surface&) = delete;
-    Surface& operator=(const Surface&) = delete;
-    VkSurfaceKHR handle() const { return handle_; }
-
-private:
-    const gpu::Instance& instance_;
-    VkSurfaceKHR handle_;
-};
-
-} // namespace
-
 // Owners before their borrowers.
 struct Canvas::OnDevice {
+    // Of a window; of one that is offscreen, none.
+    class Surface {
+    public:
+        Surface(const Window& window, const gpu::Instance& instance)
+            : instance_(instance)
+            , handle_(window.offscreen() ? VK_NULL_HANDLE : window.makeSurface(instance)) {}
+        ~Surface() {
+            if (handle_ != VK_NULL_HANDLE) { // else the instance may have no such call
+                vkDestroySurfaceKHR(instance_.handle(), handle_, nullptr);
+            }
+        }
+        Surface(const Surface&) = delete;
+        Surface& operator=(const Surface&) = delete;
+        VkSurfaceKHR handle() const { return handle_; }
+
+    private:
+        const gpu::Instance& instance_;
+        VkSurfaceKHR handle_;
+    };
+
     OnDevice(const Window& window, const gpu::Instance& instance, gpu::Device& device) {
         surface.emplace(window, instance);
         if (surface->handle() != VK_NULL_HANDLE) {

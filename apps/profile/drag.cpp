@@ -22,10 +22,10 @@ double bulge(double x, double y) {
 // Height [m] over the bulging wall of a ball's centre that touches it; `radius` with the wall's own spheres.
 double ballOver(double x, double y, double radius) {
     constexpr double kStep = 0.002; // [m]; the surface's slope is 0.2 at most, where it touches
-    constexpr int kSteps = 12;
+    constexpr int kAround = 12;
     double height = -HUGE_VAL;
-    for (int j = -kSteps; j <= kSteps; ++j) {
-        for (int i = -kSteps; i <= kSteps; ++i) {
+    for (int j = -kAround; j <= kAround; ++j) {
+        for (int i = -kAround; i <= kAround; ++i) {
             const double dx = kStep * i, dy = kStep * j;
             height = std::max(height, bulge(x + dx, y + dy) + std::sqrt(radius * radius - dx * dx - dy * dy));
         }

@@ -13,11 +13,11 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kChildren = 16;   // sub-patches of a patch, and spheres of a sub-patch
-constexpr double kSphere = 0.02;   // [m] radius of a region sphere
-constexpr double kReach = 0.01;    // [m] of the cull
-constexpr double kLeaf = 0.008;    // [m] radius of a leaf
-constexpr double kSpread = 0.0064; // [m] edge of a sub-patch
+constexpr size_t kChildren = 16;    // sub-patches of a patch, and spheres of a sub-patch
+constexpr double kSphere = 0.02;    // [m] radius of a region sphere
+constexpr double kCullReach = 0.01; // [m] of the cull
+constexpr double kLeaf = 0.008;     // [m] radius of a leaf
+constexpr double kSpread = 0.0064;  // [m] edge of a sub-patch
 
 struct Bound {
     dvec3 centre{0.0};
@@ -127,7 +127,7 @@ void cull(const Wall& wall, const Leaves<typename Node::Number>& leaves, const s
     marks.assign(nodes.size(), 0);
     for (size_t n = 0; n < nodes.size(); ++n) {
         const auto node = nodes[n].sphere(wall.anchors[n / kChildren]);
-        const T limit = node.w + static_cast<T>((kReach + kLeaf) * 1.00001 + 1e-6);
+        const T limit = node.w + static_cast<T>((kCullReach + kLeaf) * 1.00001 + 1e-6);
         const T nearest = nearestSquared(leaves.x.data(), leaves.y.data(), leaves.z.data(), leaves.x.size(),
                                          node.x, node.y, node.z);
         marks[n] = nearest <= limit * limit ? 1 : 0;

@@ -17,7 +17,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kReach = 0.01;         // [m]
+constexpr double kQueryReach = 0.01;    // [m]
 constexpr double kMostBrutePairs = 4e8; // leaf-sphere pairs that brute force is let try
 
 struct Size {
@@ -46,7 +46,7 @@ struct Way {
     ContactCycle cycle;
     Way(gpu::Device& device, const QueryRig& rig, Plan::Query query, const Tool& tool)
         : plan(planOf(rig, query))
-        , cycle(device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets(), tool, kReach) {}
+        , cycle(device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets(), tool, kQueryReach) {}
     static Plan planOf(const QueryRig& rig, Plan::Query query) {
         Plan plan = rig.bench.plan();
         plan.query = query;
@@ -68,15 +68,15 @@ void timeGpuCull(const StudyContext& context, const QueryRig& rig, const Tool& t
     poseLeaves(tool, pose, rig.host().origin, leaves);
     std::vector<uint32_t> found, brute;
     std::vector<uint8_t> marks;
-    verify(query.cull(rig.bench.set(), leaves, pose, static_cast<float>(kReach), found), "query", row.setting,
-           "overflow");
+    verify(query.cull(rig.bench.set(), leaves, pose, static_cast<float>(kQueryReach), found), "query",
+           row.setting, "overflow");
     std::sort(found.begin(), found.end());
-    bruteForceCull(leaves, static_cast<float>(kReach), rig.host().spheres, marks, brute);
+    bruteForceCull(leaves, static_cast<float>(kQueryReach), rig.host().spheres, marks, brute);
     verify(found == brute, "query", row.setting, "the GPU cull differs from brute force");
     std::vector<double> gpu, submit;
     repeat(
         context.settings.effort(),
-        [&] { query.cull(rig.bench.set(), leaves, pose, static_cast<float>(kReach), found); },
+        [&] { query.cull(rig.bench.set(), leaves, pose, static_cast<float>(kQueryReach), found); },
         [&](const Clocks& c) {
             submit.push_back(c.wallMs());
             gpu.push_back(query.gpuMs());
@@ -99,7 +99,7 @@ StudyRow bruteRow(const StudyContext& context, const QueryRig& rig, const Tool& 
         return row;
     }
     row.cost = timeCpu(context.settings.effort(), [&] {
-        bruteForceCull(leaves, static_cast<float>(kReach), rig.host().spheres, marks, found);
+        bruteForceCull(leaves, static_cast<float>(kQueryReach), rig.host().spheres, marks, found);
     });
     row.more = {NAN};
     return row;

@@ -17,10 +17,6 @@ constexpr double kNanometre =
     1e-9; // [m] limit of penetration here: the promise is 0, this is rounding of the audit
 constexpr double kPerTurn = 1e-3; // [m] depth given back a turn
 
-int some(Effort effort, int full, int brief) {
-    return effort == Effort::Full ? full : brief;
-}
-
 Fixtures oneSphere(const dvec3& centre, double radius) {
     Fixtures set;
     addSphere(set, centre, radius);

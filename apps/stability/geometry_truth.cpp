@@ -19,16 +19,12 @@ constexpr double kBall = 0.01;     // [m] radius of the tool
 constexpr double kUnit = 0.0001;   // [m] of the depth picture
 constexpr double kBudget = 0.0001; // [m] error budget of thinning
 
-int some(Effort effort, int full, int brief) {
-    return effort == Effort::Full ? full : brief;
-}
-
-struct Picture {
+struct TruthPicture {
     AnalyticScene scene;
     Fixtures set;
 };
 
-Picture pictureOf(AnalyticScene scene, double radius, double edge, uint32_t width) {
+TruthPicture pictureOf(AnalyticScene scene, double radius, double edge, uint32_t width) {
     SimulatedCameraOptions options;
     options.width = width;
     options.height = width * 3 / 4;
@@ -45,7 +41,7 @@ Picture pictureOf(AnalyticScene scene, double radius, double edge, uint32_t widt
 // Pressed on a ball from all over the camera's side: the tool stands where the region's skin is.
 Outcome ballTruthCase(Effort effort) {
     const double region = 0.04;
-    const Picture p = pictureOf(analyticScene("sphere").value(), region, 0.03, 320);
+    const TruthPicture p = pictureOf(analyticScene("sphere").value(), region, 0.03, 320);
     const dvec3 centre(0.0, 0.0, 0.7);
     const double wanted = 0.1 + region + kBall;
     double above = 0.0, below = 0.0;
@@ -88,7 +84,7 @@ Outcome grazingCase(Effort effort) {
         scene.solids.push_back(planeThrough(point, normal, {linearColour(200, 36, 32), 0.1f, 0.0f}));
         scene.solids.back().object = 1;
         const double region = 0.03;
-        const Picture p = pictureOf(scene, region, 0.0, 320);
+        const TruthPicture p = pictureOf(scene, region, 0.0, 320);
         const int trials = some(effort, 100, 6);
         for (int i = 0; i < trials; ++i) {
             const dvec3 along(0.0, std::cos(tilt), std::sin(tilt));
@@ -115,7 +111,7 @@ Outcome grazingCase(Effort effort) {
 
 // A plate of 2 mm, regions of 10 mm, hands that go straight through it.
 Outcome plateCase(Effort effort) {
-    const Picture p = pictureOf(analyticScene("plate").value(), 0.01, 0.03, 320);
+    const TruthPicture p = pictureOf(analyticScene("plate").value(), 0.01, 0.03, 320);
     const Solid& plate = p.scene.solids.front();
     double worst = -1.0;
     StormFigures all;

@@ -46,7 +46,7 @@ std::vector<dvec3> disc(Dice& dice, const dvec3& centre, const dvec3& normal, do
     return points;
 }
 
-double angleBetween(const dvec3& a, const dvec3& b) {
+double angleOf(const dvec3& a, const dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
@@ -101,8 +101,8 @@ Outcome exactPlane(Effort effort) {
         const dvec3 centre = dice.logUniform(0.1, 1e5) * dice.direction(), normal = dice.direction();
         const GuidancePose pose = poseOf(disc(dice, centre, normal, dice.logUniform(0.02, 2.0), 300, 0.0));
         lost += !pose.planar || !isSound(pose) ? 1 : 0;
-        worst = std::max(
-            worst, angleBetween(pose.normal, glm::dot(normal, kCamera - centre) < 0.0 ? -normal : normal));
+        worst = std::max(worst,
+                         angleOf(pose.normal, glm::dot(normal, kCamera - centre) < 0.0 ? -normal : normal));
     }
     Outcome out = outcomeOf(worst, 1e-7, "rad",
                             "Exact planes of 20 mm to 2 m, 0.1 m to 100 km from the base origin, seen from "
@@ -130,7 +130,7 @@ Outcome noisyPlane(Effort effort) {
         for (int n = 0; n < trials; ++n) {
             const dvec3 normal = glm::normalize(dvec3(0.3, -0.2, -1.0));
             const GuidancePose pose = poseOf(disc(dice, {0.0, 0.0, 1.0}, normal, radius, count, sigma));
-            const double angle = pose.planar ? angleBetween(pose.normal, normal) : 0.0;
+            const double angle = pose.planar ? angleOf(pose.normal, normal) : 0.0;
             sum += angle * angle;
             planar += pose.planar ? 1 : 0;
         }

@@ -15,15 +15,11 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kPerTurn = 1e-3;                      // [m] depth given back a turn
-constexpr double kBall = 0.01;                         // [m] tool
-constexpr double kStand = WallCamera::kRegion + kBall; // [m] before the wall where the tool rests
+constexpr double kTool = 0.01;                         // [m] tool
+constexpr double kStand = WallCamera::kRegion + kTool; // [m] before the wall where the tool rests
 constexpr double kWall = 0.5;                          // [m]
 constexpr double kTurnsAside =
     3.0; // beyond depth / 1 mm: the answer, the last fraction, dimples that send it sideways
-
-int some(Effort effort, int full, int brief) {
-    return effort == Effort::Full ? full : brief;
-}
 
 // On the camera's side of the wall at z.
 std::function<bool(const Pose&)> inFrontOf(double z) {
@@ -48,7 +44,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     const dvec3 at(dice.uniform(-0.03, 0.03), dice.uniform(-0.03, 0.03), kWall - kStand - 0.005);
     const Pose hand{at + dvec3(0, 0, press), dice.rotation()};
     const double back =
-        tool.boundingRadius() - kBall; // wherever its leaves are, the tool starts before the wall
+        tool.boundingRadius() - kTool; // wherever its leaves are, the tool starts before the wall
     LockstepRig rig(tool, {at - dvec3(0, 0, back), hand.rotation});
     rig.faults.late = late;
     rig.show(camera.look({kWall, noise, 0.0}));
@@ -86,7 +82,7 @@ std::string wordsOf(const JumpFigures& f) {
 
 JumpFigures jumps(Effort effort, double jump, uint32_t late) {
     JumpFigures f;
-    const Tool ball = ballTool(kBall);
+    const Tool ball = ballTool(kTool);
     const int trials = some(effort, 40, 4);
     for (int i = 0; i < trials; ++i) {
         jumpOnce(ball, jump, i % 2 == 0 ? 0.0 : 0.0005, i % 4 < 2 ? 0.0 : 0.02, late,
@@ -163,7 +159,7 @@ Outcome sweepCase(Effort effort, double speed) {
         const double sweep = 0.25, noise = i % 4 < 2 ? 0.0 : 0.0005;
         const Pose hand{dvec3(dice.uniform(-0.02, 0.02), dice.uniform(-0.02, 0.02), 0.6 - kStand - 0.01),
                         kUpright};
-        LockstepRig rig(ballTool(kBall), hand);
+        LockstepRig rig(ballTool(kTool), hand);
         const auto frames = static_cast<int>(std::ceil(sweep / (speed * WallCamera::kFrame)));
         int turn = 0;
         double z = 0.6;

@@ -15,12 +15,9 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kBall = 0.01, kWall = 0.5, kStand = WallCamera::kRegion + kBall; // [m]
-constexpr double kSlewStep = 2.0 * (1.0 + 1e-9); // [N] a turn at 2000 N/s and 1 kHz
-
-int some(Effort effort, int full, int brief) {
-    return effort == Effort::Full ? full : brief;
-}
+constexpr double kStreamBall = 0.01, kStreamWall = 0.5,
+                 kStreamStand = WallCamera::kRegion + kStreamBall; // [m]
+constexpr double kSlewStep = 2.0 * (1.0 + 1e-9);                   // [N] a turn at 2000 N/s and 1 kHz
 
 void demandSound(Outcome& out, const LockstepRig& rig) {
     demand(out, rig.audit().maxPenetration() <= 1e-5,
@@ -41,9 +38,9 @@ std::string wordsOf(const LockstepRig& rig) {
 // the tool sinks.
 Outcome flickerCase(Effort effort, bool hold) {
     WallCamera camera(hold, 3);
-    const Pose hand{dvec3(0.004, -0.003, kWall - kStand + 0.015), kUpright};
-    LockstepRig rig(ballTool(kBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
-    rig.show(camera.look({kWall, 0.0, 0.0}));
+    const Pose hand{dvec3(0.004, -0.003, kStreamWall - kStreamStand + 0.015), kUpright};
+    LockstepRig rig(ballTool(kStreamBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
+    rig.show(camera.look({kStreamWall, 0.0, 0.0}));
     for (int k = 0; k < 200; ++k) {
         rig.turn(hand);
     }
@@ -58,7 +55,7 @@ Outcome flickerCase(Effort effort, bool hold) {
                          false};
     const int frames = some(effort, 300, 20);
     for (int frame = 0; frame < frames; ++frame) {
-        rig.show(camera.look({kWall, 0.0, 0.24}));
+        rig.show(camera.look({kStreamWall, 0.0, 0.24}));
         hole = std::max(hole, camera.largestHole(rig.pose().position.x, rig.pose().position.y));
         for (int k = 0; k < 33; ++k) {
             rig.turn(hand);
@@ -68,7 +65,7 @@ Outcome flickerCase(Effort effort, bool hold) {
         curve.y.push_back(1e3 * (rig.pose().position.z - resting));
     }
     // A hole of radius h in the wall lets the tool sink until it meets the rim; held points leave no hole.
-    const double theory = hold ? 0.0 : kStand - std::sqrt(kStand * kStand - hole * hole);
+    const double theory = hold ? 0.0 : kStreamStand - std::sqrt(kStreamStand * kStreamStand - hole * hole);
     Outcome out = outcomeOf(
         deepest - resting, theory + 2e-4, "m",
         "How far a tool pressed 15 mm into the wall sinks while 24 % of the pixels flicker, hold " +
@@ -84,25 +81,25 @@ Outcome flickerCase(Effort effort, bool hold) {
 // Whole frames without any depth.
 Outcome dropoutCase(Effort effort, bool hold) {
     WallCamera camera(hold, 4);
-    const Pose hand{dvec3(0.001, 0.002, kWall - kStand + 0.015), kUpright};
-    LockstepRig rig(ballTool(kBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
+    const Pose hand{dvec3(0.001, 0.002, kStreamWall - kStreamStand + 0.015), kUpright};
+    LockstepRig rig(ballTool(kStreamBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
     double worst = 0.0;
     const int rounds = some(effort, 60, 4);
     uint64_t stuck = 0;
     for (int round = 0; round < rounds; ++round) {
-        rig.show(camera.look({kWall, 0.0, 0.0}));
+        rig.show(camera.look({kStreamWall, 0.0, 0.0}));
         for (int k = 0; k < 200; ++k) {
             rig.turn(hand);
         }
         const double resting = rig.pose().position.z;
         for (int blind = 0; blind < 5; ++blind) {
-            rig.show(camera.look({kWall, 0.0, 1.0}));
+            rig.show(camera.look({kStreamWall, 0.0, 1.0}));
             for (int k = 0; k < 33; ++k) {
                 rig.turn(hand);
             }
         }
         const double sunk = rig.pose().position.z - resting;
-        rig.show(camera.look({kWall, 0.0, 0.0}));
+        rig.show(camera.look({kStreamWall, 0.0, 0.0}));
         const EscapeFigures e = escape(rig, hand, 400);
         stuck += e.out ? 0 : 1;
         worst = std::max(worst, hold ? sunk : e.turns / (std::ceil(std::max(0.0, sunk) / 1e-3) + 3.0));
@@ -124,11 +121,11 @@ Outcome dropoutCase(Effort effort, bool hold) {
 // turns.
 Outcome restlessCase(Effort effort, double noise, double leap, int turnsEach, const std::string& what) {
     WallCamera camera(false, 5);
-    const Pose hand{dvec3(-0.003, 0.001, kWall - kStand + 0.01), kUpright};
+    const Pose hand{dvec3(-0.003, 0.001, kStreamWall - kStreamStand + 0.01), kUpright};
     LockstepRig rig(toolOf(crossLeaves(0.008)), {hand.position - dvec3(0, 0, 0.15), kUpright});
     const int frames = some(effort, 600, 40);
     for (int frame = 0; frame < frames; ++frame) {
-        rig.show(camera.look({kWall - (frame % 2 == 1 ? leap : 0.0), noise, 0.0}));
+        rig.show(camera.look({kStreamWall - (frame % 2 == 1 ? leap : 0.0), noise, 0.0}));
         for (int k = 0; k < turnsEach; ++k) {
             rig.turn(hand);
         }
@@ -141,7 +138,7 @@ Outcome restlessCase(Effort effort, double noise, double leap, int turnsEach, co
 
 Fixtures vice(double overlap) { // two walls of spheres that leave 2 overlap too little for the ball
     Fixtures set;
-    const double half = kStand - overlap;
+    const double half = kStreamStand - overlap;
     addWall(set, dvec3(0, 0, -half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
     addWall(set, dvec3(0, 0, half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
     return set;
@@ -174,7 +171,7 @@ ViceRun closeVice(LockstepRig& rig, double overlap, const Pose& hand) {
                              : 0.0;
     }
     Fixtures open;
-    addWall(open, dvec3(0, 0, -(kStand - overlap)), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
+    addWall(open, dvec3(0, 0, -(kStreamStand - overlap)), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
     rig.show(std::move(open));
     run.left = escape(rig, hand, 200);
     return run;
@@ -190,7 +187,7 @@ Outcome viceCase(Effort effort, ViceFigure what) {
     for (int i = 0; i < trials; ++i) {
         const double overlap = dice.logUniform(0.0005, 0.02);
         const Pose hand{0.0005 * dice.direction() + dvec3(0.012 * (i % 2), 0, 0), kUpright};
-        LockstepRig rig(ballTool(kBall), {hand.position, kUpright});
+        LockstepRig rig(ballTool(kStreamBall), {hand.position, kUpright});
         const ViceRun run = closeVice(rig, overlap, hand);
         const double turns = run.recognised < 0 ? 1e9 : run.recognised;
         const double left = run.left.turns / (std::ceil((overlap + 0.001) / 1e-3) + 3.0);

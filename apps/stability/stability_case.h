@@ -33,6 +33,10 @@ inline constexpr const char* kGroupNames[] = {"solver",   "geometry", "guarantee
 // How much of a case runs: the whole of it (`fathom stability`), or a shortened form with the same limits
 // (`./run test`).
 enum class Effort : uint8_t { Full, Short };
+// How many of something.
+inline int some(Effort effort, int full, int brief) {
+    return effort == Effort::Full ? full : brief;
+}
 
 // What one case came to. holds: the figure obeys the limit in the way that `relation` says.
 struct Outcome {

@@ -33,7 +33,7 @@ double shareOfLimit(const Outcome& o) {
     return whole > 0.0 ? part / whole : 10.0;
 }
 
-void drawAxis(const Picture& picture, const PlotAxis& axis, double bottom) {
+void drawAxis(const fathom::Picture& picture, const PlotAxis& axis, double bottom) {
     for (int decade = static_cast<int>(kLeast); decade <= static_cast<int>(kMost); ++decade) {
         const double x = axis.at(decade);
         picture.setColour(decade == 0 ? kBroken : kGrid);
@@ -46,7 +46,7 @@ void drawAxis(const Picture& picture, const PlotAxis& axis, double bottom) {
     }
 }
 
-void drawBar(const Picture& picture, const PlotAxis& axis, double y, const CaseResult& r) {
+void drawBar(const fathom::Picture& picture, const PlotAxis& axis, double y, const CaseResult& r) {
     const double share = shareOfLimit(r.outcome);
     const double end = axis.at(std::clamp(share > 0.0 ? std::log10(share) : kLeast, kLeast + 0.03, kMost));
     picture.setColour(r.outcome.holds() ? kBar : kBroken);
@@ -63,7 +63,7 @@ void writeMargins(const std::filesystem::path& file, const std::vector<CaseResul
     }
     const double height =
         kTop + kRow * (static_cast<double>(results.size()) + 1.6 * static_cast<double>(groups)) + 30.0;
-    const Picture picture(kWidth, static_cast<int>(height), kPaper);
+    const fathom::Picture picture(kWidth, static_cast<int>(height), kPaper);
     const PlotAxis axis{kLeast, kMost, kLeft, kRight};
     picture.text(24.0, 36.0, "Stability suite: how much of its limit each case uses", 20.0, kInk, Align::Left,
                  true);

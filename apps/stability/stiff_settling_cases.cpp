@@ -50,29 +50,29 @@ Outcome settles(Ground ground, const LoopGrid& grid, const std::string& where) {
                          num(residual * 1e3) + " mm/s. 1 would be an oscillation that stays.");
 }
 
-LoopGrid gridFor(Effort effort, size_t every) {
+LoopGrid settlingGrid(Effort effort, size_t every) {
     LoopGrid grid;
     grid.every = effort == Effort::Full ? 1 : every;
     return grid;
 }
 
 Outcome walls(Effort effort) {
-    return settles(Ground::Wall, gridFor(effort, 7), "A wall.");
+    return settles(Ground::Wall, settlingGrid(effort, 7), "A wall.");
 }
 Outcome corners(Effort effort) {
-    return settles(Ground::Corner, gridFor(effort, 11), "A corner of three walls.");
+    return settles(Ground::Corner, settlingGrid(effort, 11), "A corner of three walls.");
 }
 Outcome slots(Effort effort) {
-    return settles(Ground::Slot, gridFor(effort, 11),
+    return settles(Ground::Slot, settlingGrid(effort, 11),
                    "A slot with 0.5 mm of room on each side, slid from one side to the other.");
 }
 Outcome spheres(Effort effort) {
-    LoopGrid grid = gridFor(effort, 19);
+    LoopGrid grid = settlingGrid(effort, 19);
     grid.delays = {0, 2};
     return settles(Ground::Spheres, grid, "A wall of region spheres with 0.05 mm dimples.");
 }
-Outcome rates(Effort effort) {
-    LoopGrid grid = gridFor(effort, 13);
+Outcome settlingRates(Effort effort) {
+    LoopGrid grid = settlingGrid(effort, 13);
     grid.rates = {500.0, 2000.0, 4000.0, 10000.0};
     grid.delays = {0, 2};
     grid.masses = {0.05, 1.0};
@@ -116,7 +116,7 @@ Outcome encoders(Effort effort) {
     Outcome::Curve curve{"hand at rest", "encoder step [m]", "peak to peak [m]", {}, {}, true, true};
     size_t runs = 0;
     for (const double step : {1e-6, 1e-5, 5e-5, 1e-4}) {
-        LoopGrid grid = gridFor(effort, 17);
+        LoopGrid grid = settlingGrid(effort, 17);
         LoopSpec base = pressedSpec(Ground::Wall, 3.0);
         base.encoderStep = step;
         double largest = 0.0;
@@ -158,7 +158,7 @@ Outcome lowPass(Effort effort) {
     double worst = 0.0;
     size_t runs = 0;
     for (const double hz : {30.0, 100.0, 300.0}) {
-        LoopGrid grid = gridFor(effort, 13);
+        LoopGrid grid = settlingGrid(effort, 13);
         grid.delays = {0, 1};
         LoopSpec base = pressedSpec(Ground::Wall, kPressed);
         base.lowPassHz = hz;
@@ -180,7 +180,7 @@ std::vector<Case> settlingCases() {
             {"automatic-stiffness-settles-in-corners", Group::Stiff, corners},
             {"automatic-stiffness-settles-in-slots", Group::Stiff, slots},
             {"automatic-stiffness-settles-on-spheres", Group::Stiff, spheres},
-            {"automatic-stiffness-500-hz-to-10-khz", Group::Stiff, rates},
+            {"automatic-stiffness-500-hz-to-10-khz", Group::Stiff, settlingRates},
             {"automatic-stiffness-with-low-pass", Group::Stiff, lowPass},
             {"free-device-never-bounces-higher", Group::Stiff, bounces},
             {"encoder-steps-do-not-shake-the-hand", Group::Stiff, encoders}};

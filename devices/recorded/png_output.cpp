@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kEffort = 1; // of zlib: 30 pictures a second matter more than the last tenth of the size
 
-struct CloseFile {
+struct CloseOutput {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
 };
 
@@ -63,7 +63,7 @@ void write(const std::filesystem::path& path, PngSize size, int bits, int colour
     for (uint32_t y = 0; y < size.height; ++y) {
         rows[y] = first + size_t{y} * size.width * bytesPerPixel;
     }
-    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "wb"));
+    std::unique_ptr<std::FILE, CloseOutput> file(std::fopen(path.c_str(), "wb"));
     if (!file) {
         throw Error(path.string() + ": cannot be written (" + std::strerror(errno) + ")");
     }

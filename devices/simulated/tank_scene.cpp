@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/simulated/tank_scene.h"
 
+#include "devices/simulated/paints.h"
+
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -10,19 +12,11 @@ namespace {
 
 const double kPi = std::acos(-1.0);
 
-// Paints are chosen for what the camera sees through a metre of water, which takes a third of the red: of all
-// of them only the two valves come out saturated in red and yellow.
-const Paint kRed{linearColour(226, 18, 16), 0.12f, 0.0f};
-const Paint kYellow{linearColour(255, 186, 8), 0.10f, 0.0f};
-const Paint kPanel{linearColour(98, 120, 142), 0.03f, 0.45f};
 const Paint kFrame{linearColour(120, 134, 148), 0.10f, 0.25f};
-const Paint kSteel{linearColour(178, 182, 186), 0.45f, 0.1f};
 const Paint kGreyPipe{linearColour(150, 158, 164), 0.25f, 0.25f};
 const Paint kGreenPipe{linearColour(64, 122, 92), 0.20f, 0.25f};
 const Paint kBrass{linearColour(164, 132, 104), 0.35f, 0.15f};
 const Paint kWhite{linearColour(226, 230, 230), 0.05f, 0.05f};
-const Paint kBlack{linearColour(28, 32, 36), 0.15f, 0.0f};
-const Paint kWall{linearColour(70, 98, 112), 0.0f, 0.5f};
 const Paint kFloor{linearColour(96, 108, 104), 0.0f, 0.9f};
 
 class Builder {
@@ -44,19 +38,19 @@ private:
 };
 
 void addRoom(Builder& put) {
-    put(planeThrough({0.0, 0.0, 1.75}, {0.0, 0.0, -1.0}, kWall));
+    put(planeThrough({0.0, 0.0, 1.75}, {0.0, 0.0, -1.0}, paint::kWall));
     put(planeThrough({0.0, 0.52, 0.0}, {0.0, -1.0, 0.0}, kFloor));
 }
 
 void addPanel(Builder& put) {
-    put.box({0.0, 0.0, 1.02}, {0.45, 0.28, 0.02}, kPanel);
+    put.box({0.0, 0.0, 1.02}, {0.45, 0.28, 0.02}, paint::kPanel);
     for (const double side : {-1.0, 1.0}) {
         put.box({0.0, side * 0.285, 1.01}, {0.47, 0.015, 0.035}, kFrame);
         put.box({side * 0.46, 0.0, 1.01}, {0.015, 0.30, 0.035}, kFrame);
         put(cylinderBetween({side * 0.38, 0.30, 1.02}, {side * 0.38, 0.52, 1.02}, 0.022, kFrame));
         for (const double row : {-0.245, 0.245}) {
-            put(cylinderBetween({side * 0.42, row, 1.0}, {side * 0.42, row, 0.990}, 0.013, kSteel));
-            put(sphereAt({side * 0.42, row, 0.992}, 0.008, kSteel));
+            put(cylinderBetween({side * 0.42, row, 1.0}, {side * 0.42, row, 0.990}, 0.013, paint::kSteel));
+            put(sphereAt({side * 0.42, row, 0.992}, 0.008, paint::kSteel));
         }
     }
 }
@@ -84,7 +78,7 @@ void addValvePipe(Builder& put, double x) {
         put(cylinderBetween({x, 0.0, z}, {x, side * 0.20, z}, 0.020, kGreyPipe));
         put(sphereAt({x, side * 0.20, z}, 0.020, kGreyPipe));
         put(cylinderBetween({x, side * 0.20, z}, {x, side * 0.20, 1.0}, 0.020, kGreyPipe));
-        put(cylinderBetween({x, side * 0.20, 0.99}, {x, side * 0.20, 1.0}, 0.034, kSteel));
+        put(cylinderBetween({x, side * 0.20, 0.99}, {x, side * 0.20, 1.0}, 0.034, paint::kSteel));
         put(cylinderBetween({x, side * 0.050, z}, {x, side * 0.066, z}, 0.033, kBrass));
     }
     put(sphereAt({x, 0.0, z}, 0.037, kBrass));
@@ -107,23 +101,24 @@ void addWheel(Builder& put, const dvec3& centre, const dvec3& axis, double turn,
                            paint));
     }
     put.object(0);
-    put(cylinderBetween(centre - 0.085 * outward, centre + 0.010 * outward, 0.008, kSteel));
+    put(cylinderBetween(centre - 0.085 * outward, centre + 0.010 * outward, 0.008, paint::kSteel));
     put(cylinderBetween(centre - 0.085 * outward, centre - 0.045 * outward, 0.019, kBrass));
-    put(sphereAt(centre + 0.010 * outward, 0.008, kSteel));
+    put(sphereAt(centre + 0.010 * outward, 0.008, paint::kSteel));
 }
 
 void addGauge(Builder& put, const dvec3& centre) {
     const dvec3 out(0.0, 0.0, -1.0);
-    put(cylinderBetween(centre, centre + 0.024 * out, 0.050, kBlack));
+    put(cylinderBetween(centre, centre + 0.024 * out, 0.050, paint::kBlack));
     put(cylinderBetween(centre + 0.024 * out, centre + 0.025 * out, 0.043, kWhite));
     const dvec3 face = centre + 0.025 * out;
     for (int i = 0; i < 9; ++i) {
         const double angle = (135.0 + 33.75 * i) * kPi / 180.0;
         const dvec3 radial(std::cos(angle), std::sin(angle), 0.0);
-        put(capsuleBetween(face + 0.032 * radial, face + 0.038 * radial, 0.0016, kBlack));
+        put(capsuleBetween(face + 0.032 * radial, face + 0.038 * radial, 0.0016, paint::kBlack));
     }
-    put(capsuleBetween(face + 0.002 * out, face + 0.002 * out + dvec3(0.016, -0.026, 0.0), 0.0020, kBlack));
-    put(sphereAt(face, 0.006, kSteel));
+    put(capsuleBetween(face + 0.002 * out, face + 0.002 * out + dvec3(0.016, -0.026, 0.0), 0.0020,
+                       paint::kBlack));
+    put(sphereAt(face, 0.006, paint::kSteel));
     put(cylinderBetween(centre + dvec3(0.0, 0.05, -0.012), centre + dvec3(0.0, 0.085, -0.012), 0.010,
                         kBrass));
 }
@@ -131,8 +126,8 @@ void addGauge(Builder& put, const dvec3& centre) {
 void addPlates(Builder& put) {
     for (const double x : {-0.30, 0.30}) {
         put.box({x, 0.16, 0.998}, {0.045, 0.026, 0.003}, kWhite);
-        put.box({x, 0.150, 0.996}, {0.034, 0.005, 0.002}, kBlack);
-        put.box({x - 0.010, 0.167, 0.996}, {0.024, 0.004, 0.002}, kBlack);
+        put.box({x, 0.150, 0.996}, {0.034, 0.005, 0.002}, paint::kBlack);
+        put.box({x - 0.010, 0.167, 0.996}, {0.024, 0.004, 0.002}, paint::kBlack);
     }
 }
 
@@ -150,8 +145,8 @@ AnalyticScene tankScene() {
     addPipesBehind(put);
     addValvePipe(put, -0.15);
     addValvePipe(put, 0.15);
-    addWheel(put, {-0.15, 0.0, 0.86}, {0.10, -0.16, -1.0}, 0.35, kRed, 1);
-    addWheel(put, {0.15, 0.0, 0.86}, {-0.14, -0.12, -1.0}, 0.85, kYellow, 2);
+    addWheel(put, {-0.15, 0.0, 0.86}, {0.10, -0.16, -1.0}, 0.35, paint::kRed, 1);
+    addWheel(put, {0.15, 0.0, 0.86}, {-0.14, -0.12, -1.0}, 0.85, paint::kYellow, 2);
     addGauge(put, {0.0, -0.15, 1.0});
     addPlates(put);
     return scene;

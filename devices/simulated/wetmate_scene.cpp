@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/simulated/wetmate_scene.h"
 
+#include "devices/simulated/paints.h"
+
 #include <cmath>
 
 namespace fathom {
 
 namespace {
-
-// Of all paints only the wheel comes out saturated in red through the water, and the receptacle in yellow.
-const Paint kRed{linearColour(226, 18, 16), 0.12f, 0.0f};
-const Paint kYellow{linearColour(255, 186, 8), 0.10f, 0.0f};
-const Paint kPanel{linearColour(98, 120, 142), 0.03f, 0.45f};
-const Paint kSteel{linearColour(178, 182, 186), 0.45f, 0.1f};
-const Paint kBlack{linearColour(28, 32, 36), 0.15f, 0.0f};
-const Paint kWall{linearColour(70, 98, 112), 0.0f, 0.5f};
 
 constexpr uint8_t kValve = 1, kReceptacle = 2;
 const dvec3 kOut(0.0, 0.0, -1.0); // towards the camera
@@ -26,22 +20,22 @@ void add(AnalyticScene& scene, uint8_t object, Solid solid) {
 // Rim, hub and four spokes on a steel stem.
 void addValve(AnalyticScene& scene) {
     const dvec3 c = kWetmateWheel;
-    add(scene, kValve, torusAt(c, kOut, 0.060, 0.010, kRed));
-    add(scene, kValve, cylinderBetween(c - 0.015 * kOut, c + 0.006 * kOut, 0.020, kRed));
+    add(scene, kValve, torusAt(c, kOut, 0.060, 0.010, paint::kRed));
+    add(scene, kValve, cylinderBetween(c - 0.015 * kOut, c + 0.006 * kOut, 0.020, paint::kRed));
     for (int i = 0; i < 4; ++i) {
         const double angle = 0.3 + 0.5 * std::acos(-1.0) * i;
         const dvec3 radial(std::cos(angle), std::sin(angle), 0.0);
-        add(scene, kValve, capsuleBetween(c + 0.018 * radial, c + 0.060 * radial, 0.007, kRed));
+        add(scene, kValve, capsuleBetween(c + 0.018 * radial, c + 0.060 * radial, 0.007, paint::kRed));
     }
-    add(scene, 0, cylinderBetween(c - 0.015 * kOut, c - 0.140 * kOut, 0.012, kSteel));
+    add(scene, 0, cylinderBetween(c - 0.015 * kOut, c - 0.140 * kOut, 0.012, paint::kSteel));
 }
 
 // A ring face round a dark socket, on a tube from the panel.
 void addReceptacle(AnalyticScene& scene) {
     const dvec3 c = kWetmateFace;
-    add(scene, kReceptacle, cylinderBetween(c, c - 0.030 * kOut, 0.040, kYellow));
-    add(scene, 0, cylinderBetween(c + 0.001 * kOut, c - 0.010 * kOut, 0.014, kBlack));
-    add(scene, 0, cylinderBetween(c - 0.030 * kOut, c - 0.120 * kOut, 0.034, kSteel));
+    add(scene, kReceptacle, cylinderBetween(c, c - 0.030 * kOut, 0.040, paint::kYellow));
+    add(scene, 0, cylinderBetween(c + 0.001 * kOut, c - 0.010 * kOut, 0.014, paint::kBlack));
+    add(scene, 0, cylinderBetween(c - 0.030 * kOut, c - 0.120 * kOut, 0.034, paint::kSteel));
 }
 
 } // namespace
@@ -52,8 +46,8 @@ AnalyticScene wetmateScene() {
     scene.objects = {"surroundings", "valve", "receptacle"};
     scene.underwater = true;
     scene.background = glm::vec3(0.02f);
-    add(scene, 0, planeThrough({0.0, 0.0, 1.60}, kOut, kWall));
-    add(scene, 0, boxAt({{0.02, 0.02, 1.02}, dquat(1.0, 0.0, 0.0, 0.0)}, {0.30, 0.22, 0.02}, kPanel));
+    add(scene, 0, planeThrough({0.0, 0.0, 1.60}, kOut, paint::kWall));
+    add(scene, 0, boxAt({{0.02, 0.02, 1.02}, dquat(1.0, 0.0, 0.0, 0.0)}, {0.30, 0.22, 0.02}, paint::kPanel));
     addValve(scene);
     addReceptacle(scene);
     return scene;

@@ -24,7 +24,7 @@ int control(int descriptor, unsigned long request, void* argument) {
     return result;
 }
 
-uint32_t word(std::span<const uint8_t> bytes, size_t at) {
+uint32_t wordAt(std::span<const uint8_t> bytes, size_t at) {
     return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
@@ -72,13 +72,13 @@ std::optional<double> pipeLatencyOf(std::span<const uint8_t> buffer) {
         return std::nullopt;
     }
     while (at + 8 <= end) {
-        const size_t size = word(buffer, at + 4);
+        const size_t size = wordAt(buffer, at + 4);
         if (size < 8 || size > end - at) {
             return std::nullopt;
         }
-        if (word(buffer, at) == kTiming && size >= kCaptureTiming) {
-            const uint32_t micros = word(buffer, at + 36);
-            const bool told = (word(buffer, at + 12) & kLatencyTold) != 0 && micros > 0 && micros < 1000000;
+        if (wordAt(buffer, at) == kTiming && size >= kCaptureTiming) {
+            const uint32_t micros = wordAt(buffer, at + 36);
+            const bool told = (wordAt(buffer, at + 12) & kLatencyTold) != 0 && micros > 0 && micros < 1000000;
             return told ? std::optional(1e-6 * micros) : std::nullopt;
         }
         at += size;

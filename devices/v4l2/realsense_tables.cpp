@@ -16,12 +16,12 @@ namespace {
 
 constexpr size_t kHeader = 16;
 
-uint32_t word(std::span<const uint8_t> bytes, size_t at) {
+uint32_t tableWord(std::span<const uint8_t> bytes, size_t at) {
     return bytes[at] | bytes[at + 1] << 8 | bytes[at + 2] << 16 | static_cast<uint32_t>(bytes[at + 3]) << 24;
 }
 
 double real(std::span<const uint8_t> bytes, size_t at) {
-    const uint32_t bits = word(bytes, at);
+    const uint32_t bits = tableWord(bytes, at);
     float value = 0.0f;
     std::memcpy(&value, &bits, sizeof value);
     return value;
@@ -34,12 +34,12 @@ std::span<const uint8_t> body(std::span<const uint8_t> table, uint32_t number, s
         throw Error(name + ": " + std::to_string(table.size()) + " bytes, " +
                     std::to_string(kHeader + least) + " make one");
     }
-    const uint32_t size = word(table, 4);
-    if ((word(table, 0) >> 16) != number || size < least || size > table.size() - kHeader) {
-        throw Error(name + ": its header tells of table " + std::to_string(word(table, 0) >> 16) + " with " +
-                    std::to_string(size) + " bytes");
+    const uint32_t size = tableWord(table, 4);
+    if ((tableWord(table, 0) >> 16) != number || size < least || size > table.size() - kHeader) {
+        throw Error(name + ": its header tells of table " + std::to_string(tableWord(table, 0) >> 16) +
+                    " with " + std::to_string(size) + " bytes");
     }
-    if (crc32(table.subspan(kHeader, size)) != word(table, 12)) {
+    if (crc32(table.subspan(kHeader, size)) != tableWord(table, 12)) {
         throw Error(name + ": wrong checksum");
     }
     return table.subspan(kHeader, size);
@@ -165,7 +165,7 @@ Intrinsics d405Lens(Normalised k, VideoSize calibrated, VideoSize size) {
 ColourTable colourLens(std::span<const uint8_t> table, VideoSize size, ColourSensor sensor) {
     const auto bytes = body(table, kColourTable, 216);
     const Normalised k{real(bytes, 0), real(bytes, 8), real(bytes, 16), real(bytes, 20)};
-    const uint32_t both = word(bytes, 128); // width, height: 16 bits each
+    const uint32_t both = tableWord(bytes, 128); // width, height: 16 bits each
     const VideoSize calibrated{both & 0xffff, both >> 16};
     ColourTable colour;
     colour.lens =

@@ -25,7 +25,7 @@ uint32_t inFours(const CloudContext& c) {
 uint32_t rowsOf(const Plan& plan) {
     return plan.byPixel ? 1u : 4u;
 }
-uint32_t groupOf(const Plan& plan) {
+uint32_t classifyGroup(const Plan& plan) {
     return std::min(64u / rowsOf(plan), plan.pixelGroup);
 }
 
@@ -39,14 +39,14 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
                  11,
                  true,
                  0,
-                 std::array{groupOf(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
-                            c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
+                 std::array{classifyGroup(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan),
+                            uint32_t{c.plan.hold}, c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box},
                             uint32_t{c.plan.groupCounts}, inFours(c), uint32_t{c.plan.range},
                             uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water}, rowsOf(c.plan)},
                  {{1, inFours(c) != 0 ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels},
                   {3, inFours(c) == 2 ? VK_FORMAT_R32G32B32A32_UINT : kColourTexels}}})
     , work_(c.work)
-    , groups_{c.layout.across, c.layout.down, 64 / rowsOf(c.plan) / groupOf(c.plan)} {}
+    , groups_{c.layout.across, c.layout.down, 64 / rowsOf(c.plan) / classifyGroup(c.plan)} {}
 
 void ClassifyPass::bind(uint32_t upload, const UploadBuffers& up) {
     const WorkBuffers& w = context_.work;

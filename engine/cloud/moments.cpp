@@ -12,7 +12,7 @@ namespace fathom::cloud {
 namespace {
 
 // Without shared memory an invocation does a patch; `subGroups` counts groups of subGroup / 16 patches.
-uint32_t groupOf(const Plan& plan) {
+uint32_t momentsGroup(const Plan& plan) {
     return plan.byPixel ? 16u : std::max(8u, plan.subGroup / 16u);
 }
 
@@ -25,7 +25,7 @@ MomentsPass::MomentsPass(const CloudContext& c)
                            6,
                            true,
                            0,
-                           std::array{groupOf(c.plan), uint32_t{c.plan.byPixel}},
+                           std::array{momentsGroup(c.plan), uint32_t{c.plan.byPixel}},
                            {{1, kMaskTexels}, {2, kPointTexels}}})
     , counters_(c.work.counters) {}
 

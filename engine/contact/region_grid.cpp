@@ -20,8 +20,8 @@ constexpr uint64_t kMostCells = 4u << 20; // 16 MiB of cell starts
 constexpr uint64_t kFewestCells = 4096;   // below this clearing costs nothing
 constexpr uint64_t kCellsPerSphere = 8;   // clearing and summing stay cheaper than sorting the spheres
 constexpr size_t kRun = 4096;             // spheres that are handled in one go: 16 KiB a column
-constexpr size_t kLanes = 8;              // of running bounds and sums
-using Lanes = float __attribute__((vector_size(4 * kLanes)));
+constexpr size_t kBoundLanes = 8;         // of running bounds and sums
+using Lanes = float __attribute__((vector_size(4 * kBoundLanes)));
 
 int64_t cellsAlong(double extent, double size) {
     return static_cast<int64_t>(extent / size) + 1;
@@ -43,17 +43,17 @@ FATHOM_CLONES uint32_t countPlaceless(const float* x, const float* y, const floa
 }
 
 FATHOM_CLONES void boundsOf(const float* v, size_t n, float& lo, float& hi) noexcept {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    Lanes low = Lanes{} + kInfinity, high = Lanes{} - kInfinity;
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    Lanes low = Lanes{} + kFar, high = Lanes{} - kFar;
     size_t i = 0;
-    for (; i + kLanes <= n; i += kLanes) {
+    for (; i + kBoundLanes <= n; i += kBoundLanes) {
         Lanes some;
         std::memcpy(&some, v + i, sizeof some);
         low = some < low ? some : low;
         high = some > high ? some : high;
     }
-    lo = kInfinity, hi = -kInfinity;
-    for (size_t l = 0; l < kLanes; ++l) {
+    lo = kFar, hi = -kFar;
+    for (size_t l = 0; l < kBoundLanes; ++l) {
         lo = std::min(lo, low[l]), hi = std::max(hi, high[l]);
     }
     for (; i < n; ++i) {
@@ -62,10 +62,10 @@ FATHOM_CLONES void boundsOf(const float* v, size_t n, float& lo, float& hi) noex
 }
 
 FATHOM_CLONES double sumOf(const float* v, size_t n) noexcept {
-    std::array<double, kLanes> sums{};
+    std::array<double, kBoundLanes> sums{};
     size_t i = 0;
-    for (; i + kLanes <= n; i += kLanes) {
-        for (size_t l = 0; l < kLanes; ++l) {
+    for (; i + kBoundLanes <= n; i += kBoundLanes) {
+        for (size_t l = 0; l < kBoundLanes; ++l) {
             sums[l] += static_cast<double>(v[i + l]);
         }
     }

@@ -14,7 +14,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 constexpr size_t kLanes = ConstraintRows::kLanes;
 constexpr double kLongestInverse = 1e140; // a row shorter than 1e-140 has no direction left
 
@@ -75,7 +75,7 @@ void fixLanes(const double* raw, double* scaled, size_t n) noexcept {
         for (size_t j = 0; j < n + 2; ++j) {
             scaled[j * kLanes + l] = 0.0;
         }
-        scaled[n * kLanes + l] = harmless ? -kInfinity : kInfinity;
+        scaled[n * kLanes + l] = harmless ? -kNoLimit : kNoLimit;
     }
 }
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLeastExtent = 1e-3, kMostExtent = 10.0; // [m]
 constexpr double kDoubtfulExtent = 2.0; // [m] of tools and links; what is 80 mm long has 3.1 of it in inches
-constexpr uintmax_t kMostBytes = 512u << 20;
+constexpr uintmax_t kLargestMesh = 512u << 20;
 constexpr size_t kMostTriangles = 2'000'000;
 
 std::string metres(double v) {
@@ -42,9 +42,9 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
     if (kind != ".stl" && kind != ".obj" && kind != ".dae") { // the library would read fifty others
         throw BadInput(file.string(), "mesh", "kind '" + kind + "'", kinds);
     }
-    if (const auto bytes = std::filesystem::file_size(file); bytes > kMostBytes) {
+    if (const auto bytes = std::filesystem::file_size(file); bytes > kLargestMesh) {
         throw BadInput(file.string(), "mesh", std::to_string(bytes) + " bytes",
-                       "at most " + std::to_string(kMostBytes));
+                       "at most " + std::to_string(kLargestMesh));
     }
     auto [mesh, fault] = importTriangles(file);
     if (!fault.empty()) {

@@ -15,7 +15,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostBytes = 64u << 20;
+constexpr size_t kLargestSet = 64u << 20;
 
 std::string lineOf(const YAML::Node& node) {
     return "line " + std::to_string(node.Mark().line + 1);
@@ -93,8 +93,8 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file) {
 }
 
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file) {
-    const std::optional<std::string> text = readFileAtMost(file, kMostBytes);
-    if (!text || text->size() > kMostBytes) {
+    const std::optional<std::string> text = readFileAtMost(file, kLargestSet);
+    if (!text || text->size() > kLargestSet) {
         throw BadInput(file.string(), "file", text ? "over 64 MiB" : "cannot be read",
                        "a readable YAML file");
     }

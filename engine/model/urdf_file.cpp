@@ -13,7 +13,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostBytes = 64u << 20;
+constexpr size_t kLargestUrdf = 64u << 20;
 
 // Takes what the parser would print, so that it becomes part of one line of ours.
 class Listener : public console_bridge::OutputHandler {
@@ -40,8 +40,8 @@ private:
 } // namespace
 
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file) {
-    const std::optional<std::string> read = readFileAtMost(file, kMostBytes);
-    if (!read || read->empty() || read->size() > kMostBytes) {
+    const std::optional<std::string> read = readFileAtMost(file, kLargestUrdf);
+    if (!read || read->empty() || read->size() > kLargestUrdf) {
         throw BadInput(file.string(), "file",
                        read && !read->empty() ? "over 64 MiB" : "cannot be read or empty",
                        "a readable URDF file");

@@ -15,8 +15,8 @@ using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr long double kNoResidual = 1e-12L;
-constexpr long double kGradient = 1e-16L; // of what is left
-constexpr long double kRounding = 1e-18L; // of f, whose length is 1
+constexpr long double kGradient = 1e-16L;     // of what is left
+constexpr long double kLongRounding = 1e-18L; // of f, whose length is 1
 
 Vector widen(std::span<const double> v) {
     return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()))
@@ -72,7 +72,7 @@ Vector nonNegativeLeastSquares(const Matrix& e, const Vector& f) {
         Eigen::Index best = -1;
         for (Eigen::Index i = 0; i < e.cols(); ++i) {
             const bool in = std::find(passive.begin(), passive.end(), i) != passive.end();
-            const long double floor = e.col(i).norm() * (kGradient * rest.norm() + kRounding);
+            const long double floor = e.col(i).norm() * (kGradient * rest.norm() + kLongRounding);
             if (!in && refused[static_cast<size_t>(i)] == 0 && gradient[i] > floor &&
                 (best < 0 || gradient[i] > gradient[best])) {
                 best = i;

@@ -17,7 +17,7 @@ constexpr double kNear = 0.002; // [m]
 // How far a search looks for the nearest sphere of a free leaf [m]: it may move as far before the next one.
 constexpr double kFar = 0.02;
 // Distances of float64 at metres are good to 1e-15; a search is done again this much early [m].
-constexpr double kRounding = 1e-9;
+constexpr double kAuditRounding = 1e-9;
 
 // The grid leaves out spheres that are not finite: they have no place.
 size_t placedSpheres(const RegionSpheres& spheres) {
@@ -169,7 +169,7 @@ void PenetrationAudit::takeAllowances() {
 
 // Depths of one leaf after the turn, against its allowances, which shrink to them.
 PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre) {
-    if (glm::length(centre - leaf.searchedAt) + kRounding >= leaf.mayMove) {
+    if (glm::length(centre - leaf.searchedAt) + kAuditRounding >= leaf.mayMove) {
         search(leaf, centre);
     }
     Worst worst;

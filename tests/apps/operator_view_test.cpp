@@ -20,7 +20,7 @@ struct NoSink final : RunSink {
 };
 
 // A run whose turns a test makes.
-struct Run {
+struct ViewedRun {
     TurnRow row;
     NoSink nothing;
     SnapshotSink sink{nothing};
@@ -30,7 +30,7 @@ struct Run {
     HapticOptions haptics;
     Scene scene;
 
-    Run() {
+    ViewedRun() {
         row.record.finite = true;
         row.record.sceneAge = 0.0;
         row.record.state = TurnState::Free;
@@ -60,7 +60,7 @@ using Words = std::vector<std::string>;
 } // namespace
 
 TEST_CASE("Rates are those of the last second, its longest period among them") {
-    Run run;
+    ViewedRun run;
     for (int i = 0; i < 500; ++i) {
         run.turn(0.010); // long ago
     }
@@ -79,7 +79,7 @@ TEST_CASE("Rates are those of the last second, its longest period among them") {
 }
 
 TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins anew after a quarter second") {
-    Run run;
+    ViewedRun run;
     run.touch(3, 0.002);
     run.touch(3, 0.007);
     run.touch(3, 0.004);
@@ -102,7 +102,7 @@ TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins ane
 }
 
 TEST_CASE("The mode says what forces do, in words") {
-    Run run;
+    ViewedRun run;
     const auto mode = [&](TurnState state, double guidance = 0.0) {
         run.row.record.state = state;
         run.row.record.guidance = guidance;
@@ -123,7 +123,7 @@ TEST_CASE("The mode says what forces do, in words") {
 }
 
 TEST_CASE("An alarm stays until it is over and acknowledged, and is latched anew when it comes again") {
-    Run run;
+    ViewedRun run;
     CHECK(run.step().empty());
     run.row.record.state = TurnState::Trapped;
     CHECK(run.step() == Words{"WARNING active trapped"});
@@ -146,7 +146,7 @@ TEST_CASE("An alarm stays until it is over and acknowledged, and is latched anew
 }
 
 TEST_CASE("Alarms come by their level, the highest first, and one that is acknowledged is not the worst") {
-    Run run;
+    ViewedRun run;
     run.console.frozen = true;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
     CHECK(run.step({.handGone = true}) ==
@@ -162,7 +162,7 @@ TEST_CASE("Alarms come by their level, the highest first, and one that is acknow
 }
 
 TEST_CASE("Whoever is to blame for an old scene is named: the camera, or a GPU that is gone") {
-    Run run;
+    ViewedRun run;
     run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
     CHECK(run.step() == Words{"CAUTION active stale"});
     run.row.record.sceneAge = 6.0 * run.haptics.staleAfter;

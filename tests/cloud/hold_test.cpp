@@ -80,14 +80,14 @@ Picture sweptPicture(const Frame& frame, uint32_t width) {
     return picture;
 }
 
-struct Agreement {
+struct HoldAgreement {
     uint32_t held = 0, different = 0, wrong = 0; // wrong: different although sure
     double worst = 0.0;                          // [m]
 };
 
 void compareHeld(const std::vector<reference::RegionSphere>& here,
                  const std::vector<reference::RegionSphere>& there, const std::vector<uint8_t>& unsure,
-                 Agreement& a) {
+                 HoldAgreement& a) {
     for (size_t i = 0; i < here.size(); ++i) {
         const double apart = std::max(glm::distance(here[i].centre, there[i].centre),
                                       std::abs(here[i].radius - there[i].radius));
@@ -195,7 +195,7 @@ TEST_CASE("The clock of the memory wraps at 2^32 us without losing or keeping po
 
 TEST_CASE(
     "Held points equal the twin's over noisy sequences with a moving camera, dropouts and an occluder") {
-    Agreement a;
+    HoldAgreement a;
     for (const char* name : {"tank", "torus"}) {
         SimulatedCameraOptions options;
         options.width = 161, options.height = 119, options.frames = 14, options.dropShare = 0.2;

@@ -58,7 +58,7 @@ struct FollowRig {
 
     ArmRig rig;
     World world;
-    HapticOptions options = makeHapticOptions(plainScene(), ballTool());
+    HapticOptions options = makeHapticOptions(handScene(), ballTool());
     Pose hand = at(0, 0, 0);
     ArmFollow told{true, true, {}};
     ToolPlace asked, start;

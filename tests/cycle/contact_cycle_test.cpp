@@ -42,13 +42,13 @@ Tool randomTool(size_t leaves, uint32_t seed) {
     return Tool(buildSphereTree(spheres));
 }
 
-struct Rig {
+struct ContactRig {
     Scene scene;
     SimulatedCamera camera;
     Plan plan;
     FrameCycle frames;
 
-    Rig(Scene s, uint32_t frameCount)
+    ContactRig(Scene s, uint32_t frameCount)
         : scene(std::move(s))
         , camera(*analyticScene("tank"), options(frameCount))
         , plan(planFor(scene, camera))
@@ -81,7 +81,7 @@ void checkEqual(const ContactSet& a, const ContactSet& b) {
     CHECK(a.behind.size() == b.behind.size());
 }
 
-size_t compareQueries(Rig& rig, const Tool& tool, double reach, uint32_t seed) {
+size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t seed) {
     Plan onCpu = rig.plan;
     onCpu.query = Plan::Query::Cpu;
     ContactCycle cpu(vulkan().device, onCpu, rig.frames.layout(), rig.frames.sets(), tool, reach);
@@ -105,14 +105,14 @@ size_t compareQueries(Rig& rig, const Tool& tool, double reach, uint32_t seed) {
 } // namespace
 
 TEST_CASE("the query on the GPU and on the CPU give equal contact sets for tools of 1 to 4096 leaves") {
-    Rig rig(twoValves(0.0001, 0.5), 3);
+    ContactRig rig(twoValves(0.0001, 0.5), 3);
     for (size_t leaves : {1u, 8u, 300u, 4096u}) {
         CHECK(compareQueries(rig, randomTool(leaves, 7), 0.01, 11) > 0);
     }
 }
 
 TEST_CASE("both queries agree for a reach of nothing and a reach over the whole scene") {
-    Rig rig(twoValves(0.0, 0.0), 1);
+    ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(5, 3);
     compareQueries(rig, tool, 0.0001, 5);
     const size_t all = compareQueries(rig, tool, 0.9, 5);
@@ -120,7 +120,7 @@ TEST_CASE("both queries agree for a reach of nothing and a reach over the whole 
 }
 
 TEST_CASE("an overflowing GPU answer halves its reach, certifies it, and doubles the capacity for the next") {
-    Rig rig(twoValves(0.0, 0.0), 1);
+    ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(3, 3);
     cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 16);
     const auto set = rig.frames.sets().newest();
@@ -137,7 +137,7 @@ TEST_CASE("an overflowing GPU answer halves its reach, certifies it, and doubles
 }
 
 TEST_CASE("a contact answer that overflows certifies the reach that fits, and the next one the whole reach") {
-    Rig rig(twoValves(0.0, 0.0), 1);
+    ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(3, 3);
     const Pose pose{{-0.15, 0, 0.80}, {1, 0, 0, 0}};
     const auto set = rig.frames.sets().newest();
@@ -184,7 +184,7 @@ TEST_CASE("a scene without forbidden points lets the tool go anywhere and asks n
     for (FixtureClass& f : scene.fixtures) {
         f.role = Role::Guidance;
     }
-    Rig rig(scene, 1);
+    ContactRig rig(scene, 1);
     CHECK(rig.plan.query == Plan::Query::None);
     const Tool tool = randomTool(2, 1);
     ContactCycle contact(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 0.01);

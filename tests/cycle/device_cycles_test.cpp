@@ -34,13 +34,13 @@ SimulatedCameraOptions pictures(uint32_t count) {
     return o;
 }
 
-struct Rig {
+struct TwinRig {
     Scene scene;
     SimulatedCamera camera{*analyticScene("tank"), pictures(kPictures)};
     Tool tool{buildSphereTree(std::vector<Sphere>{{dvec3(0.0), 0.01}, {dvec3(0.02, 0.0, 0.0), 0.01}})};
     DeviceCycles cycles;
 
-    explicit Rig(Scene::Contact::Where where)
+    explicit TwinRig(Scene::Contact::Where where)
         : scene(redValve(where))
         , cycles({vulkan().instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
                  [this](const DeviceFacts& facts) { return makePlan(scene, camera.info(), 2, facts); }) {}
@@ -59,7 +59,7 @@ struct Rig {
 
 TEST_CASE("A device that is made anew goes on with the origin and the generations, and equal pictures give "
           "equal sets") {
-    Rig rig(Scene::Contact::Where::Cpu), undisturbed(Scene::Contact::Where::Cpu);
+    TwinRig rig(Scene::Contact::Where::Cpu), undisturbed(Scene::Contact::Where::Cpu);
     for (uint32_t i = 0; i < kPictures; ++i) {
         rig.next();
         undisturbed.next();
@@ -83,7 +83,7 @@ TEST_CASE("A device that is made anew goes on with the origin and the generation
 TEST_CASE("Until the first picture on the new device the CPU answers over the last set, and query numbers "
           "only grow") {
     for (const auto where : {Scene::Contact::Where::Cpu, Scene::Contact::Where::Gpu}) {
-        Rig rig(where);
+        TwinRig rig(where);
         ContactSet before, between, after;
         CHECK_FALSE(rig.cycles.answer({}, before)); // no picture yet
         rig.next();
@@ -108,7 +108,7 @@ TEST_CASE("Until the first picture on the new device the CPU answers over the la
 TEST_CASE("What was edited, and a class that is held still, is as before on a device that is made anew") {
     for (const bool anew : {false, true}) {
         CAPTURE(anew);
-        Rig rig(Scene::Contact::Where::Cpu);
+        TwinRig rig(Scene::Contact::Where::Cpu);
         rig.next();
         Scene edited = rig.scene;
         edited.fixtures[0].radius = 0.02;

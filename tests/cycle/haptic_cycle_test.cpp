@@ -19,7 +19,7 @@ static_assert(noexcept(std::declval<HapticCycle&>().turn(std::declval<const Turn
 namespace {
 
 // Pressed 5 mm into the wall and at rest: 5 N at 1000 N/m.
-HapticRig pressedRig(const Scene& scene = plainScene()) {
+HapticRig pressedRig(const Scene& scene = handScene()) {
     HapticRig rig(scene, at(0, 0, 0.02));
     rig.age = false;
     rig.show(wallSet());
@@ -33,7 +33,7 @@ HapticRig pressedRig(const Scene& scene = plainScene()) {
 } // namespace
 
 TEST_CASE("Until the first contact set the tool is held, the wrench is zero and the state is off") {
-    HapticRig rig(plainScene(), at(0, 0, 0.05));
+    HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.hand = at(0, 0, -0.05);
     for (int i = 0; i < 300; ++i) {
         const auto record = rig.turn();
@@ -56,7 +56,7 @@ TEST_CASE("Until the first contact set the tool is held, the wrench is zero and 
 }
 
 TEST_CASE("In free space the tool is the hand to the last bit and nothing is felt") {
-    HapticRig rig(plainScene(), at(0, 0.01, 0.05));
+    HapticRig rig(handScene(), at(0, 0.01, 0.05));
     rig.show(wallSet());
     for (int i = 0; i < 200; ++i) {
         rig.hand = {{0.02 * std::sin(0.03 * i), 0.01 * std::cos(0.05 * i), 0.05},
@@ -89,7 +89,7 @@ TEST_CASE("Pressed into a wall the tool stays outside and the hand feels K times
 }
 
 TEST_CASE("Force and its change stay within their limits however the hand jumps, and no leaf ever enters") {
-    HapticRig rig(plainScene(), at(0, 0, 0.02));
+    HapticRig rig(handScene(), at(0, 0, 0.02));
     rig.show(wallSet());
     rig.age = false;
     dvec3 before(0.0);
@@ -172,7 +172,7 @@ TEST_CASE("The clutch holds the device pose, ramps the force out and in, and let
 }
 
 TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes back when there is a way") {
-    HapticRig rig(plainScene(), at(0, 0, 0));
+    HapticRig rig(handScene(), at(0, 0, 0));
     rig.show(emptySet(1));
     rig.age = false;
     rig.hand = at(0, 0, 0.003);

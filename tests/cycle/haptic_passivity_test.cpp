@@ -13,7 +13,7 @@ namespace {
 
 // At rest 3 mm inside the wall.
 HapticRig restingRig(bool controller) {
-    HapticRig rig(plainScene(), at(0, 0, 0.02));
+    HapticRig rig(handScene(), at(0, 0, 0.02));
     rig.options.passivityController = controller;
     rig.restart();
     rig.show(wallSet());
@@ -34,7 +34,7 @@ Fixtures raisedWall() {
 } // namespace
 
 TEST_CASE("Over a static wall the wrench is the same with the passivity controller and without it") {
-    HapticRig with(plainScene(), at(0, 0, 0.02)), without(plainScene(), at(0, 0, 0.02));
+    HapticRig with(handScene(), at(0, 0, 0.02)), without(handScene(), at(0, 0, 0.02));
     CHECK(with.options.passivityController); // the default
     without.options.passivityController = false;
     without.restart();
@@ -102,7 +102,7 @@ TEST_CASE("Forces off: nothing is added to the zero, and an old debt is forgotte
 }
 
 TEST_CASE("What guidance does to the hand is not taken for generation") {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.fixtures.emplace_back();
     scene.fixtures.back().role = Role::Guidance;
     HapticRig rig(scene, at(0, 0, 0.05));
@@ -125,7 +125,7 @@ TEST_CASE("What guidance does to the hand is not taken for generation") {
 
 TEST_CASE("Slow turns lower the automatic stiffness smoothly and the margin comes back to 0; lockstep "
           "changes nothing") {
-    HapticRig rig(plainScene(), at(0, 0, 0.05));
+    HapticRig rig(handScene(), at(0, 0, 0.05));
     TurnInput input;
     input.deviceThandle = rig.hand;
     for (int i = 0; i < 300; ++i) { // nothing measured
@@ -153,7 +153,7 @@ TEST_CASE("Slow turns lower the automatic stiffness smoothly and the margin come
 
 TEST_CASE("An orientation that is not of unit length is the same orientation, and lets no wrench through a "
           "dead axis") {
-    HapticRig unit(plainScene("w5d"), at(0, 0, 0.02)), scaled(plainScene("w5d"), at(0, 0, 0.02));
+    HapticRig unit(handScene("w5d"), at(0, 0, 0.02)), scaled(handScene("w5d"), at(0, 0, 0.02));
     for (HapticRig* rig : {&unit, &scaled}) {
         rig->show(wallSet());
         rig->age = false;

@@ -109,7 +109,7 @@ inline double forceOf(const TurnRecord& record) {
     return glm::length(record.wrench.force);
 }
 
-inline Scene plainScene(const char* device = "ideal") {
+inline Scene handScene(const char* device = "ideal") {
     Scene scene;
     scene.fixtures.emplace_back();
     scene.haptics.device = device;

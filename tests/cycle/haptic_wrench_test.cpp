@@ -27,7 +27,7 @@ GuidancePose targetAt(const Pose& pose) {
 }
 
 Scene guidedScene(Scene::Haptics::GuidanceMode mode) {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.fixtures.emplace_back();
     scene.fixtures.back().role = Role::Guidance;
     scene.haptics.guidance = mode;
@@ -101,7 +101,7 @@ TEST_CASE("What the device cannot render stays as residual, in the handle's fram
 
 TEST_CASE("A hand map of scale 2 moves the tool twice as far, and halves the stiffness and the torque at the "
           "hand") {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.hand.scale = 2.0;
     scene.hand.baseRdevice = rotationExp({0, 0, 3.14159265358979323846 / 2.0});
     HapticRig rig(scene, at(0.01, 0, 0.015));
@@ -151,7 +151,7 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
 }
 
 TEST_CASE("Turns that come late put no fading off, and make no force come back sooner") {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.haptics.stiffness = 1000.0; // given: not lowered for the late turns
     HapticRig rig(scene, at(0.0, 0.0, 0.03));
     rig.show(wallSet());
@@ -171,20 +171,20 @@ TEST_CASE("Turns that come late put no fading off, and make no force come back s
 }
 
 TEST_CASE("Margins are those of the measured period when there is one, and unknown without a known b") {
-    HapticRig rig(plainScene(), at(0, 0, 0.03));
+    HapticRig rig(handScene(), at(0, 0, 0.03));
     TurnInput input;
     input.deviceThandle = rig.hand;
     input.measuredPeriod = 0.002;
     CHECK(rig.cycle->turn(input).marginPassive == doctest::Approx(0.5 - 1000.0 * 0.002 / 2.0));
-    HapticRig touch(plainScene("touch"), at(0, 0, 0.03));
+    HapticRig touch(handScene("touch"), at(0, 0, 0.03));
     CHECK(std::isnan(touch.cycle->turn(input).marginPassive));
     CHECK(touch.options.springs.stiffness == 400.0);
-    CHECK_THROWS_AS(HapticRig(plainScene("nothing"), at(0, 0, 0)), BadInput);
+    CHECK_THROWS_AS(HapticRig(handScene("nothing"), at(0, 0, 0)), BadInput);
 }
 
 TEST_CASE(
     "The low-pass's delay lowers the automatic stiffness, and limits of the scene override the preset") {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.haptics.lowpassHz = 100.0;
     scene.haptics.forceLimit = 3.0;
     HapticRig rig(scene, at(0, 0, 0.02));
@@ -203,7 +203,7 @@ TEST_CASE(
 TEST_CASE(
     "A delay of n turns to the hand lowers the automatic stiffness by 1 + 2n and leaves a margin of zero") {
     for (const uint32_t delay : {0u, 1u, 3u, 64u}) {
-        Scene scene = plainScene();
+        Scene scene = handScene();
         scene.haptics.delay = delay;
         HapticRig rig(scene, at(0, 0, 0.02));
         CHECK(rig.options.springs.stiffness == doctest::Approx(1000.0 / (1.0 + 2.0 * delay)));
@@ -213,7 +213,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A set that does not cover the tool is refused and the one in force is kept") {
-    HapticRig rig(plainScene(), at(0, 0, 0.05));
+    HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.show(wallSet(1));
     rig.age = false;
     REQUIRE(rig.turn().adopted);

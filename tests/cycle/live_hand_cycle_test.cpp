@@ -25,7 +25,7 @@ Tool barTool() {
 
 TEST_CASE(
     "A tool that starts at a given pose stays there, wherever the hand is, and follows the hand's motion") {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.hand.scale = 2.0;
     HapticRig rig(scene, at(0.3, -0.2, 0.135));
     const Pose start{{0.01, 0.0, 0.2}, rotationExp({0.0, 0.3, 0.0})};
@@ -44,7 +44,7 @@ TEST_CASE(
 }
 
 TEST_CASE("A device that goes away and comes back elsewhere, with dead-man and clutch, moves no tool") {
-    HapticRig rig(plainScene("falcon"), at(0.0, 0.0, 0.05));
+    HapticRig rig(handScene("falcon"), at(0.0, 0.0, 0.05));
     rig.show(wallSet());
     rig.age = false;
     rig.turns(300);
@@ -62,7 +62,7 @@ TEST_CASE("A device that goes away and comes back elsewhere, with dead-man and c
 
 TEST_CASE("A device of three axes gets force and no torque, however it is mounted; the torque is left over") {
     for (const double angle : {0.0, 0.7, 2.5}) {
-        Scene scene = plainScene("falcon");
+        Scene scene = handScene("falcon");
         scene.hand.baseRdevice = rotationExp({angle, 0.3 * angle, 0.0});
         HapticRig rig(scene, at(0.0, 0.0, 0.0), barTool());
         const Pose start = at(0.065, 0.0, 0.05);

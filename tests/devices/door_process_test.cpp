@@ -14,14 +14,14 @@ using namespace fathom::testing;
 
 namespace {
 
-constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+constexpr uint32_t kProcessReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
 
 // Serves until killed.
 int serve(const std::filesystem::path& door) {
     DoorServer server(serverAt(door));
     for (;;) {
         server.poll();
-        server.send({}, kReady);
+        server.send({}, kProcessReady);
         pauseMs(1);
     }
 }
@@ -41,7 +41,7 @@ TEST_CASE("An engine killed by SIGKILL in contact is zero force at the device") 
     });
     const auto turn = [&] {
         server.poll();
-        server.send({}, kReady);
+        server.send({}, kProcessReady);
         return server.wrench().force.x;
     };
     REQUIRE(eventually([&] { return turn() == 2.0; }));

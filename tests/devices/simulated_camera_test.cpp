@@ -14,19 +14,19 @@ using namespace fathom;
 
 namespace {
 
-struct Picture {
+struct Seen {
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour;
-    bool operator==(const Picture&) const = default;
+    bool operator==(const Seen&) const = default;
 };
 
-Picture copyOf(const Frame& frame) {
+Seen copyOf(const Frame& frame) {
     return {{frame->depth.begin(), frame->depth.end()}, {frame->colour.begin(), frame->colour.end()}};
 }
 
-std::vector<Picture> film(SimulatedCameraOptions options, const std::string& scene = "tank") {
+std::vector<Seen> film(SimulatedCameraOptions options, const std::string& scene = "tank") {
     SimulatedCamera camera(*analyticScene(scene), options);
-    std::vector<Picture> pictures;
+    std::vector<Seen> pictures;
     while (std::optional<Frame> frame = camera.next()) {
         pictures.push_back(copyOf(*frame));
     }
@@ -44,7 +44,7 @@ SimulatedCameraOptions small() {
 TEST_CASE("A frame has the same bits from 1, 2 and 5 threads and in every run") {
     SimulatedCameraOptions options = small();
     options.threads = 1;
-    const std::vector<Picture> one = film(options);
+    const std::vector<Seen> one = film(options);
     REQUIRE(one.size() == 3);
     CHECK(one[0] != one[1]);
     for (const uint32_t threads : {1u, 2u, 5u}) {
@@ -52,7 +52,7 @@ TEST_CASE("A frame has the same bits from 1, 2 and 5 threads and in every run") 
         CHECK(film(options) == one);
     }
     options.firstFrame = 2; // the last frame alone, without those before it
-    CHECK(film(options) == std::vector<Picture>{one[2]});
+    CHECK(film(options) == std::vector<Seen>{one[2]});
     options.firstFrame = 0, options.seed = 2;
     CHECK(film(options) != one);
 }
@@ -61,10 +61,10 @@ TEST_CASE("A frame does not depend on how many came before it: a still, exact ca
           "one not") {
     SimulatedCameraOptions options = small();
     options.motion = false;
-    const std::vector<Picture> noisy = film(options);
+    const std::vector<Seen> noisy = film(options);
     CHECK(noisy[0] != noisy[1]);
     options.noise = options.water = false;
-    const std::vector<Picture> still = film(options);
+    const std::vector<Seen> still = film(options);
     CHECK(still[0] == still[1]);
     CHECK(still[0] == still[2]);
 }
@@ -154,9 +154,9 @@ TEST_CASE("Flying pixels lie between the two surfaces of a silhouette and nowher
 TEST_CASE("Water takes red first, hides what is far, and puts single near specks into the picture") {
     SimulatedCameraOptions options;
     options.frames = 1, options.noise = false;
-    const Picture wet = film(options)[0];
+    const Seen wet = film(options)[0];
     options.water = false;
-    const Picture dry = film(options)[0];
+    const Seen dry = film(options)[0];
     double red[2] = {0, 0}, blue[2] = {0, 0};
     uint32_t specks = 0;
     for (size_t i = 0; i < wet.depth.size(); ++i) {
@@ -220,7 +220,7 @@ TEST_CASE("Frame memory is page-aligned, comes back when the lease ends, and lea
         CHECK(reinterpret_cast<uintptr_t>(held.back()->depth.data()) % page == 0);
         CHECK(reinterpret_cast<uintptr_t>(held.back()->colour.data()) % page == 0);
     }
-    const Picture first = copyOf(held[0]);
+    const Seen first = copyOf(held[0]);
     for (int i = 0; i < 20; ++i) {
         CHECK(camera.next().has_value()); // at once given back
     }

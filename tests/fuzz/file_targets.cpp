@@ -21,12 +21,6 @@ namespace {
 
 constexpr uint32_t kMostFrames = 8; // of one input
 
-void need(bool holds) {
-    if (!holds) {
-        std::abort(); // what the reader promises does not hold
-    }
-}
-
 void drain(Camera& camera) {
     const CameraInfo& info = camera.info();
     need(info.depth.width > 0 && info.depth.width <= kMaxImageWidth && info.depth.height <= kMaxImageHeight);

@@ -96,4 +96,10 @@ bool runFuzzTarget(const FuzzTarget& target, Bytes input) {
     return false;
 }
 
+void need(bool holds) {
+    if (!holds) {
+        std::abort();
+    }
+}
+
 } // namespace fathom::testing

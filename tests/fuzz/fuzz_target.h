@@ -29,6 +29,9 @@ bool runFuzzTarget(const FuzzTarget& target, Bytes input);
 // the same name replaces it.
 std::filesystem::path fuzzFile(const std::string& name, Bytes content);
 
+// Ends the process when what a reader promises does not hold.
+void need(bool holds);
+
 void readScene(Bytes input);
 void readIndexFile(Bytes input);
 void readIntrinsicsFile(Bytes input);

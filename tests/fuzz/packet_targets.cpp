@@ -29,12 +29,6 @@ namespace {
 constexpr UnitGuid kGuid{0x8a, 0x8a, 0x1d, 0xc9, 0x3f, 0x38, 0x44, 0x4f,
                          0x8c, 0x1f, 0x4e, 0x2a, 0x3e, 0x6c, 0x1c, 0x15};
 
-void need(bool holds) {
-    if (!holds) {
-        std::abort();
-    }
-}
-
 void needLens(const Intrinsics& lens) {
     need(std::isfinite(lens.fx) && std::isfinite(lens.fy) && std::isfinite(lens.cx) &&
          std::isfinite(lens.cy));

@@ -12,16 +12,6 @@
 
 namespace fathom::testing {
 
-namespace {
-
-void need(bool holds) {
-    if (!holds) {
-        std::abort();
-    }
-}
-
-} // namespace
-
 // wrench.csv, then touches.csv after the first zero byte.
 void readTurns(Bytes input) {
     const auto zero = static_cast<size_t>(std::find(input.begin(), input.end(), 0) - input.begin());

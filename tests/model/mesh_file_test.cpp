@@ -19,7 +19,7 @@ namespace {
 
 const std::filesystem::path kMeshes = "../shared/data/meshes";
 
-std::string refusalOf(const std::filesystem::path& file, const MeshOptions& options = {}) {
+std::string refusalOfMesh(const std::filesystem::path& file, const MeshOptions& options = {}) {
     try {
         loadMesh(file, options);
     } catch (const BadInput& e) {
@@ -102,7 +102,7 @@ TEST_CASE("stray geometry is refused with its distance, or left out when asked")
     addBox(mesh, {0.15, 0.0, 0.0}, dvec3(0.05)); // beside it: part of the thing
     addBox(mesh, {20.0, 0.0, 0.0}, dvec3(0.02));
     const ObjFile file(mesh);
-    CHECK(refusalOf(file.path()).find("stray geometry: 1 pieces up to 19.8") != std::string::npos);
+    CHECK(refusalOfMesh(file.path()).find("stray geometry: 1 pieces up to 19.8") != std::string::npos);
     MeshOptions options;
     options.dropStray = true;
     const LoadedMesh loaded = loadMesh(file.path(), options);
@@ -113,7 +113,7 @@ TEST_CASE("stray geometry is refused with its distance, or left out when asked")
 
 TEST_CASE("a unit that nobody said is refused by its size and mended by --scale; --up turns an axis to +z") {
     const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
-    CHECK(refusalOf(millimetres.path()).find("size: 300 m (allowed: 0.001 to 10 m") != std::string::npos);
+    CHECK(refusalOfMesh(millimetres.path()).find("size: 300 m (allowed: 0.001 to 10 m") != std::string::npos);
     MeshOptions options;
     options.scale = 0.001;
     CHECK(loadMesh(millimetres.path(), options).mesh.high().x == doctest::Approx(0.15));
@@ -122,9 +122,9 @@ TEST_CASE("a unit that nobody said is refused by its size and mended by --scale;
     options.up = 'y';
     CHECK(loadMesh(millimetres.path(), options).mesh.high().z == doctest::Approx(0.1));
     options.scale = -1.0;
-    CHECK(refusalOf(millimetres.path(), options).find("--scale") != std::string::npos);
-    CHECK(refusalOf("no/such/mesh.stl").find("no such file") != std::string::npos);
-    CHECK(refusalOf("tests/model/meshes.h").find("mesh: ") != std::string::npos);
+    CHECK(refusalOfMesh(millimetres.path(), options).find("--scale") != std::string::npos);
+    CHECK(refusalOfMesh("no/such/mesh.stl").find("no such file") != std::string::npos);
+    CHECK(refusalOfMesh("tests/model/meshes.h").find("mesh: ") != std::string::npos);
 }
 
 TEST_CASE(
@@ -158,11 +158,12 @@ TEST_CASE("Kinds of file that nobody promised to read are refused, whatever is i
                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\n"
                            "end_header\n0 0 0\n0.1 0 0\n0 0.1 0\n3 0 1 2\n";
     CHECK(importTriangles(file).fault == ""); // the library can
-    CHECK(refusalOf(file).find("kind '.ply' (allowed: a readable STL, OBJ or COLLADA") != std::string::npos);
+    CHECK(refusalOfMesh(file).find("kind '.ply' (allowed: a readable STL, OBJ or COLLADA") !=
+          std::string::npos);
     std::filesystem::remove(file);
     const std::filesystem::path upper = file.parent_path() / "fathom-mesh-kind.OBJ";
     std::filesystem::copy_file(box.path(), upper, std::filesystem::copy_options::overwrite_existing);
-    CHECK(refusalOf(upper) == "");
+    CHECK(refusalOfMesh(upper) == "");
     std::filesystem::remove(upper);
 }
 

@@ -3,6 +3,7 @@
 // in, and where they are, that all of them answer what float64 says.
 #include "apps/profile/studies.h"
 #include "tests/apps/scratch_folder.h"
+#include "tests/profile/quick_run.h"
 #include "tests/rig/run_fathom.h"
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 
 using namespace fathom;
 using fathom::testing::ScratchFolder;
+using fathom::testing::startsWith;
 using fathom::testing::textOf;
 
 namespace {
@@ -20,10 +22,6 @@ bool builtIn() {
     const auto& all = profile::allStudies();
     return std::any_of(all.begin(), all.end(),
                        [](const auto& entry) { return entry.name == std::string("peers"); });
-}
-
-bool startsWith(const std::string& text, const std::string& head) {
-    return text.compare(0, head.size(), head) == 0;
 }
 
 } // namespace

@@ -26,7 +26,7 @@ struct Fade {
 // A hand that presses 10 mm into a wall; pictures every 33 ms, then none for `stall` seconds. By the cycle's
 // own clock.
 Fade stallCamera(double stall, bool comesBack) {
-    HapticRig rig(plainScene(), at(0.0, 0.0, 0.03));
+    HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
     rig.show(wallSet(1));
     Fade fade;
     uint64_t generation = 1;
@@ -99,7 +99,7 @@ TEST_CASE(
     "Drill: a clock that leaps, as after a suspended machine, fades or holds the force and never leaps it") {
     for (const double leap : {0.05, 5.0, 3600.0, -0.5}) {
         CAPTURE(leap);
-        HapticRig rig(plainScene(), at(0.0, 0.0, 0.03));
+        HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
         rig.show(wallSet(1));
         rig.age = false; // a camera that goes on
         rig.turns(10);

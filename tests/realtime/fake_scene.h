@@ -160,7 +160,7 @@ inline HandPath pressingPath(double seconds) {
 
 // Springs that are given stay as they are when this machine makes turns late.
 inline Scene sceneOfGivenSprings() {
-    Scene scene = plainScene();
+    Scene scene = handScene();
     scene.haptics.stiffness = 1000.0;
     return scene;
 }

@@ -25,10 +25,6 @@ bool isAdvisory(int r, int g, int b) {
     return std::abs(r - 110) < 24 && std::abs(g - 214) < 24 && std::abs(b - 235) < 24;
 }
 
-glm::dvec3 vec(const json& v) {
-    return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
-}
-
 // Holds a key until the hand is there.
 void hold(WindowRig& rig, const std::string& key, const std::function<bool(const glm::dvec3& hand)>& there) {
     rig.keyDown(key);
@@ -39,11 +35,6 @@ void hold(WindowRig& rig, const std::string& key, const std::function<bool(const
 // A point of the wall, 600 mm away, under a share of the picture.
 glm::dvec3 wallAt(double u, double v) {
     return 0.6 * glm::dvec3((u * kWidth - 0.5 - kCx) / kFocal, (v * kHeight - 0.5 - kCy) / kFocal, 1.0);
-}
-
-void close(WindowRig& rig) {
-    const int code = rig.close();
-    CHECK_MESSAGE(code == 0, rig.output());
 }
 
 } // namespace
@@ -72,7 +63,7 @@ TEST_CASE(
     REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active acknowledged frozen"); }));
     rig.key("f");
     CHECK(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
-    close(rig);
+    closeQuietly(rig);
 }
 
 TEST_CASE("The space bar turns forces off while text is typed, when letters are text and no keys") {
@@ -96,7 +87,7 @@ TEST_CASE("The space bar turns forces off while text is typed, when letters are 
     REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 3; }));
     rig.key("a");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
-    close(rig);
+    closeQuietly(rig);
 }
 
 TEST_CASE(
@@ -128,7 +119,7 @@ TEST_CASE(
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 0; }));
     CHECK(rig.await(
         [](const json& s) { return glm::distance(vec(s["run"]["tool"]), vec(s["run"]["device"])) < 0.001; }));
-    close(rig);
+    closeQuietly(rig);
 }
 
 TEST_CASE("Pointing at the contact tells class, region sphere, depth and frame; elsewhere it tells nothing") {
@@ -160,5 +151,5 @@ TEST_CASE("Pointing at the contact tells class, region sphere, depth and frame; 
     CHECK(rig.shoot("hover").share(beside(30, 24), dark) > before + 0.4);
     rig.xdo("mousemove --window $W 300 80");
     CHECK(rig.await([](const json& s) { return s["hovered"] == ""; }));
-    close(rig);
+    closeQuietly(rig);
 }

@@ -292,4 +292,9 @@ std::string WindowRig::output() const {
     return folder_.read("program.log");
 }
 
+void closeQuietly(WindowRig& rig) {
+    CHECK_MESSAGE(rig.close() == 0, rig.output());
+    CHECK(rig.output().find("validation") == std::string::npos);
+}
+
 } // namespace fathom::window

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <sys/types.h>
@@ -73,5 +74,13 @@ private:
     std::string display_, window_;
     pid_t server_ = -1, program_ = -1;
 };
+
+// Closes it as a pilot does; the program ends with 0 and no validation message.
+void closeQuietly(WindowRig& rig);
+
+// Three numbers of a state line.
+inline glm::dvec3 vec(const nlohmann::json& v) {
+    return {v[0].get<double>(), v[1].get<double>(), v[2].get<double>()};
+}
 
 } // namespace fathom::window

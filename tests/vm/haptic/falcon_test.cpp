@@ -21,7 +21,7 @@ using fathom::vm::FalconDevice;
 namespace {
 
 using Motors = std::array<int16_t, 3>;
-constexpr Motors kStill{};
+constexpr Motors kNoTorque{};
 const dvec3 kKnob(0.01, -0.02, 0.12);
 
 void placeAt(FalconDevice& device, const dvec3& knob) {
@@ -70,7 +70,7 @@ HandSample turn(DoorHand& hand, double fz = 2.0) {
 
 bool pushes(const FalconDevice& device) {
     const Motors m = device.motors();
-    return m != kStill && std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) > 200;
+    return m != kNoTorque && std::abs(m[0]) + std::abs(m[1]) + std::abs(m[2]) > 200;
 }
 
 std::string faultOf(const FalconGuard::Options& options) {
@@ -128,7 +128,7 @@ TEST_CASE("The knob's place reaches the engine, its force the motors, and at the
             return hand.alive() && pushes(device);
         }));
         running.end(); // as Ctrl-C does, with the engine still pushing
-        CHECK(device.motors() == kStill);
+        CHECK(device.motors() == kNoTorque);
         turn(hand);
     }
     CHECK(running.guard->figures().faults == 0);
@@ -178,7 +178,7 @@ TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leav
     }));
     CHECK(device.commands > commands);
     running.end();
-    CHECK(device.motors() == kStill);
+    CHECK(device.motors() == kNoTorque);
     const FalconFigures f = running.guard->figures();
     CHECK(f.surplus >= (twofold ? 3u : 0u));
     CHECK((f.late + f.faults + f.surplus > 0 || late));
@@ -205,7 +205,7 @@ TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged
         return device.commands > commands + 50;
     }));
     CHECK(turn(hand).buttons == 6);
-    CHECK(device.motors() == kStill); // no place, no force
+    CHECK(device.motors() == kNoTorque); // no place, no force
     device.homed = true;
     CHECK(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
     CHECK(running.guard->losses() >= 1);
@@ -222,7 +222,7 @@ TEST_CASE("A Falcon that is not homed gives neither a place nor a force") {
         CHECK(turn(hand).buttons == 6);
     }
     const auto history = device.history();
-    CHECK(std::all_of(history.begin(), history.end(), [](const Motors& m) { return m == kStill; }));
+    CHECK(std::all_of(history.begin(), history.end(), [](const Motors& m) { return m == kNoTorque; }));
     CHECK(history.size() > 50);
 }
 
