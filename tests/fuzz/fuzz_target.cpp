@@ -27,7 +27,7 @@ constexpr std::array kTargets{
     FuzzTarget{"index", readIndexFile},
     FuzzTarget{"intrinsics", readIntrinsicsFile},
     FuzzTarget{"jpeg", readJpegPicture},
-    FuzzTarget{"mesh", readMesh},
+    FuzzTarget{"mesh", readMesh, 20}, // a process each
     FuzzTarget{"pairs", readPairs},
     FuzzTarget{"pcd", readPcdFile},
     FuzzTarget{"pixels", readPixels},

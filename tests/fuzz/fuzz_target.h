@@ -16,6 +16,7 @@ using Bytes = std::span<const uint8_t>;
 struct FuzzTarget {
     const char* name; // also of its folder below tests/fuzz/corpus
     void (*read)(Bytes input);
+    long dear = 1; // how many runs of another target one of this costs
 };
 
 // All there are, in order of name.

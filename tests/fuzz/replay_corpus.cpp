@@ -161,13 +161,14 @@ int main(int argc, char** argv) {
             continue;
         }
         Mutator mutator(corpus);
-        for (long i = 0; i < mutations; ++i) {
+        const long asked = mutations / target.dear;
+        for (long i = 0; i < asked; ++i) {
             mutatedTaken += run(target, mutator.next()) ? 1 : 0;
         }
-        runs += corpus.size() + static_cast<size_t>(mutations);
+        runs += corpus.size() + static_cast<size_t>(asked);
         ++passed;
         std::printf("%-14s %zu of %zu seeds taken, %zu of %ld mutations\n", target.name, taken, corpus.size(),
-                    mutatedTaken, mutations);
+                    mutatedTaken, asked);
     }
     std::printf("%zu runs\nfuzz: %zu passed, %zu failed\n", runs, passed, failed);
     return failed > 0 ? 1 : 0;
