@@ -63,6 +63,7 @@ Painter::Painter(gpu::Device& device, Swapchain* swapchain)
 // By way of the other constructor, after which the destructor takes back what was made before a failure.
 Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
     : Painter(device, swapchain) {
+    instance_ = instance.handle();
     descriptors_ = makeDescriptors(device.handle());
     pass_ = makePass(device.handle());
     VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
@@ -77,16 +78,6 @@ Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* 
     check(vkCreateFence(device.handle(), &fence, nullptr, &done_), "vkCreateFence");
     const VkSemaphoreCreateInfo semaphore{VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
     check(vkCreateSemaphore(device.handle(), &semaphore, nullptr, &ready_), "vkCreateSemaphore");
-    ImGui_ImplVulkan_InitInfo info{};
-    info.Instance = instance.handle();
-    info.PhysicalDevice = device.physical();
-    info.Device = device.handle();
-    info.QueueFamily = device.drawFamily();
-    info.Queue = device.drawQueue();
-    info.DescriptorPool = descriptors_;
-    info.MinImageCount = info.ImageCount = 2;
-    info.CheckVkResultFn = [](VkResult result) { check(result, "drawing of the window's panels"); };
-    ImGui_ImplVulkan_Init(&info, pass_);
     uploadFonts();
 }
 
@@ -94,9 +85,7 @@ Painter::~Painter() {
     if (flying_) { // a device that is lost answers at once
         vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, kLongWait);
     }
-    if (ImGui::GetIO().BackendRendererUserData != nullptr) {
-        ImGui_ImplVulkan_Shutdown();
-    }
+    stopPanels();
     vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
     vkDestroySemaphore(device_.handle(), ready_, nullptr);
     vkDestroyFence(device_.handle(), done_, nullptr);
@@ -128,7 +117,31 @@ void Painter::once(const std::function<void(VkCommandBuffer)>& body) {
     finished(kLongWait);
 }
 
+void Painter::startPanels() {
+    ImGui_ImplVulkan_InitInfo info{};
+    info.Instance = instance_;
+    info.PhysicalDevice = device_.physical();
+    info.Device = device_.handle();
+    info.QueueFamily = device_.drawFamily();
+    info.Queue = device_.drawQueue();
+    info.DescriptorPool = descriptors_;
+    info.MinImageCount = info.ImageCount = 2;
+    info.CheckVkResultFn = [](VkResult result) { check(result, "drawing of the window's panels"); };
+    ImGui_ImplVulkan_Init(&info, pass_);
+}
+
+void Painter::stopPanels() {
+    if (ImGui::GetIO().BackendRendererUserData != nullptr) {
+        ImGui_ImplVulkan_Shutdown();
+        vkResetDescriptorPool(device_.handle(), descriptors_, 0);
+    }
+}
+
+// The backend keeps every image of letters but the last one, so that it is made anew with them.
 void Painter::uploadFonts() {
+    finished(kLongWait);
+    stopPanels();
+    startPanels();
     once([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
 }

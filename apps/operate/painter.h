@@ -67,8 +67,11 @@ private:
     void recordLayer(size_t i, const Layer& layer);
     void recordToSurface(VkImage shown);
     void submit(bool onSurface);
+    void startPanels(); // of ImGui
+    void stopPanels();
     void once(const std::function<void(VkCommandBuffer)>& body);
 
+    VkInstance instance_ = VK_NULL_HANDLE;
     gpu::Device& device_;
     Swapchain* swapchain_;
     VkCommandPool pool_ = VK_NULL_HANDLE;

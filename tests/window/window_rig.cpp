@@ -294,7 +294,7 @@ std::string WindowRig::output() const {
 
 void closeQuietly(WindowRig& rig) {
     CHECK_MESSAGE(rig.close() == 0, rig.output());
-    CHECK(rig.output().find("validation") == std::string::npos);
+    CHECK_MESSAGE(rig.output().find("validation") == std::string::npos, rig.output());
 }
 
 } // namespace fathom::window
