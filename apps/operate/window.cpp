@@ -13,6 +13,7 @@
 #include <cstdlib>
 #include <imgui.h>
 #include <iterator>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -99,17 +100,23 @@ void Window::holdTaps() {
     io.KeyCtrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
     io.KeyShift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
     std::vector<Tap> later;
+    std::optional<int> mods; // of this frame: what was struck with others waits for the next one
     for (const Tap& tap : taps_) {
         const bool now = std::find(held_.begin(), held_.end(), tap.key) != held_.end();
+        const bool modifier = tap.key >= GLFW_KEY_LEFT_SHIFT && tap.key <= GLFW_KEY_RIGHT_SUPER;
+        const bool other = !modifier && (!later.empty() || mods.value_or(tap.mods) != tap.mods);
         held_.push_back(tap.key);
-        if (now || shown_[static_cast<size_t>(tap.key)]) { // it has to be up for a frame to go down again
+        if (other || now || shown_[static_cast<size_t>(tap.key)]) { // up for a frame, to go down again
             io.KeysDown[tap.key] = now && io.KeysDown[tap.key];
             later.push_back(tap);
             continue;
         }
         io.KeysDown[tap.key] = true;
-        io.KeyCtrl = io.KeyCtrl || (tap.mods & GLFW_MOD_CONTROL) != 0;
-        io.KeyShift = io.KeyShift || (tap.mods & GLFW_MOD_SHIFT) != 0;
+        mods = modifier ? mods : tap.mods;
+    }
+    if (mods) {
+        io.KeyCtrl = (*mods & GLFW_MOD_CONTROL) != 0;
+        io.KeyShift = (*mods & GLFW_MOD_SHIFT) != 0;
     }
     taps_ = std::move(later);
     std::copy(std::begin(io.KeysDown), std::end(io.KeysDown), shown_.begin());

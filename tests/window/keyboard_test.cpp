@@ -46,6 +46,19 @@ TEST_CASE("A key that is struck faster than frames are drawn counts each time") 
     closeQuietly(rig);
 }
 
+TEST_CASE("Keys that are struck with Ctrl and without it within one frame all count") {
+    WindowRig rig;
+    const json before = rig.state();
+    const double scale = before["console"]["text_scale"];
+    const bool guidance = before["console"]["guidance"];
+    rig.xdo("key --delay 0 g ctrl+equal Tab"); // no key twice: faster it would be one that is held
+    CHECK(rig.await([&](const json& s) {
+        return s["console"]["text_scale"] == scale + 0.125 && s["console"]["large"] == "space" &&
+               s["console"]["guidance"] != guidance;
+    }));
+    closeQuietly(rig);
+}
+
 TEST_CASE("F6 takes arrows and Enter to the panels and back; the space bar presses nothing there") {
     WindowRig rig;
     const json before = rig.atRest();
