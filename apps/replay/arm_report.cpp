@@ -32,7 +32,8 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
     }
     header += ",grasp,residual_m,manipulability,at_limits,limit_violation,singular,grasp_held";
     if (!realArm.empty()) {
-        sums_.driven.emplace().description = realArm;
+        sums_.driven = ReplaySummary::Arm::Driven{};
+        sums_.driven->description = realArm;
         header += ",real_arm";
         for (const ArmJoint& joint : rig.model.joints) {
             header += ",measured_" + column(joint.name);

@@ -27,8 +27,8 @@ int64_t cellsAlong(double extent, double size) {
     return static_cast<int64_t>(extent / size) + 1;
 }
 
-bool isFinite(float v) {
-    return (std::bit_cast<uint32_t>(v) & 0x7f800000u) != 0x7f800000u;
+uint32_t isPlaceless(float v) { // infinite or not a number
+    return (std::bit_cast<uint32_t>(v) & 0x7f800000u) == 0x7f800000u ? 1u : 0u;
 }
 
 // How many of n spheres have a number that is not finite.
@@ -36,8 +36,7 @@ FATHOM_CLONES uint32_t countPlaceless(const float* x, const float* y, const floa
                                       size_t n) noexcept {
     uint32_t count = 0;
     for (size_t i = 0; i < n; ++i) {
-        count +=
-            static_cast<uint32_t>(!isFinite(x[i]) | !isFinite(y[i]) | !isFinite(z[i]) | !isFinite(radius[i]));
+        count += isPlaceless(x[i]) | isPlaceless(y[i]) | isPlaceless(z[i]) | isPlaceless(radius[i]);
     }
     return count;
 }
@@ -114,7 +113,7 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
     std::array<std::vector<float>, 4> kept;
     std::vector<uint32_t> from;
     for (size_t i = 0; i < x.size(); ++i) {
-        if (isFinite(x[i]) && isFinite(y[i]) && isFinite(z[i]) && isFinite(radius[i])) {
+        if ((isPlaceless(x[i]) | isPlaceless(y[i]) | isPlaceless(z[i]) | isPlaceless(radius[i])) == 0) {
             kept[0].push_back(x[i]), kept[1].push_back(y[i]), kept[2].push_back(z[i]);
             kept[3].push_back(radius[i]);
             from.push_back(static_cast<uint32_t>(i));

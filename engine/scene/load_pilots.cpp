@@ -39,7 +39,8 @@ void loadPilots(const YamlNode& pilots, Scene& scene) {
 
 void loadWindow(const YamlNode& window, Scene& scene) {
     window.checkKeys({"text_scale", "large", "yaw", "pitch", "distance"});
-    Scene::Window& w = scene.window.emplace();
+    scene.window = Scene::Window{};
+    Scene::Window& w = *scene.window;
     if (const auto scale = window.find("text_scale")) {
         w.textScale = scale->number(Range::between(0.75, 2.0));
     }
