@@ -26,7 +26,10 @@ bool alarm(const json& s, const std::string& words) {
 // Until the tool touches, and the hand feels it.
 bool pressUntilFelt(const WindowRig& rig, PlayedDevice& device) {
     for (int tries = 0; tries < 20; ++tries) {
-        if (rig.state()["run"]["contacts"] > 0 && device.feels(-8.0, -0.2, 2000)) {
+        // A force alone may be that of a tool which is on its way after a push.
+        const bool felt = rig.state()["run"]["contacts"] > 0 && device.feels(-8.0, -0.2, 2000);
+        const json state = rig.state();
+        if (felt && z(state, "device") > z(state, "tool") + 0.0005) {
             return true;
         }
         device.push(device.z + 0.03);
@@ -62,7 +65,6 @@ TEST_CASE("A haptic device at its door drives the tool in the window and feels t
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
     REQUIRE(pressUntilFelt(rig, device));
-    CHECK(z(rig.state(), "device") > z(rig.state(), "tool") + 0.0005);
     rig.shoot("device");
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
