@@ -20,6 +20,8 @@ layout(constant_id = 9) const uint kRange = 0;      // 1: some class asks for th
 layout(constant_id = 10) const uint kArm = 0;       // 1: what the arm's spheres hold is no point of any class
 layout(constant_id = 11) const uint kWater = 0;     // 1: colours are put right for what water took of them
 layout(constant_id = 12) const uint kRows = 1;      // 1, 2 or 4 rows an invocation: counts and the list are asked as often less
+layout(constant_id = 13) const uint kWide = 0;      // 1: a group has four patches side by side, so that rows of its pixels are whole lines of the host's memory
+layout(constant_id = 14) const uint kKeep = 0;      // 1 (with kFour): later passes find the depth on the device
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
@@ -34,6 +36,7 @@ layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // p
 // The arm, about the origin [m]: x of arm[0] = bits of the count of links; a link is two entries, its bound and (bits of) the first
 // and the end of its spheres.
 layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
+layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // uint16 a pixel, as they came
 
 #include "shaders/lib/colour.glsl"
 #include "shaders/lib/depth.glsl"
@@ -138,7 +141,11 @@ vec4 depthsAt(uvec2 at) {
     }
     uint pixel = at.y * params.size.x + at.x;
     if (kFour != 0) {
-        uvec4 raw = at.x < params.size.x ? texelFetch(depths, int(pixel >> 2)) : uvec4(0);
+        bool inside = at.x < params.size.x;
+        uvec4 raw = inside ? texelFetch(depths, int(pixel >> 2)) : uvec4(0);
+        if (kKeep != 0 && inside) {
+            keptDepth[pixel >> 2] = uvec2(raw.x | raw.y << 16, raw.z | raw.w << 16);
+        }
         return vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
     }
     [[unroll]] for (uint k = 0; k < 4u; ++k) {
@@ -194,6 +201,26 @@ uint classBitsOfFour(uvec2 at) {
     return word;
 }
 
+// Where an invocation's first pixel is. Groups are laid out as the patches are: no division finds the pixel.
+struct Place {
+    uint patchIndex, inside; // slot in the patch
+    uvec2 at;
+    bool exists; // wide groups reach beyond the last patch of a row
+};
+
+Place placeOf() {
+    uint i = gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+    if (kWide != 0) {
+        uvec2 at = uvec2(gl_WorkGroupID.x * 64u + (i & 15u) * 4u, gl_WorkGroupID.y * 16u + (i >> 4));
+        uint patchX = at.x >> 4;
+        bool exists = patchX < params.size.z;
+        uint inside = (at.y >> 2 & 3u) * 64u + (at.x >> 2 & 3u) * 16u + (at.y & 3u) * 4u;
+        return Place(exists ? gl_WorkGroupID.y * params.size.z + patchX : 0u, inside, at, exists);
+    }
+    uint inside = i * 4u * kRows;
+    return Place(gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x, inside, gl_WorkGroupID.xy * 16u + pixelInPatch(inside), true);
+}
+
 void main() {
     if (kGather != 0) {
         for (uint c = gl_LocalInvocationID.x; c < kMaxClasses; c += gl_WorkGroupSize.x) {
@@ -201,20 +228,19 @@ void main() {
         }
         barrier();
     }
-    // Groups are laid out as the patches are: no division finds the pixel.
-    uint patchIndex = gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x;
-    uint inside = (gl_WorkGroupID.z * gl_WorkGroupSize.x + gl_LocalInvocationID.x) * 4u * kRows;
-    uint slot = patchIndex * 256u + inside, some = 0;
-    uvec2 at = gl_WorkGroupID.xy * 16u + pixelInPatch(inside);
+    Place place = placeOf();
+    uint word = (place.patchIndex * 256u + place.inside) >> 2, some = 0;
     uint words[kRows];
     [[unroll]] for (uint r = 0; r < kRows; ++r) {
-        words[r] = classBitsOfFour(at + uvec2(0, r));
-        masks[(slot >> 2) + r] = words[r];
+        words[r] = classBitsOfFour(place.at + uvec2(0, r));
+        if (kWide == 0 || place.exists) {
+            masks[word + r] = words[r];
+        }
         some |= words[r];
     }
     countPixels(words);
-    if (some != 0 || (kHold != 0 && inside == 0 && live[patchIndex] != 0)) {
-        putOnList(patchIndex);
+    if (some != 0 || (kHold != 0 && place.inside == 0 && place.exists && live[place.patchIndex] != 0)) {
+        putOnList(place.patchIndex);
     }
     if (kGather != 0) {
         barrier();

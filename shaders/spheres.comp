@@ -1,7 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Region spheres of the listed patches and the bounds of their 4x4 sub-patches (paper IV.B.1, eq. 3). One invocation
-// a sub-patch, or (kByPixel) one group a patch: one invocation a pixel, then one a sub-patch. With hold, points of earlier frames that the new picture does not contradict stay as a second layer.
+// a sub-patch, or (kByPixel) one group a patch: one invocation a pixel, then one a sub-patch. With hold, points of earlier frames that
+// the new picture does not contradict stay as a second layer. A group that has a patch can pack its spheres (kPack) into a row for the
+// host, by layer (seen, held), then slot: what crosses the bus to a device of its own is as much as there are spheres, in whole lines.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
@@ -14,6 +16,8 @@ layout(constant_id = 4) const uint kLeaks = 1;      // 1: within near..far neigh
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points
 layout(constant_id = 6) const uint kFan = 0;        // 1: pixels are beams at equal angles
 layout(constant_id = 7) const uint kBeam = 0;       // 1: spheres grow by 3 sigma of their points
+layout(constant_id = 8) const uint kTree = 1;       // 1: a query asks for bounds
+layout(constant_id = 9) const uint kPack = 0;       // 1 (with kByPixel): the host reads a row
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
@@ -33,6 +37,9 @@ layout(std430, binding = 14) writeonly buffer Classes { uvec4 classes[]; };     
 layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
+layout(std430, binding = 21) writeonly buffer Packed { vec4 packedSpheres[]; };
+layout(std430, binding = 22) writeonly buffer Tags { uint tags[]; };  // (layer * 256 + slot in the patch) * 8 + class
+layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; }; // listed patch -> place of its first packed sphere, and how many
 // The same three, to read: an invocation reads a slot before it writes it, and no other does either.
 layout(binding = 18) uniform samplerBuffer seenBefore;
 layout(binding = 19) uniform samplerBuffer keptBefore;
@@ -71,6 +78,7 @@ const uint kLayers = kHold != 0 ? 2u : 1u;
 shared vec4 cells[kByPixel != 0 && kThin != 0 ? 25 : 1];
 shared vec4 all[kByPixel != 0 ? 256 * kLayers : 1];
 shared uint notesOfPatch[kByPixel != 0 ? 256 : 1];
+#include "shaders/lib/packing.glsl"
 
 CellsAround cellsOfGroup(uint sub) {
     uint at = (sub >> 2) * 5u + (sub & 3u); // of the corner cell
@@ -138,10 +146,15 @@ Notes noted(Notes n, const uint p, uint note) {
 void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     bits[sub] = notes.marks;
     classes[sub] = notes.classes;
-    nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
-    nodeCounts[sub] = count;
+    if (kTree != 0) {
+        nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
+        nodeCounts[sub] = count;
+    }
     if (count != 0) {
         atomicAdd(counters.nodes, 1u);
+        if (kPack == 0) {
+            atomicAdd(counters.spheres, count);
+        }
     }
     if (kHold != 0 && notes.remembered != 0) {
         atomicAdd(live[sub >> 4], notes.remembered);
@@ -203,14 +216,25 @@ void boundOfGroup(uint patchIndex, uint s) {
     putBound(patchIndex * 16u + s, centre, radius, count, notes);
 }
 
-void wholePatch(uint patchIndex) {
-    uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
+void prepareGroup(ivec2 patchAt) {
     if (kThin != 0) {
         for (uint i = gl_LocalInvocationID.x; i < 25u; i += gl_WorkGroupSize.x) {
-            cells[i] = cellAt(ivec2(patchAt) + 4 * ivec2(int(i % 5u) - 1, int(i / 5u) - 1));
+            cells[i] = cellAt(patchAt + 4 * ivec2(int(i % 5u) - 1, int(i / 5u) - 1));
         }
+    }
+    if (kPack != 0) {
+        for (uint w = gl_LocalInvocationID.x; w < 16u; w += gl_WorkGroupSize.x) {
+            present[w] = 0;
+        }
+    }
+    if (kThin != 0 || kPack != 0) {
         barrier();
     }
+}
+
+void wholePatch(uint patchIndex) {
+    uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
+    prepareGroup(ivec2(patchAt));
     for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
         CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
         if (kThin != 0) {
@@ -219,14 +243,23 @@ void wholePatch(uint patchIndex) {
         uint sub = patchIndex * 16u + (i >> 4);
         PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around);
         all[i] = r.sphere;
+        markPresent(i, r.sphere.w);
         if (kHold != 0) {
             all[256u * (kLayers - 1u) + i] = r.held;
+            markPresent(256u * (kLayers - 1u) + i, r.held.w);
         }
         notesOfPatch[i] = r.note;
     }
     barrier();
+    if (kPack != 0 && gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) {
+        placeRun(patchIndex);
+    }
     for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
         boundOfGroup(patchIndex, s);
+    }
+    if (kPack != 0) {
+        barrier();
+        packPatch();
     }
 }
 

@@ -14,10 +14,9 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 4) writeonly buffer Begins { uint begins[]; }; // patch -> spheres of the patches before it
 // kPatches: nodes and counts of the sub-patches, four counts a texel.
-layout(binding = 5) uniform samplerBuffer subNodes;
-layout(binding = 6) uniform usamplerBuffer subCounts;
+layout(binding = 4) uniform samplerBuffer subNodes;
+layout(binding = 5) uniform usamplerBuffer subCounts;
 
 // Index of child k of node `at` on `level`; kNoChild when it lies outside. No branch: a CPU device walks both sides of each.
 const uint kNoChild = 0xffffffffu;
@@ -86,38 +85,7 @@ void buildNode(uint level, uint index) {
     }
 }
 
-shared uint sums[1024]; // an invocation
-
-// Where each patch's spheres begin once they are packed. One group: an invocation a run of patches.
-void placePatches() {
-    uint patches = tree.levels[1].x * tree.levels[1].y, me = gl_LocalInvocationID.x;
-    uint each = (patches + gl_WorkGroupSize.x - 1u) / gl_WorkGroupSize.x;
-    uint first = min(me * each, patches), end = min(first + each, patches), mine = 0;
-    for (uint i = first; i < end; ++i) {
-        mine += nodeCounts[tree.levels[1].z + i];
-    }
-    sums[me] = mine;
-    barrier();
-    for (uint step = 1; step < gl_WorkGroupSize.x; step *= 2u) { // running sums, in steps of twice the width
-        uint before = me >= step ? sums[me - step] : 0u;
-        barrier();
-        sums[me] += before;
-        barrier();
-    }
-    uint next = sums[me] - mine;
-    for (uint i = first; i < end; ++i) {
-        begins[i] = next;
-        next += nodeCounts[tree.levels[1].z + i];
-    }
-    if (me == gl_WorkGroupSize.x - 1u) {
-        counters.spheres = next;
-    }
-}
-
 void main() {
-    if (kPatches == 0) {
-        placePatches();
-    }
     for (uint level = tree.run.x; level <= tree.run.y; ++level) {
         uint count = tree.levels[level].x * tree.levels[level].y;
         for (uint i = gl_GlobalInvocationID.x; i < count; i += gl_NumWorkGroups.x * gl_WorkGroupSize.x) {

@@ -51,7 +51,7 @@ std::vector<Stage> stages() {
         {"forbidden class", [](Scene& s, CameraInfo&) { dropClasses(s, Role::Forbidden); }},
         {"largest part", [](Scene& s, CameraInfo&) { s.fixtures.back().largestPart = false; }},
         {"box", [](Scene& s, CameraInfo&) { s.fixtures.front().box.reset(); }},
-        {"slots for the GPU query",
+        {"tree and slots for the GPU query",
          [](Scene& s, CameraInfo&) { s.contact.where = Scene::Contact::Where::Cpu; }},
         {"lens distortion", [](Scene&, CameraInfo& c) { c.depth.distortion = {}, c.colour.distortion = {}; }},
         {"colour registration", [](Scene&, CameraInfo& c) { c.registered = true; }},

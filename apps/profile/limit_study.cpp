@@ -21,7 +21,7 @@ struct Need {
 // What a frame selects.
 struct Load {
     double pixels, slots, selected, spheres, tapsPerPixel;
-    bool hold, colour, inPlace;
+    bool hold, colour, inPlace, pack, keepDepth;
 };
 
 Load loadOf(const FrameBench& bench, const FrameReport& report) {
@@ -44,6 +44,8 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.hold = bench.plan().hold;
     load.colour = bench.plan().colour;
     load.inPlace = bench.plan().inPlace;
+    load.keepDepth = bench.plan().keepDepth;
+    load.pack = bench.plan().pack;
     return load;
 }
 
@@ -51,16 +53,18 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
 std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     const double held =
         l.hold ? 16.0 + 2.0 * (16.0 + 16.0 + 4.0) : 0.0; // held sphere; seen, kept, time: read, written
+    const double packed = l.pack ? 20.0 * l.spheres : 0.0;
     return {
         {"upload",
          {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0,
           true}},
-        {"classify", {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + 4.0), 40.0 * l.pixels, false}},
+        {"classify",
+         {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 4.0), 40.0 * l.pixels,
+          false}},
         {"surface", {l.slots * (4.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
         {"thin", {l.slots * (4.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
-        {"spheres", {l.slots * (4.0 + 16.0 + 1.0 + 16.0 + 4.0 + held), 60.0 * l.slots, false}},
+        {"spheres", {l.slots * (4.0 + 16.0 + 1.0 + 16.0 + 4.0 + held) + packed, 60.0 * l.slots, false}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0, false}},
-        {"pack", {l.slots * (l.hold ? 32.0 : 16.0) + l.spheres * 24.0, 10.0 * l.slots, false}},
         {"moments", {l.slots * 20.0 + l.slots / 256.0 * 64.0, 40.0 * l.selected, false}},
         {"publish", {2.0 * l.pixels + l.spheres * (20.0 + 3.0 * 21.0), 0.0, true}},
     };

@@ -52,7 +52,7 @@ public:
         row.isDefault = false;
         row.cost = m.cost.frame;
         row.more = {x, m.cost.total.p50, m.cost.upload.p50, m.cost.publish.p50};
-        for (const char* pass : {"classify", "surface", "thin", "spheres", "tree", "pack", "moments"}) {
+        for (const char* pass : {"classify", "surface", "thin", "spheres", "moments"}) {
             const auto it = m.cost.passes.find(pass);
             row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
         }
@@ -159,8 +159,6 @@ Study scalingStudy(const StudyContext& context) {
                        "surface_p50_ms",
                        "thin_p50_ms",
                        "spheres_p50_ms",
-                       "tree_p50_ms",
-                       "pack_p50_ms",
                        "moments_p50_ms"};
     const bool quick = context.settings.quick;
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;

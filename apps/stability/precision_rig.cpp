@@ -9,11 +9,22 @@
 
 namespace fathom::stability {
 
+namespace {
+
+// Its tree is looked at, too, whoever asks for one.
+Plan planWithTree(const Scene& scene, const CameraInfo& camera, const gpu::Device& device) {
+    Plan plan = makePlan(scene, camera, 1, device.facts());
+    plan.tree = plan.spheres;
+    return plan;
+}
+
+} // namespace
+
 PrecisionRig::PrecisionRig(gpu::Device& device, Scene scene, const CameraInfo& camera)
     : device_(device)
     , scene_(std::move(scene))
     , camera_(camera)
-    , plan_(makePlan(scene_, camera_, 1, device.facts()))
+    , plan_(planWithTree(scene_, camera_, device))
     , cycle_(std::make_unique<FrameCycle>(device, scene_, camera_, plan_, 1)) {}
 
 void PrecisionRig::run(Picture picture, double captureTime) {

@@ -42,12 +42,14 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     list = Buffer(device, patches * 4, MemoryKind::Device, "list");
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Device, "counters");
     points = Buffer(device, slots * 16, MemoryKind::Device, "points");
+    if (plan.keepDepth) {
+        depth = Buffer(device, 2ull * camera.depth.pixels(), MemoryKind::Device, "depth on the device");
+    }
     if (plan.thin) {
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
     if (plan.spheres) {
         classes = Buffer(device, slots, slotMemory(plan), "classes");
-        begins = Buffer(device, patches * 4, MemoryKind::Device, "begins");
     }
     if (plan.query == Plan::Query::Cpu) {
         spheres = Buffer(device, slots * 16, slotMemory(plan), "spheres");
@@ -104,17 +106,20 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     listed = Buffer(device, patches * 4, MemoryKind::Readback, "set listed");
     if (plan.spheres) {
         bits = Buffer(device, patches * 16 * 4, MemoryKind::Readback, "bits");
-        nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
-        nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
         if (plan.query == Plan::Query::Gpu) {
             spheres = Buffer(device, slots * 16, slotMemory(plan), "set spheres");
             held = plan.hold ? Buffer(device, slots * 16, slotMemory(plan), "set held") : Buffer();
         }
     }
+    if (plan.tree) {
+        nodes = Buffer(device, layout.nodes() * 16ull, MemoryKind::Device, "nodes");
+        nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
+    }
     if (plan.pack) {
         const uint64_t most = slots * (plan.hold ? 2 : 1);
         packed = Buffer(device, most * 16, MemoryKind::Readback, "packed");
         tags = Buffer(device, most * 4, MemoryKind::Readback, "tags");
+        runs = Buffer(device, patches * 8, MemoryKind::Readback, "runs");
     }
     if (plan.moments) {
         moments = Buffer(device, patches * shared::kMaxClasses * sizeof(shared::PatchMoments),

@@ -30,7 +30,7 @@ struct WorkBuffers {
     gpu::Buffer rays;                 // vec2 a pixel, row-major
     gpu::Buffer spheres, held;        // vec4 a slot, R < 0 = none; empty with a GPU query: a set has its own
     gpu::Buffer classes;              // uint8 a slot: class of the sphere | class of the held one << 4
-    gpu::Buffer begins;               // uint a patch: spheres of the patches before it
+    gpu::Buffer depth;                // uint16 a pixel, row-major: what classify read; empty unless kept
     // spheres, held and classes are what the CPU reads when the plan packs nothing.
     gpu::Buffer unused; // stands in for what the plan leaves out
 
@@ -61,11 +61,13 @@ struct SetBuffers {
     SetBuffers() = default; // none
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
-    gpu::Buffer packed;     // vec4 a sphere, without gaps: in the order of RegionSpheres; empty without pack
-    gpu::Buffer tags;       // uint a sphere: (patch * 512 + layer * 256 + slot in the patch) * 8 + class
-    gpu::Buffer bits;       // uint a sub-patch of a listed patch: pixels of a forbidden class
-    gpu::Buffer nodes;      // vec4 a node
-    gpu::Buffer nodeCounts; // uint a node
+    gpu::Buffer
+        packed; // vec4 a sphere, without gaps: a patch after the other, in any order; empty without pack
+    gpu::Buffer tags;          // uint a sphere: (layer * 256 + slot in the patch) * 8 + class
+    gpu::Buffer runs;          // uvec2 a listed patch: place of its first packed sphere, how many it has
+    gpu::Buffer bits;          // uint a sub-patch of a listed patch: pixels of a forbidden class
+    gpu::Buffer nodes;         // vec4 a node; empty without a tree
+    gpu::Buffer nodeCounts;    // uint a node
     gpu::Buffer spheres, held; // vec4 a slot, R < 0 = none: what the GPU query reads; empty without one
     gpu::Buffer moments;       // PatchMoments, kMaxClasses a patch
     gpu::Buffer counters;      // FrameCounters
@@ -80,6 +82,11 @@ inline const gpu::Buffer& slotSpheres(const WorkBuffers& work, const SetBuffers&
 }
 inline const gpu::Buffer& slotHeld(const WorkBuffers& work, const SetBuffers& set) {
     return set.spheres ? set.held : work.held;
+}
+
+// Depth for the passes after classify.
+inline const gpu::Buffer& depthOf(const WorkBuffers& work, const UploadBuffers& upload) {
+    return work.depth ? work.depth : upload.depth;
 }
 
 // A T for each of the slots that frames are uploaded to, made when a slot comes into use.

@@ -10,22 +10,22 @@ namespace fathom::cloud {
 
 SpheresPass::SpheresPass(const CloudContext& c)
     : context_(c)
-    , pipeline_(c.device,
-                {"spheres",
-                 spheres_spv,
-                 21,
-                 true,
-                 0,
-                 std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup, uint32_t{c.plan.thin},
-                            uint32_t{c.plan.hold}, uint32_t{c.plan.byPixel}, uint32_t{c.plan.leaks},
-                            c.plan.classes, uint32_t{c.plan.fan}, uint32_t{c.plan.beam}},
-                 {{1, kDepthTexels},
-                  {2, kMaskTexels},
-                  {3, kPointTexels},
-                  {6, VK_FORMAT_R32G32B32A32_SFLOAT},
-                  {18, VK_FORMAT_R32G32B32A32_SFLOAT},
-                  {19, VK_FORMAT_R32G32B32A32_SFLOAT},
-                  {20, VK_FORMAT_R32_UINT}}})
+    , pipeline_(c.device, {"spheres",
+                           spheres_spv,
+                           24,
+                           true,
+                           0,
+                           std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup,
+                                      uint32_t{c.plan.thin}, uint32_t{c.plan.hold}, uint32_t{c.plan.byPixel},
+                                      uint32_t{c.plan.leaks}, c.plan.classes, uint32_t{c.plan.fan},
+                                      uint32_t{c.plan.beam}, uint32_t{c.plan.tree}, uint32_t{c.plan.pack}},
+                           {{1, kDepthTexels},
+                            {2, kMaskTexels},
+                            {3, kPointTexels},
+                            {6, VK_FORMAT_R32G32B32A32_SFLOAT},
+                            {18, VK_FORMAT_R32G32B32A32_SFLOAT},
+                            {19, VK_FORMAT_R32G32B32A32_SFLOAT},
+                            {20, VK_FORMAT_R32_UINT}}})
     , work_(c.work)
     , hold_(c.plan.hold)
     , byPixel_(c.plan.byPixel) {}
@@ -36,7 +36,7 @@ void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
     for (const SetBuffers* s : context_.sets) {
         bindings_[upload].emplace_back(context_.device, pipeline_,
                                        std::initializer_list<const gpu::Buffer*>{&up.params,
-                                                                                 &up.depth,
+                                                                                 &depthOf(w, up),
                                                                                  &w.masks,
                                                                                  &w.points,
                                                                                  &w.listed,
@@ -55,7 +55,10 @@ void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
                                                                                  &s->nodeCounts,
                                                                                  &w.seen,
                                                                                  &w.kept,
-                                                                                 &w.keptTime},
+                                                                                 &w.keptTime,
+                                                                                 &s->packed,
+                                                                                 &s->tags,
+                                                                                 &s->runs},
                                        w.unused);
     }
 }

@@ -38,8 +38,9 @@ SurfacePass::SurfacePass(const CloudContext& c)
 
 void SurfacePass::bind(uint32_t upload, const UploadBuffers& up) {
     const WorkBuffers& w = context_.work;
-    bindings_[upload] = gpu::Bindings(
-        context_.device, pipeline_, {&up.params, &up.depth, &w.rays, &w.masks, &w.list, &w.points}, w.unused);
+    bindings_[upload] =
+        gpu::Bindings(context_.device, pipeline_,
+                      {&up.params, &depthOf(w, up), &w.rays, &w.masks, &w.list, &w.points}, w.unused);
 }
 
 void SurfacePass::record(gpu::Commands& commands, uint32_t upload) const {

@@ -21,16 +21,16 @@ uint32_t groupOf(const Plan& plan, bool patches) {
 TreePass::Levels::Levels(const CloudContext& c, bool patches)
     : pipeline(c.device, {"tree",
                           tree_spv,
-                          7,
+                          6,
                           false,
                           sizeof(shared::TreeParams),
                           std::array{groupOf(c.plan, patches), uint32_t{patches}},
-                          {{5, VK_FORMAT_R32G32B32A32_SFLOAT}, {6, VK_FORMAT_R32G32B32A32_UINT}}}) {
+                          {{4, VK_FORMAT_R32G32B32A32_SFLOAT}, {5, VK_FORMAT_R32G32B32A32_UINT}}}) {
     for (const SetBuffers* s : c.sets) {
         bindings.emplace_back(c.device, pipeline,
-                              std::initializer_list<const gpu::Buffer*>{
-                                  &c.work.listed, &s->nodes, &s->nodeCounts, &c.work.counters, &c.work.begins,
-                                  &s->nodes, &s->nodeCounts},
+                              std::initializer_list<const gpu::Buffer*>{&c.work.listed, &s->nodes,
+                                                                        &s->nodeCounts, &c.work.counters,
+                                                                        &s->nodes, &s->nodeCounts},
                               c.work.unused);
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pass shaders/tree.comp: bounds over 4x4 children, from patches up to one root. Two dispatches: patches,
-// then the rest, and where each patch's spheres go when they are packed.
+// The pass shaders/tree.comp: bounds over 4x4 children, from patches up to one root, for the GPU's
+// query. Two dispatches: patches, then the rest.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"

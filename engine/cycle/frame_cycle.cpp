@@ -195,7 +195,6 @@ void FrameCycle::fillHost(const InFlight& f) {
     host.origin = *origin_;
     host.camera = camera_;
     host.baseTcamera = f.pose;
-    host.depth.assign(f.frame->depth.begin(), f.frame->depth.end());
 }
 
 FrameReport FrameCycle::without(uint32_t index) const {
@@ -219,7 +218,7 @@ FrameReport FrameCycle::finish() {
             crew_.call();
         }
         fillHost(f); // while the device works
-        const uint32_t valid = cloud::validPixels(pool_.back().host, scene_);
+        const uint32_t valid = cloud::copyDepth(pool_.back().host, f.frame->depth, scene_, crew_);
         if (plan_.cloud) {
             report.inPlace = uploads_[f.slot].depth.imported();
             timeline_.wait(ticket_);

@@ -21,8 +21,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.thin, thin_, "thin");
     add(c.plan.moments, moments_, "moments");
     add(c.plan.spheres, spheres_, "spheres");
-    add(c.plan.spheres, tree_, "tree");
-    add(c.plan.pack, pack_, "pack");
+    add(c.plan.tree, tree_, "tree");
 }
 
 void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
@@ -71,7 +70,6 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
     run(moments_, upload, set);
     run(spheres_, upload, set);
     run(tree_, set);
-    run(pack_, set);
     recordCopies(commands, set);
     commands.end();
 }

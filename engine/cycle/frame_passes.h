@@ -5,7 +5,6 @@
 #include "engine/cloud/classify.h"
 #include "engine/cloud/moments.h"
 #include "engine/cloud/occlusion.h"
-#include "engine/cloud/pack.h"
 #include "engine/cloud/spheres.h"
 #include "engine/cloud/surface.h"
 #include "engine/cloud/thin.h"
@@ -47,7 +46,6 @@ private:
     std::optional<cloud::ThinPass> thin_;
     std::optional<cloud::SpheresPass> spheres_;
     std::optional<cloud::TreePass> tree_;
-    std::optional<cloud::PackPass> pack_;
     std::optional<cloud::MomentsPass> moments_;
     std::vector<std::string> names_;
     const gpu::Device& device_;

@@ -40,6 +40,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
     plan.pack =
         plan.spheres && device.kind != DeviceKind::Cpu; // there nothing crosses a bus, and it takes 2 ms
+    plan.keepDepth = plan.cloud && device.kind != DeviceKind::Cpu && camera.depth.width % 4 == 0;
     for (const FixtureClass& f : scene.fixtures) {
         plan.classes += f.isPoints() ? 1 : 0;
         plan.box = plan.box || (f.isPoints() && f.box);
@@ -72,6 +73,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
                           device.kind != DeviceKind::Cpu && toolLeaves >= device.gpuQueryLeaves);
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
+    plan.tree = plan.query == Plan::Query::Gpu;
     return plan;
 }
 
@@ -102,11 +104,11 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("spheres", plan.spheres,
          std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
              (plan.hold ? ", unseen points held" : "") +
-             (plan.leaks ? ", holes between points looked for" : ", too near for holes between points"),
+             (plan.leaks ? ", holes between points looked for" : ", too near for holes between points") +
+             (plan.pack ? ", in a row for the host, who reads it across a bus" : ""),
          "no forbidden class of points");
-    pass("tree", plan.spheres, "bounds up to one root for the query", "no forbidden class of points");
-    pass("pack", plan.pack, "spheres in a row: the host reads them across a bus",
-         plan.spheres ? "the device is the CPU: the host reads slots" : "no forbidden class of points");
+    pass("tree", plan.tree, "bounds up to one root for the query",
+         plan.spheres ? "the CPU's query asks a grid" : "no forbidden class of points");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
          plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "nothing to collide with");
@@ -125,6 +127,8 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("depth upload", plan.cloud, 2 * 2 * pixels, copies);
     buffer("colour upload", plan.colour, 2 * 4ull * camera.colour.pixels(),
            plan.colour ? copies : "no class asks for colour");
+    buffer("depth on the device", plan.keepDepth, 2 * pixels,
+           plan.keepDepth ? "read across the bus once" : "passes read what was uploaded");
     buffer("rays", plan.rays, 8 * pixels,
            plan.fan    ? "beams at equal angles"
            : plan.rays ? "distorted lens"
@@ -135,9 +139,10 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("sphere slots", plan.spheres, slots * (plan.hold ? 33u : 17u),
            plan.query == Plan::Query::Gpu ? "of one fixture set: the GPU query reads them"
                                           : "handed from pass to pass");
-    buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u),
+    buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u) + 8ull * layout.patches(),
            plan.pack ? "of one fixture set" : "the host reads slots");
-    buffer("tree nodes", plan.spheres, 20ull * layout.nodes(), "of one fixture set");
+    buffer("tree nodes", plan.tree, 20ull * layout.nodes(),
+           plan.tree ? "of one fixture set" : "no query walks a tree");
     buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
 }
 
@@ -178,9 +183,9 @@ bool Plan::has(const std::string& name) const {
 }
 
 uint32_t Plan::dispatchesPerFrame() const {
-    // classify and surface; spheres and the tree (patches, then all above them in one group)
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 3u : 0u) +
-           (pack ? 1u : 0u) + (moments ? 1u : 0u);
+    // classify and surface; the tree's patches, then all above them in one group
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 1u : 0u) +
+           (tree ? 2u : 0u) + (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -26,9 +26,9 @@ struct Plan {
     // Passes.
     bool occlusion = false; // unregistered colour: which points the colour camera sees
     bool cloud = false;     // any class of points: classify and surface
-    bool spheres = false;   // any forbidden class of points: spheres and tree
+    bool spheres = false;   // any forbidden class of points
     bool thin = false;      // error budget
-    bool pack = false;      // the host reads spheres in a row: the device has memory of its own
+    bool tree = false;      // bounds of spheres up to one root: the GPU's query walks them
     bool hold = false;
     bool moments = false;        // any guidance class
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
@@ -51,6 +51,8 @@ struct Plan {
     // spheres an invocation a pixel, moments one a sub-patch, the rest from shared memory; else a sub-patch
     // and a patch
     bool byPixel = false;
+    bool pack = false; // with byPixel: spheres in a row for the host, for the device has memory of its own
+    bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
     bool arm = false;   // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions

@@ -40,7 +40,7 @@ Expected inOrder(const CloudRig& rig) {
 
 // The device's own choice is one of them only.
 CloudRig::Change packing(bool pack) {
-    return [pack](Plan& plan) { plan.pack = pack; };
+    return [pack](Plan& plan) { plan.pack = plan.byPixel = pack; };
 }
 
 void checkPacked(const CloudRig& rig) {
@@ -117,7 +117,7 @@ TEST_CASE("A picture without one point, with few over the corner of four patches
 TEST_CASE("A set that several threads lay out is the one that a single thread lays out") {
     const CameraInfo camera = pinholeCamera(321, 243);
     const auto shared = [](uint32_t threads) {
-        return [threads](Plan& plan) { plan.pack = true, plan.publishers = threads; };
+        return [threads](Plan& plan) { plan.pack = plan.byPixel = true, plan.publishers = threads; };
     };
     CloudRig one(classesScene(3), camera, shared(1)), three(classesScene(3), camera, shared(3));
     for (uint64_t seed = 1; seed <= 6; ++seed) {
@@ -137,7 +137,10 @@ TEST_CASE("A set that several threads lay out is the one that a single thread la
 
 TEST_CASE("Slots that a GPU query keeps for itself are packed the same") {
     const CameraInfo camera = pinholeCamera(90, 40);
-    CloudRig rig(plainScene(), camera, [](Plan& plan) { plan.query = Plan::Query::Gpu, plan.pack = true; });
+    CloudRig rig(plainScene(), camera, [](Plan& plan) {
+        plan.query = Plan::Query::Gpu;
+        plan.pack = plan.byPixel = true;
+    });
     rig.run(stressPicture(camera, 5));
     checkPacked(rig);
     CHECK(rig.set().keys.size() == rig.host().spheres.size());

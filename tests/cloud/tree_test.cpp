@@ -77,9 +77,15 @@ TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
     CHECK(levels.back().size() == 1);
     CHECK(levels.back()[0].count == report.counts.spheres);
     CHECK(report.counts.nodes == a.nodes);
+    CHECK(rig.counters().nodes == a.nodes);
     CHECK(a.escaped == 0);
     CHECK(a.wrong == 0);
     return a;
+}
+
+// The CPU's query asks for none.
+void withTree(Plan& plan) {
+    plan.tree = true;
 }
 
 } // namespace
@@ -89,7 +95,7 @@ TEST_CASE("Every leaf sphere lies inside its sub-patch, every child inside its p
     TreeAgreement all;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
-        CloudRig rig(c.scene, c.camera);
+        CloudRig rig(c.scene, c.camera, withTree);
         const FrameReport report = rig.run(c.picture);
         const TreeAgreement a = checkTree(rig, report);
         CHECK(a.centre < 1e-6);
@@ -111,7 +117,7 @@ TEST_CASE("The tree holds for tall, wide and odd pictures with held points in it
         Scene scene = plainScene();
         scene.holdSeconds = 0.5;
         scene.errorBudget = 0.0002;
-        CloudRig rig(scene, camera);
+        CloudRig rig(scene, camera, withTree);
         rig.run(stressPicture(camera, 50));
         const FrameReport report = rig.run(stressPicture(camera, 51)); // other dropouts: some points are held
         checkTree(rig, report);
@@ -122,7 +128,7 @@ TEST_CASE("The tree holds for tall, wide and odd pictures with held points in it
 
 TEST_CASE("A set without spheres has an empty root, and old data of unlisted patches never comes back") {
     const CameraInfo camera = pinholeCamera(100, 80);
-    CloudRig rig(plainScene(), camera);
+    CloudRig rig(plainScene(), camera, withTree);
     checkTree(rig, rig.run(drawnPicture(camera, [](int, int) { return 0.7; })));
     for (int frame = 0; frame < 4; ++frame) { // through all sets of the pool
         const FrameReport corner =
@@ -135,4 +141,16 @@ TEST_CASE("A set without spheres has an empty root, and old data of unlisted pat
     CHECK(none.counts.nodes == 0);
     CHECK(rig.tree().back()[0].radius < 0.0);
     checkTree(rig, none);
+}
+
+TEST_CASE("Where no query walks a tree none is built, and its nodes are counted all the same") {
+    for (const CloudCase& c : cloudCases()) {
+        CAPTURE(c.name);
+        CloudRig with(c.scene, c.camera, withTree), without(c.scene, c.camera);
+        const FrameReport a = with.run(c.picture), b = without.run(c.picture);
+        CHECK_FALSE((without.plan().tree || without.set().device.nodes));
+        CHECK(a.counts.nodes == b.counts.nodes);
+        CHECK(with.host().spheres.x == without.host().spheres.x);
+        CHECK(with.host().spheres.radius == without.host().spheres.radius);
+    }
 }

@@ -71,14 +71,15 @@ TEST_CASE("the plan of a scene with everything has every pass in that it needs a
     scene.fixtures.push_back(SceneText::kGuideYellow);
     stage.scene(scene);
     const auto plan = planOf(stage);
-    for (const char* name :
-         {"pass classify", "pass surface", "pass thin", "pass spheres", "pass tree", "pass moments",
-          "buffer colour upload", "buffer memory of points", "thread contact"}) {
+    for (const char* name : {"pass classify", "pass surface", "pass thin", "pass spheres", "pass moments",
+                             "buffer colour upload", "buffer memory of points", "thread contact"}) {
         CAPTURE(name);
         CHECK(plan.at(name).in);
     }
     CHECK(!plan.at("pass occlusion").in);
     CHECK(plan.at("pass occlusion").why.find("registered") != std::string::npos);
+    CHECK(!plan.at("pass tree").in);
+    CHECK(plan.at("pass tree").why.find("grid") != std::string::npos);
     CHECK(plan.at("pass surface").why.find("5x5") != std::string::npos);
     checkRunsThat(stage, plan);
 }
@@ -139,6 +140,7 @@ TEST_CASE("a scene that asks for the query on the GPU gets it in the plan and in
     stage.scene(scene);
     const auto plan = planOf(stage);
     CHECK(plan.at("pass tree_query").in);
+    CHECK(plan.at("pass tree").in);
     checkRunsThat(stage, plan);
 }
 

@@ -83,9 +83,10 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     plan = planOf(scene);
     CHECK((plan.spheres && plan.thin && plan.hold && !plan.moments && !plan.colour && !plan.box));
     CHECK(plan.query == Plan::Query::Cpu);
-    CHECK(plan.dispatchesPerFrame() == 6);
+    CHECK(plan.dispatchesPerFrame() == 4);
     const Plan behindBus = planOf(scene, cameraOf(640, 480), DeviceKind::Discrete);
-    CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 7));
+    CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 4));
+    CHECK((behindBus.keepDepth && !plan.keepDepth && !behindBus.tree));
     CHECK(plan.filterRadius == 2);
     CHECK(plan.edge);
 
@@ -93,7 +94,7 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     plan = planOf(scene);
     CHECK_FALSE((plan.thin || plan.hold || plan.edge || plan.tiled));
     CHECK(plan.filterRadius == 0);
-    CHECK(plan.dispatchesPerFrame() == 5);
+    CHECK(plan.dispatchesPerFrame() == 3);
 
     scene.fixtures.push_back(points(Role::Guidance));
     scene.fixtures[1].lightness = Band{0.1, 0.9};
@@ -112,7 +113,7 @@ TEST_CASE("Occlusion, colour and rays follow the camera") {
     CHECK_FALSE(planOf(scene, camera).occlusion); // no class asks for colour
     scene.fixtures[0].hue = Band{350, 10};
     CHECK(planOf(scene, camera).occlusion);
-    CHECK(planOf(scene, camera).dispatchesPerFrame() == 7);
+    CHECK(planOf(scene, camera).dispatchesPerFrame() == 5);
     camera.registered = true;
     CHECK_FALSE(planOf(scene, camera).occlusion);
     CHECK(planOf(scene, camera).colour);

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/collect_spheres.h"
+
+#include "engine/types/crew.h"
+
+#include <algorithm>
+
+namespace fathom::cloud {
+
+namespace {
+
+constexpr uint32_t kLeastPart = 4096; // spheres
+
+// Pixel, row-major in the picture, of each slot of the patch in the top left corner; held points behind them,
+// which count on from the last pixel. The order in which spheres are collected is by pixel.
+std::array<uint32_t, 512> sourcesOfPatch(uint32_t width, uint32_t pixels) {
+    std::array<uint32_t, 512> sources;
+    for (uint32_t slot = 0; slot < 256; ++slot) {
+        const uint32_t sub = slot >> 4, p = slot & 15;
+        sources[slot] = ((sub >> 2) * 4 + (p >> 2)) * width + (sub & 3) * 4 + (p & 3);
+        sources[256 + slot] = sources[slot] + pixels;
+    }
+    return sources;
+}
+
+// One sphere of a patch: layer * 256 + slot, and its class.
+struct Placed {
+    glm::vec4 sphere;
+    uint32_t place, fixture;
+};
+
+// Writes the host's columns, which are large enough already, in order of patches.
+class SphereColumns {
+public:
+    SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
+        : set_(set)
+        , across_(layout.across)
+        , width_(set.host.camera.depth.width)
+        , sources_(sourcesOfPatch(width_, static_cast<uint32_t>(set.host.camera.depth.pixels()))) {
+        std::copy(rows.begin(), rows.end(), rows_.begin());
+    }
+
+    // All n > 0 spheres of a patch, from the columns' place `first` on; at(i) is the i-th, as Placed.
+    template <class At>
+    void put(uint32_t patch, size_t first, uint32_t n, const At& at) {
+        RegionSpheres& out = set_.host.spheres;
+        // In variables of their own: a byte that is written might be any of them otherwise.
+        float *const x = &out.x[first], *const y = &out.y[first], *const z = &out.z[first],
+                     *const radius = &out.radius[first];
+        uint32_t* const source = &out.source[first];
+        uint8_t* const fixture = &out.fixture[first];
+        const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
+        uint32_t last = 0, from = 0; // a run of one class is counted at its end
+        for (uint32_t i = 0; i < n; ++i) {
+            const Placed p = at(i);
+            x[i] = p.sphere.x, y[i] = p.sphere.y, z[i] = p.sphere.z, radius[i] = p.sphere.w;
+            source[i] = corner + sources_[p.place];
+            fixture[i] = static_cast<uint8_t>(rows_[p.fixture]);
+            if (p.fixture != last) {
+                here_[last] += i - from;
+                last = p.fixture, from = i;
+            }
+        }
+        here_[last] += n - from;
+        for (uint32_t i = 0; i < n && !set_.keys.empty(); ++i) {
+            set_.keys[first + i] = patch * 512 + at(i).place;
+        }
+        tally(n);
+    }
+
+    const SphereCounts& counts() const { return counts_; }
+
+private:
+    void tally(uint32_t n) {
+        counts_.all += n;
+        ++counts_.patches;
+        for (size_t c = 0; c < here_.size(); ++c) {
+            counts_.ofClass[c] += here_[c];
+            counts_.patchesOfClass[c] += here_[c] != 0;
+        }
+        here_.fill(0);
+    }
+
+    FixtureSet& set_;
+    SphereCounts counts_;
+    uint32_t across_, width_;
+    std::array<uint32_t, 512> sources_;
+    std::array<uint32_t, shared::kMaxClasses> rows_{}, here_{}; // here_: spheres of each class in the patch
+};
+
+// Where each patch's spheres begin in the host's columns, from how many the device packed of each.
+uint32_t placePatches(FixtureSet& set, const PatchLayout& layout) {
+    const auto listed = set.device.listed.as<uint32_t>(); // runs of others are of earlier frames
+    const auto runs = set.device.runs.as<glm::uvec2>();
+    uint32_t next = 0;
+    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
+        set.begins[patch] = next;
+        next += listed[patch] != 0 ? runs[patch].y : 0;
+    }
+    set.begins[layout.patches()] = next;
+    return next;
+}
+
+// Of patches [first, end).
+void takeRuns(const FixtureSet& set, uint32_t first, uint32_t end, SphereColumns& columns) {
+    const auto packed = set.device.packed.as<glm::vec4>();
+    const auto tags = set.device.tags.as<uint32_t>();
+    const auto runs = set.device.runs.as<glm::uvec2>();
+    for (uint32_t patch = first; patch < end; ++patch) {
+        const uint32_t n = set.begins[patch + 1] - set.begins[patch];
+        if (n > 0) {
+            const size_t from = runs[patch].x;
+            columns.put(patch, set.begins[patch], n, [&](uint32_t i) {
+                const uint32_t tag = tags[from + i];
+                return Placed{packed[from + i], tag >> 3 & 511, tag & 7};
+            });
+        }
+    }
+}
+
+void add(SphereCounts& to, const SphereCounts& more) {
+    to.all += more.all;
+    to.patches += more.patches;
+    for (size_t c = 0; c < to.ofClass.size(); ++c) {
+        to.ofClass[c] += more.ofClass[c];
+        to.patchesOfClass[c] += more.patchesOfClass[c];
+    }
+}
+
+} // namespace
+
+SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
+                                 const std::vector<uint32_t>& rows, const PatchLayout& layout,
+                                 const Crew& crew)
+    : set_(set)
+    , work_(work)
+    , plan_(plan)
+    , rows_(rows)
+    , layout_(layout) {
+    set.begins.resize(layout.patches() + 1);
+    const uint32_t count =
+        plan.pack ? placePatches(set, layout) : set.device.counters.as<shared::FrameCounters>()[0].spheres;
+    set.host.spheres.resize(count);
+    set.keys.resize(plan.query == Plan::Query::Gpu ? count : 0);
+    counts_.resize(plan.pack ? partsOf(&crew, count, kLeastPart) : 1);
+}
+
+void SphereCollector::take(uint32_t part) noexcept {
+    if (plan_.pack) {
+        takePacked(part);
+    } else {
+        takeSlots();
+    }
+}
+
+SphereCounts SphereCollector::counts() const {
+    SphereCounts all;
+    for (const SphereCounts& part : counts_) {
+        add(all, part);
+    }
+    return all;
+}
+
+// A part begins and ends with a patch, and all have about as many spheres.
+void SphereCollector::takePacked(uint32_t part) {
+    const auto patchAt = [&](uint64_t share) {
+        const uint64_t sphere = set_.begins.back() * share / parts();
+        return static_cast<uint32_t>(std::ranges::lower_bound(set_.begins, sphere) - set_.begins.begin());
+    };
+    SphereColumns columns(set_, rows_, layout_);
+    takeRuns(set_, patchAt(part), patchAt(part + 1), columns);
+    counts_[part] = columns.counts();
+}
+
+void SphereCollector::takeSlots() {
+    const auto listed = set_.device.listed.as<uint32_t>();
+    SphereColumns columns(set_, rows_, layout_);
+    const std::array<std::span<const glm::vec4>, 2> layers{slotSpheres(work_, set_.device).as<glm::vec4>(),
+                                                           slotHeld(work_, set_.device).as<glm::vec4>()};
+    const auto classes = work_.classes.as<uint8_t>();
+    std::array<uint16_t, 512> places; // that hold a sphere
+    uint32_t next = 0;
+    for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
+        set_.begins[patch] = next;
+        uint32_t n = 0;
+        for (uint32_t place = 0; listed[patch] != 0 && place < (plan_.hold ? 512u : 256u); ++place) {
+            places[n] = static_cast<uint16_t>(place);
+            n += layers[place >> 8][patch * 256 + (place & 255)].w >= 0.0f ? 1u : 0u;
+        }
+        if (n > 0) {
+            columns.put(patch, next, n, [&](uint32_t i) {
+                const uint32_t layer = places[i] >> 8u, slot = patch * 256u + (places[i] & 255u);
+                return Placed{layers[layer][slot], places[i], classes[slot] >> (4 * layer) & 15u};
+            });
+        }
+        next += n;
+    }
+    set_.begins[layout_.patches()] = next;
+    counts_[0] = columns.counts();
+}
+
+uint32_t nodesAbove(std::span<const uint32_t> begins, const PatchLayout& layout) {
+    std::vector<uint8_t> used(layout.patches()), above;
+    uint32_t nodes = 0;
+    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
+        used[patch] = begins[patch + 1] > begins[patch];
+        nodes += used[patch];
+    }
+    for (size_t l = 2; l < layout.levels.size(); ++l) {
+        const PatchLayout::Level &below = layout.levels[l - 1], &here = layout.levels[l];
+        above.assign(size_t{here.across} * here.down, 0);
+        for (uint32_t v = 0, i = 0; v < below.down; ++v) {
+            for (uint32_t u = 0; u < below.across; ++u, ++i) {
+                above[v / 4 * here.across + u / 4] |= used[i];
+            }
+        }
+        nodes += static_cast<uint32_t>(std::ranges::count(above, 1));
+        used.swap(above);
+    }
+    return nodes;
+}
+
+} // namespace fathom::cloud

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Region spheres from the device's readback memory to the host's columns, by patch, then layer (seen, held),
+// then slot.
+#pragma once
+
+#include "engine/cloud/fixture_set.h"
+#include "shaders/shared/frame_params.h"
+
+#include <array>
+
+namespace fathom {
+class Crew;
+}
+
+namespace fathom::cloud {
+
+struct SphereCounts {
+    uint32_t all = 0, patches = 0;                                         // patches with at least one sphere
+    std::array<uint32_t, shared::kMaxClasses> ofClass{}, patchesOfClass{}; // a class of points
+};
+
+// Fills set.host.spheres, set.begins and, for a GPU query, set.keys, in parts that several threads may share.
+// rows: row of Scene::fixtures of each class of points. Allocates only when there are more spheres than ever
+// before.
+class SphereCollector {
+public:
+    SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
+                    const std::vector<uint32_t>& rows, const PatchLayout& layout, const Crew& crew);
+
+    uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
+    void take(uint32_t part) noexcept; // each once, in any order, on any thread
+    SphereCounts counts() const;       // when all are taken
+
+private:
+    void takePacked(uint32_t part);
+    void takeSlots();
+
+    FixtureSet& set_;
+    const WorkBuffers& work_;
+    const Plan& plan_;
+    const std::vector<uint32_t>& rows_;
+    const PatchLayout& layout_;
+    std::vector<SphereCounts> counts_; // of each part
+};
+
+// Nodes with spheres that a tree over the patches has, from the patches up to the root.
+uint32_t nodesAbove(std::span<const uint32_t> begins, const PatchLayout& layout);
+
+} // namespace fathom::cloud
