@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/frame_bench.h"
 
-#include "engine/gpu/commands.h"
+#include "apps/verify/pass_rig.h"
 #include "engine/reference/classify.h"
 #include "engine/reference/surface.h"
 
@@ -16,20 +16,6 @@ constexpr double kSamePoint = 2e-5; // [m] float32 chain against float64, at up 
 
 double millis(std::chrono::steady_clock::duration d) {
     return std::chrono::duration<double, std::milli>(d).count();
-}
-
-template <class T>
-std::vector<T> readBack(gpu::Device& device, const gpu::Buffer& buffer) {
-    const gpu::Buffer landing(device, buffer.bytes(), gpu::MemoryKind::Readback, "landing");
-    gpu::Commands commands(device);
-    const gpu::Timeline timeline(device);
-    commands.begin();
-    commands.copy(buffer, landing, buffer.bytes());
-    commands.end();
-    device.submit(commands.handle(), timeline.handle(), 0, 1);
-    timeline.wait(1);
-    const auto view = landing.as<T>();
-    return {view.begin(), view.end()};
 }
 
 } // namespace
@@ -122,29 +108,11 @@ FrameCost FrameBench::costOf(const FrameSamples& samples) const {
 }
 
 std::vector<uint32_t> FrameBench::masks() const {
-    const auto slots = readBack<uint8_t>(device_, cycle_->work().masks);
-    std::vector<uint32_t> out;
-    for (uint32_t v = 0; v < camera_.depth.height; ++v) {
-        for (uint32_t u = 0; u < camera_.depth.width; ++u) {
-            out.push_back(slots[slotOfPixel(u, v, cycle_->layout().across)]);
-        }
-    }
-    return out;
+    return verify::masksOf(device_, *cycle_, camera_);
 }
 
 reference::PointPicture FrameBench::points() const {
-    const auto slots = readBack<glm::vec4>(device_, cycle_->work().points);
-    const auto listed = readBack<uint32_t>(device_, cycle_->work().listed);
-    reference::PointPicture out;
-    for (uint32_t v = 0; v < camera_.depth.height; ++v) {
-        for (uint32_t u = 0; u < camera_.depth.width; ++u) {
-            const uint32_t slot = slotOfPixel(u, v, cycle_->layout().across);
-            const glm::vec4 p = listed[slot / 256] != 0 ? slots[slot] : glm::vec4(0.0f);
-            out.at.push_back(p.w != 0.0f ? dvec3(p) + lease_->host.origin : dvec3(0.0));
-            out.z.push_back(p.w);
-        }
-    }
-    return out;
+    return verify::pointsOf(device_, *cycle_, camera_, lease_->host.origin);
 }
 
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // classify.comp against its float64 twin: class bits, the list of patches, counts.
+#include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -47,7 +48,7 @@ void checkList(CloudRig& rig) {
         }
     }
     CHECK(std::equal(expected.begin(), expected.end(), listed.begin()));
-    auto list = readBack<uint32_t>(vulkan().device, rig.cycle().work().list);
+    auto list = verify::readBack<uint32_t>(vulkan().device, rig.cycle().work().list);
     const auto count = static_cast<size_t>(std::count(expected.begin(), expected.end(), 1u));
     REQUIRE(counters.patchGroups.x == count);
     std::sort(list.begin(), list.begin() + static_cast<long>(count));

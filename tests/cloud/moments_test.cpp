@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // moments.comp against a float64 pass over the same points, patch by patch and class by class.
+#include "apps/verify/read_back.h"
 #include "engine/cloud/guidance_pose.h"
 #include "engine/reference/moments.h"
 #include "tests/support/cloud_rig.h"
@@ -52,7 +53,7 @@ cloud::Moments momentsOf(const shared::PatchMoments& m) {
 void comparePatches(const CloudRig& rig, size_t c, size_t k, MomentsAgreement& a) {
     const std::vector<uint32_t> masks = rig.masks(), listed = rig.listed();
     const reference::PointPicture points = rig.points();
-    const auto all = readBack<shared::PatchMoments>(vulkan().device, rig.set().device.moments);
+    const auto all = verify::readBack<shared::PatchMoments>(vulkan().device, rig.set().device.moments);
     std::vector<cloud::Moments> parts;
     for (uint32_t patch = 0; patch < rig.cycle().layout().patches(); ++patch) {
         if (listed[patch] == 0) {

@@ -33,19 +33,4 @@ struct Vulkan {
 // The device shared by the tests of one program; destroyed when the program ends.
 Vulkan& vulkan();
 
-// Contents of any buffer, copied by the device.
-template <class T>
-std::vector<T> readBack(gpu::Device& device, const gpu::Buffer& buffer) {
-    const gpu::Buffer landing(device, buffer.bytes(), gpu::MemoryKind::Readback, "landing");
-    gpu::Commands commands(device);
-    const gpu::Timeline timeline(device);
-    commands.begin();
-    commands.copy(buffer, landing, buffer.bytes());
-    commands.end();
-    device.submit(commands.handle(), timeline.handle(), 0, 1);
-    timeline.wait(1);
-    const auto view = landing.as<T>();
-    return {view.begin(), view.end()};
-}
-
 } // namespace fathom::test

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames through the passes on a Vulkan device, with every buffer read back as row-major pictures, so that
+// each pass can be compared with its float64 twin fed by what that pass was fed.
+#pragma once
+
+#include "engine/cycle/frame_cycle.h"
+#include "engine/reference/classify.h"
+#include "engine/reference/thin.h"
+#include "engine/reference/tree.h"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace fathom::verify {
+
+// Row-major, as a Frame holds them.
+struct Picture {
+    std::vector<uint16_t> depth;
+    std::vector<uint32_t> colour;
+};
+
+// What the passes left of the last frame: class bits a pixel, and points about `origin` in the base frame,
+// none in patches that are not listed.
+std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera);
+reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera,
+                                 const dvec3& origin);
+
+// One frame cycle. Everything below run() speaks of the last frame; positions are in the base frame. The
+// device must outlive it. One thread.
+class PassRig {
+public:
+    using Change = std::function<void(Plan&)>;
+    // change: what is altered of the plan before anything is built. readers 0: nothing may be leased while
+    // a frame runs.
+    PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
+            uint32_t readers = 1);
+
+    // captureTime < 0: 1/30 s after the one before. No pose: the scene's.
+    FrameReport run(Picture picture, double captureTime = -1.0, const std::optional<Pose>& pose = {});
+
+    const Scene& scene() const { return scene_; }
+    const CameraInfo& camera() const { return camera_; }
+    const Plan& plan() const { return plan_; }
+    const PatchLayout& layout() const { return cycle_->layout(); }
+    FrameCycle& cycle() const { return *cycle_; }
+    int width() const { return static_cast<int>(camera_.depth.width); }
+    int height() const { return static_cast<int>(camera_.depth.height); }
+
+    reference::FrameView view() const;
+    const cloud::FixtureSet& set() const { return *lease_; }
+    const Fixtures& host() const { return lease_->host; }
+    const dvec3& origin() const { return lease_->host.origin; }
+
+    std::vector<uint32_t> listed() const; // a patch
+    std::vector<uint32_t> masks() const;
+    reference::PointPicture points() const; // none in patches that are not listed
+    std::vector<int> forbidden() const;     // class of the forbidden point, -1 = none
+    std::vector<reference::CellThinning> thinning() const;
+    // A pixel, as published: of points seen now, or of those held for their pixels.
+    std::vector<reference::RegionSphere> spheres(bool held = false) const;
+    std::vector<std::vector<reference::Bound>> tree() const; // needs Plan::tree
+    shared::FrameCounters counters() const;
+    reference::CellPicture cells() const; // depths of the occlusion cells [m]
+
+private:
+    uint32_t slot(int u, int v) const {
+        return slotOfPixel(static_cast<uint32_t>(u), static_cast<uint32_t>(v), layout().across);
+    }
+
+    gpu::Device& device_;
+    Scene scene_;
+    CameraInfo camera_;
+    Plan plan_;
+    std::unique_ptr<FrameCycle> cycle_;
+    cloud::FixturePool::Lease lease_;
+    Picture picture_;
+    Pose pose_;
+    uint32_t frames_ = 0;
+};
+
+} // namespace fathom::verify
