@@ -16,8 +16,8 @@ layout(constant_id = 4) const uint kLeaks = 1;      // 1: within near..far neigh
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points
 layout(constant_id = 6) const uint kFan = 0;        // 1: pixels are beams at equal angles
 layout(constant_id = 7) const uint kBeam = 0;       // 1: spheres grow by 3 sigma of their points
-layout(constant_id = 8) const uint kTree = 1;       // 1: a query asks for bounds
-layout(constant_id = 9) const uint kPack = 0;       // 1 (with kByPixel): the host reads a row
+layout(constant_id = 8) const uint kTree = 1;       // 1: a query asks for bounds and slots
+layout(constant_id = 9) const uint kPack = 0;       // 1 (with kByPixel): the host reads a row; 0: it reads radii beside points
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
@@ -33,6 +33,8 @@ layout(std430, binding = 10) writeonly buffer KeptTime { uint keptTime[]; }; // 
 layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory
 layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
+layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
+layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
 layout(std430, binding = 14) writeonly buffer Classes { uvec4 classes[]; };     // a byte a slot: class of the sphere | class of the held one << 4
 layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
@@ -122,9 +124,13 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
     }
     if (kHold != 0) {
         heldSphere = updateMemory(slot, point.xyz, c, more, heldClass, remembered);
-        held[slot] = heldSphere;
     }
-    spheres[slot] = sphere;
+    if (kTree != 0) {
+        spheres[slot] = sphere;
+        if (kHold != 0) {
+            held[slot] = heldSphere;
+        }
+    }
     uint classBits = (c == kNone ? 0u : c) | heldClass << 4;
     return PixelResult(sphere, heldSphere, (mask != 0u ? 1u : 0u) | remembered << 1 | classBits << 8);
 }
@@ -145,7 +151,9 @@ Notes noted(Notes n, const uint p, uint note) {
 // Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
 void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     bits[sub] = notes.marks;
-    classes[sub] = notes.classes;
+    if (kPack == 0) {
+        classes[sub] = notes.classes;
+    }
     if (kTree != 0) {
         nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
         nodeCounts[sub] = count;
@@ -158,6 +166,16 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     }
     if (kHold != 0 && notes.remembered != 0) {
         atomicAdd(live[sub >> 4], notes.remembered);
+    }
+}
+
+// Of row k of a sub-patch: seen points and held ones.
+void putRadii(uint sub, uint k, vec4 seenHere, vec4 heldHere) {
+    if (kPack == 0) {
+        radii[sub * 4u + k] = seenHere;
+        if (kHold != 0) {
+            heldRadii[sub * 4u + k] = heldHere;
+        }
     }
 }
 
@@ -179,6 +197,11 @@ void wholeSub(uint sub) {
             mine[16u * (kLayers - 1u) + p] = r.held;
         }
         notes = noted(notes, p, r.note);
+    }
+    [[unroll]] for (uint k = 0; k < 4u; ++k) {
+        const uint a = 4u * k, b = 16u * (kLayers - 1u) + a;
+        putRadii(sub, k, vec4(mine[a].w, mine[a + 1u].w, mine[a + 2u].w, mine[a + 3u].w),
+                 vec4(mine[b].w, mine[b + 1u].w, mine[b + 2u].w, mine[b + 3u].w));
     }
     vec3 sum = vec3(0.0);
     [[unroll]] for (uint k = 0; k < 16u * kLayers; ++k) {
@@ -208,6 +231,11 @@ void boundOfGroup(uint patchIndex, uint s) {
     for (uint k = 0; k < 16u * kLayers; ++k) {
         vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
         radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
+    }
+    for (uint k = 0; k < 4u; ++k) {
+        uint a = s * 16u + 4u * k, b = 256u * (kLayers - 1u) + a;
+        putRadii(patchIndex * 16u + s, k, vec4(all[a].w, all[a + 1u].w, all[a + 2u].w, all[a + 3u].w),
+                 vec4(all[b].w, all[b + 1u].w, all[b + 2u].w, all[b + 3u].w));
     }
     Notes notes = Notes(0, 0, uvec4(0));
     [[unroll]] for (uint p = 0; p < 16u; ++p) {

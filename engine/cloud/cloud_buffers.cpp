@@ -15,8 +15,9 @@ namespace {
 using gpu::Buffer;
 using gpu::MemoryKind;
 
+// Of what the host reads when nothing is packed.
 MemoryKind slotMemory(const Plan& plan) {
-    return plan.pack ? MemoryKind::Device : MemoryKind::Readback;
+    return plan.spheres && !plan.pack ? MemoryKind::Readback : MemoryKind::Device;
 }
 
 void fillRays(const Buffer& rays, const Intrinsics& lens) {
@@ -41,23 +42,21 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     listed = Buffer(device, patches * 4, MemoryKind::Device, "listed");
     list = Buffer(device, patches * 4, MemoryKind::Device, "list");
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Device, "counters");
-    points = Buffer(device, slots * 16, MemoryKind::Device, "points");
+    points = Buffer(device, slots * 16, slotMemory(plan), "points");
     if (plan.keepDepth) {
         depth = Buffer(device, 2ull * camera.depth.pixels(), MemoryKind::Device, "depth on the device");
     }
     if (plan.thin) {
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
-    if (plan.spheres) {
-        classes = Buffer(device, slots, slotMemory(plan), "classes");
-    }
-    if (plan.query == Plan::Query::Cpu) {
-        spheres = Buffer(device, slots * 16, slotMemory(plan), "spheres");
-        held = plan.hold ? Buffer(device, slots * 16, slotMemory(plan), "held") : Buffer();
+    if (plan.spheres && !plan.pack) {
+        classes = Buffer(device, slots, MemoryKind::Readback, "classes");
+        radii = Buffer(device, slots * 4, MemoryKind::Readback, "radii");
+        heldRadii = plan.hold ? Buffer(device, slots * 4, MemoryKind::Readback, "held radii") : Buffer();
     }
     if (plan.hold) {
         seen = Buffer(device, slots * 16, MemoryKind::Device, "seen");
-        kept = Buffer(device, slots * 16, MemoryKind::Device, "kept");
+        kept = Buffer(device, slots * 16, slotMemory(plan), "kept");
         keptTime = Buffer(device, slots * 4, MemoryKind::Device, "keptTime");
         live = Buffer(device, patches * 4, MemoryKind::Device, "live");
     }
@@ -106,9 +105,9 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     listed = Buffer(device, patches * 4, MemoryKind::Readback, "set listed");
     if (plan.spheres) {
         bits = Buffer(device, patches * 16 * 4, MemoryKind::Readback, "bits");
-        if (plan.query == Plan::Query::Gpu) {
-            spheres = Buffer(device, slots * 16, slotMemory(plan), "set spheres");
-            held = plan.hold ? Buffer(device, slots * 16, slotMemory(plan), "set held") : Buffer();
+        if (plan.tree) {
+            spheres = Buffer(device, slots * 16, MemoryKind::Device, "set spheres");
+            held = plan.hold ? Buffer(device, slots * 16, MemoryKind::Device, "set held") : Buffer();
         }
     }
     if (plan.tree) {

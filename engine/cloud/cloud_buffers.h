@@ -28,10 +28,11 @@ struct WorkBuffers {
     gpu::Buffer live;                 // uint a patch: points in memory
     gpu::Buffer nearest;              // uint a cell of the colour picture: occlusion
     gpu::Buffer rays;                 // vec2 a pixel, row-major
-    gpu::Buffer spheres, held;        // vec4 a slot, R < 0 = none; empty with a GPU query: a set has its own
-    gpu::Buffer classes;              // uint8 a slot: class of the sphere | class of the held one << 4
-    gpu::Buffer depth;                // uint16 a pixel, row-major: what classify read; empty unless kept
-    // spheres, held and classes are what the CPU reads when the plan packs nothing.
+    gpu::Buffer radii, heldRadii;     // float a slot: R of the sphere about its point, and about the point in
+                                      // `kept`; < 0 = none. Empty with pack
+    gpu::Buffer classes; // uint8 a slot: class of the sphere | class of the held one << 4; empty with pack
+    gpu::Buffer depth;   // uint16 a pixel, row-major: what classify read; empty unless kept
+    // points, kept, both radii and classes are what the CPU reads when the plan packs nothing.
     gpu::Buffer unused; // stands in for what the plan leaves out
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
@@ -74,15 +75,6 @@ struct SetBuffers {
     gpu::Buffer listed;        // uint a patch
     gpu::Buffer points, masks; // copies for guidance classes that need their points
 };
-
-// Where a frame's slots of spheres are: in the set when a GPU query reads them later, else passed from pass
-// to pass.
-inline const gpu::Buffer& slotSpheres(const WorkBuffers& work, const SetBuffers& set) {
-    return set.spheres ? set.spheres : work.spheres;
-}
-inline const gpu::Buffer& slotHeld(const WorkBuffers& work, const SetBuffers& set) {
-    return set.spheres ? set.held : work.held;
-}
 
 // Depth for the passes after classify.
 inline const gpu::Buffer& depthOf(const WorkBuffers& work, const UploadBuffers& upload) {

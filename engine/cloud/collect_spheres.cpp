@@ -118,6 +118,16 @@ void takeRuns(const FixtureSet& set, uint32_t first, uint32_t end, SphereColumns
     }
 }
 
+// Which of a patch's 256 slots have a radius, as places from `first` on. Writes one place beyond them.
+uint32_t placesOf(const float* radii, uint32_t first, uint16_t* places) {
+    uint32_t n = 0;
+    for (uint32_t slot = 0; slot < 256; ++slot) {
+        places[n] = static_cast<uint16_t>(first + slot);
+        n += radii[slot] >= 0.0f ? 1u : 0u;
+    }
+    return n;
+}
+
 void add(SphereCounts& to, const SphereCounts& more) {
     to.all += more.all;
     to.patches += more.patches;
@@ -175,22 +185,23 @@ void SphereCollector::takePacked(uint32_t part) {
 void SphereCollector::takeSlots() {
     const auto listed = set_.device.listed.as<uint32_t>();
     SphereColumns columns(set_, rows_, layout_);
-    const std::array<std::span<const glm::vec4>, 2> layers{slotSpheres(work_, set_.device).as<glm::vec4>(),
-                                                           slotHeld(work_, set_.device).as<glm::vec4>()};
+    const std::array<std::span<const glm::vec4>, 2> points{work_.points.as<glm::vec4>(),
+                                                           work_.kept.as<glm::vec4>()};
+    const std::array<std::span<const float>, 2> radii{work_.radii.as<float>(), work_.heldRadii.as<float>()};
     const auto classes = work_.classes.as<uint8_t>();
-    std::array<uint16_t, 512> places; // that hold a sphere
+    std::array<uint16_t, 513> places; // that hold a sphere, and one more
     uint32_t next = 0;
     for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
         set_.begins[patch] = next;
         uint32_t n = 0;
-        for (uint32_t place = 0; listed[patch] != 0 && place < (plan_.hold ? 512u : 256u); ++place) {
-            places[n] = static_cast<uint16_t>(place);
-            n += layers[place >> 8][patch * 256 + (place & 255)].w >= 0.0f ? 1u : 0u;
+        for (uint32_t layer = 0; listed[patch] != 0 && layer < (plan_.hold ? 2u : 1u); ++layer) {
+            n += placesOf(&radii[layer][patch * 256], layer * 256, &places[n]);
         }
         if (n > 0) {
             columns.put(patch, next, n, [&](uint32_t i) {
                 const uint32_t layer = places[i] >> 8u, slot = patch * 256u + (places[i] & 255u);
-                return Placed{layers[layer][slot], places[i], classes[slot] >> (4 * layer) & 15u};
+                return Placed{glm::vec4(glm::vec3(points[layer][slot]), radii[layer][slot]), places[i],
+                              classes[slot] >> (4 * layer) & 15u};
             });
         }
         next += n;

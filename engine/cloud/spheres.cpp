@@ -12,7 +12,7 @@ SpheresPass::SpheresPass(const CloudContext& c)
     : context_(c)
     , pipeline_(c.device, {"spheres",
                            spheres_spv,
-                           24,
+                           26,
                            true,
                            0,
                            std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup,
@@ -34,32 +34,15 @@ void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
     const WorkBuffers& w = context_.work;
     bindings_[upload].clear();
     for (const SetBuffers* s : context_.sets) {
-        bindings_[upload].emplace_back(context_.device, pipeline_,
-                                       std::initializer_list<const gpu::Buffer*>{&up.params,
-                                                                                 &depthOf(w, up),
-                                                                                 &w.masks,
-                                                                                 &w.points,
-                                                                                 &w.listed,
-                                                                                 &w.list,
-                                                                                 &w.growth,
-                                                                                 &w.counters,
-                                                                                 &w.seen,
-                                                                                 &w.kept,
-                                                                                 &w.keptTime,
-                                                                                 &w.live,
-                                                                                 &slotSpheres(w, *s),
-                                                                                 &slotHeld(w, *s),
-                                                                                 &w.classes,
-                                                                                 &s->bits,
-                                                                                 &s->nodes,
-                                                                                 &s->nodeCounts,
-                                                                                 &w.seen,
-                                                                                 &w.kept,
-                                                                                 &w.keptTime,
-                                                                                 &s->packed,
-                                                                                 &s->tags,
-                                                                                 &s->runs},
-                                       w.unused);
+        bindings_[upload].emplace_back(
+            context_.device, pipeline_,
+            std::initializer_list<const gpu::Buffer*>{
+                &up.params,  &depthOf(w, up), &w.masks,    &w.points,  &w.listed,   &w.list,
+                &w.growth,   &w.counters,     &w.seen,     &w.kept,    &w.keptTime, &w.live,
+                &s->spheres, &s->held,        &w.classes,  &s->bits,   &s->nodes,   &s->nodeCounts,
+                &w.seen,     &w.kept,         &w.keptTime, &s->packed, &s->tags,    &s->runs,
+                &w.radii,    &w.heldRadii},
+            w.unused);
     }
 }
 

@@ -222,7 +222,6 @@ FrameReport FrameCycle::finish() {
         if (plan_.cloud) {
             report.inPlace = uploads_[f.slot].depth.imported();
             timeline_.wait(ticket_);
-            report.passMs = passes_.watch(f.slot).intervalsMs();
         }
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
@@ -236,6 +235,9 @@ FrameReport FrameCycle::finish() {
         }
         pool_.publish();
         f.times.published = Clock::now();
+        if (plan_.cloud) {
+            report.passMs = passes_.watch(f.slot).intervalsMs(); // now that nobody waits for the set
+        }
         report.publishMs = millis(f.times.landed, f.times.published);
         warnLeaks(lastCounts_);
     }

@@ -136,9 +136,10 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
-    buffer("sphere slots", plan.spheres, slots * (plan.hold ? 33u : 17u),
-           plan.query == Plan::Query::Gpu ? "of one fixture set: the GPU query reads them"
-                                          : "handed from pass to pass");
+    buffer("sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
+           plan.tree ? "of one fixture set: the GPU query reads them" : "no query asks the device");
+    buffer("radii and classes", plan.spheres && !plan.pack, slots * (plan.hold ? 9u : 5u),
+           plan.pack ? "the host reads packed spheres" : "the host reads them beside the points");
     buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u) + 8ull * layout.patches(),
            plan.pack ? "of one fixture set" : "the host reads slots");
     buffer("tree nodes", plan.tree, 20ull * layout.nodes(),

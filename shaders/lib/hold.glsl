@@ -38,8 +38,11 @@ vec4 updateMemory(uint slot, vec3 point, uint now, float grown, out uint heldCla
     bool oldStays = all(bvec3(oldNote != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));
-    kept[slot] = hold;
-    keptTime[slot] = lastStays ? params.time.z : when; // it was seen in the last frame
+    uint keptAt = lastStays ? params.time.z : when; // it was seen in the last frame
+    if (any(bvec2(keptAt != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) { // most slots hold nothing, and did not
+        kept[slot] = hold;
+        keptTime[slot] = keptAt;
+    }
     uint note = floatBitsToUint(hold.w), holdClass = classOfNote(note);
     remembered += (now != kNone ? 1u : 0u) + (holdClass != 0 ? 1u : 0u);
     heldClass = max(holdClass, 1u) - 1u;

@@ -58,7 +58,10 @@ TEST_CASE("A fan's points lie on its beams and each sphere grows by three sigma 
             Scene scene = plainScene();
             scene.errorBudget = 0.001; // thinning stays out all the same
             scene.baseTcamera = {{0.3, -0.2, 0.1}, rotationExp({0.2, 0.1, -0.3})};
-            CloudRig rig(scene, fanCamera(width, height), [&](Plan& plan) { plan.byPixel = byPixel; });
+            CloudRig rig(scene, fanCamera(width, height), [&](Plan& plan) {
+                plan.byPixel = byPixel;
+                plan.pack = plan.pack && byPixel;
+            });
             CHECK_FALSE(rig.plan().thin);
             rig.run(stressPicture(rig.camera(), width));
             compare(rig, worst);

@@ -138,7 +138,7 @@ TEST_CASE("With hold 0 nothing is held and no memory exists") {
     CHECK_FALSE(rig.plan().hold);
     for (const gpu::Buffer* buffer :
          {&rig.cycle().work().seen, &rig.cycle().work().kept, &rig.cycle().work().keptTime,
-          &rig.cycle().work().live, &rig.set().device.held}) {
+          &rig.cycle().work().live, &rig.cycle().work().heldRadii}) {
         CHECK_FALSE(static_cast<bool>(*buffer));
     }
 }

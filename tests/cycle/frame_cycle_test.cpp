@@ -89,26 +89,26 @@ void checkBuffers(const CloudRig& rig) {
     CHECK(built(w.growth) == plan.thin);
     CHECK(built(w.nearest) == plan.occlusion);
     CHECK(built(w.rays) == plan.rays);
-    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live, &w.held}) {
+    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live}) {
         CHECK(built(*b) == plan.hold);
     }
+    CHECK(built(w.heldRadii) == (plan.hold && !plan.pack));
     for (const gpu::Buffer* b :
          {&w.masks, &w.listed, &w.list, &w.counters, &w.points, &s.counters, &s.listed}) {
         CHECK(built(*b) == plan.cloud);
     }
-    for (const gpu::Buffer* b : {&w.spheres, &w.classes, &s.bits}) {
-        CHECK(built(*b) == plan.spheres);
-    }
-    for (const gpu::Buffer* b : {&s.nodes, &s.nodeCounts}) {
+    CHECK(built(s.bits) == plan.spheres);
+    CHECK((built(w.radii) && built(w.classes)) == (plan.spheres && !plan.pack));
+    for (const gpu::Buffer* b : {&s.nodes, &s.nodeCounts, &s.spheres}) {
         CHECK(built(*b) == plan.tree);
     }
+    CHECK(built(s.held) == (plan.tree && plan.hold));
     CHECK(built(w.depth) == plan.keepDepth);
     for (const gpu::Buffer* b : {&s.packed, &s.tags, &s.runs}) {
         CHECK(built(*b) == plan.pack);
     }
     CHECK(built(s.moments) == plan.moments);
     CHECK((built(s.points) && built(s.masks)) == plan.guidancePoints);
-    CHECK_FALSE(built(s.spheres)); // the query is on the CPU here
     const auto sizeOf = [&](const char* name, uint64_t bytes) {
         const auto item = std::find_if(plan.items.begin(), plan.items.end(), [&](const Plan::Item& i) {
             return i.kind == "buffer" && i.name == name;
@@ -122,7 +122,8 @@ void checkBuffers(const CloudRig& rig) {
     sizeOf("thinning cells", w.growth.bytes());
     sizeOf("rays", w.rays.bytes());
     sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
-    sizeOf("sphere slots", w.spheres.bytes() + w.held.bytes() + w.classes.bytes());
+    sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes());
+    sizeOf("radii and classes", w.radii.bytes() + w.heldRadii.bytes() + w.classes.bytes());
     sizeOf("packed spheres", s.packed.bytes() + s.tags.bytes() + s.runs.bytes());
     sizeOf("tree nodes", s.nodes.bytes() + s.nodeCounts.bytes());
     sizeOf("moments", s.moments.bytes());
