@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Faults that come from outside, each with its figure: what the hand feels until when, and how it comes back.
-// docs/README.md names them all.
+// docs/robustness.md names them all.
 #include "engine/types/error.h"
 
 #include <doctest/doctest.h>
