@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <exception>
 
 namespace fathom::cloud {
 
@@ -140,9 +141,14 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const Scene& scene
     SphereCollector spheres(set, work, plan, rows, layout, crew);
     const uint32_t guidance = plan.moments ? 1 : 0, pairs = (layout.down + 1) / 2, runs = (pairs + 3) / 4;
     std::atomic<uint32_t> forbidden{0};
+    std::exception_ptr failed; // of the one part that takes memory: a job must not throw
     crew.run(guidance + spheres.parts() + runs, [&](uint32_t part) {
         if (part < guidance) {
-            takeGuidance(set, scene, rows, layout);
+            try {
+                takeGuidance(set, scene, rows, layout);
+            } catch (...) {
+                failed = std::current_exception();
+            }
         } else if (part < guidance + spheres.parts()) {
             spheres.take(part - guidance);
         } else {
@@ -152,6 +158,9 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const Scene& scene
             }
         }
     });
+    if (failed) {
+        std::rethrow_exception(failed);
+    }
     const SphereCounts all = spheres.counts();
     counts.spheres = all.all;
     counts.patches = all.patches;

@@ -235,9 +235,7 @@ FrameReport FrameCycle::finish() {
         }
         pool_.publish();
         f.times.published = Clock::now();
-        if (plan_.cloud) {
-            report.passMs = passes_.watch(f.slot).intervalsMs(); // now that nobody waits for the set
-        }
+        report.passMs = passTimes(f);
         report.publishMs = millis(f.times.landed, f.times.published);
         warnLeaks(lastCounts_);
     }
@@ -251,6 +249,18 @@ FrameReport FrameCycle::finish() {
     report.latencyMs = millis(f.times.started, Clock::now());
     report.times = f.times;
     return report;
+}
+
+// Asked for when nobody waits for the set any more. It is out: a device that is lost by now says so at the
+// next submission.
+std::vector<double> FrameCycle::passTimes(const InFlight& f) const {
+    try {
+        if (plan_.cloud) {
+            return passes_.watch(f.slot).intervalsMs();
+        }
+    } catch (const DeviceFailed&) {
+    }
+    return std::vector<double>(passNames().size(), 0.0);
 }
 
 void FrameCycle::warnLeaks(const cloud::FrameCounts& counts) {
