@@ -21,7 +21,7 @@ struct Need {
 // What a frame selects.
 struct Load {
     double pixels, slots, selected, spheres, tapsPerPixel;
-    bool hold, colour, inPlace, pack, keepDepth;
+    bool hold, colour, inPlace, pack, keepDepth, thin, tree;
 };
 
 Load loadOf(const FrameBench& bench, const FrameReport& report) {
@@ -46,26 +46,37 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.inPlace = bench.plan().inPlace;
     load.keepDepth = bench.plan().keepDepth;
     load.pack = bench.plan().pack;
+    load.thin = bench.plan().thin;
+    load.tree = bench.plan().tree;
     return load;
+}
+
+// Of `spheres`: points, class bits, thinning and bits of forbidden pixels; with hold the points seen and
+// kept, when, and the depth, and what is seen now (what is kept is written only where it changes); then what
+// a query or the host reads.
+double sphereBytes(const Load& l) {
+    const double hold = l.hold ? 16.0 + 16.0 + 4.0 + 2.0 + 16.0 : 0.0;
+    const double layers = l.hold ? 2.0 : 1.0;
+    const double radii = l.pack ? 0.0 : 4.0 * layers + 1.0;
+    const double whole = l.tree ? 16.0 * layers + 20.0 / 16.0 : 0.0;
+    return l.slots * (16.0 + 1.0 + (l.thin ? 1.0 : 0.0) + 0.25 + hold + radii + whole) +
+           (l.pack ? 20.0 * l.spheres : 0.0);
 }
 
 // Each buffer counted once, however often a pass reads it: what a perfect cache would move.
 std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
-    const double held =
-        l.hold ? 16.0 + 2.0 * (16.0 + 16.0 + 4.0) : 0.0; // held sphere; seen, kept, time: read, written
-    const double packed = l.pack ? 20.0 * l.spheres : 0.0;
     return {
         {"upload",
          {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0,
           true}},
         {"classify",
-         {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 4.0), 40.0 * l.pixels,
+         {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 1.0), 40.0 * l.pixels,
           false}},
-        {"surface", {l.slots * (4.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
-        {"thin", {l.slots * (4.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
-        {"spheres", {l.slots * (4.0 + 16.0 + 1.0 + 16.0 + 4.0 + held) + packed, 60.0 * l.slots, false}},
+        {"surface", {l.slots * (1.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
+        {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
+        {"spheres", {sphereBytes(l), 60.0 * l.slots, false}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0, false}},
-        {"moments", {l.slots * 20.0 + l.slots / 256.0 * 64.0, 40.0 * l.selected, false}},
+        {"moments", {l.slots * 17.0 + l.slots / 256.0 * 64.0, 40.0 * l.selected, false}},
         {"publish", {2.0 * l.pixels + l.spheres * (20.0 + 3.0 * 21.0), 0.0, true}},
     };
 }

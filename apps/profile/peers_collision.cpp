@@ -16,19 +16,13 @@ namespace {
 constexpr double kReach = 0.01; // [m]
 constexpr size_t kPoses = 8;    // a timed sample is one query at each
 
-// The device builds a tree for its own query only.
-Scene withTree(Scene scene) {
-    scene.contact.where = Scene::Contact::Where::Gpu;
-    return scene;
-}
-
 // One set of spheres, and the device's copy of it.
 struct Rig {
     FrameBench bench;
     double treeMs; // device time of the passes that make spheres and tree, p50
 
     Rig(const StudyContext& context, const ShotSource& source)
-        : bench(context.device, withTree(everyPointScene()), source.camera)
+        : bench(context.device, everyPointScene(), source.camera)
         , treeMs(treeTime(bench.measure(source.shots, context.settings.effort()))) {}
     static double treeTime(const FrameCost& cost) {
         const auto spheres = cost.passes.find("spheres"), tree = cost.passes.find("tree");

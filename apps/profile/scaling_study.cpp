@@ -23,7 +23,8 @@ Scene sceneWith(const Settings& settings, uint32_t classes) {
     Settings plain = settings;
     plain.source.clear();
     Scene scene = studyScene(plain);
-    for (uint32_t c = 2; c < classes; ++c) { // more hues that the picture does not show
+    scene.contact.where = Scene::Contact::Where::Cpu; // the frame alone: `query` measures the device's
+    for (uint32_t c = 2; c < classes; ++c) {          // more hues that the picture does not show
         FixtureClass f = scene.fixtures.front();
         f.name = "class " + std::to_string(c + 1);
         f.role = c % 2 == 0 ? Role::Forbidden : Role::Guidance;
