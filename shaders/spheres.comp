@@ -33,8 +33,6 @@ layout(std430, binding = 10) writeonly buffer KeptTime { uint keptTime[]; }; // 
 layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory
 layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
-layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
-layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
 layout(std430, binding = 14) writeonly buffer Classes { uvec4 classes[]; };     // a byte a slot: class of the sphere | class of the held one << 4
 layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
@@ -42,7 +40,9 @@ layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 21) writeonly buffer Packed { vec4 packedSpheres[]; };
 layout(std430, binding = 22) writeonly buffer Tags { uint tags[]; };  // (layer * 256 + slot in the patch) * 8 + class
 layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; }; // listed patch -> place of its first packed sphere, and how many
-// The same three, to read: an invocation reads a slot before it writes it, and no other does either.
+layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
+layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
+// Seen, kept and when, to read: an invocation reads a slot before it writes it, and no other does either.
 layout(binding = 18) uniform samplerBuffer seenBefore;
 layout(binding = 19) uniform samplerBuffer keptBefore;
 layout(binding = 20) uniform usamplerBuffer keptTimeBefore;

@@ -119,6 +119,39 @@ std::vector<reference::RegionSphere> PassRig::spheres(bool held) const {
     return out;
 }
 
+// Centre about the origin and R of each, R < 0 = none.
+std::vector<glm::vec4> PassRig::slots(bool held) const {
+    const cloud::WorkBuffers& work = cycle_->work();
+    if (plan_.tree) {
+        return readBack<glm::vec4>(device_, held ? set().device.held : set().device.spheres);
+    }
+    auto slots = readBack<glm::vec4>(device_, held ? work.kept : work.points);
+    const auto radii = readBack<float>(device_, held ? work.heldRadii : work.radii);
+    for (size_t i = 0; i < slots.size(); ++i) {
+        slots[i].w = radii[i];
+    }
+    return slots;
+}
+
+std::vector<reference::RegionSphere> PassRig::slotSpheres(bool held) const {
+    const auto here = slots(held);
+    const auto work = listed();
+    const auto classes =
+        plan_.pack ? std::vector<uint8_t>() : readBack<uint8_t>(device_, cycle_->work().classes);
+    std::vector<reference::RegionSphere> out;
+    for (int v = 0; v < height(); ++v) {
+        for (int u = 0; u < width(); ++u) {
+            const uint32_t s = slot(u, v);
+            reference::RegionSphere& sphere = out.emplace_back();
+            if (work[s / 256] != 0 && here[s].w >= 0.0f) {
+                const int cls = classes.empty() ? -1 : classes[s] >> (held ? 4 : 0) & 15;
+                sphere = {dvec3(here[s]) + origin(), here[s].w, cls};
+            }
+        }
+    }
+    return out;
+}
+
 std::vector<std::vector<reference::Bound>> PassRig::tree() const {
     const auto nodes = readBack<glm::vec4>(device_, set().device.nodes);
     const auto counts = readBack<uint32_t>(device_, set().device.nodeCounts);

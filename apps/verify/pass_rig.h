@@ -60,11 +60,15 @@ public:
     std::vector<reference::CellThinning> thinning() const;
     // A pixel, as published: of points seen now, or of those held for their pixels.
     std::vector<reference::RegionSphere> spheres(bool held = false) const;
+    // The same from the device's slots: whole with Plan::tree, else radii beside points; not there with
+    // Plan::pack alone. Classes are -1 with pack.
+    std::vector<reference::RegionSphere> slotSpheres(bool held = false) const;
     std::vector<std::vector<reference::Bound>> tree() const; // needs Plan::tree
     shared::FrameCounters counters() const;
     reference::CellPicture cells() const; // depths of the occlusion cells [m]
 
 private:
+    std::vector<glm::vec4> slots(bool held) const;
     uint32_t slot(int u, int v) const {
         return slotOfPixel(static_cast<uint32_t>(u), static_cast<uint32_t>(v), layout().across);
     }

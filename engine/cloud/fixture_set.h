@@ -15,7 +15,7 @@ struct FixtureSet {
     RegionGrid grid;              // over host.spheres
     std::vector<uint32_t> keys;   // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending;
                                   // empty without a GPU query
-    std::vector<uint32_t> begins; // of each patch: place of its first in host.spheres; and the end
+    std::vector<uint32_t> begins; // of each patch: place of its first sphere as collected; and the end
     SetBuffers device;
 
     FixtureSet() = default; // of the host alone

@@ -139,9 +139,13 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
            plan.tree ? "of one fixture set: the GPU query reads them" : "no query asks the device");
     buffer("radii and classes", plan.spheres && !plan.pack, slots * (plan.hold ? 9u : 5u),
-           plan.pack ? "the host reads packed spheres" : "the host reads them beside the points");
+           !plan.spheres ? "no forbidden class of points"
+           : plan.pack   ? "the host reads packed spheres"
+                         : "the host reads them beside the points");
     buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u) + 8ull * layout.patches(),
-           plan.pack ? "of one fixture set" : "the host reads slots");
+           !plan.spheres ? "no forbidden class of points"
+           : plan.pack   ? "of one fixture set"
+                         : "the host reads radii beside the points");
     buffer("tree nodes", plan.tree, 20ull * layout.nodes(),
            plan.tree ? "of one fixture set" : "no query walks a tree");
     buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");

@@ -42,7 +42,7 @@ SpheresAgreement compareSpheres(const CloudRig& rig) {
 // masks.
 void checkHost(const CloudRig& rig, const FrameReport& report) {
     const RegionSpheres& host = rig.host().spheres;
-    const auto spheres = rig.spheres();
+    const auto spheres = rig.plan().pack ? rig.spheres() : rig.slotSpheres();
     const auto rows = cloud::classRows(rig.scene());
     const auto width = static_cast<uint32_t>(rig.width());
     uint32_t before = 0, wrong = 0;

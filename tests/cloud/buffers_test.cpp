@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is allocated against what the plan says, for plans of every kind of device.
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+bool built(const gpu::Buffer& buffer) {
+    return static_cast<bool>(buffer);
+}
+
+// Each buffer exists exactly when the plan has it, and is as large as the plan says.
+void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::SetBuffers& s) {
+    CHECK(built(w.growth) == plan.thin);
+    CHECK(built(w.nearest) == plan.occlusion);
+    CHECK(built(w.rays) == plan.rays);
+    for (const gpu::Buffer* b : {&w.seen, &w.kept, &w.keptTime, &w.live}) {
+        CHECK(built(*b) == plan.hold);
+    }
+    CHECK(built(w.heldRadii) == (plan.hold && !plan.pack));
+    for (const gpu::Buffer* b :
+         {&w.masks, &w.listed, &w.list, &w.counters, &w.points, &s.counters, &s.listed}) {
+        CHECK(built(*b) == plan.cloud);
+    }
+    CHECK(built(s.bits) == plan.spheres);
+    CHECK((built(w.radii) && built(w.classes)) == (plan.spheres && !plan.pack));
+    for (const gpu::Buffer* b : {&s.nodes, &s.nodeCounts, &s.spheres}) {
+        CHECK(built(*b) == plan.tree);
+    }
+    CHECK(built(s.held) == (plan.tree && plan.hold));
+    CHECK(built(w.depth) == plan.keepDepth);
+    for (const gpu::Buffer* b : {&s.packed, &s.tags, &s.runs}) {
+        CHECK(built(*b) == plan.pack);
+    }
+    CHECK(built(s.moments) == plan.moments);
+    CHECK((built(s.points) && built(s.masks)) == plan.guidancePoints);
+    const auto sizeOf = [&](const char* name, uint64_t bytes) {
+        const auto item = std::find_if(plan.items.begin(), plan.items.end(), [&](const Plan::Item& i) {
+            return i.kind == "buffer" && i.name == name;
+        });
+        REQUIRE(item != plan.items.end());
+        CAPTURE(name);
+        CHECK(item->in == (bytes != 0));
+        CHECK((item->bytes + 15) / 16 * 16 == bytes);
+    };
+    sizeOf("masks and points", w.masks.bytes() + w.points.bytes());
+    sizeOf("thinning cells", w.growth.bytes());
+    sizeOf("rays", w.rays.bytes());
+    sizeOf("depth on the device", w.depth.bytes());
+    sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
+    sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes());
+    sizeOf("radii and classes", w.radii.bytes() + w.heldRadii.bytes() + w.classes.bytes());
+    sizeOf("packed spheres", s.packed.bytes() + s.tags.bytes() + s.runs.bytes());
+    sizeOf("tree nodes", s.nodes.bytes() + s.nodeCounts.bytes());
+    sizeOf("moments", s.moments.bytes());
+}
+
+} // namespace
+
+TEST_CASE(
+    "Each buffer is there exactly when the plan has it, and as large as the plan says, beside a CPU and a "
+    "device of its own, whoever answers the query") {
+    using Where = Scene::Contact::Where;
+    for (const CloudCase& c : cloudCases()) {
+        CAPTURE(c.name);
+        for (const DeviceKind kind : {DeviceKind::Cpu, DeviceKind::Discrete}) {
+            for (const Where where : {Where::Cpu, Where::Gpu}) {
+                DeviceFacts facts = vulkan().device.facts();
+                facts.kind = kind;
+                Scene scene = c.scene;
+                scene.contact.where = where;
+                const Plan plan = makePlan(scene, c.camera, 1, facts);
+                const PatchLayout layout = patchLayout(c.camera.depth.width, c.camera.depth.height);
+                checkBuffers(plan, cloud::WorkBuffers(vulkan().device, plan, layout, c.camera),
+                             cloud::SetBuffers(vulkan().device, plan, layout));
+            }
+        }
+    }
+}
