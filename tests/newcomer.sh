@@ -22,7 +22,7 @@ since() { echo $(($(date +%s) - $1)); }
 
 start=$(date +%s)
 debootstrap --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
-echo "newcomer: empty root in $(since "$start") s, $(du -sm "$root" | cut -f1) MB"
+echo "newcomer: empty root in $(since "$start") s, $(du -smx "$root" | cut -f1) MB"
 git archive --prefix=fathom/ HEAD | tar -x -C "$root"
 cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
 for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -e "$file" ] || cp "$file" "$root/etc/apt/apt.conf.d/"; done
@@ -45,5 +45,5 @@ echo "$commands" | while read -r line; do
     echo "newcomer: ./run $command in $(since "$start") s, $(($(du -sm "$root/var/cache/apt/archives" | cut -f1) - before)) MB downloaded"
     rm -f "$root.$command.log"
 done
-echo "newcomer: all in $(since "$begun") s, $(($(du -sm "$root/var/cache/apt/archives" | cut -f1) - downloaded)) MB downloaded, root of $(du -sm "$root" | cut -f1) MB"
+echo "newcomer: all in $(since "$begun") s, $(($(du -sm "$root/var/cache/apt/archives" | cut -f1) - downloaded)) MB downloaded, root of $(du -smx "$root" | cut -f1) MB"
 rm -f "$root.log"
