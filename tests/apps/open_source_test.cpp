@@ -36,8 +36,9 @@ CameraInfo plainCamera() {
 TEST_CASE("A recording of what a camera saw is corrected for the port, one of what a run used is not again") {
     const ScratchFolder folder;
     Scene scene;
-    scene.port.emplace();
-    scene.port->distance = 0.03, scene.port->index = 1.34;
+    Scene::Port port;
+    port.distance = 0.03, port.index = 1.34;
+    scene.port = port;
     record(folder.path() / "raw", plainCamera());
     const auto corrected = openCamera(scene, folder.path() / "raw", Pictures::Newest);
     const CameraInfo used = corrected->info();

@@ -140,7 +140,8 @@ TEST_CASE("A disk that is full ends a recording by name, and what had room can b
         const char* file;
     };
     for (const auto& [bytes, turns, file] : {Case{30000, 33, "wrench.csv"}, Case{3000, 0, "000000.png"}}) {
-        CAPTURE(file);
+        const std::string named = file;
+        CAPTURE(named);
         const auto folder = scratch.path() / std::to_string(bytes);
         Recorder recorder;
         {

@@ -182,7 +182,8 @@ TEST_CASE("Damaged edits are refused with file, line, column and what is allowed
         {head + "0,scene.yaml,,0\n1,scene-0.yaml,,0\n", "classes of points in the rows"},
     };
     for (const auto& [rows, words] : cases) {
-        CAPTURE(rows);
+        const std::string text = rows;
+        CAPTURE(text);
         CHECK(refused(rows).find(words) != std::string::npos);
     }
 }
