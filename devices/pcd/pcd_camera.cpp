@@ -54,8 +54,9 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
             const double x = fan ? std::atan2(p.x, p.z) : p.x / p.z;
             const double y = fan ? std::atan2(p.y, std::hypot(p.x, p.z)) : p.y / p.z;
             // About the centre: the sums keep their digits.
-            across.add(x, static_cast<double>(i % cloud.width) - 0.5 * cloud.width);
-            down.add(y, static_cast<double>(i / cloud.width) - 0.5 * cloud.height);
+            const size_t column = i % cloud.width, row = i / cloud.width;
+            across.add(x, static_cast<double>(column) - 0.5 * cloud.width);
+            down.add(y, static_cast<double>(row) - 0.5 * cloud.height);
         }
     }
     FittedLens fit;

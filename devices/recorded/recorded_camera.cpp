@@ -52,7 +52,8 @@ RecordedCamera::RecordedCamera(const fs::path& folder)
     }
     const Intrinsics& lens = info().depth;
     for (uint32_t i = 0; intrinsics_.rangePictures && i < lens.pixels(); ++i) {
-        const dvec3 ray(lens.ray(i % lens.width, i / lens.width), 1.0);
+        const uint32_t column = i % lens.width, row = i / lens.width;
+        const dvec3 ray(lens.ray(column, row), 1.0);
         axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
     }
 }

@@ -22,7 +22,8 @@ std::string cloudText(const std::string& data, bool up = false) {
         "HEIGHT 7\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 63\nDATA " +
         data + "\n";
     for (uint32_t i = 0; i < kWidth * kHeight; ++i) {
-        const float u = static_cast<float>(i % kWidth), v = static_cast<float>(i / kWidth);
+        const auto column = i % kWidth, row = i / kWidth;
+        const float u = static_cast<float>(column), v = static_cast<float>(row);
         const float z = i == 0 ? NAN : 1.0f + 0.05f * u, sign = up ? -1.0f : 1.0f;
         const float values[3] = {(u - 4.25f) / 10.0f * z, sign * (v - 3.5f) / 11.0f * z, sign * z};
         const uint32_t colour = 0x00102030 + i; // red, green, blue
@@ -101,7 +102,8 @@ TEST_CASE("A scan of equal angles gives a fan, whatever its axes, and its streng
         std::string text = "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
                            "WIDTH 31\nHEIGHT 15\nPOINTS 465\nDATA binary\n";
         for (int i = 0; i < 31 * 15; ++i) {
-            const double a = (i % 31 - 15.0) / 20.0, e = (i / 31 - 7.0) / 18.0;
+            const auto column = i % 31, row = i / 31;
+            const double a = (column - 15.0) / 20.0, e = (row - 7.0) / 18.0;
             const double r = i == 5 ? NAN : 2.0 + 0.01 * (i % 31);
             const dvec3 p = r * dvec3(std::sin(a) * std::cos(e), std::sin(e), std::cos(a) * std::cos(e));
             const dvec3 q = robot ? dvec3(p.z, -p.x, -p.y) : p;

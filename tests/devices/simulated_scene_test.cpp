@@ -66,7 +66,8 @@ TEST_CASE("The tiled ray caster sees what a test of every solid sees, from every
             const Pose pose = camera.sceneTcamera(frame);
             double worst = 0.0, offSurface = 0.0;
             for (uint32_t pixel = 0; pixel < view.depth.size(); ++pixel) {
-                const glm::dvec2 r = camera.info().depth.ray(pixel % options.width, pixel / options.width);
+                const uint32_t column = pixel % options.width, row = pixel / options.width;
+                const glm::dvec2 r = camera.info().depth.ray(column, row);
                 const dvec3 ray(r.x, r.y, 1.0);
                 const RayHit hit =
                     firstHit(camera.scene(), {pose.position, pose.rotation * glm::normalize(ray)});

@@ -33,7 +33,8 @@ double shareWithin(SimulatedSonar& sonar, const Frame& frame) {
         if (frame->depth[i] == 0) {
             continue;
         }
-        const dvec3 ray(lens.ray(i % lens.width, i / lens.width), 1.0);
+        const uint32_t column = i % lens.width, row = i / lens.width;
+        const dvec3 ray(lens.ray(column, row), 1.0);
         const dvec3 point = frame->depth[i] * sonar.info().metresPerUnit * ray;
         const double rounding = 0.5 * sonar.info().metresPerUnit * glm::length(ray);
         const double off = glm::distance(frame->baseTcamera->apply(point), sonar.echo(i).point);
@@ -136,7 +137,8 @@ TEST_CASE("A recorded sonar is read back with its fan, its beam and every pictur
     const auto frame = ranges.next();
     REQUIRE(frame);
     for (uint32_t i = 0; i < info.depth.pixels(); ++i) {
-        const dvec3 ray(info.depth.ray(i % info.depth.width, i / info.depth.width), 1.0);
+        const uint32_t column = i % info.depth.width, row = i / info.depth.width;
+        const dvec3 ray(info.depth.ray(column, row), 1.0);
         CHECK(std::abs((*frame)->depth[i] - seen[0][i] / glm::length(ray)) <= 0.51);
     }
     folder.write("rec/intrinsics.json", text.replace(text.find("range\""), 5, "rings"));
