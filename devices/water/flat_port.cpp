@@ -94,15 +94,15 @@ WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, dou
     water.factor.resize(air.pixels());
     const double middle = z0 - port.distance;
     for (uint32_t i = 0; i < air.pixels(); ++i) {
-        const double u = i % air.width, v = i / air.width;
-        const glm::dvec2 ray = air.ray(u, v);
+        const uint32_t column = i % air.width, row = i / air.width;
+        const glm::dvec2 ray = air.ray(column, row);
         const double slope = glm::length(ray), cosine2 = slope > 1e-9 ? ray.x * ray.x / (slope * slope) : 1.0;
         const double factor = middle / (toldZ(port, slope, cosine2, z0) - port.distance);
         water.factor[i] = static_cast<float>(factor);
         if (i % 7 != 0 && i + 1 != air.pixels()) {
             continue; // the errors are smooth: every seventh pixel tells them
         }
-        const double used = glm::length(water.lens.ray(u, v));
+        const double used = glm::length(water.lens.ray(column, row));
         for (const double z : {nearZ, farZ}) {
             const double found = port.distance + factor * (toldZ(port, slope, cosine2, z) - port.distance);
             const double sideways = used * found - slopeTo(port, slope, z) * z;
