@@ -164,7 +164,7 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const Scene& scene
     const SphereCounts all = spheres.counts();
     counts.spheres = all.all;
     counts.patches = all.patches;
-    counts.nodes += plan.tree ? 0 : nodesAbove(set.begins, layout);
+    counts.nodes += plan.tree ? 0 : spheres.nodesAbove();
     counts.forbidden = forbidden;
     std::copy_n(all.ofClass.begin(), rows.size(), counts.classSpheres.begin());
     std::copy_n(all.patchesOfClass.begin(), rows.size(), counts.classPatches.begin());

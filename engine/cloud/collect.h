@@ -22,10 +22,9 @@ struct FrameCounts {
 // 300 000 invocations share costs the device milliseconds.
 uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew& crew);
 
-// work: where slots are read when the plan packs nothing. Fills set.host.spheres, forbiddenBits and guidance
-// from the device side; the caller has set camera, pose, origin and frame, and counts the valid pixels.
-// crew shares the copying of packed spheres and of bits. Allocates much only when a frame is larger than any
-// before.
+// work: where radii and points are read when the plan packs nothing. Fills set.host.spheres, forbiddenBits
+// and guidance from the device side; the caller has set camera, pose, origin and frame, and counts the valid
+// pixels. crew shares the work. Allocates much only when a frame is larger than any before.
 FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
                     const PatchLayout& layout, Crew& crew);
 

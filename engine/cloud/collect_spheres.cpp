@@ -88,29 +88,17 @@ private:
     std::array<uint32_t, shared::kMaxClasses> rows_{}, here_{}; // here_: spheres of each class in the patch
 };
 
-// Where each patch's spheres begin in the host's columns, from how many the device packed of each.
-uint32_t placePatches(FixtureSet& set, const PatchLayout& layout) {
-    const auto listed = set.device.listed.as<uint32_t>(); // runs of others are of earlier frames
-    const auto runs = set.device.runs.as<glm::uvec2>();
-    uint32_t next = 0;
-    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
-        set.begins[patch] = next;
-        next += listed[patch] != 0 ? runs[patch].y : 0;
-    }
-    set.begins[layout.patches()] = next;
-    return next;
-}
-
-// Of patches [first, end).
-void takeRuns(const FixtureSet& set, uint32_t first, uint32_t end, SphereColumns& columns) {
+// Of patches [first, end); begins as in the collector.
+void takeRuns(const FixtureSet& set, std::span<const uint32_t> begins, uint32_t first, uint32_t end,
+              SphereColumns& columns) {
     const auto packed = set.device.packed.as<glm::vec4>();
     const auto tags = set.device.tags.as<uint32_t>();
     const auto runs = set.device.runs.as<glm::uvec2>();
     for (uint32_t patch = first; patch < end; ++patch) {
-        const uint32_t n = set.begins[patch + 1] - set.begins[patch];
+        const uint32_t n = begins[patch + 1] - begins[patch];
         if (n > 0) {
             const size_t from = runs[patch].x;
-            columns.put(patch, set.begins[patch], n, [&](uint32_t i) {
+            columns.put(patch, begins[patch], n, [&](uint32_t i) {
                 const uint32_t tag = tags[from + i];
                 return Placed{packed[from + i], tag >> 3 & 511, tag & 7};
             });
@@ -146,13 +134,26 @@ SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const
     , work_(work)
     , plan_(plan)
     , rows_(rows)
-    , layout_(layout) {
-    set.begins.resize(layout.patches() + 1);
+    , layout_(layout)
+    , begins_(layout.patches() + 1) {
     const uint32_t count =
-        plan.pack ? placePatches(set, layout) : set.device.counters.as<shared::FrameCounters>()[0].spheres;
+        plan.pack ? placePatches() : set.device.counters.as<shared::FrameCounters>()[0].spheres;
     set.host.spheres.resize(count);
     set.keys.resize(plan.query == Plan::Query::Gpu ? count : 0);
     counts_.resize(plan.pack ? partsOf(&crew, count, kLeastPart) : 1);
+}
+
+// From how many the device packed of each patch.
+uint32_t SphereCollector::placePatches() {
+    const auto listed = set_.device.listed.as<uint32_t>(); // runs of others are of earlier frames
+    const auto runs = set_.device.runs.as<glm::uvec2>();
+    uint32_t next = 0;
+    for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
+        begins_[patch] = next;
+        next += listed[patch] != 0 ? runs[patch].y : 0;
+    }
+    begins_.back() = next;
+    return next;
 }
 
 void SphereCollector::take(uint32_t part) noexcept {
@@ -174,11 +175,11 @@ SphereCounts SphereCollector::counts() const {
 // A part begins and ends with a patch, and all have about as many spheres.
 void SphereCollector::takePacked(uint32_t part) {
     const auto patchAt = [&](uint64_t share) {
-        const uint64_t sphere = set_.begins.back() * share / parts();
-        return static_cast<uint32_t>(std::ranges::lower_bound(set_.begins, sphere) - set_.begins.begin());
+        const uint64_t sphere = begins_.back() * share / parts();
+        return static_cast<uint32_t>(std::ranges::lower_bound(begins_, sphere) - begins_.begin());
     };
     SphereColumns columns(set_, rows_, layout_);
-    takeRuns(set_, patchAt(part), patchAt(part + 1), columns);
+    takeRuns(set_, begins_, patchAt(part), patchAt(part + 1), columns);
     counts_[part] = columns.counts();
 }
 
@@ -192,7 +193,7 @@ void SphereCollector::takeSlots() {
     std::array<uint16_t, 513> places; // that hold a sphere, and one more
     uint32_t next = 0;
     for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
-        set_.begins[patch] = next;
+        begins_[patch] = next;
         uint32_t n = 0;
         for (uint32_t layer = 0; listed[patch] != 0 && layer < (plan_.hold ? 2u : 1u); ++layer) {
             n += placesOf(&radii[layer][patch * 256], layer * 256, &places[n]);
@@ -206,19 +207,19 @@ void SphereCollector::takeSlots() {
         }
         next += n;
     }
-    set_.begins[layout_.patches()] = next;
+    begins_.back() = next;
     counts_[0] = columns.counts();
 }
 
-uint32_t nodesAbove(std::span<const uint32_t> begins, const PatchLayout& layout) {
-    std::vector<uint8_t> used(layout.patches()), above;
+uint32_t SphereCollector::nodesAbove() const {
+    std::vector<uint8_t> used(layout_.patches()), above;
     uint32_t nodes = 0;
-    for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
-        used[patch] = begins[patch + 1] > begins[patch];
+    for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
+        used[patch] = begins_[patch + 1] > begins_[patch];
         nodes += used[patch];
     }
-    for (size_t l = 2; l < layout.levels.size(); ++l) {
-        const PatchLayout::Level &below = layout.levels[l - 1], &here = layout.levels[l];
+    for (size_t l = 2; l < layout_.levels.size(); ++l) {
+        const PatchLayout::Level &below = layout_.levels[l - 1], &here = layout_.levels[l];
         above.assign(size_t{here.across} * here.down, 0);
         for (uint32_t v = 0, i = 0; v < below.down; ++v) {
             for (uint32_t u = 0; u < below.across; ++u, ++i) {

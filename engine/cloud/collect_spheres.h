@@ -19,9 +19,8 @@ struct SphereCounts {
     std::array<uint32_t, shared::kMaxClasses> ofClass{}, patchesOfClass{}; // a class of points
 };
 
-// Fills set.host.spheres, set.begins and, for a GPU query, set.keys, in parts that several threads may share.
-// rows: row of Scene::fixtures of each class of points. Allocates only when there are more spheres than ever
-// before.
+// Fills set.host.spheres and, for a GPU query, set.keys, in parts that several threads may share. rows: row
+// of Scene::fixtures of each class of points. Allocates when it is made; taking does not.
 class SphereCollector {
 public:
     SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
@@ -30,8 +29,11 @@ public:
     uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
     void take(uint32_t part) noexcept; // each once, in any order, on any thread
     SphereCounts counts() const;       // when all are taken
+    // Nodes with spheres that a tree over the patches has, from the patches up to the root; likewise.
+    uint32_t nodesAbove() const;
 
 private:
+    uint32_t placePatches();
     void takePacked(uint32_t part);
     void takeSlots();
 
@@ -40,10 +42,8 @@ private:
     const Plan& plan_;
     const std::vector<uint32_t>& rows_;
     const PatchLayout& layout_;
+    std::vector<uint32_t> begins_;     // of each patch: place of its first sphere; and the end
     std::vector<SphereCounts> counts_; // of each part
 };
-
-// Nodes with spheres that a tree over the patches has, from the patches up to the root.
-uint32_t nodesAbove(std::span<const uint32_t> begins, const PatchLayout& layout);
 
 } // namespace fathom::cloud

@@ -12,10 +12,9 @@ namespace fathom::cloud {
 // Written by the frame cadence, then read-only until no reader leases it. The host part outlives the device.
 struct FixtureSet {
     Fixtures host;
-    RegionGrid grid;              // over host.spheres
-    std::vector<uint32_t> keys;   // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending;
-                                  // empty without a GPU query
-    std::vector<uint32_t> begins; // of each patch: place of its first sphere as collected; and the end
+    RegionGrid grid;            // over host.spheres
+    std::vector<uint32_t> keys; // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending;
+                                // empty without a GPU query
     SetBuffers device;
 
     FixtureSet() = default; // of the host alone
