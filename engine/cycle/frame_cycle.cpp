@@ -235,7 +235,7 @@ FrameReport FrameCycle::finish() {
         }
         pool_.publish();
         f.times.published = Clock::now();
-        report.passMs = passTimes(f);
+        readTimes(f, report);
         report.publishMs = millis(f.times.landed, f.times.published);
         warnLeaks(lastCounts_);
     }
@@ -251,16 +251,17 @@ FrameReport FrameCycle::finish() {
     return report;
 }
 
-// Asked for when nobody waits for the set any more. It is out: a device that is lost by now says so at the
-// next submission.
-std::vector<double> FrameCycle::passTimes(const InFlight& f) const {
-    try {
-        if (plan_.cloud) {
-            return passes_.watch(f.slot).intervalsMs();
-        }
-    } catch (const DeviceFailed&) {
+// When nobody waits for the set any more. It is out and must be told of: a device that is lost by now says so
+// at the next submission, and the times stay zero.
+void FrameCycle::readTimes(const InFlight& f, FrameReport& report) const {
+    if (!plan_.cloud) {
+        return;
     }
-    return std::vector<double>(passNames().size(), 0.0);
+    try {
+        report.passMs = passes_.watch(f.slot).intervalsMs();
+    } catch (const DeviceFailed& e) {
+        log::debug("the times of picture {}: {}", report.index, e.what());
+    }
 }
 
 void FrameCycle::warnLeaks(const cloud::FrameCounts& counts) {

@@ -98,7 +98,7 @@ private:
     uint32_t slotFor(const Frame& frame);
     void uploadArm(uint32_t slot, const dvec3& origin) const;
     void fillHost(const InFlight& f);
-    std::vector<double> passTimes(const InFlight& f) const; // [ms]; zeros when the device says none
+    void readTimes(const InFlight& f, FrameReport& report) const;
     void warnLeaks(const cloud::FrameCounts& counts);
 
     gpu::Device& device_;

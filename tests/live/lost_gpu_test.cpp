@@ -8,6 +8,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <map>
+#include <set>
 
 using namespace fathom;
 
@@ -48,6 +49,27 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand go
         CHECK(replay.frames.back().spheres == replay.frames.front().spheres);
         CHECK(replay.ticks.back().t > 3.9);
     }
+}
+
+TEST_CASE(
+    "A GPU that is lost when a picture's regions are out already leaves no turn with regions untold of") {
+    Stage stage;
+    setPressing(stage);
+    const Losing losing(30, "lost", 0, "TIMES");
+    const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    CHECK(run.out.find("lost and made anew 1 times") != std::string::npos);
+    const Replay replay = readReplay(stage / "out", run);
+    CHECK(deepest(replay) <= 1e-5);
+    std::set<int64_t> told;
+    for (const FrameRow& row : replay.frames) {
+        told.insert(row.index);
+    }
+    for (const Tick& tick : replay.ticks) {
+        CHECK((tick.frame < 0 || told.count(tick.frame) == 1));
+    }
+    CHECK(replay.ticks.back().t > 3.9);
 }
 
 TEST_CASE(

@@ -4,6 +4,7 @@
 // takes a window's images or its surface away. Below the program, so that what runs is the program as it
 // ships.
 //   FATHOM_LOSE_AT       submission of the first device, from 1, that is the first to fail
+//   FATHOM_LOSE_TIMES    or: reading of its stopwatch, from 1
 //   FATHOM_LOSE_FILE     or: a file with one word; any device is lost in the first such call that finds the
 //                        file, and the file goes: passes (submissions with a timeline), drawing (other ones),
 //                        presenting. Or what is not of the device: acquire-outdated, present-outdated (that
@@ -12,6 +13,7 @@
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
 //   FATHOM_LOSE_OPENINGS openings of a device that fail after each loss
 #include "tests/losing_layer/asked.h"
+#include "tests/losing_layer/ours.h"
 
 #include <cstring>
 #include <map>
@@ -31,11 +33,12 @@ struct NextDevice {
     PFN_vkQueueSubmit submit = nullptr;
     PFN_vkWaitSemaphores wait = nullptr;
     PFN_vkWaitForFences waitFences = nullptr;
+    PFN_vkGetQueryPoolResults times = nullptr;
     PFN_vkQueuePresentKHR present = nullptr; // null: no swapchains
     PFN_vkAcquireNextImageKHR acquire = nullptr;
     PFN_vkCreateSwapchainKHR createSwapchain = nullptr;
     bool first = false, lost = false;
-    long submissions = 0;
+    long submissions = 0, timings = 0;
 };
 
 std::mutex mutex;
@@ -98,6 +101,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkD
         next.submit = find<PFN_vkQueueSubmit>(address, *device, "vkQueueSubmit");
         next.wait = find<PFN_vkWaitSemaphores>(address, *device, "vkWaitSemaphores");
         next.waitFences = find<PFN_vkWaitForFences>(address, *device, "vkWaitForFences");
+        next.times = find<PFN_vkGetQueryPoolResults>(address, *device, "vkGetQueryPoolResults");
         next.present = find<PFN_vkQueuePresentKHR>(address, *device, "vkQueuePresentKHR");
         next.acquire = find<PFN_vkAcquireNextImageKHR>(address, *device, "vkAcquireNextImageKHR");
         next.createSwapchain = find<PFN_vkCreateSwapchainKHR>(address, *device, "vkCreateSwapchainKHR");
@@ -165,6 +169,22 @@ VKAPI_ATTR VkResult VKAPI_CALL waitFences(VkDevice device, uint32_t count, const
     return pass(device, count, fences, all, timeout);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL times(VkDevice handle, VkQueryPool pool, uint32_t first, uint32_t count,
+                                     size_t bytes, void* data, VkDeviceSize stride,
+                                     VkQueryResultFlags flags) {
+    PFN_vkGetQueryPoolResults pass = nullptr;
+    {
+        const std::lock_guard lock(mutex);
+        NextDevice& device = devices[keyOf(handle)];
+        const long at = number("FATHOM_LOSE_TIMES");
+        if (loses(device, "times", device.first && at > 0 && ++device.timings >= at)) {
+            return lossOf();
+        }
+        pass = device.times;
+    }
+    return pass(handle, pool, first, count, bytes, data, stride, flags);
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     PFN_vkQueuePresentKHR pass = nullptr;
     VkResult after = VK_SUCCESS; // whatever becomes of the picture, its semaphores have been waited for
@@ -226,52 +246,36 @@ PFN_vkVoidFunction plain(Call call) {
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL deviceAddress(VkDevice device, const char* name) {
-    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
-        return plain(deviceAddress);
-    }
-    if (std::strcmp(name, "vkDestroyDevice") == 0) {
-        return plain(destroyDevice);
-    }
-    if (std::strcmp(name, "vkWaitSemaphores") == 0) {
-        return plain(waitSemaphores);
-    }
-    if (std::strcmp(name, "vkQueueSubmit") == 0) {
-        return plain(submit);
-    }
-    if (std::strcmp(name, "vkWaitForFences") == 0) {
-        return plain(waitFences);
+    const auto always = among({{"vkGetDeviceProcAddr", plain(deviceAddress)},
+                               {"vkDestroyDevice", plain(destroyDevice)},
+                               {"vkWaitSemaphores", plain(waitSemaphores)},
+                               {"vkQueueSubmit", plain(submit)},
+                               {"vkWaitForFences", plain(waitFences)},
+                               {"vkGetQueryPoolResults", plain(times)}},
+                              name);
+    if (always != nullptr) {
+        return always;
     }
     const std::lock_guard lock(mutex);
     const NextDevice& next = devices[keyOf(device)];
-    if (next.present != nullptr && std::strcmp(name, "vkQueuePresentKHR") == 0) {
-        return plain(present);
-    }
-    if (next.acquire != nullptr && std::strcmp(name, "vkAcquireNextImageKHR") == 0) {
-        return plain(acquire);
-    }
-    if (next.createSwapchain != nullptr && std::strcmp(name, "vkCreateSwapchainKHR") == 0) {
-        return plain(createSwapchain);
-    }
-    return next.address(device, name);
+    const auto there = [](const void* below, PFN_vkVoidFunction call) { return below ? call : nullptr; };
+    const auto shown =
+        among({{"vkQueuePresentKHR", there(reinterpret_cast<void*>(next.present), plain(present))},
+               {"vkAcquireNextImageKHR", there(reinterpret_cast<void*>(next.acquire), plain(acquire))},
+               {"vkCreateSwapchainKHR",
+                there(reinterpret_cast<void*>(next.createSwapchain), plain(createSwapchain))}},
+              name);
+    return shown != nullptr ? shown : next.address(device, name);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL instanceAddress(VkInstance instance, const char* name) {
-    if (std::strcmp(name, "vkGetInstanceProcAddr") == 0) {
-        return plain(instanceAddress);
-    }
-    if (std::strcmp(name, "vkCreateInstance") == 0) {
-        return plain(createInstance);
-    }
-    if (std::strcmp(name, "vkCreateDevice") == 0) {
-        return plain(createDevice);
-    }
-    if (std::strcmp(name, "vkGetDeviceProcAddr") == 0) {
-        return plain(deviceAddress);
-    }
-    if (std::strcmp(name, "vkDestroySurfaceKHR") == 0) {
-        return plain(destroySurface);
-    }
-    return nextInstance == nullptr ? nullptr : nextInstance(instance, name);
+    const auto ours = among({{"vkGetInstanceProcAddr", plain(instanceAddress)},
+                             {"vkCreateInstance", plain(createInstance)},
+                             {"vkCreateDevice", plain(createDevice)},
+                             {"vkGetDeviceProcAddr", plain(deviceAddress)},
+                             {"vkDestroySurfaceKHR", plain(destroySurface)}},
+                            name);
+    return ours != nullptr || nextInstance == nullptr ? ours : nextInstance(instance, name);
 }
 
 } // namespace

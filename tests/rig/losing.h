@@ -10,10 +10,10 @@ namespace fathom {
 
 class Losing {
 public:
-    // By the number of a submission; by: "lost" or "memory".
-    Losing(int submission, const std::string& by, int refusedOpenings) {
+    // By the number of a call (AT: a submission, TIMES: a reading of the stopwatch); by: "lost" or "memory".
+    Losing(int call, const std::string& by, int refusedOpenings, const std::string& which = "AT") {
         begin(refusedOpenings);
-        set("FATHOM_LOSE_AT", std::to_string(submission));
+        set("FATHOM_LOSE_" + which, std::to_string(call));
         set("FATHOM_LOSE_BY", by);
     }
     // As soon as `trigger` exists, which goes when it is done: again and again.
