@@ -65,6 +65,8 @@ TEST_CASE("A haptic device at its door drives the tool in the window and feels t
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
     REQUIRE(pressUntilFelt(rig, device));
+    REQUIRE(!rig.atRest().is_null());
+    CHECK(z(rig.state(), "device") > z(rig.state(), "tool") + 0.0005);
     rig.shoot("device");
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
