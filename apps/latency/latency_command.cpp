@@ -46,8 +46,8 @@ int measure(const Request& request, const GlobalOptions& global) {
     }
     if (request.soakMinutes > 0.0) {
         const bool holds = !parts.empty() && soakHolds(parts.back(), options.seconds);
-        std::cout << "soak         " << (holds ? "kept" : "MISSED") << ": " << options.seconds
-                  << " s, no frame lost, memory grown by at most " << kMostGrowth << " MiB\n";
+        std::cout << "soak         " << (holds ? "kept" : "MISSED") << ": asked are " << options.seconds
+                  << " s, no frame or record lost, memory grown by at most " << kMostGrowth << " MiB\n";
         return holds ? 0 : 1;
     }
     return 0;
