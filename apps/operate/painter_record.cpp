@@ -88,11 +88,19 @@ void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage sh
 void Painter::recordToSurface(VkImage shown) {
     changeLayout(commands_, shown, VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
     const VkExtent2D size = target_.size();
-    VkImageBlit blit{};
-    blit.srcSubresource = blit.dstSubresource = kWhole;
-    blit.srcOffsets[1] = blit.dstOffsets[1] =
-        corner(static_cast<int>(size.width), static_cast<int>(size.height), 1);
-    vkCmdBlitImage(commands_, target_.handle(), kSource, shown, kDestination, 1, &blit, VK_FILTER_NEAREST);
+    if (swapchain_->format() == kDrawn) { // a blit draws, and a software device draws slowly
+        VkImageCopy copy{};
+        copy.srcSubresource = copy.dstSubresource = kWhole;
+        copy.extent = {size.width, size.height, 1};
+        vkCmdCopyImage(commands_, target_.handle(), kSource, shown, kDestination, 1, &copy);
+    } else {
+        VkImageBlit blit{};
+        blit.srcSubresource = blit.dstSubresource = kWhole;
+        blit.srcOffsets[1] = blit.dstOffsets[1] =
+            corner(static_cast<int>(size.width), static_cast<int>(size.height), 1);
+        vkCmdBlitImage(commands_, target_.handle(), kSource, shown, kDestination, 1, &blit,
+                       VK_FILTER_NEAREST);
+    }
     changeLayout(commands_, shown, kDestination, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR);
 }
 
@@ -118,8 +126,7 @@ void Painter::screenshot(const std::filesystem::path& file) {
     for (uint32_t v = 0; v < size.height; ++v) {
         uint32_t* row = picture.row(static_cast<int>(v));
         for (uint32_t u = 0; u < size.width; ++u) {
-            const uint32_t p = pixels[v * size.width + u]; // 0xAABBGGRR
-            row[u] = 0xff000000u | (p & 0xffu) << 16 | (p & 0xff00u) | (p >> 16 & 0xffu);
+            row[u] = 0xff000000u | pixels[v * size.width + u]; // both 0xAARRGGBB
         }
     }
     picture.endPixels();

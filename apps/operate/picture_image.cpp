@@ -11,10 +11,10 @@ using gpu::check;
 
 namespace {
 
-VkImageCreateInfo imageInfo(VkExtent2D size, VkImageUsageFlags usage) {
+VkImageCreateInfo imageInfo(VkFormat format, VkExtent2D size, VkImageUsageFlags usage) {
     VkImageCreateInfo info{VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = kPixels;
+    info.format = format;
     info.extent = {size.width, size.height, 1};
     info.mipLevels = info.arrayLayers = 1;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
@@ -24,11 +24,12 @@ VkImageCreateInfo imageInfo(VkExtent2D size, VkImageUsageFlags usage) {
 
 } // namespace
 
-PictureImage::PictureImage(const gpu::Device& device, VkExtent2D size, VkImageUsageFlags usage)
+PictureImage::PictureImage(const gpu::Device& device, VkFormat format, VkExtent2D size,
+                           VkImageUsageFlags usage)
     : PictureImage() { // from here on the destructor takes back what was made before a failure
     device_ = &device;
     size_ = size;
-    const VkImageCreateInfo info = imageInfo(size, usage);
+    const VkImageCreateInfo info = imageInfo(format, size, usage);
     check(vkCreateImage(device.handle(), &info, nullptr, &image_), "vkCreateImage");
     VkMemoryRequirements needs;
     vkGetImageMemoryRequirements(device.handle(), image_, &needs);
@@ -41,7 +42,7 @@ PictureImage::PictureImage(const gpu::Device& device, VkExtent2D size, VkImageUs
         VkImageViewCreateInfo view{VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO};
         view.image = image_;
         view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-        view.format = kPixels;
+        view.format = format;
         view.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
         check(vkCreateImageView(device.handle(), &view, nullptr, &view_), "vkCreateImageView");
     }

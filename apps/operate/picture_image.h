@@ -7,13 +7,15 @@
 
 namespace fathom::operate {
 
-constexpr VkFormat kPixels = VK_FORMAT_R8G8B8A8_UNORM; // sRGB-encoded values, passed through as they are
+// sRGB-encoded values, passed through as they are. Pictures come from the CPU; what is drawn has the order of
+// most screens, which may then have it byte by byte.
+constexpr VkFormat kPicture = VK_FORMAT_R8G8B8A8_UNORM, kDrawn = VK_FORMAT_B8G8R8A8_UNORM;
 
-// One colour image, R8 G8 B8 A8. Move-only. Whoever records keeps track of the layout.
+// One colour image. Move-only. Whoever records keeps track of the layout.
 class PictureImage {
 public:
     PictureImage() = default;
-    PictureImage(const gpu::Device& device, VkExtent2D size, VkImageUsageFlags usage);
+    PictureImage(const gpu::Device& device, VkFormat format, VkExtent2D size, VkImageUsageFlags usage);
     ~PictureImage();
     PictureImage(PictureImage&& other) noexcept { swap(other); }
     PictureImage& operator=(PictureImage&& other) noexcept {

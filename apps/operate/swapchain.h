@@ -31,7 +31,8 @@ public:
     void show();
 
     VkExtent2D size() const { return size_; }
-    uint32_t remade() const { return remade_; } // times that fit() made images
+    VkFormat format() const { return format_.format; } // of the images
+    uint32_t remade() const { return remade_; }        // times that fit() made images
 
 private:
     bool good(VkResult result, const char* call); // false: images or surface are lost
