@@ -5,14 +5,20 @@
 #include "apps/operate/run_view.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace fathom::operate {
 
-// draw(column, low, high) for each column that has samples, from left to right: from the least to the
-// greatest value(sample) there, and to the last one of the column before it. column(sample): where it falls;
-// ascends.
+// draw(first, last, low, high) for columns that have samples, from left to right: from the least to the
+// greatest value(sample) there, and to the last one of the column before it. Columns beside each other with
+// the same values come as one. column(sample): where it falls; ascends.
 template <class Column, class Value, class Draw>
 void eachColumn(const std::deque<TraceSample>& trace, Column&& column, Value&& value, Draw&& draw) {
+    struct Stroke {
+        int first, last;
+        float low, high;
+    };
+    std::optional<Stroke> stroke;
     for (size_t i = 0; i < trace.size();) {
         const int at = column(trace[i]);
         const float before = value(trace[i == 0 ? 0 : i - 1]);
@@ -22,7 +28,17 @@ void eachColumn(const std::deque<TraceSample>& trace, Column&& column, Value&& v
             low = std::min(low, v);
             high = std::max(high, v);
         }
-        draw(at, low, high);
+        if (stroke && stroke->last + 1 == at && stroke->low == low && stroke->high == high) {
+            stroke->last = at;
+            continue;
+        }
+        if (stroke) {
+            draw(stroke->first, stroke->last, stroke->low, stroke->high);
+        }
+        stroke = {at, at, low, high};
+    }
+    if (stroke) {
+        draw(stroke->first, stroke->last, stroke->low, stroke->high);
     }
 }
 

@@ -34,10 +34,11 @@ void curve(const Plot& plot, const std::deque<TraceSample>& trace, ImU32 colour,
     const auto column = [&](const TraceSample& sample) {
         return static_cast<int>(plot.x(sample.t) - plot.at.x);
     };
-    eachColumn(trace, column, value, [&](int at, float low, float high) {
-        const float x = plot.at.x + static_cast<float>(at) + 0.5f;
-        plot.list.AddRectFilled({x - 0.5f * width, plot.y(high) - 0.5f * width},
-                                {x + 0.5f * width, plot.y(low) + 0.5f * width}, colour);
+    eachColumn(trace, column, value, [&](int first, int last, float low, float high) {
+        const float x = plot.at.x + 0.5f;
+        plot.list.AddRectFilled({x + static_cast<float>(first) - 0.5f * width, plot.y(high) - 0.5f * width},
+                                {x + static_cast<float>(last) + 0.5f * width, plot.y(low) + 0.5f * width},
+                                colour);
     });
 }
 

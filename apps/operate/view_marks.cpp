@@ -4,6 +4,7 @@
 #include "apps/binding/scene_edits.h"
 #include "apps/operate/shape_marks.h"
 #include "apps/operate/theme.h"
+#include "apps/operate/view_lines.h"
 
 #include <cmath>
 #include <cstdio>
@@ -13,37 +14,6 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kTurn = 6.283185307179586;
-
-void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, float dash) {
-    const float length = std::hypot(b.x - a.x, b.y - a.y);
-    for (float at = 0.0f; at < length; at += 2.0f * dash) {
-        const float s = at / length, e = std::min(1.0f, (at + dash) / length);
-        list.AddLine({a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s},
-                     {a.x + (b.x - a.x) * e, a.y + (b.y - a.y) * e}, colour, width);
-    }
-}
-
-void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,
-             float width, bool isDashed) {
-    std::vector<ImVec2> points;
-    for (const OutlineLine& l : lines) {
-        points.clear();
-        for (const glm::dvec2& p : l) {
-            points.push_back(port.ofPicture(p));
-        }
-        if (!isDashed) {
-            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour::kShade, 0, width + 2.0f);
-            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
-            continue;
-        }
-        constexpr size_t kDash = 7;
-        for (size_t i = 0; i + 1 < points.size(); i += 2 * kDash) {
-            const size_t count = std::min(kDash, points.size() - i);
-            list.AddPolyline(points.data() + i, static_cast<int>(count), colour::kShade, 0, width + 2.0f);
-            list.AddPolyline(points.data() + i, static_cast<int>(count), colour, 0, width);
-        }
-    }
-}
 
 void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool ghost) {
     Silhouette silhouette(input.port.view);

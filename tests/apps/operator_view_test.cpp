@@ -3,9 +3,12 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/trace_columns.h"
+#include "apps/operate/view_lines.h"
 
+#include <algorithm>
 #include <cmath>
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 #include <map>
 
 using namespace fathom;
@@ -186,12 +189,17 @@ TEST_CASE("A trace shows in each column all that its samples reach, and joins th
     std::map<int, std::pair<float, float>> columns;
     const auto at = [](const TraceSample& s) { return static_cast<int>(s.t * 64.0); };
     const auto force = [](const TraceSample& s) { return s.force.x; };
-    const auto keep = [&](int column, float low, float high) {
-        CHECK(columns.count(column) == 0);
-        columns[column] = {low, high};
+    int strokes = 0;
+    const auto keep = [&](int first, int last, float low, float high) {
+        ++strokes;
+        for (int column = first; column <= last; ++column) {
+            CHECK(columns.count(column) == 0);
+            columns[column] = {low, high};
+        }
     };
     eachColumn(trace, at, force, keep);
     CHECK(columns.size() == 640);
+    CHECK(strokes == 5); // before, at and after the spike; the step; after it
     CHECK(columns.at(static_cast<int>(4.321 * 64.0)) == std::pair(1.0f, 9.0f));
     CHECK(columns.at(static_cast<int>(4.9 * 64.0)) == std::pair(1.0f, 1.0f));
     CHECK(columns.at(320) == std::pair(1.0f, 2.0f)); // the step, between its last sample and the next
@@ -199,4 +207,36 @@ TEST_CASE("A trace shows in each column all that its samples reach, and joins th
     columns.clear();
     eachColumn({}, at, force, keep);
     CHECK(columns.empty());
+}
+
+TEST_CASE("An outline is drawn with few points and stays within a quarter of a pixel of all of them") {
+    for (const double radius : {0.0, 3.0, 30.0, 300.0, 3000.0}) {
+        CAPTURE(radius);
+        std::vector<ImVec2> all; // a closed circle, its points about a pixel apart
+        const int count = std::max(3, static_cast<int>(6.28 * radius));
+        for (int i = 0; i <= count; ++i) {
+            const double angle = 6.283185307179586 * (i % count) / count;
+            all.emplace_back(static_cast<float>(400.0 + radius * std::cos(angle)),
+                             static_cast<float>(300.0 + radius * std::sin(angle)));
+        }
+        std::vector<ImVec2> few = all;
+        thin(few);
+        CHECK(few.front().x == all.front().x);
+        CHECK(few.back().y == all.back().y);
+        CHECK(few.size() <= (radius < 10.0 ? all.size() : all.size() / 3));
+        for (const ImVec2& p : all) {
+            double nearest = 1e9;
+            for (size_t i = 0; i + 1 < few.size(); ++i) {
+                const glm::dvec2 a(few[i].x, few[i].y), b(few[i + 1].x, few[i + 1].y), q(p.x, p.y);
+                const double along = glm::dot(q - a, b - a) / std::max(1e-12, glm::dot(b - a, b - a));
+                nearest = std::min(nearest, glm::distance(q, glm::mix(a, b, std::clamp(along, 0.0, 1.0))));
+            }
+            CHECK(nearest < 0.27);
+        }
+    }
+    std::vector<ImVec2> none, one{{1.0f, 2.0f}};
+    thin(none);
+    thin(one);
+    CHECK(none.empty());
+    CHECK(one.size() == 1);
 }

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/operate/view_lines.h"
+
+#include "apps/operate/theme.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom::operate {
+
+void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, float dash) {
+    const float length = std::hypot(b.x - a.x, b.y - a.y);
+    for (float at = 0.0f; at < length; at += 2.0f * dash) {
+        const float s = at / length, e = std::min(1.0f, (at + dash) / length);
+        list.AddLine({a.x + (b.x - a.x) * s, a.y + (b.y - a.y) * s},
+                     {a.x + (b.x - a.x) * e, a.y + (b.y - a.y) * e}, colour, width);
+    }
+}
+
+void thin(std::vector<ImVec2>& points) {
+    constexpr float kOff = 0.25f; // [pixels]
+    constexpr size_t kMost = 16;  // points that a line stands for
+    const auto off = [&](size_t from, size_t to, size_t i) {
+        const ImVec2 a = points[from], b = points[to], p = points[i];
+        const float x = b.x - a.x, y = b.y - a.y;
+        return std::abs(x * (p.y - a.y) - y * (p.x - a.x)) / std::max(1e-6f, std::hypot(x, y));
+    };
+    size_t kept = 0;
+    for (size_t from = 0; from + 1 < points.size();) {
+        size_t to = from + 1;
+        const auto straight = [&](size_t end) {
+            for (size_t i = from + 1; i < end; ++i) {
+                if (off(from, end, i) > kOff) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        while (to + 1 < points.size() && to - from < kMost && straight(to + 1)) {
+            ++to;
+        }
+        points[++kept] = points[to]; // none that is still to be looked at: kept <= to
+        from = to;
+    }
+    points.resize(std::min(points.size(), kept + 1));
+}
+
+void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,
+             float width, bool isDashed) {
+    std::vector<ImVec2> points;
+    for (const OutlineLine& l : lines) {
+        points.clear();
+        for (const glm::dvec2& p : l) {
+            points.push_back(port.ofPicture(p));
+        }
+        if (!isDashed) {
+            thin(points);
+            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour::kShade, 0, width + 2.0f);
+            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
+            continue;
+        }
+        constexpr size_t kDash = 7;
+        for (size_t i = 0; i + 1 < points.size(); i += 2 * kDash) {
+            const size_t count = std::min(kDash, points.size() - i);
+            list.AddPolyline(points.data() + i, static_cast<int>(count), colour::kShade, 0, width + 2.0f);
+            list.AddPolyline(points.data() + i, static_cast<int>(count), colour, 0, width);
+        }
+    }
+}
+
+} // namespace fathom::operate
