@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 namespace fathom::operate {
@@ -122,7 +123,7 @@ StateLog::StateLog(const std::filesystem::path& file)
 }
 
 void StateLog::write(const Console& console, const RunView& run, const StateExtras& extras, bool now) {
-    constexpr double kPeriod = 0.1; // [s]
+    constexpr double kPeriod = 1.0 / 30.0; // [s]
     const double t =
         std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     if (!out_.is_open() || (!now && t < next_)) {
@@ -133,7 +134,8 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
                  {"run", turnOf(run, extras)},
                  {"mode", extras.mode},
                  {"window",
-                  {{"frames", extras.windowFrames},
+                  {{"begun", ImGui::GetFrameCount()},
+                   {"frames", extras.windowFrames},
                    {"yielded", extras.yielded},
                    {"swapchains", extras.swapchains},
                    {"width", extras.width},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `--state FILE`: one JSON object a line, ten a second: what the window shows and where, for who watches it
-// from outside.
+// `--state FILE`: one JSON object a line, at most thirty a second: what the window shows and where, for who
+// watches it from outside.
 #pragma once
 
 #include "apps/operate/console.h"
