@@ -42,10 +42,7 @@ void fly(const WindowRig& rig) {
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
-    rig.xdo("mousemove --window $W 300 300");
-    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
-        rig.wheel(8);
-    }
+    rig.push();
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
     waitTurns(rig, 500);
     rig.click("remove red");

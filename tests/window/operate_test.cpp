@@ -39,10 +39,7 @@ bool silent(WindowRig& rig) {
 void pushIntoBump(WindowRig& rig) {
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
-    rig.xdo("mousemove --window $W 300 300");
-    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
-        rig.wheel(8);
-    }
+    rig.push();
 }
 
 } // namespace

@@ -126,10 +126,7 @@ TEST_CASE("Pointing at the contact tells class, region sphere, depth and frame; 
     WindowRig rig;
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
-    rig.xdo("mousemove --window $W 300 300");
-    for (int i = 0; i < 6 && rig.state()["run"]["contacts"] == 0; ++i) {
-        rig.wheel(8);
-    }
+    rig.push();
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.2; }));
     REQUIRE(!rig.atRest().is_null());
     const auto at = rig.place("contact");

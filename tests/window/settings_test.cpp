@@ -67,8 +67,8 @@ TEST_CASE(
     REQUIRE(rig.await([](const json& s) { return s["run"]["device"][1] > 0.0; }));
     rig.keyUp("Down");
     rig.xdo("mousemove --window $W 300 300");
-    for (int i = 0; i < 8 && rig.state()["run"]["force_N"] < 1.9; ++i) {
-        rig.wheel(8);
+    for (int i = 0; i < 32 && rig.state()["run"]["force_N"] < 1.9; ++i) {
+        rig.wheel(2);
     }
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.9; }));
     CHECK(rig.state()["run"]["force_N"] <= 2.0 + 1e-6);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/window/window_rig.h"
 
-#include "devices/recorded/png_image.h"
 #include "tests/window/iconify.h"
 
 #include <algorithm>
@@ -65,20 +64,6 @@ void requireDisplay() {
         std::fflush(stdout);
         std::_Exit(77);
     }
-}
-
-double Screenshot::share(const std::array<double, 4>& place,
-                         const std::function<bool(int, int, int)>& accepts) const {
-    size_t all = 0, good = 0;
-    for (auto v = static_cast<uint32_t>(place[1]); v < std::min<double>(height, place[1] + place[3]); ++v) {
-        for (auto u = static_cast<uint32_t>(place[0]); u < std::min<double>(width, place[0] + place[2]);
-             ++u) {
-            const uint32_t p = pixels[v * width + u];
-            ++all;
-            good += accepts(p & 0xff, p >> 8 & 0xff, p >> 16 & 0xff) ? 1 : 0;
-        }
-    }
-    return all == 0 ? 0.0 : static_cast<double>(good) / static_cast<double>(all);
 }
 
 WindowRig::WindowRig(const std::vector<std::string>& extra) {
@@ -154,8 +139,15 @@ WindowRig::~WindowRig() {
 }
 
 nlohmann::json WindowRig::state() const {
-    std::ifstream in(folder_.path() / "state.jsonl");
+    constexpr std::streamoff kEnd = 1 << 16; // [bytes] some lines
+    std::ifstream in(folder_.path() / "state.jsonl", std::ios::ate);
     std::string line, last;
+    if (in && in.tellg() > kEnd) {
+        in.seekg(-kEnd, std::ios::end);
+        std::getline(in, line); // the rest of one
+    } else {
+        in.seekg(0);
+    }
     while (std::getline(in, line) && !in.eof()) { // the last line may not be whole yet
         last = line;
     }
@@ -170,7 +162,7 @@ bool WindowRig::await(const std::function<bool(const nlohmann::json&)>& wanted, 
         if (!now.is_null() && wanted(now)) {
             return true;
         }
-        pause(0.05);
+        pause(0.01);
     } while (Clock::now() < until && ::kill(program_, 0) == 0);
     MESSAGE("the state never came; the last one: " << now.dump());
     return false;
@@ -207,7 +199,19 @@ void WindowRig::xdo(const std::string& words) const {
     const std::string command = "W=" + window_ + "; DISPLAY=" + display_ + " xdotool " + words + " >> " +
                                 (folder_.path() / "xdo.log").string() + " 2>&1";
     CHECK_MESSAGE(std::system(command.c_str()) == 0, "xdotool " << words);
-    pause(0.15);
+    settle();
+}
+
+// Until what was done is taken and its outcome told: the frame that is on its way may have taken its events
+// already.
+void WindowRig::settle() const {
+    constexpr int kFrames = 2;
+    const nlohmann::json before = state();
+    const auto until = Clock::now() + std::chrono::seconds(2); // a program that ended has no more
+    while (!before.is_null() && state()["window"]["begun"] < before["window"]["begun"].get<int>() + kFrames &&
+           Clock::now() < until) {
+        pause(0.01);
+    }
 }
 
 void WindowRig::keyDown(const std::string& name) const {
@@ -227,11 +231,8 @@ void WindowRig::click(const std::string& name, double u, double v) const {
     const auto at = place(name);
     xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + u * at[2])) + " " +
         std::to_string(std::lround(at[1] + v * at[3])));
-    pause(0.25);
     xdo("mousedown 1");
-    pause(0.15);
     xdo("mouseup 1");
-    pause(0.15);
 }
 
 void WindowRig::drag(const std::string& name, glm::dvec2 from, glm::dvec2 to) const {
@@ -250,35 +251,20 @@ void WindowRig::drag(const std::string& name, glm::dvec2 from, glm::dvec2 to) co
 }
 
 void WindowRig::wheel(int notches) const {
-    for (int i = 0; i < std::abs(notches); ++i) {
-        xdo(notches > 0 ? "click 4" : "click 5");
+    xdo("click --delay 30 --repeat " + std::to_string(std::abs(notches)) + (notches > 0 ? " 4" : " 5"));
+}
+
+// Much further, and the tool slides off the bump's side.
+void WindowRig::push() const {
+    xdo("mousemove --window $W 300 300");
+    for (int i = 0; i < 32 && state()["run"]["contacts"] == 0; ++i) {
+        wheel(2);
     }
+    wheel(2);
 }
 
 void WindowRig::minimise(bool on) const {
     REQUIRE(iconify(display_, window_, on));
-}
-
-Screenshot WindowRig::shoot(const std::string& keep) const {
-    const auto before = state()["console"]["shots"].get<int>();
-    key("F12");
-    REQUIRE(await([&](const nlohmann::json& s) { return s["console"]["shots"] > before; }));
-    const auto file = folder_.path() / ("screenshot-" + std::to_string(before + 1) + ".png");
-    Screenshot shot;
-    for (int tries = 0; tries < 40 && !readPngSize(file); ++tries) {
-        pause(0.05);
-    }
-    const auto size = readPngSize(file);
-    REQUIRE(size);
-    shot.width = size->width;
-    shot.height = size->height;
-    shot.pixels.resize(static_cast<size_t>(size->width) * size->height);
-    REQUIRE(readColourPng(file, *size, shot.pixels) == "");
-    if (const char* kept = std::getenv("FATHOM_KEEP_SCREENSHOTS")) { // a folder: for looking at them
-        std::filesystem::copy_file(file, std::filesystem::path(kept) / (keep + ".png"),
-                                   std::filesystem::copy_options::overwrite_existing);
-    }
-    return shot;
 }
 
 int WindowRig::close() {

@@ -54,8 +54,10 @@ public:
     void keyUp(const std::string& name) const;
     void click(const std::string& place, double u = 0.5, double v = 0.5) const; // at a share of the place
     void drag(const std::string& place, glm::dvec2 from, glm::dvec2 to) const;
-    void wheel(int notches) const;                   // positive: away
-    void xdo(const std::string& words) const;        // xdotool; $W is the window
+    void wheel(int notches) const;            // positive: away
+    void xdo(const std::string& words) const; // xdotool; $W is the window
+    void
+    push() const; // by the wheel from where the hand begins, until the bump is felt and some millimetres on
     void minimise(bool on) const;                    // as a window manager does
     Screenshot shoot(const std::string& keep) const; // F12; `keep`: name under the kept pictures
 
@@ -69,6 +71,7 @@ public:
 private:
     void startDisplay();
     void startProgram(const std::filesystem::path& scene, const std::vector<std::string>& extra);
+    void settle() const;
 
     TemporaryFolder folder_;
     std::string display_, window_;

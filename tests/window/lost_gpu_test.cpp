@@ -68,10 +68,7 @@ bool hasAlarm(const json& s, const std::string& words) {
 void press(const WindowRig& rig) {
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
-    rig.xdo("mousemove --window $W 300 300");
-    for (int i = 0; i < 8 && force(rig.state()) < 1.0; ++i) {
-        rig.wheel(8);
-    }
+    rig.push();
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && force(s) > 1.0; }));
     REQUIRE(!rig.atRest().is_null());
 }
