@@ -103,6 +103,7 @@ std::vector<const char*> Device::extensionsFor(Drawing drawing) const {
 
 Device::~Device() {
     savePipelineCache();
+    pipelines_.clear();
     vkDestroyPipelineCache(handle_, cache_, nullptr);
     vkDestroyDevice(handle_, nullptr);
 }

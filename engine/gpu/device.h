@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/gpu/instance.h"
+#include "engine/gpu/pipeline_store.h"
 #include "engine/types/device_facts.h"
 
 #include <mutex>
@@ -38,6 +39,7 @@ public:
     VkPhysicalDevice physical() const { return physical_; }
     const DeviceFacts& facts() const { return facts_; }
     VkPipelineCache pipelineCache() const { return cache_; }
+    PipelineStore& pipelines() const { return pipelines_; }
     uint32_t queueFamily() const { return family_; }
 
     // Memory type of a kind among those allowed by typeBits; throws Error when there is none.
@@ -80,6 +82,7 @@ private:
     uint32_t drawFamily_ = 0, drawIndex_ = 0;
     std::mutex queueMutex_, drawMutex_; // the second one only where the queues differ
     VkPipelineCache cache_ = VK_NULL_HANDLE;
+    mutable PipelineStore pipelines_; // what is kept changes nothing of the device
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceFacts facts_;
     std::string cacheFile_;

@@ -44,11 +44,61 @@ std::vector<VkDescriptorType> typesOf(const PipelineInfo& info) {
     return types;
 }
 
+VkPipelineLayout makeLayout(VkDevice device, VkDescriptorSetLayout set, uint32_t pushBytes) {
+    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, pushBytes};
+    VkPipelineLayoutCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set;
+    info.pushConstantRangeCount = pushBytes != 0 ? 1 : 0;
+    info.pPushConstantRanges = &push;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    check(vkCreatePipelineLayout(device, &info, nullptr, &layout), "vkCreatePipelineLayout");
+    return layout;
+}
+
+std::shared_ptr<const CompiledPipeline> compile(const Device& device, const PipelineInfo& info,
+                                                const std::vector<VkDescriptorType>& types) {
+    const auto made = std::make_shared<CompiledPipeline>(device.handle()); // goes with what it has by then
+    made->setLayout = makeSetLayout(device.handle(), types);
+    made->layout = makeLayout(device.handle(), made->setLayout, info.pushBytes);
+    std::vector<VkSpecializationMapEntry> entries;
+    for (uint32_t i = 0; i < info.constants.size(); ++i) {
+        entries.push_back({i, i * 4, 4});
+    }
+    const VkSpecializationInfo special{static_cast<uint32_t>(entries.size()), entries.data(),
+                                       info.constants.size_bytes(), info.constants.data()};
+    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
+    create.layout = made->layout;
+    create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    create.stage.module = makeModule(device.handle(), info.spirv);
+    create.stage.pName = "main";
+    create.stage.pSpecializationInfo = &special;
+    const VkResult result =
+        vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &made->handle);
+    vkDestroyShaderModule(device.handle(), create.stage.module, nullptr);
+    check(result, info.name);
+    return made;
+}
+
+PipelineKey keyOf(const PipelineInfo& info) {
+    PipelineKey key{info.spirv.data(),
+                    info.spirv.size(),
+                    info.bindings,
+                    info.pushBytes,
+                    info.uniform,
+                    {info.constants.begin(), info.constants.end()},
+                    {}};
+    for (const Texels& t : info.texels) {
+        key.texels.emplace_back(t.binding, t.format);
+    }
+    return key;
+}
+
 } // namespace
 
 Pipeline::Pipeline(const Device& device, const PipelineInfo& info)
-    : device_(device)
-    , bindings_(info.bindings)
+    : bindings_(info.bindings)
     , pushBytes_(info.pushBytes)
     , groupSize_(info.constants.empty() ? 1 : info.constants[0])
     , types_(typesOf(info))
@@ -57,38 +107,11 @@ Pipeline::Pipeline(const Device& device, const PipelineInfo& info)
     for (const Texels& t : info.texels) {
         formats_.at(t.binding) = t.format;
     }
-    setLayout_ = makeSetLayout(device.handle(), types_);
-    const VkPushConstantRange push{VK_SHADER_STAGE_COMPUTE_BIT, 0, info.pushBytes};
-    VkPipelineLayoutCreateInfo layout{VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO};
-    layout.setLayoutCount = 1;
-    layout.pSetLayouts = &setLayout_;
-    layout.pushConstantRangeCount = info.pushBytes != 0 ? 1 : 0;
-    layout.pPushConstantRanges = &push;
-    check(vkCreatePipelineLayout(device.handle(), &layout, nullptr, &layout_), "vkCreatePipelineLayout");
-
-    std::vector<VkSpecializationMapEntry> entries;
-    for (uint32_t i = 0; i < info.constants.size(); ++i) {
-        entries.push_back({i, i * 4, 4});
+    PipelineKey key = keyOf(info);
+    compiled_ = device.pipelines().find(key);
+    if (compiled_ == nullptr) {
+        compiled_ = device.pipelines().keep(std::move(key), compile(device, info, types_));
     }
-    const VkSpecializationInfo special{static_cast<uint32_t>(entries.size()), entries.data(),
-                                       info.constants.size_bytes(), info.constants.data()};
-    VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
-    create.layout = layout_;
-    create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    create.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    create.stage.module = makeModule(device.handle(), info.spirv);
-    create.stage.pName = "main";
-    create.stage.pSpecializationInfo = &special;
-    const VkResult result =
-        vkCreateComputePipelines(device.handle(), device.pipelineCache(), 1, &create, nullptr, &handle_);
-    vkDestroyShaderModule(device.handle(), create.stage.module, nullptr);
-    check(result, info.name);
-}
-
-Pipeline::~Pipeline() {
-    vkDestroyPipeline(device_.handle(), handle_, nullptr);
-    vkDestroyPipelineLayout(device_.handle(), layout_, nullptr);
-    vkDestroyDescriptorSetLayout(device_.handle(), setLayout_, nullptr);
 }
 
 Bindings::Bindings(const Device& device, const Pipeline& pipeline,

@@ -19,25 +19,25 @@ struct Texels {
 };
 
 struct PipelineInfo {
-    const char* name; // shows in messages and traces
-    std::span<const uint32_t> spirv;
-    uint32_t bindings = 0;  // buffers 0..n-1
+    const char* name;                // shows in messages and traces
+    std::span<const uint32_t> spirv; // outlives the device
+    uint32_t bindings = 0;           // buffers 0..n-1
     bool uniform = true;    // buffer 0 is a uniform buffer (parameters), the others are storage buffers
     uint32_t pushBytes = 0; // <= 128
     std::span<const uint32_t> constants; // specialisation constants 0..n-1; 0 = local_size_x
     std::initializer_list<Texels> texels = {};
 };
 
+// Compiled once a device: pipelines of the same code share what was compiled (pipeline_store.h).
 class Pipeline {
 public:
     Pipeline(const Device& device, const PipelineInfo& info);
-    ~Pipeline();
     Pipeline(const Pipeline&) = delete;
     Pipeline& operator=(const Pipeline&) = delete;
 
-    VkPipeline handle() const { return handle_; }
-    VkPipelineLayout layout() const { return layout_; }
-    VkDescriptorSetLayout setLayout() const { return setLayout_; }
+    VkPipeline handle() const { return compiled_->handle; }
+    VkPipelineLayout layout() const { return compiled_->layout; }
+    VkDescriptorSetLayout setLayout() const { return compiled_->setLayout; }
     uint32_t bindings() const { return bindings_; }
     VkDescriptorType typeOf(uint32_t binding) const { return types_[binding]; }
     VkFormat texelsOf(uint32_t binding) const { return formats_[binding]; } // undefined: no texels
@@ -46,10 +46,7 @@ public:
     const std::string& name() const { return name_; }
 
 private:
-    const Device& device_;
-    VkPipeline handle_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout setLayout_ = VK_NULL_HANDLE;
+    std::shared_ptr<const CompiledPipeline> compiled_;
     uint32_t bindings_ = 0, pushBytes_ = 0, groupSize_ = 1;
     std::vector<VkDescriptorType> types_;
     std::vector<VkFormat> formats_;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/gpu/physical_device.h"
+#include "engine/gpu/pipeline.h"
 #include "engine/gpu/stopwatch.h"
 #include "engine/types/error.h"
+#include "shaders/ceiling.h"
 #include "tests/support/vulkan.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <doctest/doctest.h>
 #include <string>
@@ -96,4 +99,26 @@ TEST_CASE("the stopwatch gives one interval less than it has marks and none is n
     for (double ms : intervals) {
         CHECK(ms >= 0.0);
     }
+}
+
+namespace {
+
+gpu::Pipeline ceiling(const gpu::Device& device, uint32_t group, uint32_t steps) {
+    return {device, {"ceiling", ceiling_spv, 1, false, 0, std::array{group, steps}}};
+}
+
+} // namespace
+
+TEST_CASE("A pipeline that is asked for again is compiled once, and none that is in use is let go") {
+    const gpu::Device device(vulkan().instance, vulkan().device.facts().name);
+    const gpu::Pipeline kept = ceiling(device, 64, 1);
+    CHECK(ceiling(device, 64, 1).handle() == kept.handle());
+    CHECK(ceiling(device, 64, 2).handle() != kept.handle());
+    CHECK(ceiling(device, 32, 1).handle() != kept.handle());
+    CHECK(device.pipelines().size() == 3);
+    for (uint32_t steps = 3; steps < 3 + gpu::PipelineStore::kMost; ++steps) {
+        ceiling(device, 64, steps);
+    }
+    CHECK(device.pipelines().size() == gpu::PipelineStore::kMost);
+    CHECK(ceiling(device, 64, 1).handle() == kept.handle());
 }
