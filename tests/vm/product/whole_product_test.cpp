@@ -111,11 +111,11 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     Stage stage;
     // Down onto the block from above, and 20 mm into its region.
     std::ofstream(stage.folder / "press.csv") << "t_s,x,y,z,qw,qx,qy,qz\n0,0,0,0.35,1,0,0,0\n"
-                                                 "2,0,0,0.47,1,0,0,0\n16,0,0,0.47,1,0,0,0\n";
+                                                 "2,0,0,0.47,1,0,0,0\n10,0,0,0.47,1,0,0,0\n";
     std::thread pull([&stage] {
         waitFor([&stage] { return std::filesystem::exists(stage.folder / "view.door"); }, // turns begin
                 std::chrono::seconds(90));
-        std::this_thread::sleep_for(std::chrono::seconds(6));
+        std::this_thread::sleep_for(std::chrono::seconds(3));
         stage.camera.unplug();
         std::this_thread::sleep_for(std::chrono::seconds(1));
         stage.camera.plug();
