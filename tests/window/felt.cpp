@@ -9,19 +9,28 @@
 
 namespace fathom::window {
 
-std::vector<Felt> feltIn(const std::filesystem::path& file, size_t force, size_t contacts) {
+std::vector<double> columnIn(const std::filesystem::path& file, size_t column) {
     std::ifstream in(file);
-    std::vector<Felt> felt;
+    std::vector<double> values;
     std::string line;
     std::getline(in, line);
     while (std::getline(in, line)) {
         std::stringstream row(line);
-        std::vector<double> cells;
-        for (std::string cell; cells.size() <= contacts && std::getline(row, cell, ',');) {
-            cells.push_back(std::stod(cell));
+        std::string cell;
+        for (size_t i = 0; i <= column; ++i) {
+            std::getline(row, cell, ',');
         }
-        felt.push_back({cells.at(0), std::hypot(cells.at(force), cells.at(force + 1), cells.at(force + 2)),
-                        cells.at(contacts) > 0.0});
+        values.push_back(std::stod(cell));
+    }
+    return values;
+}
+
+std::vector<Felt> feltIn(const std::filesystem::path& file, size_t force, size_t contacts) {
+    const std::vector<double> t = columnIn(file, 0), x = columnIn(file, force), y = columnIn(file, force + 1),
+                              z = columnIn(file, force + 2), touched = columnIn(file, contacts);
+    std::vector<Felt> felt;
+    for (size_t i = 0; i < t.size(); ++i) {
+        felt.push_back({t[i], std::hypot(x[i], y[i], z[i]), touched[i] > 0.0});
     }
     return felt;
 }

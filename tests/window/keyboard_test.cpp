@@ -41,6 +41,7 @@ TEST_CASE("A key that is struck faster than frames are drawn counts each time") 
     rig.xdo("key --delay 50 t t t"); // faster still would be one that is held
     CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 2; }));
     rig.xdo("key --delay 50 t t t t t t");
+    CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 3; })); // at once, and at last
     CHECK(later(rig, 6 * 2 + 4)["console"]["tree_level"] == 3); // down in one frame, up in the next
     closeQuietly(rig);
 }

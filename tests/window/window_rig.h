@@ -56,9 +56,8 @@ public:
     void drag(const std::string& place, glm::dvec2 from, glm::dvec2 to) const;
     void wheel(int notches) const;            // positive: away
     void xdo(const std::string& words) const; // xdotool; $W is the window
-    void
-    push() const; // by the wheel from where the hand begins, until the bump is felt and some millimetres on
-    void minimise(bool on) const;                    // as a window manager does
+    void push() const;            // the wheel, from where the hand begins into the bump by some millimetres
+    void minimise(bool on) const; // as a window manager does
     Screenshot shoot(const std::string& keep) const; // F12; `keep`: name under the kept pictures
 
     // Ends the program (exit code checked) and starts it anew on this scene or recording.
