@@ -3,12 +3,15 @@
 
 #include "apps/operate/why_panel.h"
 
+#include <imgui.h>
+
 namespace fathom::operate {
 
 StateExtras extrasOf(const ShownState& s) {
     StateExtras extras;
     extras.mode = modeOf(s.console, s.view).word;
     const Canvas::Counts counts = s.canvas.counts();
+    extras.begun = static_cast<uint64_t>(ImGui::GetFrameCount());
     extras.windowFrames = counts.drawn;
     extras.yielded = counts.yielded;
     extras.swapchains = counts.swapchains;

@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <imgui.h>
 #include <nlohmann/json.hpp>
 
 namespace fathom::operate {
@@ -134,7 +133,7 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
                  {"run", turnOf(run, extras)},
                  {"mode", extras.mode},
                  {"window",
-                  {{"begun", ImGui::GetFrameCount()},
+                  {{"begun", extras.begun},
                    {"frames", extras.windowFrames},
                    {"yielded", extras.yielded},
                    {"swapchains", extras.swapchains},

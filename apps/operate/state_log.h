@@ -16,7 +16,7 @@ namespace fathom::operate {
 
 struct StateExtras {
     std::string mode;
-    uint64_t windowFrames = 0, yielded = 0;
+    uint64_t begun = 0, windowFrames = 0, yielded = 0; // frames: begun, drawn, left to passes
     uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
     bool deviceThere = true;
     uint32_t renewals = 0; // times that the device was made anew

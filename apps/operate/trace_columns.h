@@ -19,6 +19,11 @@ void eachColumn(const std::deque<TraceSample>& trace, Column&& column, Value&& v
         float low, high;
     };
     std::optional<Stroke> stroke;
+    const auto drawLast = [&] {
+        if (stroke) {
+            draw(stroke->first, stroke->last, stroke->low, stroke->high);
+        }
+    };
     for (size_t i = 0; i < trace.size();) {
         const int at = column(trace[i]);
         const float before = value(trace[i == 0 ? 0 : i - 1]);
@@ -32,14 +37,10 @@ void eachColumn(const std::deque<TraceSample>& trace, Column&& column, Value&& v
             stroke->last = at;
             continue;
         }
-        if (stroke) {
-            draw(stroke->first, stroke->last, stroke->low, stroke->high);
-        }
+        drawLast();
         stroke = {at, at, low, high};
     }
-    if (stroke) {
-        draw(stroke->first, stroke->last, stroke->low, stroke->high);
-    }
+    drawLast();
 }
 
 } // namespace fathom::operate
