@@ -10,6 +10,7 @@
 #include <array>
 #include <cctype>
 #include <doctest/doctest.h>
+#include <iterator>
 #include <string>
 
 using namespace fathom;
@@ -119,6 +120,13 @@ TEST_CASE("A pipeline that is asked for again is compiled once, and none that is
     for (uint32_t steps = 3; steps < 3 + gpu::PipelineStore::kMost; ++steps) {
         ceiling(device, 64, steps);
     }
-    CHECK(device.pipelines().size() == gpu::PipelineStore::kMost);
+    gpu::PipelineStore& store = device.pipelines();
+    CHECK(store.size() == gpu::PipelineStore::kMost);
+    const auto there = [&](uint32_t steps) {
+        return store.find({ceiling_spv, std::size(ceiling_spv), 1, 0, false, {64, steps}, {}}) != nullptr;
+    };
+    CHECK(there(1));
+    CHECK_FALSE(there(2)); // the longest unused went
+    CHECK(there(2 + gpu::PipelineStore::kMost));
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
 }
