@@ -120,7 +120,10 @@ TEST_CASE("Solving on few rows with a look at the rest gives the optimum over al
             continue;
         }
         CAPTURE(world.name);
-        for (const Against& found : compare(world, reductions)) {
+        const std::vector<Against> all = compare(world, reductions);
+        for (size_t i = 0; i < all.size(); ++i) {
+            const Against& found = all[i];
+            CAPTURE(reductions[i].first);
             CHECK(found.apart < 1e-9);
             CHECK(found.otherRounds < 12); // of 1200: a gap that is 0 but for rounding
             CHECK(found.deepest <= 0.0);
@@ -147,6 +150,7 @@ TEST_CASE(
         CAPTURE(world.name);
         const std::vector<Against> found = compare(world, reductions);
         for (size_t i = 0; i < found.size(); ++i) {
+            CAPTURE(reductions[i].first);
             CHECK(found[i].deepest <= 0.0);
             farthest = std::max(farthest, reductions[i].first > 0 ? found[i].apart : 0.0);
         }

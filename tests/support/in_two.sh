@@ -13,7 +13,6 @@ halves=$(awk '/^Cpus_allowed_list/ {
     for (i = 1; i in runs; ++i) {
         split(runs[i], ends, "-")
         for (cpu = ends[1]; cpu <= (2 in ends ? ends[2] : ends[1]); ++cpu) all[n++] = cpu
-        delete ends
     }
     for (i = 0; i < n && n > 1; ++i) printf "%s%s", all[i], i + 1 == int(n / 2) ? " " : i + 1 < n ? "," : ""
 }' /proc/self/status)
