@@ -87,15 +87,6 @@ FATHOM_CLONES void addAxis(const float* v, size_t n, double lo, double perMetre,
     }
 }
 
-// Counts to running ends.
-void sumUp(std::span<uint32_t> begins) noexcept {
-    uint32_t sum = 0;
-    for (uint32_t& begin : begins) {
-        sum += begin;
-        begin = sum;
-    }
-}
-
 } // namespace
 
 void RegionGrid::build(const RegionSpheres& spheres, Crew* crew) {
@@ -189,9 +180,10 @@ void RegionGrid::chooseCells(double meanRadius) {
 
 void RegionGrid::layOut(const Columns& columns, Crew* crew) {
     const size_t n = columns[0].size();
-    cellBegin_.assign(static_cast<size_t>(nx_ * ny_ * nz_) + 1, 0);
+    const auto cells = static_cast<uint32_t>(nx_ * ny_ * nz_);
+    cellBegin_.resize(size_t{cells} + 1);
     cell_.resize(n);
-    uint32_t *const cell = cell_.data(), *const begin = cellBegin_.data(), *const order = order_.data();
+    uint32_t* const cell = cell_.data();
     inParts(crew, n, kRun, [&](size_t first, size_t end) {
         for (size_t at = first; at < end; at += kRun) { // what one axis wrote is near when the next one comes
             const size_t count = std::min(kRun, end - at);
@@ -201,20 +193,14 @@ void RegionGrid::layOut(const Columns& columns, Crew* crew) {
             addAxis(columns[0].data() + at, count, lo_.x, perMetre_, static_cast<int32_t>(nx_), cell + at);
         }
     });
-    for (size_t i = 0; i < n; ++i) {
-        ++begin[cell[i]];
-    }
-    sumUp(cellBegin_);
-    for (size_t i = n; i-- > 0;) { // backwards: keeps the order of the input within a cell
-        order[--begin[cell[i]]] = static_cast<uint32_t>(i);
-    }
+    sort_.sort(cell_, cells, cellBegin_, order_, crew);
     const float *const x = columns[0].data(), *const y = columns[1].data(), *const z = columns[2].data(),
                        *const radius = columns[3].data();
     float *const toX = x_.data(), *const toY = y_.data(), *const toZ = z_.data(),
                  *const toRadius = radius_.data();
     inParts(crew, n, kRun, [&](size_t first, size_t end) {
         for (size_t slot = first; slot < end; ++slot) {
-            const uint32_t i = order[slot];
+            const uint32_t i = order_[slot];
             toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
         }
     });

@@ -3,6 +3,7 @@
 // run.
 #pragma once
 
+#include "engine/contact/cell_sort.h"
 #include "engine/contact/fixtures.h"
 
 #include <algorithm>
@@ -88,6 +89,7 @@ private:
     std::vector<uint32_t> cellBegin_; // cells + 1
     std::vector<uint32_t> cell_;      // build scratch: cell of each sphere
     std::vector<Extent> extents_;     // build scratch: of each run of spheres
+    CellSort sort_;                   // build scratch
     double maxRadius_ = 0.0;
     dvec3 lo_{0.0}, hi_{0.0};
     double size_ = 1.0, perMetre_ = 1.0;

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/cell_sort.h"
+
+#include "engine/types/crew.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <numeric>
+#include <random>
+
+using namespace fathom;
+
+namespace {
+
+std::vector<uint32_t> cellsOf(size_t things, uint32_t cells, std::mt19937& random) {
+    std::vector<uint32_t> cell(things);
+    uint32_t at = 0;
+    for (uint32_t& c : cell) { // neighbours near each other, as patches give them, with jumps
+        const auto drawn = static_cast<uint32_t>(random());
+        at = drawn % 50 == 0 ? drawn / 50 % cells : (at + drawn % 3) % cells;
+        c = at;
+    }
+    return cell;
+}
+
+void check(CellSort& sort, const std::vector<uint32_t>& cell, uint32_t cells, Crew* crew) {
+    std::vector<uint32_t> begins(size_t{cells} + 1, 77), order(cell.size(), 77), expected(cell.size());
+    sort.sort(cell, cells, begins, order, crew);
+    std::iota(expected.begin(), expected.end(), 0u);
+    std::ranges::stable_sort(expected, {}, [&](uint32_t i) { return cell[i]; });
+    CHECK(order == expected);
+    std::vector<uint32_t> counts(size_t{cells} + 1, 0);
+    for (const uint32_t c : cell) {
+        ++counts[c + 1];
+    }
+    std::partial_sum(counts.begin(), counts.end(), counts.begin());
+    CHECK(begins == counts);
+}
+
+} // namespace
+
+TEST_CASE("Things are sorted by cell and stay in order within one, alone or by a crew, few cells or many") {
+    std::mt19937 random(5);
+    Crew crew(3);
+    CellSort sort; // the same one: what was there before is forgotten
+    for (const size_t things : {0, 1, 31, 4095, 8192, 12289, 60'000}) {
+        for (const uint32_t cells : {1u, 2u, 511u, 513u, 40'000u, 1u << 20}) {
+            CAPTURE(things);
+            CAPTURE(cells);
+            const std::vector<uint32_t> cell = cellsOf(things, cells, random);
+            check(sort, cell, cells, nullptr);
+            check(sort, cell, cells, &crew);
+        }
+    }
+}
+
+TEST_CASE("Things that are all in one cell, the first or the last, keep their order") {
+    Crew crew(2);
+    CellSort sort;
+    for (const uint32_t cell : {0u, 9999u}) {
+        check(sort, std::vector<uint32_t>(20'000, cell), 10'000, &crew);
+    }
+}
