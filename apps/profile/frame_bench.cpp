@@ -26,7 +26,10 @@ void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
     cpu.push_back(clocks.cpuMs());
     total.push_back(millis(report.times.published - report.times.started));
     upload.push_back(report.uploadMs);
+    collected.push_back(millis(report.times.collected - report.times.started));
     publish.push_back(report.publishMs);
+    collect.push_back(millis(report.times.collected - report.times.landed));
+    grid.push_back(millis(report.times.published - report.times.collected));
     passes.resize(report.passMs.size());
     for (size_t i = 0; i < report.passMs.size(); ++i) {
         passes[i].push_back(report.passMs[i]);
@@ -100,7 +103,10 @@ FrameCost FrameBench::costOf(const FrameSamples& samples) const {
     cost.frame = {timed ? spreadOf(samples.gpu) : Spread{}, spreadOf(samples.submit), spreadOf(samples.cpu)};
     cost.total = spreadOf(samples.total);
     cost.upload = spreadOf(samples.upload);
+    cost.collected = spreadOf(samples.collected);
     cost.publish = spreadOf(samples.publish);
+    cost.collect = spreadOf(samples.collect);
+    cost.grid = spreadOf(samples.grid);
     for (size_t i = 0; timed && i < samples.passes.size(); ++i) {
         cost.passes[cycle_->passNames()[i]] = spreadOf(samples.passes[i]);
     }

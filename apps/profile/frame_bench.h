@@ -34,13 +34,15 @@ struct ShotSource {
 struct FrameCost {
     Cost frame;   // gpu = sum of the passes, submit = submission until landed, cpu = of the calling thread
     Spread total; // upload to published [ms]
-    Spread upload, publish;
+    Spread collected;       // upload until the host has what the device made: all of it but the grid [ms]
+    Spread upload, publish; // on the host [ms]; publish: collect, then grid
+    Spread collect, grid;   // what the device made; the grid over its spheres
     std::map<std::string, Spread> passes; // device time [ms]
 };
 
 // Samples of each step, gathered frame by frame [ms].
 struct FrameSamples {
-    std::vector<double> gpu, submit, cpu, total, upload, publish;
+    std::vector<double> gpu, submit, cpu, total, collected, upload, publish, collect, grid;
     std::vector<std::vector<double>> passes;
 
     void add(const FrameReport& report, const Clocks& clocks);

@@ -52,7 +52,13 @@ public:
         row.setting = setting;
         row.isDefault = false;
         row.cost = m.cost.frame;
-        row.more = {x, m.cost.total.p50, m.cost.upload.p50, m.cost.publish.p50};
+        row.more = {x,
+                    m.cost.total.p50,
+                    m.cost.collected.p50,
+                    m.cost.upload.p50,
+                    m.cost.collect.p50,
+                    m.cost.grid.p50,
+                    static_cast<double>(bench.set().host.spheres.size())};
         for (const char* pass : {"classify", "surface", "thin", "spheres", "moments"}) {
             const auto it = m.cost.passes.find(pass);
             row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
@@ -82,7 +88,8 @@ public:
         };
         add("upload to published", [](const Measured& m) { return m.cost.total.p50; });
         add("upload (host)", [](const Measured& m) { return m.cost.upload.p50; });
-        add("publish (host)", [](const Measured& m) { return m.cost.publish.p50; });
+        add("collect (host)", [](const Measured& m) { return m.cost.collect.p50; });
+        add("grid (host)", [](const Measured& m) { return m.cost.grid.p50; });
         for (const auto& [name, spread] : curve.front().cost.passes) {
             add(name, [pass = name](const Measured& m) { // one class alone has no moments
                 const auto it = m.cost.passes.find(pass);
@@ -154,8 +161,11 @@ Study scalingStudy(const StudyContext& context) {
     study.timeName = "upload to published p50";
     study.moreNames = {"x",
                        "upload_to_published_p50_ms",
+                       "upload_to_collected_p50_ms",
                        "upload_p50_ms",
-                       "publish_p50_ms",
+                       "collect_p50_ms",
+                       "grid_p50_ms",
+                       "spheres",
                        "classify_p50_ms",
                        "surface_p50_ms",
                        "thin_p50_ms",

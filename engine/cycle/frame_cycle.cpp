@@ -230,6 +230,7 @@ FrameReport FrameCycle::finish() {
         if (plan_.query != Plan::Query::Gpu) {
             frozen_.apply(set.host, scene_);
         }
+        f.times.collected = Clock::now();
         if (plan_.spheres) {
             set.grid.build(set.host.spheres, &crew_);
         }

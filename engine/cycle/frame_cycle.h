@@ -31,7 +31,8 @@ struct FrameReport {
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;
     std::vector<double> passMs; // in the order of FrameCycle::passNames(); device time
     struct Times {              // on the host's monotonic clock
-        std::chrono::steady_clock::time_point started, uploaded, submitted, landed, published;
+        // landed: the device is done; collected: what it made is the host's; published: so is its grid
+        std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published;
     } times;
 };
 

@@ -192,7 +192,7 @@ TEST_CASE("A frame's passes lie one after the other from its submission on, on t
     FrameReport report;
     const auto t = std::chrono::steady_clock::now();
     report.index = 7;
-    report.times = {t, t + us(100), t + us(150), t + us(5000), t + us(6000)};
+    report.times = {t, t + us(100), t + us(150), t + us(5000), t + us(5400), t + us(6000)};
     report.passMs = {1.5, 2.25};
     trace.frame(report);
     report.unchanged = true;
@@ -216,6 +216,7 @@ TEST_CASE("A frame's passes lie one after the other from its submission on, on t
     CHECK(surface["tid"] != upload["tid"]);
     CHECK(surface["args"]["placed"].get<std::string>().find("submit time") != std::string::npos);
     CHECK(eventsNamed(json, "publish")[0]["dur"] == 1000.0);
+    CHECK(eventsNamed(json, "grid")[0]["dur"] == 600.0);
     CHECK(eventsNamed(json, "query")[0]["args"]["spheres"] == 12);
     CHECK(eventsNamed(json, "turn")[0]["args"]["woken_late_us"] == doctest::Approx(5.0));
 }
