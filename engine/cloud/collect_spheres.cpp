@@ -4,12 +4,14 @@
 #include "engine/types/crew.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace fathom::cloud {
 
 namespace {
 
 constexpr uint32_t kLeastPart = 4096; // spheres
+constexpr size_t kLeastPatches = 64;  // that are counted in one go
 
 // Pixel, row-major in the picture, of each slot of the patch in the top left corner; held points behind them,
 // which count on from the last pixel. The order in which spheres are collected is by pixel.
@@ -23,15 +25,17 @@ std::array<uint32_t, 512> sourcesOfPatch(uint32_t width, uint32_t pixels) {
     return sources;
 }
 
-// One sphere of a patch: layer * 256 + slot, and its class.
-struct Placed {
-    glm::vec4 sphere;
-    uint32_t place, fixture;
-};
+} // namespace
 
 // Writes the host's columns, which are large enough already, in order of patches.
 class SphereColumns {
 public:
+    // One sphere of a patch: layer * 256 + slot, and its class.
+    struct Placed {
+        glm::vec4 sphere;
+        uint32_t place, fixture;
+    };
+
     SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
         : set_(set)
         , across_(layout.across)
@@ -88,21 +92,15 @@ private:
     std::array<uint32_t, shared::kMaxClasses> rows_{}, here_{}; // here_: spheres of each class in the patch
 };
 
-// Of patches [first, end); begins as in the collector.
-void takeRuns(const FixtureSet& set, std::span<const uint32_t> begins, uint32_t first, uint32_t end,
-              SphereColumns& columns) {
-    const auto packed = set.device.packed.as<glm::vec4>();
-    const auto tags = set.device.tags.as<uint32_t>();
-    const auto runs = set.device.runs.as<glm::uvec2>();
-    for (uint32_t patch = first; patch < end; ++patch) {
-        const uint32_t n = begins[patch + 1] - begins[patch];
-        if (n > 0) {
-            const size_t from = runs[patch].x;
-            columns.put(patch, begins[patch], n, [&](uint32_t i) {
-                const uint32_t tag = tags[from + i];
-                return Placed{packed[from + i], tag >> 3 & 511, tag & 7};
-            });
-        }
+namespace {
+
+// The device has just written them, patches in any order: none of a run's lines is near, and the processor
+// cannot guess where the next run begins.
+template <class T>
+void bringNear(std::span<T> run) noexcept {
+    constexpr size_t kLine = 64; // bytes
+    for (size_t i = 0; i < run.size(); i += kLine / sizeof(T)) {
+        __builtin_prefetch(&run[i]);
     }
 }
 
@@ -128,40 +126,63 @@ void add(SphereCounts& to, const SphereCounts& more) {
 } // namespace
 
 SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
-                                 const std::vector<uint32_t>& rows, const PatchLayout& layout,
-                                 const Crew& crew)
+                                 const std::vector<uint32_t>& rows, const PatchLayout& layout, Crew& crew)
     : set_(set)
     , work_(work)
     , plan_(plan)
     , rows_(rows)
     , layout_(layout)
     , begins_(layout.patches() + 1) {
-    const uint32_t count =
-        plan.pack ? placePatches() : set.device.counters.as<shared::FrameCounters>()[0].spheres;
+    const uint32_t count = placePatches(crew);
     set.host.spheres.resize(count);
     set.keys.resize(plan.query == Plan::Query::Gpu ? count : 0);
-    counts_.resize(plan.pack ? partsOf(&crew, count, kLeastPart) : 1);
+    counts_.resize(partsOf(&crew, count, kLeastPart));
 }
 
-// From how many the device packed of each patch.
-uint32_t SphereCollector::placePatches() {
-    const auto listed = set_.device.listed.as<uint32_t>(); // runs of others are of earlier frames
-    const auto runs = set_.device.runs.as<glm::uvec2>();
+uint32_t SphereCollector::placePatches(Crew& crew) {
+    inParts(&crew, layout_.patches(), kLeastPatches, [&](size_t begin, size_t end) {
+        for (size_t patch = begin; patch < end; ++patch) {
+            begins_[patch] = spheresOf(static_cast<uint32_t>(patch));
+        }
+    });
     uint32_t next = 0;
-    for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
-        begins_[patch] = next;
-        next += listed[patch] != 0 ? runs[patch].y : 0;
+    for (uint32_t& begin : begins_) { // the last is of no patch, and 0
+        next += std::exchange(begin, next);
     }
-    begins_.back() = next;
     return next;
 }
 
-void SphereCollector::take(uint32_t part) noexcept {
-    if (plan_.pack) {
-        takePacked(part);
-    } else {
-        takeSlots();
+// Runs and radii of patches that are not listed are of earlier frames.
+uint32_t SphereCollector::spheresOf(uint32_t patch) const noexcept {
+    if (set_.device.listed.as<uint32_t>()[patch] == 0) {
+        return 0;
     }
+    if (plan_.pack) {
+        return set_.device.runs.as<glm::uvec2>()[patch].y;
+    }
+    uint32_t n = 0;
+    for (const gpu::Buffer* radii : {&work_.radii, &work_.heldRadii}) {
+        const float* const r = *radii ? &radii->as<float>()[size_t{patch} * 256] : nullptr;
+        for (uint32_t slot = 0; r != nullptr && slot < 256; ++slot) {
+            n += r[slot] >= 0.0f ? 1u : 0u;
+        }
+    }
+    return n;
+}
+
+// A part begins and ends with a patch, and all have about as many spheres.
+void SphereCollector::take(uint32_t part) noexcept {
+    const auto patchAt = [&](uint64_t share) {
+        const uint64_t sphere = begins_.back() * share / parts();
+        return static_cast<uint32_t>(std::ranges::lower_bound(begins_, sphere) - begins_.begin());
+    };
+    SphereColumns columns(set_, rows_, layout_);
+    if (plan_.pack) {
+        takePacked(patchAt(part), patchAt(part + 1), columns);
+    } else {
+        takeSlots(patchAt(part), patchAt(part + 1), columns);
+    }
+    counts_[part] = columns.counts();
 }
 
 SphereCounts SphereCollector::counts() const {
@@ -172,43 +193,53 @@ SphereCounts SphereCollector::counts() const {
     return all;
 }
 
-// A part begins and ends with a patch, and all have about as many spheres.
-void SphereCollector::takePacked(uint32_t part) {
-    const auto patchAt = [&](uint64_t share) {
-        const uint64_t sphere = begins_.back() * share / parts();
-        return static_cast<uint32_t>(std::ranges::lower_bound(begins_, sphere) - begins_.begin());
+// Of patches [first, end).
+void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
+    const auto packed = set_.device.packed.as<glm::vec4>();
+    const auto tags = set_.device.tags.as<uint32_t>();
+    const auto runs = set_.device.runs.as<glm::uvec2>();
+    const auto bring = [&](uint32_t patch) {
+        const uint32_t n = patch < end ? begins_[patch + 1] - begins_[patch] : 0;
+        if (n > 0) {
+            bringNear(packed.subspan(runs[patch].x, n));
+            bringNear(tags.subspan(runs[patch].x, n));
+        }
     };
-    SphereColumns columns(set_, rows_, layout_);
-    takeRuns(set_, begins_, patchAt(part), patchAt(part + 1), columns);
-    counts_[part] = columns.counts();
+    bring(first);
+    for (uint32_t patch = first; patch < end; ++patch) {
+        bring(patch + 1);
+        const uint32_t n = begins_[patch + 1] - begins_[patch];
+        if (n > 0) {
+            const size_t from = runs[patch].x;
+            columns.put(patch, begins_[patch], n, [&](uint32_t i) {
+                const uint32_t tag = tags[from + i];
+                return SphereColumns::Placed{packed[from + i], tag >> 3 & 511, tag & 7};
+            });
+        }
+    }
 }
 
-void SphereCollector::takeSlots() {
-    const auto listed = set_.device.listed.as<uint32_t>();
-    SphereColumns columns(set_, rows_, layout_);
+// Of patches [first, end).
+void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
     const std::array<std::span<const glm::vec4>, 2> points{work_.points.as<glm::vec4>(),
                                                            work_.kept.as<glm::vec4>()};
     const std::array<std::span<const float>, 2> radii{work_.radii.as<float>(), work_.heldRadii.as<float>()};
     const auto classes = work_.classes.as<uint8_t>();
     std::array<uint16_t, 513> places; // that hold a sphere, and one more
-    uint32_t next = 0;
-    for (uint32_t patch = 0; patch < layout_.patches(); ++patch) {
-        begins_[patch] = next;
+    for (uint32_t patch = first; patch < end; ++patch) {
         uint32_t n = 0;
-        for (uint32_t layer = 0; listed[patch] != 0 && layer < (plan_.hold ? 2u : 1u); ++layer) {
+        for (uint32_t layer = 0; begins_[patch + 1] > begins_[patch] && layer < (plan_.hold ? 2u : 1u);
+             ++layer) {
             n += placesOf(&radii[layer][patch * 256], layer * 256, &places[n]);
         }
         if (n > 0) {
-            columns.put(patch, next, n, [&](uint32_t i) {
+            columns.put(patch, begins_[patch], n, [&](uint32_t i) {
                 const uint32_t layer = places[i] >> 8u, slot = patch * 256u + (places[i] & 255u);
-                return Placed{glm::vec4(glm::vec3(points[layer][slot]), radii[layer][slot]), places[i],
-                              classes[slot] >> (4 * layer) & 15u};
+                return SphereColumns::Placed{glm::vec4(glm::vec3(points[layer][slot]), radii[layer][slot]),
+                                             places[i], classes[slot] >> (4 * layer) & 15u};
             });
         }
-        next += n;
     }
-    begins_.back() = next;
-    counts_[0] = columns.counts();
 }
 
 uint32_t SphereCollector::nodesAbove() const {

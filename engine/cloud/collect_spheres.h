@@ -19,12 +19,14 @@ struct SphereCounts {
     std::array<uint32_t, shared::kMaxClasses> ofClass{}, patchesOfClass{}; // a class of points
 };
 
+class SphereColumns; // where they go
+
 // Fills set.host.spheres and, for a GPU query, set.keys, in parts that several threads may share. rows: row
 // of Scene::fixtures of each class of points. Allocates when it is made; taking does not.
 class SphereCollector {
 public:
     SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
-                    const std::vector<uint32_t>& rows, const PatchLayout& layout, const Crew& crew);
+                    const std::vector<uint32_t>& rows, const PatchLayout& layout, Crew& crew);
 
     uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
     void take(uint32_t part) noexcept; // each once, in any order, on any thread
@@ -33,9 +35,10 @@ public:
     uint32_t nodesAbove() const;
 
 private:
-    uint32_t placePatches();
-    void takePacked(uint32_t part);
-    void takeSlots();
+    uint32_t placePatches(Crew& crew);
+    uint32_t spheresOf(uint32_t patch) const noexcept;
+    void takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept;
+    void takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept;
 
     FixtureSet& set_;
     const WorkBuffers& work_;

@@ -26,6 +26,12 @@ std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
     return buffers;
 }
 
+// Beside a device of its own the crew looks out while the passes run, which take less than a millisecond; a
+// CPU device needs its processors for them.
+std::chrono::microseconds lookOutOf(const Plan& plan) {
+    return std::chrono::microseconds(plan.pack ? 1000 : 100);
+}
+
 } // namespace
 
 FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
@@ -41,7 +47,7 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
     , setBuffers_(buffersOf(pool_))
     , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, setBuffers_})
     , timeline_(device)
-    , crew_(plan.publishers)
+    , crew_(plan.publishers, lookOutOf(plan))
     , leakWarned_(shared::kMaxClasses, 0) {
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         passes_.bind(slot, uploads_[slot]);
@@ -214,7 +220,7 @@ FrameReport FrameCycle::finish() {
     report.uploadMs = f.uploadMs;
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
-        if (crew_.members() > 1) {
+        if (plan_.pack && crew_.members() > 1) {
             crew_.call();
         }
         fillHost(f); // while the device works

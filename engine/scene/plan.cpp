@@ -51,10 +51,10 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
     }
-    // Who shares it looks out for it while the device works: not where the device is the CPU, or CPUs are
-    // few.
-    if (plan.spheres && device.kind != DeviceKind::Cpu && device.hostProcessors >= kManyProcessors) {
-        plan.publishers = kPublishers;
+    // Beside a device of its own those who share it look out for it while the device works, for which CPUs
+    // must be many; a CPU device has done its work by then.
+    if (plan.spheres && (device.kind == DeviceKind::Cpu || device.hostProcessors >= kManyProcessors)) {
+        plan.publishers = std::min(kPublishers, device.hostProcessors);
     }
     plan.rays = plan.cloud && !camera.depth.pinhole();
     plan.fan = plan.cloud && camera.depth.fan;
@@ -208,7 +208,7 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
            plan.query != Plan::Query::None ? "contact sets (realtime)" : "nothing to collide with");
     thread("haptic", true, "turns (realtime)");
     thread("publishers", plan.publishers > 1,
-           plan.publishers > 1 ? "three beside the camera's lay out each set"
+           plan.publishers > 1 ? "those beside the camera's lay out each set with it"
                                : "the camera's alone lays out each set");
     const auto arm = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"arm", name, in, why, 0});

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/crew.h"
 
-#include <chrono>
-
 namespace fathom {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::microseconds kLookOut{1000}; // passes of a frame take less on devices worth a crew
-constexpr int kLooks = 256;                         // between two looks at the clock
+constexpr int kLooks = 256; // between two looks at the clock, or two offers of the processor
 
 void relax() noexcept {
 #if defined(__x86_64__)
@@ -26,7 +23,8 @@ uint64_t firstClaim(uint64_t job, uint32_t parts) noexcept {
 
 } // namespace
 
-Crew::Crew(uint32_t members) {
+Crew::Crew(uint32_t members, std::chrono::microseconds lookOut)
+    : lookOut_(lookOut) {
     for (uint32_t i = 1; i < members; ++i) {
         threads_.emplace_back([this] { member(); });
     }
@@ -50,8 +48,13 @@ void Crew::runWork(uint32_t parts, const Work& work) noexcept {
     call(); // who has tired of looking out comes late, but comes
     while (takePart()) {
     }
-    while (done_.load(std::memory_order_acquire) < parts) {
-        relax(); // a part is in work: as short as the one that was just done here
+    // A part is in work: as short as the one that was just done here, unless its thread has lost its
+    // processor.
+    for (int looks = 1; done_.load(std::memory_order_acquire) < parts; ++looks) {
+        if (looks % kLooks == 0) {
+            std::this_thread::yield();
+        }
+        relax();
     }
 }
 
@@ -70,11 +73,11 @@ bool Crew::takePart() noexcept {
 void Crew::member() noexcept {
     while (!ending_.load()) {
         const uint32_t seen = calls_.load(std::memory_order_acquire);
-        Clock::time_point until = Clock::now() + kLookOut;
+        Clock::time_point until = Clock::now() + lookOut_;
         while (Clock::now() < until) {
             for (int i = 0; i < kLooks; ++i) {
                 if (takePart()) {
-                    until = Clock::now() + kLookOut;
+                    until = Clock::now() + lookOut_;
                 }
                 relax();
             }

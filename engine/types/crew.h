@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <thread>
 #include <vector>
@@ -11,12 +12,12 @@
 namespace fathom {
 
 // For jobs of tens of microseconds and more on hosts with processors to spare: members look out for work
-// without sleeping for a while after each call(). They inherit the affinity of who makes the crew. One thread
-// calls everything.
+// without sleeping for a while after each call() and each job. They inherit the affinity of who makes the
+// crew. One thread calls everything.
 class Crew {
 public:
-    // members: the caller is one of them; 1 = no thread is made.
-    explicit Crew(uint32_t members);
+    // members: the caller is one of them; 1 = no thread is made. lookOut: for how long members do.
+    explicit Crew(uint32_t members, std::chrono::microseconds lookOut = std::chrono::milliseconds(1));
     ~Crew();
     Crew(const Crew&) = delete;
     Crew& operator=(const Crew&) = delete;
@@ -48,6 +49,7 @@ private:
     std::atomic<uint64_t> claims_{0};
     std::atomic<uint32_t> done_{0}, calls_{0};
     std::atomic<bool> ending_{false};
+    const std::chrono::microseconds lookOut_;
     std::vector<std::jthread> threads_;
 };
 

@@ -193,7 +193,9 @@ TEST_CASE(
     CHECK_FALSE(plan(DeviceKind::Discrete, 2, 65536).inPlace); // a camera's blocks are whole pages only
     CHECK(plan(DeviceKind::Discrete, 16, 0).publishers == 4);
     CHECK(plan(DeviceKind::Discrete, 4, 0).publishers == 1);
-    CHECK(plan(DeviceKind::Cpu, 16, 0).publishers == 1); // the passes have them
+    CHECK(plan(DeviceKind::Cpu, 16, 0).publishers == 4); // which its passes need no more
+    CHECK(plan(DeviceKind::Cpu, 2, 0).publishers == 2);
+    CHECK(plan(DeviceKind::Cpu, 1, 0).publishers == 1);
     CHECK_FALSE(planOf(sceneOf({}), cameraOf(640, 480)).inPlace);
 }
 
