@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Which pixels can matter: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation
-// kRows rows of four pixels of a sub-patch. The first pixel with a class puts its patch on the list of work; no result depends on
-// the list's order.
+// kRows rows of four pixels of a sub-patch. The first pixel with a class marks its patch as work; no result depends on the order in
+// which that happens.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
@@ -10,7 +10,7 @@
 layout(local_size_x_id = 0) in;
 layout(constant_id = 1) const uint kRays = 0;    // 1: distorted lens, rays from the table
 layout(constant_id = 2) const uint kColour = 1;  // 0 no class asks, 1 registered, 2 looked up through the registration
-layout(constant_id = 3) const uint kHold = 0;    // 1: patches that hold points are listed too
+layout(constant_id = 3) const uint kHold = 0;    // 1: patches with points in memory are listed too
 layout(constant_id = 4) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the loop over them unrolls
 layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
@@ -22,6 +22,8 @@ layout(constant_id = 11) const uint kWater = 0;     // 1: colours are put right 
 layout(constant_id = 12) const uint kRows = 1;      // 1, 2 or 4 rows an invocation: counts and the list are asked as often less
 layout(constant_id = 13) const uint kWide = 0;      // 1: a group has four patches side by side, so that rows of its pixels are whole lines of the host's memory
 layout(constant_id = 14) const uint kKeep = 0;      // 1 (with kFour): later passes find the depth on the device
+layout(constant_id = 15) const uint kGuidance = 0;  // 1: patches with pixels of a guidance class are marked
+layout(constant_id = 16) const uint kLists = 0;     // 1: marked patches go on the lists here and now; 0: list.comp does that, and marks those with points in memory
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
@@ -29,10 +31,10 @@ layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
 layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel; kFour = 2: a word a pixel, four a texel
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // a byte a slot: class bits
-layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> 1 when on the list
-layout(std430, binding = 7) writeonly buffer List { uint list[]; };         // patches with work, any order
+layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> kPatch bits
+layout(std430, binding = 7) writeonly buffer List { uint list[]; };         // patches, any order; its parts: frame_params.h
 layout(std430, binding = 8) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points kept in memory
+layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held ones among them
 // The arm, about the origin [m]: x of arm[0] = bits of the count of links; a link is two entries, its bound and (bits of) the first
 // and the end of its spheres.
 layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
@@ -41,6 +43,7 @@ layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // u
 #include "shaders/lib/colour.glsl"
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
+#include "shaders/lib/lists.glsl"
 #include "shaders/lib/slots.glsl"
 
 // The colour of a point, looked up; false when the colour camera does not see the point.
@@ -102,14 +105,6 @@ bool onArm(vec3 p) {
         }
     }
     return false;
-}
-
-void putOnList(uint patchIndex) {
-    if (listed[patchIndex] == 0 && atomicExchange(listed[patchIndex], 1u) == 0) {
-        uint place = atomicAdd(counters.patchGroups.x, 1u);
-        list[place] = patchIndex;
-        atomicMax(counters.subGroups.x, (place * 16u + 15u) / kGroupSubs + 1u);
-    }
 }
 
 // rgb: the pixel's own colour, where colours are registered.
@@ -221,6 +216,38 @@ Place placeOf() {
     return Place(gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x, inside, gl_WorkGroupID.xy * 16u + pixelInPatch(inside), true);
 }
 
+// What is new about a patch goes on the lists.
+void mark(uint patchIndex, uint bits) {
+    if ((listed[patchIndex] & bits) == bits) {
+        return;
+    }
+    uint fresh = bits & ~atomicOr(listed[patchIndex], bits);
+    if (kLists != 0 && (fresh & kPatchListed) != 0) {
+        uint place = atomicAdd(counters.patchGroups.x, 1u);
+        list[place] = patchIndex;
+        atomicMax(counters.subGroups.x, groupsUpTo(place, kGroupSubs));
+        if (kHold != 0 && live[patchIndex] >> 16 != 0) {
+            atomicOr(listed[patchIndex], kPatchHolding);
+        }
+    }
+    if (kLists != 0 && (fresh & kPatchGuided) != 0) {
+        uint place = atomicAdd(counters.guidedGroups.w, 1u);
+        list[params.size.z * params.size.w + place] = patchIndex;
+        atomicMax(counters.guidedGroups.x, place + 1u);
+    }
+}
+
+// some: class bits of any of the invocation's pixels, in any byte.
+void markPatch(Place place, uint some) {
+    uint guided = some & ~(params.depthBand.w * 0x01010101u);
+    uint bits = some != 0 ? kPatchListed : 0u;
+    bits |= kGuidance != 0 && guided != 0 ? kPatchGuided : 0u;
+    if (kHold != 0 && kLists != 0 && place.inside == 0 && place.exists) {
+        bits |= live[place.patchIndex] != 0 ? kPatchListed : 0u;
+    }
+    mark(place.patchIndex, bits);
+}
+
 void main() {
     if (kGather != 0) {
         for (uint c = gl_LocalInvocationID.x; c < kMaxClasses; c += gl_WorkGroupSize.x) {
@@ -239,9 +266,7 @@ void main() {
         some |= words[r];
     }
     countPixels(words);
-    if (some != 0 || (kHold != 0 && place.inside == 0 && place.exists && live[place.patchIndex] != 0)) {
-        putOnList(place.patchIndex);
-    }
+    markPatch(place, some);
     if (kGather != 0) {
         barrier();
         for (uint c = gl_LocalInvocationID.x; c < kClasses; c += gl_WorkGroupSize.x) {

@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Moments of every guidance class in every listed patch: count, mean, sums of products about the mean. Those of sub-patches are
+// Moments of every guidance class in every patch that has pixels of one: count, mean, sums of products about the mean. Those of sub-patches are
 // merged in fixed order (Chan, Golub, LeVeque 1979), by an invocation a patch or (kShared) by the first of a group of 16, an
 // invocation a sub-patch.
 #extension GL_GOOGLE_include_directive : require
@@ -13,7 +13,7 @@ layout(constant_id = 1) const uint kShared = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(binding = 2) uniform samplerBuffer points; // a slot: base point about the origin, w = 0: none
-layout(std430, binding = 3) readonly buffer List { uint list[]; };
+layout(std430, binding = 3) readonly buffer List { uint list[]; }; // its part of guided patches
 layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; }; // patch * kMaxClasses + k-th guidance class
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
 
@@ -80,10 +80,10 @@ PatchMoments patchOfGroup(uint patchIndex, uint c) {
 
 void main() {
     uint index = kShared != 0 ? gl_WorkGroupID.x : gl_GlobalInvocationID.x;
-    if (index >= counters.patchGroups.x) {
+    if (index >= counters.guidedGroups.w) {
         return;
     }
-    uint patchIndex = list[index], k = 0;
+    uint patchIndex = list[params.size.z * params.size.w + index], k = 0;
     for (uint c = 0; c < params.depthBand.z; ++c) {
         if (params.classes[c].role.z == 0.0) {
             continue;

@@ -10,7 +10,8 @@
 
 layout(local_size_x_id = 0) in; // divides 256
 layout(constant_id = 1) const uint kThin = 1;       // 1: the error budget leaves points out
-layout(constant_id = 2) const uint kHold = 1;       // 1: unseen points stay for a while
+layout(constant_id = 2) const uint kHold = 1;       // unseen points stay for a while: 1 in patches that hold nothing yet, 2 in those that do,
+                                                    // 3 (with kByPixel) in all
 layout(constant_id = 3) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
 layout(constant_id = 4) const uint kLeaks = 1;      // 1: within near..far neighbours may be a radius apart
 layout(constant_id = 5) const uint kClasses = 1;    // classes of points
@@ -24,13 +25,13 @@ layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
 layout(binding = 2) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(binding = 3) uniform samplerBuffer points; // a slot: base point about the origin, w = z [m]; 0 = none
 layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
-layout(std430, binding = 5) readonly buffer List { uint list[]; };
+layout(std430, binding = 5) readonly buffer List { uint list[]; }; // its parts: frame_params.h
 layout(binding = 6) uniform samplerBuffer growth; // a sub-patch: what thin.comp decided
 layout(std430, binding = 7) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 8) writeonly buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
 layout(std430, binding = 9) writeonly buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
 layout(std430, binding = 10) writeonly buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
-layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory
+layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory + 65536 x held ones among them
 layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
 layout(std430, binding = 14) writeonly buffer Classes { uvec4 classes[]; };     // a byte a slot: class of the sphere | class of the held one << 4
@@ -56,23 +57,8 @@ const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/hold.glsl"
 #include "shaders/lib/slots.glsl"
+#include "shaders/lib/leaks.glsl"
 #include "shaders/lib/thinning.glsl"
-
-// Warns of holes: neighbours of one class on one surface that are at least R apart.
-void noteLeak(uvec2 next, vec4 p, uint c) {
-    if (any(greaterThanEqual(next, params.size.xy)) || listed[(next.y >> 4) * params.size.z + (next.x >> 4)] == 0) {
-        return;
-    }
-    uint slot = slotOfPixel(next, params.size.z);
-    vec4 q = texelFetch(points, int(slot));
-    float apart = distance(p.xyz, q.xyz);
-    bool surface = abs(q.w - p.w) <= 0.7 * apart; // steeper than 45 degrees is rather an edge
-    bool same = forbiddenClass(q.w != 0.0 ? maskAt(slot) & params.depthBand.w : 0u) == c;
-    if (all(bvec3(apart >= params.classes[c].role.x, surface, same))) {
-        atomicMax(counters.leakSpacing[c], floatBitsToUint(apart));
-        atomicMax(counters.leakRange[c], floatBitsToUint(p.w));
-    }
-}
 
 const uint kLayers = kHold != 0 ? 2u : 1u;
 // By pixel, a group shares the thinning of the patch's 4x4 cells and of those left of and above it, 5 a row; spheres of the
@@ -107,11 +93,11 @@ vec4 seenSphere(vec4 point, const uint p, uint c, float more, CellsAround around
 
 struct PixelResult {
     vec4 sphere, held; // R < 0 = none
-    uint note;         // 1 = a forbidden class; 2 x points remembered; 256 x class of the sphere; 4096 x class of the held one
+    uint note;         // 1 = a forbidden class; 2 = it is remembered; 4 = the held one is; 256 x class of the sphere; 4096 x class of the held one
 };
 
-// Pixel p (0..15) of the sub-patch `sub`, whose corner lies at `corner`.
-PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAround around) {
+// Pixel p (0..15) of the sub-patch `sub`, whose corner lies at `corner`. holding: its patch holds points (kHold = 3).
+PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAround around, bool holding) {
     uint slot = sub * 16u + p, remembered = 0, heldClass = 0;
     vec4 point = texelFetch(points, int(slot));
     uint c = forbiddenClass(point.w != 0.0 ? mask : 0u);
@@ -123,7 +109,7 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
         noteLeak(at + uvec2(0, 1), point, c);
     }
     if (kHold != 0) {
-        heldSphere = updateMemory(slot, point.xyz, c, more, heldClass, remembered);
+        heldSphere = updateMemory(slot, point.xyz, c, more, holding, heldClass, remembered);
     }
     if (kTree != 0) {
         spheres[slot] = sphere;
@@ -137,13 +123,13 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
 
 // What the pixels of a sub-patch say together.
 struct Notes {
-    uint marks, remembered; // a bit a pixel of a forbidden class; points
+    uint marks, remembered; // a bit a pixel of a forbidden class; points as in `live`
     uvec4 classes;          // a byte a pixel
 };
 
 Notes noted(Notes n, const uint p, uint note) {
     n.marks |= (note & 1u) << p;
-    n.remembered += note >> 1 & 127u;
+    n.remembered += (note >> 1 & 1u) + (note >> 2 & 1u) * 65537u;
     n.classes[p >> 2] |= note >> 8 << ((p & 3u) * 8u);
     return n;
 }
@@ -160,9 +146,6 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     }
     if (count != 0) {
         atomicAdd(counters.nodes, 1u);
-        if (kPack == 0) {
-            atomicAdd(counters.spheres, count);
-        }
     }
     if (kHold != 0 && notes.remembered != 0) {
         atomicAdd(live[sub >> 4], notes.remembered);
@@ -191,7 +174,7 @@ void wholeSub(uint sub) {
     uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
         uint mask = maskInRow(rows[p >> 2], p & 3u) & params.depthBand.w;
-        PixelResult r = handlePixel(sub, p, corner, mask, around);
+        PixelResult r = handlePixel(sub, p, corner, mask, around, false);
         mine[p] = r.sphere;
         if (kHold != 0) {
             mine[16u * (kLayers - 1u) + p] = r.held;
@@ -262,6 +245,7 @@ void prepareGroup(ivec2 patchAt) {
 
 void wholePatch(uint patchIndex) {
     uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
+    bool holding = (listed[patchIndex] & kPatchHolding) != 0;
     prepareGroup(ivec2(patchAt));
     for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
         CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
@@ -269,7 +253,7 @@ void wholePatch(uint patchIndex) {
             around = cellsOfGroup(i >> 4);
         }
         uint sub = patchIndex * 16u + (i >> 4);
-        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around);
+        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around, holding);
         all[i] = r.sphere;
         markPresent(i, r.sphere.w);
         if (kHold != 0) {
@@ -291,10 +275,20 @@ void wholePatch(uint patchIndex) {
     }
 }
 
+// The listed patches that this dispatch is for.
+uint patchesOfPart() {
+    return kHold == 0 ? counters.patchGroups.x : (kHold == 1 ? counters.quietGroups.w : counters.holdingGroups.w);
+}
+
+uint patchOfPart(uint i) {
+    uint patches = params.size.z * params.size.w;
+    return list[kHold == 0 ? i : (kHold == 1 ? 2u * patches + i : 3u * patches - 1u - i)];
+}
+
 void main() {
     if (kByPixel != 0) {
         wholePatch(list[gl_WorkGroupID.x]);
-    } else if (gl_GlobalInvocationID.x < counters.patchGroups.x * 16u) {
-        wholeSub(list[gl_GlobalInvocationID.x >> 4] * 16u + (gl_GlobalInvocationID.x & 15u));
+    } else if (gl_GlobalInvocationID.x < patchesOfPart() * 16u) {
+        wholeSub(patchOfPart(gl_GlobalInvocationID.x >> 4) * 16u + (gl_GlobalInvocationID.x & 15u));
     }
 }

@@ -44,7 +44,8 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
            std::array{classifyGroup(c.plan), uint32_t{c.plan.rays}, colourMode(c.plan), uint32_t{c.plan.hold},
                       c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box}, uint32_t{c.plan.groupCounts},
                       inFours(c), uint32_t{c.plan.range}, uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water},
-                      rowsOf(c.plan), uint32_t{c.plan.byPixel}, uint32_t{c.plan.keepDepth}},
+                      rowsOf(c.plan), uint32_t{c.plan.byPixel}, uint32_t{c.plan.keepDepth},
+                      uint32_t{c.plan.moments}, uint32_t{!c.plan.lists()}},
            {{1, inFours(c) != 0 ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels},
             {3, inFours(c) == 2 ? VK_FORMAT_R32G32B32A32_UINT : kColourTexels}}})
     , work_(c.work)
@@ -63,6 +64,7 @@ void ClassifyPass::record(gpu::Commands& commands, uint32_t upload) const {
     shared::FrameCounters zero{};
     zero.patchGroups = {0, 1, 1, 0};
     zero.subGroups = {0, 1, 1, 0};
+    zero.guidedGroups = zero.quietGroups = zero.holdingGroups = {0, 1, 1, 0};
     commands.update(work_.counters, 0, sizeof(zero), &zero);
     commands.fill(work_.listed, 0);
     commands.barrier();

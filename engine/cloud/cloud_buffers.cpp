@@ -40,7 +40,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     }
     masks = Buffer(device, slots, MemoryKind::Device, "masks");
     listed = Buffer(device, patches * 4, MemoryKind::Device, "listed");
-    list = Buffer(device, patches * 4, MemoryKind::Device, "list");
+    list = Buffer(device, patches * 4 * 3, MemoryKind::Device, "list");
     counters = Buffer(device, sizeof(shared::FrameCounters), MemoryKind::Device, "counters");
     points = Buffer(device, slots * 16, slotMemory(plan), "points");
     if (plan.keepDepth) {

@@ -19,13 +19,13 @@ struct WorkBuffers {
                 const CameraInfo& camera);
 
     gpu::Buffer masks;                // uint8 a slot: class bits
-    gpu::Buffer listed;               // uint a patch: 1 when on the list
-    gpu::Buffer list;                 // uint: listed patches, any order
+    gpu::Buffer listed;               // uint a patch: kPatch bits
+    gpu::Buffer list;                 // uint: patches, any order, in three parts (FrameCounters)
     gpu::Buffer counters;             // FrameCounters
     gpu::Buffer points;               // vec4 a slot
     gpu::Buffer growth;               // vec4 a sub-patch: thinning
     gpu::Buffer seen, kept, keptTime; // vec4, vec4, uint a slot: memory of points
-    gpu::Buffer live;                 // uint a patch: points in memory
+    gpu::Buffer live;                 // uint a patch: points in memory + 65536 x held ones
     gpu::Buffer nearest;              // uint a cell of the colour picture: occlusion
     gpu::Buffer rays;                 // vec2 a pixel, row-major
     gpu::Buffer radii, heldRadii;     // float a slot: R of the sphere about its point, and about the point in

@@ -77,7 +77,7 @@ Moments classMoments(const FixtureSet& set, uint32_t k, const PatchLayout& layou
     std::vector<Moments> parts;
     for (uint32_t patch = 0; patch < layout.patches(); ++patch) {
         const shared::PatchMoments& m = all[patch * shared::kMaxClasses + k];
-        if (listed[patch] != 0 && m.anchor.w > 0.0f) {
+        if ((listed[patch] & shared::kPatchGuided) != 0 && m.anchor.w > 0.0f) {
             parts.push_back({m.anchor.w,
                              dvec3(m.anchor) + dvec3(m.offset),
                              {m.first.x, m.first.y, m.first.z, m.first.w, m.second.x, m.second.y}});

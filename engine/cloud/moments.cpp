@@ -11,7 +11,7 @@ namespace fathom::cloud {
 
 namespace {
 
-// Without shared memory an invocation does a patch; `subGroups` counts groups of subGroup / 16 patches.
+// Without shared memory an invocation does a patch; `guidedGroups` counts groups of subGroup / 16 patches.
 uint32_t momentsGroup(const Plan& plan) {
     return plan.byPixel ? 16u : std::max(8u, plan.subGroup / 16u);
 }
@@ -43,8 +43,7 @@ void MomentsPass::bind(uint32_t upload, const UploadBuffers& up) {
 
 void MomentsPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set) const {
     commands.dispatchIndirect(pipeline_, bindings_[upload][set], counters_,
-                              context_.plan.byPixel ? offsetof(shared::FrameCounters, patchGroups)
-                                                    : offsetof(shared::FrameCounters, subGroups));
+                              offsetof(shared::FrameCounters, guidedGroups));
 }
 
 } // namespace fathom::cloud

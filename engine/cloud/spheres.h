@@ -5,6 +5,9 @@
 #include "engine/cloud/cloud_buffers.h"
 #include "engine/gpu/pipeline.h"
 
+#include <optional>
+#include <vector>
+
 namespace fathom::cloud {
 
 class SpheresPass {
@@ -14,11 +17,15 @@ public:
     void record(gpu::Commands& commands, uint32_t upload, uint32_t set) const;
 
 private:
+    struct Variant {
+        Variant(const CloudContext& c, uint32_t hold); // kHold in shaders/spheres.comp
+        gpu::Pipeline pipeline;
+    };
+
     CloudContext context_;
-    gpu::Pipeline pipeline_;
+    Variant first_;
+    std::optional<Variant> holding_; // for patches whose memory holds points, where first_ is not for them
     PerUpload<std::vector<gpu::Bindings>> bindings_; // a set
-    const WorkBuffers& work_;
-    bool hold_, byPixel_;
 };
 
 } // namespace fathom::cloud

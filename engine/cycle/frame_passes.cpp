@@ -17,6 +17,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     };
     add(c.plan.occlusion, occlusion_, "occlusion");
     add(c.plan.cloud, classify_, "classify");
+    add(c.plan.lists(), list_, "list");
     add(c.plan.cloud, surface_, "surface");
     add(c.plan.thin, thin_, "thin");
     add(c.plan.moments, moments_, "moments");
@@ -30,7 +31,7 @@ void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
             pass->bind(upload, buffers);
         }
     };
-    in(occlusion_), in(classify_), in(surface_), in(thin_), in(moments_), in(spheres_);
+    in(occlusion_), in(classify_), in(list_), in(surface_), in(thin_), in(moments_), in(spheres_);
     commands_[upload].clear();
     commands_[upload].resize(sets_.size());
     watches_[upload] = std::make_unique<gpu::Stopwatch>(device_, static_cast<uint32_t>(names_.size()) + 1);
@@ -59,6 +60,7 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
     };
     run(occlusion_, upload);
     run(classify_, upload);
+    run(list_, upload);
     run(surface_, upload);
     if (thin_) {
         thin_->record(commands, upload);

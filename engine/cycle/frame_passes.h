@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/cloud/classify.h"
+#include "engine/cloud/list.h"
 #include "engine/cloud/moments.h"
 #include "engine/cloud/occlusion.h"
 #include "engine/cloud/spheres.h"
@@ -42,6 +43,7 @@ private:
     std::vector<cloud::SetBuffers*> sets_;
     std::optional<cloud::OcclusionPass> occlusion_;
     std::optional<cloud::ClassifyPass> classify_;
+    std::optional<cloud::ListPass> list_;
     std::optional<cloud::SurfacePass> surface_;
     std::optional<cloud::ThinPass> thin_;
     std::optional<cloud::SpheresPass> spheres_;

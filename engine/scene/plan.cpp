@@ -88,6 +88,8 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
          std::string("there are classes of points") +
              (plan.water ? ", colours put right for water before their gates" : ""),
          "the scene has no class of points");
+    pass("list", plan.lists(), "patches with work, and among them those that hold points or guide, listed",
+         plan.cloud ? "classify lists as it goes" : "the scene has no class of points");
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
@@ -188,9 +190,10 @@ bool Plan::has(const std::string& name) const {
 }
 
 uint32_t Plan::dispatchesPerFrame() const {
-    // classify and surface; the tree's patches, then all above them in one group
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (thin ? 1u : 0u) + (spheres ? 1u : 0u) +
-           (tree ? 2u : 0u) + (moments ? 1u : 0u);
+    // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
+    // them in one group
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (lists() ? 1u : 0u) + (thin ? 1u : 0u) +
+           (spheres ? (hold && lists() ? 2u : 1u) : 0u) + (tree ? 2u : 0u) + (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

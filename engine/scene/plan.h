@@ -63,6 +63,9 @@ struct Plan {
     enum class Query { None, Cpu, Gpu } query = Query::None;
 
     bool has(const std::string& name) const;
+    // Lists of patches are a pass of their own, after classify: where invocations run in step on a CPU, every
+    // pixel pays for what classify might do about a patch.
+    bool lists() const { return cloud && !byPixel; }
     uint32_t dispatchesPerFrame() const; // of the frame path, query excluded
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory of points that a new frame does not contradict (design 4, hold). Two places a slot: the point the slot showed last
 // frame, and the point that it holds. Needs params, forbidden.glsl, seen, kept, keptTime (written) and seenBefore, keptBefore,
-// keptTimeBefore (read), kFan, kBeam, depth.glsl, lens.glsl, beam.glsl.
+// keptTimeBefore (read), kHold, kFan, kBeam, depth.glsl, lens.glsl, beam.glsl.
 
 // What is remembered of a point beside its place: class + 1, 0 = nothing; with beams, above these four bits, what its sphere
 // grows by, rounded up to 10 um. Small enough for any float to keep the bits.
@@ -30,12 +30,17 @@ bool uncontradicted(vec3 p) {
 
 // Moves the slot's memory on by one frame, which shows `point` of class `now` (kNone: no point) there, whose sphere
 // grows by `grown` for its sigma [m]. Returns the held sphere
-// (R < 0: none), its class, and counts what is remembered.
-vec4 updateMemory(uint slot, vec3 point, uint now, float grown, out uint heldClass, inout uint remembered) {
-    vec4 last = texelFetch(seenBefore, int(slot)), old = texelFetch(keptBefore, int(slot));
-    uint lastNote = floatBitsToUint(last.w), oldNote = floatBitsToUint(old.w), when = texelFetch(keptTimeBefore, int(slot)).x;
+// (R < 0: none), its class, and what is remembered: 1 = the point, 2 = the held one. holding: as handlePixel.
+vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, out uint heldClass, out uint remembered) {
+    vec4 last = texelFetch(seenBefore, int(slot)), old = vec4(0.0);
+    uint lastNote = floatBitsToUint(last.w), when = 0;
     bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, uncontradicted(last.xyz)));
-    bool oldStays = all(bvec3(oldNote != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
+    bool oldStays = false;
+    if (kHold == 2 || (kHold == 3 && holding)) { // the same for a whole patch
+        old = texelFetch(keptBefore, int(slot));
+        when = texelFetch(keptTimeBefore, int(slot)).x;
+        oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
+    }
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));
     uint keptAt = lastStays ? params.time.z : when; // it was seen in the last frame
@@ -44,7 +49,7 @@ vec4 updateMemory(uint slot, vec3 point, uint now, float grown, out uint heldCla
         keptTime[slot] = keptAt;
     }
     uint note = floatBitsToUint(hold.w), holdClass = classOfNote(note);
-    remembered += (now != kNone ? 1u : 0u) + (holdClass != 0 ? 1u : 0u);
+    remembered = (now != kNone ? 1u : 0u) | (holdClass != 0 ? 2u : 0u);
     heldClass = max(holdClass, 1u) - 1u;
     float more = kBeam != 0 ? float(note >> 4) * 1e-5 : 0.0;
     return vec4(hold.xyz, holdClass != 0 ? radiusOf(heldClass) + more : -1.0);

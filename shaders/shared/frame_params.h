@@ -43,18 +43,28 @@ struct FrameParams {
 };
 FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 160);
 
-// Zeroed at the start of a frame. Integer counters only: their sums do not depend on the order.
+// What classify finds out about a patch, bits of a word.
+FATHOM_CONST kPatchListed = 1;  // it has work
+FATHOM_CONST kPatchGuided = 2;  // a pixel of it is in a guidance class
+FATHOM_CONST kPatchHolding = 4; // listed, and its memory holds points; where classify makes the lists
+
+// Zeroed at the start of a frame. Integer counters only: their sums do not depend on the order. The list of
+// patches has three parts of as many entries as there are patches: listed ones; guided ones; those of the
+// listed ones that hold nothing, and from its end on those that hold.
 struct FrameCounters {
-    uvec4 patchGroups; // indirect arguments: one group a listed patch (x = listed patches, 1, 1)
-    uvec4 subGroups;   // indirect arguments: one invocation a sub-patch of a listed patch
-    uint nodes;        // used nodes of the tree
-    uint spheres;      // of all patches, held ones too
+    uvec4 patchGroups;   // indirect arguments: one group a listed patch (x = listed patches, 1, 1)
+    uvec4 subGroups;     // indirect arguments: one invocation a sub-patch of a listed patch
+    uvec4 guidedGroups;  // as patchGroups where classify makes the lists, else as subGroups; w = guided ones
+    uvec4 quietGroups;   // as subGroups, of listed patches that hold nothing; w = how many these are
+    uvec4 holdingGroups; // the same of those that hold
+    uint nodes;          // used nodes of the tree
+    uint spheres;        // that are packed, held ones too
     uint pad[2];
     uint classPixels[8]; // pixels that classify marks, a class
     uint leakSpacing[8]; // bits of the largest spacing between neighbours that is >= R, a class; 0 = none
     uint leakRange[8];   // bits of the largest range [m] where that happens, a class
 };
-FATHOM_SIZE(FrameCounters, 144);
+FATHOM_SIZE(FrameCounters, 192);
 
 // Moments of one guidance class in one patch, about the patch mean. The mean is anchor + offset: as one
 // float32 it would lose digits that the covariance of a small class needs.
@@ -71,7 +81,7 @@ FATHOM_SIZE(PatchMoments, 64);
 FATHOM_CONST kMaxLevels = 6;
 struct TreeParams {
     uvec4 levels[6]; // nodes across, down; index of the first node; -
-    uvec4 run; // first level and last level of this dispatch; number of levels; -
+    uvec4 run;       // first level and last level of this dispatch; number of levels; -
 };
 FATHOM_SIZE(TreeParams, 112);
 

@@ -56,7 +56,7 @@ void comparePatches(const CloudRig& rig, size_t c, size_t k, MomentsAgreement& a
     const auto all = verify::readBack<shared::PatchMoments>(vulkan().device, rig.set().device.moments);
     std::vector<cloud::Moments> parts;
     for (uint32_t patch = 0; patch < rig.cycle().layout().patches(); ++patch) {
-        if (listed[patch] == 0) {
+        if ((listed[patch] & shared::kPatchGuided) == 0) { // it has no pixel of a guidance class
             continue;
         }
         const cloud::Moments here = momentsOf(all[patch * shared::kMaxClasses + k]);

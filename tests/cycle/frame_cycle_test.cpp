@@ -107,9 +107,13 @@ Frame frameOf(const Picture& picture, uint32_t number, double time) {
 } // namespace
 
 TEST_CASE("Passes and dispatches are those that the scene needs and no other") {
-    for (const Need& need : needs()) {
+    for (Need need : needs()) {
         CAPTURE(need.name);
         CloudRig rig(need.scene, need.camera);
+        if (!need.passes.empty() && vulkan().device.facts().kind == DeviceKind::Cpu) {
+            need.passes.insert(std::ranges::find(need.passes, "surface"), "list");
+            need.dispatches += rig.plan().hold ? 2 : 1; // patches that hold points and others apart
+        }
         const FrameReport report = rig.run(stressPicture(need.camera, 5));
         CHECK(rig.cycle().passNames() == need.passes);
         CHECK(report.passMs.size() == need.passes.size());

@@ -1,0 +1,57 @@
+#version 460
+// SPDX-License-Identifier: Apache-2.0
+// The lists of patches that classify has marked and of those with points in memory, an invocation a patch. Of a device whose classify pays for what any pixel might do; others list as
+// they mark.
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/frame_params.h"
+
+layout(local_size_x_id = 0) in;
+layout(constant_id = 1) const uint kHold = 0;       // 1: patches that hold points are listed apart from those that hold none
+layout(constant_id = 2) const uint kGuidance = 0;   // 1: guided patches are listed
+layout(constant_id = 3) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
+
+layout(std140, binding = 0) uniform Params { FrameParams params; };
+layout(std430, binding = 1) buffer Listed { uint listed[]; };               // patch -> kPatch bits
+layout(std430, binding = 2) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held ones among them
+layout(std430, binding = 3) writeonly buffer List { uint list[]; };         // patches, any order; its parts: frame_params.h
+layout(std430, binding = 4) buffer Counters { FrameCounters counters; };
+
+#include "shaders/lib/lists.glsl"
+
+// Memory that holds nothing is neither read nor looked at.
+void putByMemory(uint patchIndex, uint patches) {
+    if (live[patchIndex] >> 16 != 0) {
+        uint place = atomicAdd(counters.holdingGroups.w, 1u);
+        list[3u * patches - 1u - place] = patchIndex;
+        atomicMax(counters.holdingGroups.x, groupsUpTo(place, kGroupSubs));
+    } else {
+        uint place = atomicAdd(counters.quietGroups.w, 1u);
+        list[2u * patches + place] = patchIndex;
+        atomicMax(counters.quietGroups.x, groupsUpTo(place, kGroupSubs));
+    }
+}
+
+void main() {
+    uint patches = params.size.z * params.size.w, patchIndex = gl_GlobalInvocationID.x;
+    if (patchIndex >= patches) {
+        return;
+    }
+    uint bits = listed[patchIndex];
+    if (kHold != 0 && live[patchIndex] != 0) {
+        bits |= kPatchListed;
+        listed[patchIndex] = bits;
+    }
+    if ((bits & kPatchListed) != 0) {
+        uint place = atomicAdd(counters.patchGroups.x, 1u);
+        list[place] = patchIndex;
+        atomicMax(counters.subGroups.x, groupsUpTo(place, kGroupSubs));
+        if (kHold != 0) {
+            putByMemory(patchIndex, patches);
+        }
+    }
+    if (kGuidance != 0 && (bits & kPatchGuided) != 0) {
+        uint place = atomicAdd(counters.guidedGroups.w, 1u);
+        list[patches + place] = patchIndex;
+        atomicMax(counters.guidedGroups.x, groupsUpTo(place, kGroupSubs));
+    }
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lists of patches, as list.comp makes them and as classify.comp does: each against class bits and memory,
+// patch by patch.
+#include "apps/verify/read_back.h"
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+using List = std::vector<uint32_t>;
+
+// Patches in order that must be on each list.
+struct Lists {
+    List listed, guided, quiet, holding;
+};
+
+Lists twin(const CloudRig& rig, const List& liveBefore) {
+    const List masks = rig.masks();
+    const auto classes = reference::pointClasses(rig.scene());
+    uint32_t guides = 0;
+    for (size_t c = 0; c < classes.size(); ++c) {
+        guides |= classes[c]->role == Role::Guidance ? 1u << c : 0u;
+    }
+    List seen(rig.layout().patches(), 0);
+    for (size_t i = 0; i < masks.size(); ++i) {
+        const size_t u = i % rig.camera().depth.width, v = i / rig.camera().depth.width;
+        seen[v / 16 * rig.layout().across + u / 16] |= masks[i];
+    }
+    Lists lists;
+    for (uint32_t patch = 0; patch < seen.size(); ++patch) {
+        const uint32_t live = liveBefore.empty() ? 0 : liveBefore[patch];
+        if (seen[patch] != 0 || live != 0) {
+            lists.listed.push_back(patch);
+            (live >> 16 != 0 ? lists.holding : lists.quiet).push_back(patch);
+        }
+        if ((seen[patch] & guides) != 0) {
+            lists.guided.push_back(patch);
+        }
+    }
+    return lists;
+}
+
+List sorted(List::const_iterator begin, uint32_t count) {
+    List out(begin, begin + count);
+    std::ranges::sort(out);
+    return out;
+}
+
+void checkLists(const CloudRig& rig, const Lists& expected) {
+    const List list = verify::readBack<uint32_t>(vulkan().device, rig.cycle().work().list);
+    const List bits = rig.listed();
+    const shared::FrameCounters n = rig.counters();
+    const uint32_t patches = rig.layout().patches(), subs = rig.plan().subGroup;
+    const auto groups = [&](uint32_t count) { return (count * 16 + subs - 1) / subs; };
+    CHECK(sorted(list.begin(), n.patchGroups.x) == expected.listed);
+    CHECK(n.subGroups.x == groups(n.patchGroups.x));
+    if (rig.plan().moments) {
+        CHECK(sorted(list.begin() + patches, n.guidedGroups.w) == expected.guided);
+        CHECK(n.guidedGroups.x == (rig.plan().lists() ? groups(n.guidedGroups.w) : n.guidedGroups.w));
+    }
+    if (rig.plan().hold && rig.plan().lists()) {
+        CHECK(sorted(list.begin() + 2 * patches, n.quietGroups.w) == expected.quiet);
+        CHECK(n.quietGroups.x == groups(n.quietGroups.w));
+        CHECK(sorted(list.begin() + 3 * patches - n.holdingGroups.w, n.holdingGroups.w) == expected.holding);
+        CHECK(n.holdingGroups.x == groups(n.holdingGroups.w));
+    }
+    const auto has = [](const List& among, uint32_t patch) {
+        return std::ranges::binary_search(among, patch);
+    };
+    size_t wrong = 0;
+    for (uint32_t patch = 0; patch < patches; ++patch) {
+        wrong += ((bits[patch] & shared::kPatchListed) != 0) != has(expected.listed, patch);
+        wrong +=
+            rig.plan().moments && ((bits[patch] & shared::kPatchGuided) != 0) != has(expected.guided, patch);
+        wrong += rig.plan().hold && !rig.plan().lists() &&
+                 ((bits[patch] & shared::kPatchHolding) != 0) != has(expected.holding, patch);
+    }
+    CHECK(wrong == 0);
+}
+
+// A forbidden band and a guiding one, of which `share` of the rows are forbidden; nothing in row `hidden`.
+Picture bands(const CameraInfo& camera, double share, int hidden) {
+    const auto rows = static_cast<int>(camera.depth.height);
+    const int last = static_cast<int>(share * rows);
+    Picture picture = drawnPicture(
+        camera, [&](int, int v) { return v / 8 == hidden ? 0.0 : 0.6; }, 0xff808080);
+    for (size_t i = 0; i < picture.colour.size(); ++i) {
+        const int v = static_cast<int>(i / camera.depth.width);
+        picture.colour[i] = v < last ? 0xff2020c0 : v < last + 3 ? 0xff20c0c0 : 0xff808080;
+    }
+    return picture;
+}
+
+Scene bandScene(bool guidance, double hold) {
+    Scene scene = plainScene();
+    scene.holdSeconds = hold;
+    scene.fixtures[0].hue = Band{330, 30};
+    if (guidance) {
+        scene.fixtures.push_back(guidanceClass("g"));
+        scene.fixtures.back().hue = Band{40, 80};
+    }
+    return scene;
+}
+
+// Rows that have no depth in one picture are held in the next.
+void runBands(const CloudRig::Change& change, const CameraInfo& camera, bool guidance, double hold) {
+    CloudRig rig(bandScene(guidance, hold), camera, change);
+    List live;
+    size_t holding = 0;
+    for (const double share : {0.5, 0.5, 0.1, 1.0, 0.0, 0.0}) {
+        rig.run(bands(camera, share, share == 0.5 && live.empty() ? 99 : 1));
+        const Lists expected = twin(rig, live);
+        checkLists(rig, expected);
+        holding += expected.holding.size();
+        live = rig.plan().hold ? verify::readBack<uint32_t>(vulkan().device, rig.cycle().work().live) : live;
+    }
+    CHECK((holding > 0) == (hold > 0.0));
+}
+
+} // namespace
+
+TEST_CASE(
+    "Each patch with work is listed once, guided ones and those that hold points apart, whoever makes the "
+    "lists") {
+    for (const bool byPixel : {false, true}) {
+        const auto change = [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; };
+        for (const auto& [width, height] : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {333u, 250u}}) {
+            CAPTURE(byPixel);
+            CAPTURE(width);
+            const CameraInfo camera = pinholeCamera(width, height);
+            runBands(change, camera, true, height > 16 ? 10.0 : 0.0);
+            runBands(change, camera, false, 0.0);
+        }
+    }
+}
+
+TEST_CASE("A patch is read of no memory before it holds something, and forgets that it did when it is over") {
+    const CameraInfo camera = pinholeCamera(100, 60);
+    CloudRig rig(bandScene(false, 0.1), camera, [](Plan& plan) { plan.byPixel = plan.pack = false; });
+    rig.run(bands(camera, 1.0, 99));
+    CHECK(rig.counters().holdingGroups.w == 0);
+    rig.run(bands(camera, 1.0, 1)); // rows 8 to 15 show nothing: they are held from now on
+    CHECK(rig.counters().holdingGroups.w == 0);
+    rig.run(bands(camera, 1.0, 1));
+    CHECK(rig.counters().holdingGroups.w == rig.layout().across);
+    CHECK(rig.counters().quietGroups.w == rig.layout().across * (rig.layout().down - 1));
+    for (int frame = 0; frame < 5; ++frame) { // longer than points are held
+        rig.run(bands(camera, 1.0, 1));
+    }
+    CHECK(rig.counters().holdingGroups.w == 0);
+}
