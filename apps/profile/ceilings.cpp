@@ -3,6 +3,7 @@
 
 #include "engine/gpu/commands.h"
 #include "engine/gpu/stopwatch.h"
+#include "engine/types/crew.h"
 #include "shaders/ceiling.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr uint64_t kCopyBytes = 64u << 20;
+constexpr size_t kLeastPart = 1u << 20; // bytes
 constexpr uint32_t kInvocations = 1u << 17, kSteps = 256, kChains = 16, kGroup = 64;
 
 // Device time of what record() records [ms]; wall time where the device has no timestamps.
@@ -86,11 +88,16 @@ double deviceArithmetic(gpu::Device& device, Submissions& submissions, const Eff
     return 2.0 * kSteps * kChains * static_cast<double>(kInvocations) / (ms * 1e-3);
 }
 
-double hostCopy(const Effort& effort) {
+double hostCopy(uint32_t threads, const Effort& effort) {
+    Crew crew(threads);
     std::vector<char> from(kCopyBytes, 3), to(kCopyBytes, 0);
     double least = HUGE_VAL;
     repeat(
-        effort, [&] { std::memcpy(to.data(), from.data(), kCopyBytes); },
+        effort,
+        [&] {
+            inParts(&crew, kCopyBytes, kLeastPart,
+                    [&](size_t begin, size_t end) { std::memcpy(&to[begin], &from[begin], end - begin); });
+        },
         [&](const Clocks& c) { least = std::min(least, c.wallMs()); });
     verify(to == from, "limit", "memcpy", "the copy differs");
     return 2.0 * static_cast<double>(kCopyBytes) / (least * 1e-3);
@@ -98,12 +105,13 @@ double hostCopy(const Effort& effort) {
 
 } // namespace
 
-Ceilings measureCeilings(gpu::Device& device, const Effort& effort) {
+Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort& effort) {
     Submissions submissions(device);
     Ceilings c;
     c.deviceBytes = deviceCopy(device, submissions, effort);
     c.deviceFlops = deviceArithmetic(device, submissions, effort);
-    c.hostBytes = hostCopy(effort);
+    c.hostThreads = hostThreads;
+    c.hostBytes = hostCopy(hostThreads, effort);
     std::vector<double> empty;
     repeat(
         effort, [&] { submissions.once([](gpu::Commands&) {}); },

@@ -10,11 +10,12 @@ namespace fathom::profile {
 struct Ceilings {
     double deviceBytes = 0.0; // [B/s] read plus written by a copy between device buffers
     double deviceFlops = 0.0; // [1/s] float32, a multiply-add counts two
-    double hostBytes = 0.0;   // [B/s] read plus written by memcpy of one thread
-    double submitMs = 0.0;    // [ms] an empty submission until its result is known, p50
+    double hostBytes = 0.0;   // [B/s] read plus written by memcpy of hostThreads threads
+    uint32_t hostThreads = 1;
+    double submitMs = 0.0; // [ms] an empty submission until its result is known, p50
 };
 
-// Takes about a second. Verifies what was computed and copied.
-Ceilings measureCeilings(gpu::Device& device, const Effort& effort);
+// Takes about a second. Verifies what was computed and copied. hostThreads: that share work on the host.
+Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort& effort);
 
 } // namespace fathom::profile

@@ -4,6 +4,7 @@
 #include "apps/profile/ceilings.h"
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
+#include "engine/cloud/frame_params.h"
 #include "shaders/shared/frame_params.h"
 
 #include <algorithm>
@@ -20,9 +21,19 @@ struct Need {
 
 // What a frame selects.
 struct Load {
-    double pixels, slots, selected, spheres, tapsPerPixel;
+    double pixels, slots, guidedSlots, selected, guided, spheres, tapsPerPixel;
     bool hold, colour, inPlace, pack, keepDepth, thin, tree;
 };
+
+// Class bits of guidance.
+uint32_t guidanceBits(const Scene& scene) {
+    const std::vector<uint32_t> rows = cloud::classRows(scene);
+    uint32_t bits = 0;
+    for (size_t c = 0; c < rows.size(); ++c) {
+        bits |= scene.fixtures[rows[c]].role == Role::Guidance ? 1u << c : 0u;
+    }
+    return bits;
+}
 
 Load loadOf(const FrameBench& bench, const FrameReport& report) {
     const auto masks = bench.masks();
@@ -30,14 +41,17 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.pixels = static_cast<double>(masks.size());
     load.selected =
         static_cast<double>(std::count_if(masks.begin(), masks.end(), [](uint32_t m) { return m != 0; }));
-    std::vector<uint8_t> listed(bench.cycle().layout().patches(), 0);
-    const uint32_t width = bench.cycle().camera().depth.width;
+    std::vector<uint8_t> listed(bench.cycle().layout().patches(), 0), guided(listed);
+    const uint32_t width = bench.cycle().camera().depth.width, guidance = guidanceBits(bench.scene());
     for (uint32_t i = 0; i < masks.size(); ++i) {
-        if (masks[i] != 0) {
-            listed[slotOfPixel(i % width, i / width, bench.cycle().layout().across) / 256] = 1;
-        }
+        const uint32_t patch = slotOfPixel(i % width, i / width, bench.cycle().layout().across) / 256;
+        const uint32_t guides = masks[i] & guidance;
+        listed[patch] = std::max<uint8_t>(listed[patch], masks[i] != 0);
+        guided[patch] = std::max<uint8_t>(guided[patch], guides != 0);
+        load.guided += guides != 0 ? 1.0 : 0.0;
     }
     load.slots = 256.0 * static_cast<double>(std::count(listed.begin(), listed.end(), 1));
+    load.guidedSlots = 256.0 * static_cast<double>(std::count(guided.begin(), guided.end(), 1));
     load.spheres = report.counts.spheres;
     const double edge = 2.0 * bench.plan().filterRadius + 1.0;
     load.tapsPerPixel = bench.plan().filterRadius > 0 ? edge * edge : 0.0;
@@ -51,11 +65,11 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     return load;
 }
 
-// Of `spheres`: points, class bits, thinning and bits of forbidden pixels; with hold the points seen and
-// kept, when, and the depth, and what is seen now (what is kept is written only where it changes); then what
-// a query or the host reads.
+// Of `spheres`: points, class bits, thinning and bits of forbidden pixels; with hold the points seen
+// before, the depth, and what is seen now (nothing is held here, so that memory is neither read nor written);
+// then what a query or the host reads.
 double sphereBytes(const Load& l) {
-    const double hold = l.hold ? 16.0 + 16.0 + 4.0 + 2.0 + 16.0 : 0.0;
+    const double hold = l.hold ? 16.0 + 2.0 + 16.0 : 0.0;
     const double layers = l.hold ? 2.0 : 1.0;
     const double radii = l.pack ? 0.0 : 4.0 * layers + 1.0;
     const double whole = l.tree ? 16.0 * layers + 20.0 / 16.0 : 0.0;
@@ -72,18 +86,20 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"classify",
          {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 1.0), 40.0 * l.pixels,
           false}},
+        {"list", {l.pixels / 256.0 * (4.0 + 4.0 + 8.0), 0.0, false}},
         {"surface", {l.slots * (1.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
         {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
         {"spheres", {sphereBytes(l), 60.0 * l.slots, false}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0, false}},
-        {"moments", {l.slots * 17.0 + l.slots / 256.0 * 64.0, 40.0 * l.selected, false}},
-        {"publish", {2.0 * l.pixels + l.spheres * (20.0 + 3.0 * 21.0), 0.0, true}},
+        {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided, false}},
+        {"collect", {l.spheres * (20.0 + 21.0), 0.0, true}}, // read as the device packs, written as columns
+        {"grid", {l.spheres * (16.0 + 20.0), 0.0, true}},
     };
 }
 
 Spread spreadIn(const FrameCost& cost, const std::string& step) {
-    if (step == "upload" || step == "publish") {
-        return step == "upload" ? cost.upload : cost.publish;
+    if (step == "upload" || step == "collect" || step == "grid") {
+        return step == "upload" ? cost.upload : step == "collect" ? cost.collect : cost.grid;
     }
     const auto it = cost.passes.find(step);
     return it != cost.passes.end() ? it->second : Spread{};
@@ -102,12 +118,16 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         (need.host ? row.cost.cpu : row.cost.gpu) = time;
         const double moving = need.bytes / (need.host ? ceilings.hostBytes : ceilings.deviceBytes) * 1e3;
         const double computing = need.host ? 0.0 : need.operations / ceilings.deviceFlops * 1e3;
-        const double floor = std::max(moving, computing);
-        row.more = {need.bytes / 1e6, need.operations / 1e6, moving, computing, floor, time.p50 / floor};
+        const double floor = std::max(moving, computing), ratio = floor > 0.0 ? time.p50 / floor : NAN;
+        row.more = {need.bytes / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
         study.rows.push_back(row);
+        if (floor == 0.0) { // dispatched over nothing
+            study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, has no work");
+            continue;
+        }
         study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, floor " +
                                  digits(floor) + " ms (" + (computing > moving ? "arithmetic" : "bytes") +
-                                 "), ratio " + digits(time.p50 / floor));
+                                 "), ratio " + digits(ratio));
     }
 }
 
@@ -121,7 +141,7 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
                     {}};
     PlotSeries device{"device", {}, false}, host{"host", {}, false};
     for (const StudyRow& row : study.rows) {
-        if (row.source == source) {
+        if (row.source == source && !std::isnan(row.more[5])) {
             (row.cost.gpu ? device : host)
                 .points.push_back(
                     {row.more[5], 0.0, row.setting + (row.cost.gpu ? "" : " (host)"), false, false});
@@ -144,16 +164,18 @@ Study limitStudy(const StudyContext& context) {
     study.timeName = "time p50";
     study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",
                        "computing_ms",      "floor_ms",           "ratio"};
-    const Ceilings c = measureCeilings(context.device, context.settings.effort());
-    study.findings.push_back(
-        "device: copies " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), computes " +
-        digits(c.deviceFlops * 1e-9) + " GFLOP/s, an empty submission takes " + digits(c.submitMs) +
-        " ms; host: copies " + digits(c.hostBytes * 1e-9) +
-        " GB/s on one thread; copies of 64 MiB, so a step whose data stay in a cache may take less "
-        "than its floor");
     Settings plain = context.settings;
     plain.source.clear();
     const uint32_t w = plain.quick ? 320 : 640, h = plain.quick ? 240 : 480;
+    const CameraInfo camera = wallShot(w, h, 1.0).camera;
+    const uint32_t publishers = makePlan(studyScene(plain), camera, 1, context.device.facts()).publishers;
+    const Ceilings c = measureCeilings(context.device, publishers, context.settings.effort());
+    study.findings.push_back(
+        "device: copies " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), computes " +
+        digits(c.deviceFlops * 1e-9) + " GFLOP/s, an empty submission takes " + digits(c.submitMs) +
+        " ms; host: copies " + digits(c.hostBytes * 1e-9) + " GB/s with " + std::to_string(c.hostThreads) +
+        " thread(s); copies of 64 MiB, so a step whose data stay in a cache may take less "
+        "than its floor");
     for (double share : {0.1, 1.0}) {
         const std::string source = digits(share * 100) + " % forbidden";
         const ShotSource shots = wallShot(w, h, share);
