@@ -3,108 +3,171 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 namespace fathom::cloud {
 
 namespace {
 
 struct Pixel {
-    uint32_t u, v;
+    uint32_t u, v, slot;
+    float z; // along the optical axis [m]
 };
 
-// Points of one class as a picture; w = 0 where there is none.
-class ClassPicture {
+// Takes the pixels of a class that have a point, row by row. Reads what the device wrote once, of patches
+// with guided pixels only.
+class PixelsOfClass {
 public:
-    ClassPicture(const FixtureSet& set, uint32_t c, const PatchLayout& layout)
-        : set_(set)
-        , bit_(1u << c)
-        , across_(layout.across)
+    PixelsOfClass(const FixtureSet& set, uint32_t c, const PatchLayout& layout)
+        : words_(set.device.masks.as<uint32_t>())
+        , points_(set.device.points.as<glm::vec4>())
+        , bits_(0x01010101u << c)
         , width_(set.host.camera.depth.width)
-        , height_(set.host.camera.depth.height) {}
+        , height_(set.host.camera.depth.height) {
+        const auto listed = set.device.listed.as<uint32_t>();
+        std::vector<uint32_t> guided; // of a row of patches
+        for (uint32_t down = 0; down < layout.down; ++down) {
+            guided.clear();
+            for (uint32_t patch = down * layout.across; patch < (down + 1) * layout.across; ++patch) {
+                if ((listed[patch] & shared::kPatchGuided) != 0) {
+                    guided.push_back(patch);
+                }
+            }
+            for (uint32_t v = down * 16; v < std::min(down * 16 + 16, height_); ++v) {
+                for (const uint32_t patch : guided) {
+                    takeRow(patch, (patch - down * layout.across) * 16, v);
+                }
+            }
+        }
+    }
 
-    uint32_t width() const { return width_; }
-    uint32_t height() const { return height_; }
+    std::vector<Pixel> take() { return std::move(pixels_); }
 
-    glm::vec4 at(uint32_t u, uint32_t v) const {
-        const uint32_t slot = slotOfPixel(u, v, across_);
-        const bool in = set_.device.listed.as<uint32_t>()[slot / 256] != 0 &&
-                        (set_.device.masks.as<uint8_t>()[slot] & bit_) != 0;
-        return in ? set_.device.points.as<glm::vec4>()[slot] : glm::vec4(0.0f);
+private:
+    // Of the patch that begins in column u; four pixels of a sub-patch are a word.
+    void takeRow(uint32_t patch, uint32_t u, uint32_t v) {
+        for (uint32_t sub = 0; sub < 4; ++sub) {
+            const uint32_t slot = patch * 256 + (v % 16 / 4 * 4 + sub) * 16 + v % 4 * 4;
+            const uint32_t word = words_[slot / 4] & bits_;
+            for (uint32_t k = 0; word != 0 && k < 4; ++k) {
+                const bool in = (word >> 8 * k & 0xff) != 0 && u + sub * 4 + k < width_;
+                const float z = in ? points_[slot + k].w : 0.0f;
+                if (z != 0.0f) {
+                    pixels_.push_back({u + sub * 4 + k, v, slot + k, z});
+                }
+            }
+        }
+    }
+
+    std::span<const uint32_t> words_;
+    std::span<const glm::vec4> points_;
+    uint32_t bits_, width_, height_;
+    std::vector<Pixel> pixels_;
+};
+
+// Disjoint sets whose root is their first pixel.
+class Parts {
+public:
+    explicit Parts(size_t pixels)
+        : parent_(pixels) {
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
+    uint32_t root(uint32_t i) {
+        while (parent_[i] != i) {
+            parent_[i] = parent_[parent_[i]];
+            i = parent_[i];
+        }
+        return i;
+    }
+    void join(uint32_t i, uint32_t j) {
+        const auto [first, last] = std::minmax({root(i), root(j)}); // by value
+        parent_[last] = first;
     }
 
 private:
-    const FixtureSet& set_;
-    uint32_t bit_, across_, width_, height_;
+    std::vector<uint32_t> parent_;
 };
 
-// Pixels connected to the seed, taken out of `open`.
-std::vector<Pixel> flood(const ClassPicture& picture, Pixel seed, double edge, std::vector<uint8_t>& open) {
-    std::vector<Pixel> part{seed};
-    open[seed.v * picture.width() + seed.u] = 0;
-    for (size_t i = 0; i < part.size(); ++i) {
-        const Pixel p = part[i];
-        const float z = picture.at(p.u, p.v).w;
-        for (uint32_t k = 0; k < 9; ++k) {
-            const uint32_t u = p.u + k % 3 - 1, v = p.v + k / 3 - 1; // wraps below zero: refused as too large
-            if (u >= picture.width() || v >= picture.height() || open[v * picture.width() + u] == 0) {
-                continue;
-            }
-            const float w = picture.at(u, v).w;
-            if (edge > 0.0 && std::abs(w - z) > edge * std::min(w, z)) { // the same from either side
-                continue;
-            }
-            open[v * picture.width() + u] = 0;
-            part.push_back({u, v});
+// 8-connected: every pixel with the one before it and with the three above it.
+Parts partsOf(const std::vector<Pixel>& pixels, double edge) {
+    Parts parts(pixels.size());
+    const auto joinNear = [&](uint32_t i, uint32_t j) { // the same from either side
+        const float z = pixels[i].z, w = pixels[j].z;
+        if (edge == 0.0 || std::abs(w - z) <= edge * std::min(w, z)) {
+            parts.join(i, j);
+        }
+    };
+    uint32_t above = 0; // first that does not lie before the three above pixel i
+    for (uint32_t i = 0; i < pixels.size(); ++i) {
+        const auto [u, v, slot, z] = pixels[i];
+        if (i > 0 && pixels[i - 1].v == v && pixels[i - 1].u + 1 == u) {
+            joinNear(i, i - 1);
+        }
+        while (pixels[above].v + 1 < v || (pixels[above].v + 1 == v && pixels[above].u + 1 < u)) {
+            ++above;
+        }
+        for (uint32_t j = above; pixels[j].v + 1 == v && pixels[j].u <= u + 1; ++j) {
+            joinNear(i, j);
         }
     }
-    return part;
+    return parts;
 }
 
-std::vector<Pixel> largestPart(const ClassPicture& picture, const std::vector<Pixel>& all, double edge) {
-    std::vector<uint8_t> open(static_cast<size_t>(picture.width()) * picture.height(), 0);
-    for (const Pixel& p : all) {
-        open[p.v * picture.width() + p.u] = 1;
+// The first of those that are largest.
+void keepLargestPart(std::vector<Pixel>& pixels, double edge) {
+    Parts parts = partsOf(pixels, edge);
+    std::vector<uint32_t> sizes(pixels.size(), 0);
+    for (uint32_t i = 0; i < pixels.size(); ++i) {
+        ++sizes[parts.root(i)];
     }
-    std::vector<Pixel> best;
-    for (const Pixel& p : all) {
-        if (open[p.v * picture.width() + p.u] != 0) {
-            std::vector<Pixel> part = flood(picture, p, edge, open);
-            if (part.size() > best.size()) {
-                best = std::move(part);
-            }
+    const auto best = static_cast<uint32_t>(std::ranges::max_element(sizes) - sizes.begin());
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < pixels.size(); ++i) {
+        if (parts.root(i) == best) {
+            pixels[kept++] = pixels[i];
         }
     }
-    return best;
+    pixels.resize(kept);
 }
 
+// Of points as far from the mean as each other the first stay.
 void trimFarthest(std::vector<dvec3>& points, double share) {
     const dvec3 mean = momentsOf(points).mean;
-    std::stable_sort(points.begin(), points.end(), [&](const dvec3& a, const dvec3& b) {
-        return glm::dot(a - mean, a - mean) < glm::dot(b - mean, b - mean);
-    });
-    points.resize(points.size() -
-                  static_cast<size_t>(std::floor(share * static_cast<double>(points.size()))));
+    std::vector<std::pair<double, uint32_t>> order(points.size());
+    for (uint32_t i = 0; i < points.size(); ++i) {
+        order[i] = {glm::dot(points[i] - mean, points[i] - mean), i};
+    }
+    const size_t kept =
+        points.size() - static_cast<size_t>(std::floor(share * static_cast<double>(points.size())));
+    if (kept == points.size()) {
+        return;
+    }
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(kept); // that goes
+    std::nth_element(order.begin(), first, order.end());
+    const std::pair<double, uint32_t> limit = *first;
+    size_t to = 0;
+    for (uint32_t i = 0; i < points.size(); ++i) {
+        if (std::pair{glm::dot(points[i] - mean, points[i] - mean), i} < limit) {
+            points[to++] = points[i];
+        }
+    }
+    points.resize(to);
 }
 
 } // namespace
 
 Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
                       const PatchLayout& layout) {
-    const ClassPicture picture(set, c, layout);
-    std::vector<Pixel> pixels;
-    for (uint32_t v = 0; v < picture.height(); ++v) {
-        for (uint32_t u = 0; u < picture.width(); ++u) {
-            if (picture.at(u, v).w != 0.0f) {
-                pixels.push_back({u, v});
-            }
-        }
-    }
+    std::vector<Pixel> pixels = PixelsOfClass(set, c, layout).take();
     if (fixture.largestPart) {
-        pixels = largestPart(picture, pixels, edge);
+        keepLargestPart(pixels, edge);
     }
+    const auto all = set.device.points.as<glm::vec4>();
     std::vector<dvec3> points;
+    points.reserve(pixels.size());
     for (const Pixel& p : pixels) {
-        points.emplace_back(picture.at(p.u, p.v));
+        points.emplace_back(all[p.slot]);
     }
     if (fixture.trim > 0.0) {
         trimFarthest(points, fixture.trim);

@@ -9,7 +9,8 @@
 namespace fathom::cloud {
 
 // Moments about the origin of the points of class bit c that are left after fixture.largestPart (8-connected
-// pixels whose depths differ by at most edge, relative; 0 = any) and fixture.trim (that share of the points
+// pixels whose depths differ by at most edge, relative; 0 = any; of parts as large the one that
+// begins first, row by row) and fixture.trim (that share of the points
 // farthest from the mean is left out).
 Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
                       const PatchLayout& layout);

@@ -83,12 +83,24 @@ Moments mergeAll(std::vector<Moments> parts) {
 }
 
 Moments momentsOf(std::span<const dvec3> points) {
-    std::vector<Moments> ones;
-    ones.reserve(points.size());
-    for (const dvec3& p : points) {
-        ones.push_back({1.0, p, {}});
+    Moments m;
+    if (points.empty()) {
+        return m;
     }
-    return mergeAll(std::move(ones));
+    m.count = static_cast<double>(points.size());
+    dvec3 sum(0.0); // about the first, so that nothing is lost of a small set far away
+    for (const dvec3& p : points) {
+        sum += p - points[0];
+    }
+    m.mean = points[0] + sum / m.count;
+    for (const dvec3& p : points) {
+        const dvec3 d = p - m.mean;
+        const std::array<double, 6> outer{d.x * d.x, d.x * d.y, d.x * d.z, d.y * d.y, d.y * d.z, d.z * d.z};
+        for (size_t i = 0; i < 6; ++i) {
+            m.products[i] += outer[i];
+        }
+    }
+    return m;
 }
 
 Eigen3 symmetricEigen(const std::array<double, 6>& m) noexcept {

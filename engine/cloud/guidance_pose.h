@@ -21,7 +21,7 @@ struct Moments {
 Moments merge(const Moments& a, const Moments& b) noexcept;
 // Pairwise in fixed order: neighbours first, then pairs of pairs. Empty input gives count 0.
 Moments mergeAll(std::vector<Moments> parts);
-// Of points given one by one, about their first.
+// Of points given one by one, in two passes, the mean about their first.
 Moments momentsOf(std::span<const dvec3> points);
 
 // Eigenvalues, largest first, and unit eigenvectors of a symmetric 3x3 matrix (xx xy xz yy yz zz) by Jacobi

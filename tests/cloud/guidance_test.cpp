@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From points to a guidance pose: planes at several angles through all passes, the pose against its twin, and
-// the choices that a class may ask for.
+// From points to a guidance pose: planes at several angles through all passes, the pose against its twin.
 #include "engine/cloud/guidance_pose.h"
 #include "engine/reference/guidance.h"
 #include "tests/support/cloud_rig.h"
@@ -248,43 +247,4 @@ TEST_CASE("Eigenvectors of symmetric matrices: residual, order and right angles,
     }
     CHECK(worst < 1e-14 * 10);
     MESSAGE("largest residual ", worst);
-}
-
-TEST_CASE("The largest connected part and the trimmed mean leave out what the twin leaves out") {
-    const CameraInfo camera = pinholeCamera(200, 150, 0.0001);
-    // Two patches of the class: the larger on the right, and a third that touches it behind a jump in depth.
-    const auto depth = [](int u, int v) {
-        const bool small = u > 20 && u < 50 && v > 20 && v<50, large = u> 90 && u < 150 && v > 40 && v < 120,
-                   behind = u >= 150 && u < 190 && v > 40 && v < 120;
-        return small ? 0.5 : large ? 0.7 + 0.0005 * v : behind ? 1.2 : 0.0;
-    };
-    for (const bool largest : {false, true}) {
-        for (const double trim : {0.0, 0.1, 0.5}) {
-            for (const double edge : {0.0, 0.03}) {
-                CAPTURE(largest);
-                CAPTURE(trim);
-                CAPTURE(edge);
-                FixtureClass f = goal();
-                f.largestPart = largest, f.trim = trim;
-                Scene scene = goalScene(f);
-                scene.filter.edge = edge;
-                CloudRig rig(scene, camera);
-                rig.run(drawnPicture(camera, depth));
-                CHECK(static_cast<bool>(rig.set().device.points) == (largest || trim > 0.0));
-                auto masks = rig.masks();
-                const auto all = rig.points();
-                if (largest) {
-                    const auto part = reference::largestPart(rig.width(), rig.height(), masks, all, 0, edge);
-                    std::transform(part.begin(), part.end(), masks.begin(), [](uint8_t in) { return in; });
-                }
-                const auto points = reference::trimmed(reference::pointsOfClass(masks, all, 0), trim);
-                const PoseError e = compare(rig.host().guidance[0],
-                                            reference::guidance(points, f, rig.host().baseTcamera.position));
-                CHECK(e.position < 1e-6);
-                CHECK(e.target < 1e-5);
-                const double x = rig.host().guidance[0].position.x;
-                CHECK((!largest || x > 0.0));
-            }
-        }
-    }
 }
