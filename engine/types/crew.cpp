@@ -25,12 +25,22 @@ uint64_t firstClaim(uint64_t job, uint32_t parts) noexcept {
 
 Crew::Crew(uint32_t members, std::chrono::microseconds lookOut)
     : lookOut_(lookOut) {
-    for (uint32_t i = 1; i < members; ++i) {
-        threads_.emplace_back([this] { member(); });
+    threads_.reserve(members - 1);
+    try {
+        for (uint32_t i = 1; i < members; ++i) {
+            threads_.emplace_back([this] { member(); });
+        }
+    } catch (...) { // std::system_error: those that are there would never end
+        end();
+        throw;
     }
 }
 
 Crew::~Crew() {
+    end();
+}
+
+void Crew::end() noexcept {
     ending_.store(true);
     call();
 }
@@ -71,8 +81,12 @@ bool Crew::takePart() noexcept {
 }
 
 void Crew::member() noexcept {
-    while (!ending_.load()) {
+    for (;;) {
+        // In this order: the call that is behind ending_ is either seen here or ends the wait below.
         const uint32_t seen = calls_.load(std::memory_order_acquire);
+        if (ending_.load()) {
+            return;
+        }
         Clock::time_point until = Clock::now() + lookOut_;
         while (Clock::now() < until) {
             for (int i = 0; i < kLooks; ++i) {

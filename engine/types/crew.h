@@ -11,9 +11,9 @@
 
 namespace fathom {
 
-// For jobs of tens of microseconds and more on hosts with processors to spare: members look out for work
-// without sleeping for a while after each call() and each job. They inherit the affinity of who makes the
-// crew. One thread calls everything.
+// For jobs of tens of microseconds and more while processors have nothing else to do: members look out for
+// work without sleeping for a while after each call() and each job. They inherit the affinity of who makes
+// the crew. One thread calls everything.
 class Crew {
 public:
     // members: the caller is one of them; 1 = no thread is made. lookOut: for how long members do.
@@ -39,6 +39,7 @@ private:
         void (*run)(const void*, uint32_t) = nullptr;
         const void* job = nullptr;
     };
+    void end() noexcept;
     void runWork(uint32_t parts, const Work& work) noexcept;
     bool takePart() noexcept;
     void member() noexcept;
