@@ -7,7 +7,6 @@
 #include "engine/reference/surface.h"
 
 #include <algorithm>
-#include <thread>
 
 namespace fathom::profile {
 
@@ -164,8 +163,7 @@ size_t wrongPoints(const reference::FrameView& view, const std::vector<dvec3>& p
 } // namespace
 
 double deviceThreads(const gpu::Device& device) {
-    return device.facts().kind == DeviceKind::Cpu ? static_cast<double>(std::thread::hardware_concurrency())
-                                                  : NAN;
+    return device.facts().kind == DeviceKind::Cpu ? static_cast<double>(device.facts().hostProcessors) : NAN;
 }
 
 void addPeerFilters(const StudyContext& context, std::vector<StudyRow>& rows) {

@@ -3,10 +3,10 @@
 
 #include "apps/replay/csv.h"
 #include "apps/replay/output_file.h"
+#include "engine/types/processors.h"
 
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 namespace fathom::profile {
 
@@ -124,7 +124,7 @@ Facts runFacts(const gpu::Device& device, const Settings& settings, const std::s
             {"subgroup", std::to_string(f.subgroupSize)},
             {"timestamps", f.timestampPeriodNs > 0.0 ? "yes" : "no"},
             {"host_cpu", firstMatch("/proc/cpuinfo", "model name")},
-            {"host_cpus", std::to_string(std::thread::hardware_concurrency())},
+            {"host_cpus", std::to_string(usableProcessors())},
             {"load_average", firstMatch("/proc/loadavg", "")},
             {"source", settings.source.empty() ? "analytic scenes" : settings.source.filename().string()},
             {"scene", settings.scene.empty() ? "built in" : settings.scene.filename().string()},

@@ -3,12 +3,12 @@
 
 #include "engine/gpu/result.h"
 #include "engine/types/error.h"
+#include "engine/types/processors.h"
 
 #include <algorithm>
 #include <cctype>
 #include <charconv>
 #include <cstring>
-#include <thread>
 
 namespace fathom::gpu {
 
@@ -100,7 +100,7 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
     facts.maxInvocations = limits.maxComputeWorkGroupInvocations;
     facts.maxSharedBytes = limits.maxComputeSharedMemorySize;
     facts.maxStorageBufferBytes = limits.maxStorageBufferRange;
-    facts.hostProcessors = std::max(1u, std::thread::hardware_concurrency());
+    facts.hostProcessors = usableProcessors();
     facts.hostPointerAlignment = canImport ? host.minImportedHostPointerAlignment : 0;
     facts.timestampPeriodNs =
         limits.timestampComputeAndGraphics ? static_cast<double>(limits.timestampPeriod) : 0.0;

@@ -4,6 +4,7 @@
 #include "engine/model/link_spheres.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
+#include "engine/types/processors.h"
 
 #include <algorithm>
 #include <atomic>
@@ -221,7 +222,7 @@ private:
             }
         };
         {
-            const size_t processors = std::max(1u, std::thread::hardware_concurrency());
+            const size_t processors = usableProcessors();
             std::vector<std::jthread> others(std::min(processors, std::max<size_t>(1, shapes_.size())) - 1);
             std::generate(others.begin(), others.end(), [&] { return std::jthread(work); });
             work();

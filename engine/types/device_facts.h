@@ -17,7 +17,7 @@ struct DeviceFacts {
     uint32_t maxInvocations = 128;   // of one work group
     uint32_t maxSharedBytes = 16384; // of one work group
     uint64_t maxStorageBufferBytes = 1u << 27;
-    uint32_t hostProcessors = 1;       // that this process may use
+    uint32_t hostProcessors = 1;       // that the thread that made the device may use
     uint64_t hostPointerAlignment = 0; // of imported host memory; 0 = cannot import
     double timestampPeriodNs = 1.0;    // 0 = no timestamps
     // From so many tool leaves on `contact.where: auto` asks this device, when it is not a CPU. Never, unless

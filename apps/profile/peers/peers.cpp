@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/peers/peers.h"
+#include "engine/types/processors.h"
 
 #include <algorithm>
-#include <thread>
 
 namespace fathom::peers {
 
@@ -10,7 +10,7 @@ namespace {
 
 // One thread, and all of the machine where it has more.
 std::vector<uint32_t> threadCounts() {
-    const uint32_t all = std::max(1u, std::thread::hardware_concurrency());
+    const uint32_t all = usableProcessors();
     return all > 1 ? std::vector<uint32_t>{1, all} : std::vector<uint32_t>{1};
 }
 
