@@ -105,14 +105,14 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
 
 } // namespace
 
-uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew& crew) {
+uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew* crew) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
     // Beyond what the sensor can say nothing is near enough.
     const auto least = static_cast<uint16_t>(lo <= hi ? lo : 1),
                most = static_cast<uint16_t>(lo <= hi ? hi : 0);
     host.depth.resize(depth.size());
     std::atomic<uint32_t> valid{0};
-    inParts(&crew, depth.size(), kLeastReadings, [&](size_t begin, size_t end) {
+    inParts(crew, depth.size(), kLeastReadings, [&](size_t begin, size_t end) {
         std::copy_n(&depth[begin], end - begin, &host.depth[begin]);
         valid += countWithin(&host.depth[begin], end - begin, least, most);
     });

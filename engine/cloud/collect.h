@@ -19,8 +19,8 @@ struct FrameCounts {
 };
 
 // The picture's depth into host.depth; returns the readings in near..far. Counted on the CPU: a counter that
-// 300 000 invocations share costs the device milliseconds.
-uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew& crew);
+// 300 000 invocations share costs the device milliseconds. crew: who shares it; null: the caller alone.
+uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew* crew);
 
 // work: where radii and points are read when the plan packs nothing. Fills set.host.spheres, forbiddenBits
 // and guidance from the device side; the caller has set camera, pose, origin and frame, and counts the valid

@@ -220,11 +220,12 @@ FrameReport FrameCycle::finish() {
     report.uploadMs = f.uploadMs;
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
-        if (plan_.pack && crew_.members() > 1) {
+        Crew* const meanwhile = plan_.pack ? &crew_ : nullptr; // a CPU device works on its processors
+        if (meanwhile != nullptr && crew_.members() > 1) {
             crew_.call();
         }
         fillHost(f); // while the device works
-        const uint32_t valid = cloud::copyDepth(pool_.back().host, f.frame->depth, scene_, crew_);
+        const uint32_t valid = cloud::copyDepth(pool_.back().host, f.frame->depth, scene_, meanwhile);
         if (plan_.cloud) {
             report.inPlace = uploads_[f.slot].depth.imported();
             timeline_.wait(ticket_);
