@@ -111,7 +111,8 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort
     c.deviceBytes = deviceCopy(device, submissions, effort);
     c.deviceFlops = deviceArithmetic(device, submissions, effort);
     c.hostThreads = hostThreads;
-    c.hostBytes = hostCopy(hostThreads, effort);
+    c.hostBytes = hostCopy(1, effort);
+    c.crewBytes = hostCopy(hostThreads, effort);
     std::vector<double> empty;
     repeat(
         effort, [&] { submissions.once([](gpu::Commands&) {}); },

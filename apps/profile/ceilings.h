@@ -10,7 +10,8 @@ namespace fathom::profile {
 struct Ceilings {
     double deviceBytes = 0.0; // [B/s] read plus written by a copy between device buffers
     double deviceFlops = 0.0; // [1/s] float32, a multiply-add counts two
-    double hostBytes = 0.0;   // [B/s] read plus written by memcpy of hostThreads threads
+    double hostBytes = 0.0;   // [B/s] read plus written by memcpy of one thread
+    double crewBytes = 0.0;   // [B/s] the same of hostThreads threads
     uint32_t hostThreads = 1;
     double submitMs = 0.0; // [ms] an empty submission until its result is known, p50
 };

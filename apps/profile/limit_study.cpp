@@ -16,7 +16,7 @@ namespace {
 // What one step must do at least. Operations are float32, counted in the formulas of the pass.
 struct Need {
     double bytes = 0.0, operations = 0.0;
-    bool host = false;
+    enum class Where { Device, Host, Crew } where = Where::Device; // Crew: those who publish
 };
 
 // What a frame selects.
@@ -82,18 +82,18 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     return {
         {"upload",
          {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0,
-          true}},
+          Need::Where::Host}},
         {"classify",
-         {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 1.0), 40.0 * l.pixels,
-          false}},
-        {"list", {l.pixels / 256.0 * (4.0 + 4.0 + 8.0), 0.0, false}},
-        {"surface", {l.slots * (1.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel), false}},
-        {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0, false}},
-        {"spheres", {sphereBytes(l), 60.0 * l.slots, false}},
-        {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0, false}},
-        {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided, false}},
-        {"collect", {l.spheres * (20.0 + 21.0), 0.0, true}}, // read as the device packs, written as columns
-        {"grid", {l.spheres * (16.0 + 20.0), 0.0, true}},
+         {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 1.0), 40.0 * l.pixels}},
+        {"list", {l.pixels / 256.0 * (l.hold ? 8.0 : 4.0) + l.slots / 256.0 * (l.hold ? 8.0 : 4.0), 0.0}},
+        {"surface", {l.slots * (1.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel)}},
+        {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0}},
+        {"spheres", {sphereBytes(l), 60.0 * l.slots}},
+        {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0}},
+        {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
+        {"collect", // read as the device packs, written as columns
+         {l.spheres * (20.0 + 21.0), 0.0, Need::Where::Crew}},
+        {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::Crew}},
     };
 }
 
@@ -103,6 +103,12 @@ Spread spreadIn(const FrameCost& cost, const std::string& step) {
     }
     const auto it = cost.passes.find(step);
     return it != cost.passes.end() ? it->second : Spread{};
+}
+
+double bytesPerSecond(const Ceilings& c, Need::Where where) {
+    return where == Need::Where::Device ? c.deviceBytes
+           : where == Need::Where::Host ? c.hostBytes
+                                        : c.crewBytes;
 }
 
 void addRows(Study& study, const std::string& source, const Load& load, const FrameCost& cost,
@@ -115,9 +121,10 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         StudyRow row;
         row.source = source;
         row.setting = step;
-        (need.host ? row.cost.cpu : row.cost.gpu) = time;
-        const double moving = need.bytes / (need.host ? ceilings.hostBytes : ceilings.deviceBytes) * 1e3;
-        const double computing = need.host ? 0.0 : need.operations / ceilings.deviceFlops * 1e3;
+        const bool onDevice = need.where == Need::Where::Device;
+        (onDevice ? row.cost.gpu : row.cost.cpu) = time;
+        const double moving = need.bytes / bytesPerSecond(ceilings, need.where) * 1e3;
+        const double computing = onDevice ? need.operations / ceilings.deviceFlops * 1e3 : 0.0;
         const double floor = std::max(moving, computing), ratio = floor > 0.0 ? time.p50 / floor : NAN;
         row.more = {need.bytes / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
         study.rows.push_back(row);
@@ -173,8 +180,9 @@ Study limitStudy(const StudyContext& context) {
     study.findings.push_back(
         "device: copies " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), computes " +
         digits(c.deviceFlops * 1e-9) + " GFLOP/s, an empty submission takes " + digits(c.submitMs) +
-        " ms; host: copies " + digits(c.hostBytes * 1e-9) + " GB/s with " + std::to_string(c.hostThreads) +
-        " thread(s); copies of 64 MiB, so a step whose data stay in a cache may take less "
+        " ms; host: copies " + digits(c.hostBytes * 1e-9) + " GB/s on one thread, " +
+        digits(c.crewBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
+        " that publish; copies of 64 MiB, so a step whose data stay in a cache may take less "
         "than its floor");
     for (double share : {0.1, 1.0}) {
         const std::string source = digits(share * 100) + " % forbidden";

@@ -44,9 +44,12 @@ public:
     Measured take(const std::string& source, const std::string& setting, double x, const ShotSource& shots,
                   uint32_t classes) {
         FrameBench bench(context_.device, sceneWith(context_.settings, classes), shots.camera);
-        bench.run(shots.shots.front());
+        const uint32_t guided = bench.run(shots.shots.front()).guidanceCount;
         check(bench, setting, shots);
         Measured m{x, bench.measure(shots.shots, context_.settings.effort())};
+        if (guided == 0) { // dispatched over nothing
+            m.cost.passes.erase("moments");
+        }
         StudyRow row;
         row.source = source;
         row.setting = setting;
@@ -59,7 +62,7 @@ public:
                     m.cost.collect.p50,
                     m.cost.grid.p50,
                     static_cast<double>(bench.set().host.spheres.size())};
-        for (const char* pass : {"classify", "surface", "thin", "spheres", "moments"}) {
+        for (const char* pass : {"classify", "list", "surface", "thin", "spheres", "moments"}) {
             const auto it = m.cost.passes.find(pass);
             row.more.push_back(it != m.cost.passes.end() ? it->second.p50 : NAN);
         }
@@ -91,7 +94,7 @@ public:
         add("collect (host)", [](const Measured& m) { return m.cost.collect.p50; });
         add("grid (host)", [](const Measured& m) { return m.cost.grid.p50; });
         for (const auto& [name, spread] : curve.front().cost.passes) {
-            add(name, [pass = name](const Measured& m) { // one class alone has no moments
+            add(name, [pass = name](const Measured& m) { // no guidance, no moments
                 const auto it = m.cost.passes.find(pass);
                 return it != m.cost.passes.end() ? it->second.p50 : 0.0;
             });
@@ -167,6 +170,7 @@ Study scalingStudy(const StudyContext& context) {
                        "grid_p50_ms",
                        "spheres",
                        "classify_p50_ms",
+                       "list_p50_ms",
                        "surface_p50_ms",
                        "thin_p50_ms",
                        "spheres_p50_ms",
