@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pass shaders/classify.comp: which pixels can matter, and the list of patches with work.
+// The pass shaders/classify.comp: which pixels can matter, and which patches have work.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pass shaders/moments.comp: moments of the guidance classes in each listed patch.
+// The pass shaders/moments.comp: moments of the guidance classes in each guided patch.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"

@@ -43,7 +43,7 @@ struct FrameParams {
 };
 FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 160);
 
-// What classify finds out about a patch, bits of a word.
+// What is known of a patch, bits of a word.
 FATHOM_CONST kPatchListed = 1;  // it has work
 FATHOM_CONST kPatchGuided = 2;  // a pixel of it is in a guidance class
 FATHOM_CONST kPatchHolding = 4; // listed, and its memory holds points; where classify makes the lists
