@@ -33,7 +33,7 @@ void selectFont(cairo_t* cr, double size, bool bold) {
 }
 
 // Cairo stops drawing for good at a byte that is no UTF-8, and such bytes can stand in a device's name.
-std::string printable(const std::string& words) {
+std::string drawable(const std::string& words) {
     std::string result;
     for (size_t i = 0; i < words.size(); ++i) {
         const auto lead = static_cast<unsigned char>(words[i]);
@@ -76,7 +76,7 @@ void Picture::setColour(Colour colour) const {
 
 void Picture::text(double x, double y, const std::string& words, double size, Colour colour, Align align,
                    bool bold) const {
-    const std::string shown = printable(words);
+    const std::string shown = drawable(words);
     selectFont(cr_, size, bold);
     cairo_text_extents_t extents;
     cairo_text_extents(cr_, shown.c_str(), &extents);
@@ -90,7 +90,7 @@ void Picture::text(double x, double y, const std::string& words, double size, Co
 double Picture::textWidth(const std::string& words, double size, bool bold) const {
     selectFont(cr_, size, bold);
     cairo_text_extents_t extents;
-    cairo_text_extents(cr_, printable(words).c_str(), &extents);
+    cairo_text_extents(cr_, drawable(words).c_str(), &extents);
     return extents.x_advance;
 }
 

@@ -3,6 +3,7 @@
 
 #include "devices/bag/byte_cursor.h"
 #include "devices/bag/unpack_chunk.h"
+#include "engine/types/printable.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -42,7 +43,7 @@ T number(const std::map<std::string, std::string>& fields, const char* name) {
 
 std::string word(const std::map<std::string, std::string>& fields, const char* name) {
     const auto it = fields.find(name);
-    return it == fields.end() ? "" : ByteCursor::printable(it->second);
+    return it == fields.end() ? "" : printable(it->second);
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/types/error.h"
+#include "engine/types/printable.h"
 
 #include <cstdint>
 #include <cstring>
@@ -42,13 +43,6 @@ public:
     }
     // The same with a space for each control character: names that messages quote stay on one line.
     std::string name() { return printable(text()); }
-    static std::string printable(std::string text) {
-        for (char& c : text) {
-            const auto byte = static_cast<unsigned char>(c);
-            c = byte < 0x20 || byte == 0x7f ? ' ' : c;
-        }
-        return text;
-    }
     bool empty() const { return rest_.empty(); }
     size_t left() const { return rest_.size(); }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh file in a process of its own: the importer is a large library that broken files can crash, and
-// a crash there must be a refusal here.
+// Reads a mesh file in a process of its own (reader_process.h).
 #pragma once
 
 #include "engine/model/triangle_mesh.h"
@@ -18,9 +17,7 @@ struct ImportedTriangles {
 
 inline constexpr uint64_t kMostImportMemory = uint64_t{4} << 30; // [bytes] of address space
 
-// A child is forked, so that no thread is needed; it has at most a minute of CPU time and five minutes in
-// all, and at most so much memory more than this process (no bound under a sanitizer, whose own memory is
-// none). Throws Error when no child can be made.
+// Throws Error when no process can be made.
 ImportedTriangles importTriangles(const std::filesystem::path& file, uint64_t mostMemory = kMostImportMemory);
 
 } // namespace fathom

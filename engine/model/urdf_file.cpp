@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/urdf_file.h"
 
+#include "engine/model/reader_process.h"
 #include "engine/types/error.h"
 #include "engine/types/read_file.h"
 
+#include <algorithm>
 #include <console_bridge/console.h>
+#include <iterator>
 #include <optional>
+#include <set>
 #include <urdf_model/pose.h>
 #include <urdf_parser/urdf_parser.h>
 
@@ -14,6 +18,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLargestUrdf = 64u << 20;
+constexpr size_t kMostLinks = 1000; // whoever walks down from the root calls itself for each
 
 // Takes what the parser would print, so that it becomes part of one line of ours.
 class Listener : public console_bridge::OutputHandler {
@@ -37,23 +42,76 @@ private:
     std::string first_;
 };
 
-} // namespace
-
-std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file) {
-    const std::optional<std::string> read = readFileAtMost(file, kLargestUrdf);
-    if (!read || read->empty() || read->size() > kLargestUrdf) {
-        throw BadInput(file.string(), "file",
-                       read && !read->empty() ? "over 64 MiB" : "cannot be read or empty",
-                       "a readable URDF file");
+// The parser asks for one root only: links that are in a loop of joints hang below none, and hold each other
+// for ever.
+void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
+    if (model.links_.size() > kMostLinks) {
+        throw BadInput(file, "robot", std::to_string(model.links_.size()) + " links",
+                       std::to_string(kMostLinks) + " at most");
     }
-    const std::string& text = *read;
+    std::set<const urdf::Link*> below;
+    std::vector<const urdf::Link*> open{model.getRoot().get()};
+    while (!open.empty()) {
+        const urdf::Link* const link = open.back();
+        open.pop_back();
+        if (below.insert(link).second) {
+            std::ranges::transform(link->child_links, std::back_inserter(open),
+                                   [](const auto& child) { return child.get(); });
+        }
+    }
+    const auto stray = std::ranges::find_if(
+        model.links_, [&](const auto& link) { return below.count(link.second.get()) == 0; });
+    if (stray == model.links_.end()) {
+        return;
+    }
+    throw BadInput(file, "link " + stray->first, "in a loop of joints", "a tree of links below one root");
+}
+
+std::shared_ptr<const urdf::ModelInterface> parse(const std::filesystem::path& file,
+                                                  const std::string& text) {
     const Listener listener;
     std::shared_ptr<const urdf::ModelInterface> model = urdf::parseURDF(text);
     if (!model) {
         throw BadInput(file.string(), "robot", listener.first().empty() ? "not understood" : listener.first(),
                        "a URDF robot");
     }
+    checkLinks(*model, file.string());
     return model;
+}
+
+// The parser calls itself for what is nested, and so does the model's end for links below links: tens of
+// thousands end the stack. What a process of its own survives, from making to end, this one survives, too.
+void tryOut(const std::filesystem::path& file, const std::string& text) {
+    std::string fault;
+    const auto read = [&](int pipe) {
+        std::string refusal;
+        try {
+            parse(file, text);
+        } catch (const std::exception& e) {
+            refusal = e.what();
+        }
+        return writeText(pipe, refusal);
+    };
+    const ReaderEnd end = runReader(file, {read, [&](int pipe) { return readText(pipe, fault); }});
+    if (!end.whole) {
+        throw BadInput(file.string(), "robot", broken("URDF reader", end), "a URDF robot");
+    }
+    if (!fault.empty()) {
+        throw BadInput(fault);
+    }
+}
+
+} // namespace
+
+std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file) {
+    const std::optional<std::string> text = readFileAtMost(file, kLargestUrdf);
+    if (!text || text->empty() || text->size() > kLargestUrdf) {
+        throw BadInput(file.string(), "file",
+                       text && !text->empty() ? "over 64 MiB" : "cannot be read or empty",
+                       "a readable URDF file");
+    }
+    tryOut(file, *text);
+    return parse(file, *text);
 }
 
 Pose poseOf(const urdf::Pose& pose) {

@@ -44,14 +44,12 @@ bool isQuoted(const YAML::Node& node) {
     return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
 }
 
-// One line whatever the value holds.
-std::string printable(std::string text) {
+// However long the value is.
+std::string shown(std::string text) {
     if (text.size() > kShownCharacters) {
         text.resize(kShownCharacters);
         text += "...";
     }
-    std::replace_if(
-        text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
     return text;
 }
 
@@ -69,7 +67,7 @@ YamlNode YamlNode::parseFile(const std::filesystem::path& file) {
         documents = YAML::LoadAll(text);
     } catch (const YAML::Exception& e) {
         const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
-        throw BadInput(file.string(), where, printable(e.msg), "YAML");
+        throw BadInput(file.string(), where, shown(e.msg), "YAML");
     }
     if (documents.size() > 1) {
         throw BadInput(file.string(), "file", std::to_string(documents.size()) + " YAML documents",
@@ -93,7 +91,7 @@ void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
             const std::string hint =
                 "unknown key, did you mean '" + std::string(nearestWord(key, words)) + "'?";
-            throw BadInput(file_, childPath(printable(key)), hint, join(words));
+            throw BadInput(file_, childPath(shown(key)), hint, join(words));
         }
         if (!seen.insert(key).second) {
             throw BadInput(file_, childPath(key), "given twice", "each key once");
@@ -223,7 +221,7 @@ void YamlNode::refuse(const std::string& value, const std::string& allowed) cons
 
 std::string YamlNode::value() const {
     if (node_.IsScalar()) {
-        return node_.Scalar().empty() ? "empty text" : printable(node_.Scalar());
+        return node_.Scalar().empty() ? "empty text" : shown(node_.Scalar());
     }
     if (node_.IsSequence()) {
         // Never emitted as a whole: an alias inside its own anchor would have no end.
@@ -234,7 +232,7 @@ std::string YamlNode::value() const {
                 break;
             }
         }
-        return printable(all + "]");
+        return shown(all + "]");
     }
     return node_.IsMap() ? "a mapping" : "nothing";
 }

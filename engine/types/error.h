@@ -2,15 +2,20 @@
 // The family of exceptions. Thrown while things are built; never on the haptic turn, which returns values.
 #pragma once
 
+#include "engine/types/printable.h"
+
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 namespace fathom {
 
-// Root of the family. exitCode() is what the program ends with when nothing catches it.
+// Root of the family, one line whatever it quotes. exitCode() is what the program ends with when nothing
+// catches it.
 class Error : public std::runtime_error {
 public:
-    using std::runtime_error::runtime_error;
+    explicit Error(std::string what)
+        : std::runtime_error(printable(std::move(what))) {}
     virtual int exitCode() const noexcept { return 1; }
 };
 
@@ -21,6 +26,9 @@ public:
     BadInput(const std::string& file, const std::string& field, const std::string& value,
              const std::string& allowed)
         : Error(file + ": " + field + ": " + value + " (allowed: " + allowed + ")") {}
+    // A line of that kind that another process has made.
+    explicit BadInput(std::string line)
+        : Error(std::move(line)) {}
     int exitCode() const noexcept override { return 2; }
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/log.h"
 
+#include "engine/types/printable.h"
+
 #include <spdlog/spdlog.h>
 
 namespace fathom::log {
@@ -11,7 +13,7 @@ void write(Level level, fmt::string_view format, fmt::format_args values) {
     spdlog::logger* const logger = spdlog::default_logger_raw();
     const auto wanted = levels[static_cast<int>(level)];
     if (logger->should_log(wanted)) {
-        logger->log(wanted, spdlog::string_view_t(fmt::vformat(format, values)));
+        logger->log(wanted, printable(fmt::vformat(format, values)));
     }
 }
 

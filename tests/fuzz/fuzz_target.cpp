@@ -3,12 +3,14 @@
 
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <spdlog/spdlog.h>
+#include <string_view>
 
 #include <unistd.h>
 
@@ -87,7 +89,8 @@ bool runFuzzTarget(const FuzzTarget& target, Bytes input) {
         target.read(input);
         return true;
     } catch (const Error& e) {
-        if (std::strlen(e.what()) == 0 || std::strchr(e.what(), '\n') != nullptr) {
+        const std::string_view line = e.what();
+        if (line.empty() || std::ranges::any_of(line, [](unsigned char c) { return std::iscntrl(c) != 0; })) {
             finding(target, (std::string("a refusal that is not one line: ") + e.what()).c_str());
         }
     } catch (const std::exception& e) {

@@ -122,6 +122,10 @@ TEST_CASE("an arm that cannot be used is refused with the joint or link and the 
               jointOf("j", "prismatic", "a", "b", "<limit effort='1' lower='2' upper='1' velocity='1'/>") +
               "</robot>")
               .find("joint j: limits missing or crossed") != std::string::npos);
+    CHECK(refusalOf(two + "<link name='c'/>" + jointOf("j", "fixed", "a", "b") +
+                    jointOf("k", "fixed", "c", "c") + "</robot>")
+              .find("link c: in a loop of joints (allowed: a tree of links below one root)") !=
+          std::string::npos);
     std::string nine = "<robot name='r'><link name='l0'>" + kBall + "</link>";
     for (int k = 0; k < 9; ++k) {
         const std::string number = std::to_string(k);
@@ -135,6 +139,29 @@ TEST_CASE("an arm that cannot be used is refused with the joint or link and the 
           std::string::npos);
     CHECK(refusalOf("<robot name='r'><link name='a'/></robot>").find("collision: no shapes") !=
           std::string::npos);
+}
+
+TEST_CASE("a URDF that would end the stack of its reader is refused: elements nested without end, links "
+          "below links") {
+    constexpr int kDeep = 50000;
+    std::string nested = "<robot name='r'>";
+    for (int i = 0; i < kDeep; ++i) {
+        nested += "<a>";
+    }
+    std::string chain = "<robot name='r'><link name='l0000000'/>"; // the root is the last in order of names
+    for (int i = 1; i < 2 * kDeep; ++i) {
+        const auto name = [](int k) {
+            const std::string digits = std::to_string(k);
+            return "l" + std::string(7 - digits.size(), '0') + digits;
+        };
+        chain += "<link name='" + name(i) + "'/>" + jointOf("j" + name(i), "fixed", name(i), name(i - 1));
+    }
+    const std::string refusal = refusalOf(nested);
+    CHECK_MESSAGE(refusal.find("robot: breaks the URDF reader") != std::string::npos, refusal);
+    const std::string links = refusalOf(chain + "</robot>"); // a larger stack may survive them
+    CHECK_MESSAGE((links.find("robot: 100000 links (allowed: 1000 at most)") != std::string::npos ||
+                   links.find("robot: breaks the URDF reader") != std::string::npos),
+                  links);
 }
 
 TEST_CASE("real arms of four joints are read, slashes in the names and all") {
