@@ -30,7 +30,8 @@ std::string placeOf(libusb_device* device) {
     std::string text = "usb ";
     text += std::to_string(libusb_get_bus_number(device));
     for (int i = 0; i < count; ++i) {
-        text += (i == 0 ? "-" : ".") + std::to_string(ports[static_cast<size_t>(i)]);
+        text += i == 0 ? '-' : '.';
+        text += std::to_string(ports[static_cast<size_t>(i)]);
     }
     return text;
 }

@@ -174,7 +174,9 @@ void ConstraintRows::clear() noexcept {
     scaledBlocks_ = 0;
 }
 
-bool ConstraintRows::add(std::span<const double> normal, double offset) noexcept {
+// Not inlined: where the caller's row is an array of 7, GCC would warn of the case of 8 unknowns, which never
+// comes.
+[[gnu::noinline]] bool ConstraintRows::add(std::span<const double> normal, double offset) noexcept {
     if (size_ == maxRows_) {
         return false;
     }
