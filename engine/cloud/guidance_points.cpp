@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/guidance_points.h"
 
+#include "shaders/shared/frame_params.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
