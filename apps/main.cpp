@@ -15,6 +15,7 @@
 #include "apps/replay/replay_command.h"
 #include "apps/spheres/spheres_command.h"
 #include "apps/stability/stability_command.h"
+#include "engine/gpu/software_threads.h"
 #include "engine/types/error.h"
 #include "engine/types/version.h"
 
@@ -98,6 +99,7 @@ int run(int argc, char** argv) {
 } // namespace
 
 int main(int argc, char** argv) {
+    fathom::gpu::askForSoftwareThreads();
     spdlog::set_default_logger(spdlog::stderr_logger_mt("fathom"));
     spdlog::set_pattern("%l: %v");
     try {

@@ -5,6 +5,7 @@
 #include "apps/replay/output_file.h"
 #include "engine/types/processors.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -116,6 +117,7 @@ Json studyJson(const Study& study) {
 
 Facts runFacts(const gpu::Device& device, const Settings& settings, const std::string& command) {
     const DeviceFacts& f = device.facts();
+    const char* const threads = std::getenv("LP_NUM_THREADS"); // of Mesa's software device
     const char* kinds[] = {"discrete", "integrated", "cpu", "other"};
     return {{"command", command},
             {"device", f.name},
@@ -125,6 +127,7 @@ Facts runFacts(const gpu::Device& device, const Settings& settings, const std::s
             {"timestamps", f.timestampPeriodNs > 0.0 ? "yes" : "no"},
             {"host_cpu", firstMatch("/proc/cpuinfo", "model name")},
             {"host_cpus", std::to_string(usableProcessors())},
+            {"LP_NUM_THREADS", threads == nullptr ? "not set" : threads},
             {"load_average", firstMatch("/proc/loadavg", "")},
             {"source", settings.source.empty() ? "analytic scenes" : settings.source.filename().string()},
             {"scene", settings.scene.empty() ? "built in" : settings.scene.filename().string()},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/gpu/physical_device.h"
 #include "engine/gpu/pipeline.h"
+#include "engine/gpu/software_threads.h"
 #include "engine/gpu/stopwatch.h"
 #include "engine/types/error.h"
 #include "shaders/ceiling.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstdlib>
 #include <doctest/doctest.h>
 #include <iterator>
 #include <string>
@@ -129,4 +131,22 @@ TEST_CASE("A pipeline that is asked for again is compiled once, and none that is
     CHECK_FALSE(there(2)); // the longest unused went
     CHECK(there(2 + gpu::PipelineStore::kMost));
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
+}
+
+TEST_CASE("the software device is asked for two threads a processor on two processors, and for its own "
+          "choice on others") {
+    CHECK(gpu::softwareThreads(1) == std::nullopt);
+    CHECK(gpu::softwareThreads(2) == 4u);
+    CHECK(gpu::softwareThreads(3) == std::nullopt);
+    CHECK(gpu::softwareThreads(16) == std::nullopt);
+}
+
+TEST_CASE("who has said how many threads the software device has is obeyed") {
+    const char* was = std::getenv("LP_NUM_THREADS");
+    const std::string before = was == nullptr ? "" : was;
+    REQUIRE(::setenv("LP_NUM_THREADS", "3", 1) == 0);
+    gpu::askForSoftwareThreads();
+    CHECK(std::string(std::getenv("LP_NUM_THREADS")) == "3");
+    CHECK((was == nullptr ? ::unsetenv("LP_NUM_THREADS") : ::setenv("LP_NUM_THREADS", before.c_str(), 1)) ==
+          0);
 }

@@ -43,8 +43,8 @@ TEST_CASE("The report names the device, its driver, the settings and the three c
     const auto& facts = run.report["facts"];
     CHECK(facts["device"].get<std::string>().find("llvmpipe") != std::string::npos);
     CHECK(facts["command"] == "fathom --device llvmpipe profile --quick --out DIR");
-    for (const char* name :
-         {"driver", "host_cpu", "host_cpus", "load_average", "source", "scene", "quick", "build"}) {
+    for (const char* name : {"driver", "host_cpu", "host_cpus", "LP_NUM_THREADS", "load_average", "source",
+                             "scene", "quick", "build"}) {
         CHECK_MESSAGE(!facts[name].get<std::string>().empty(), name);
     }
     for (const auto& study : run.report["studies"]) {

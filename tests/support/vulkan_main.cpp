@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Test programs that use the device: every validation message fails the program.
 #define DOCTEST_CONFIG_IMPLEMENT
+#include "engine/gpu/software_threads.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
@@ -19,6 +20,7 @@ fathom::test::Vulkan& fathom::test::vulkan() {
 }
 
 int main(int argc, char** argv) {
+    fathom::gpu::askForSoftwareThreads();
     doctest::Context context(argc, argv);
     int result = context.run();
     const uint32_t messages = shared ? shared->instance.messages() : 0;
