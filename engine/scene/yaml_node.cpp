@@ -8,6 +8,9 @@
 #include <cmath>
 #include <fstream>
 #include <set>
+#include <sstream>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/parser.h>
 
 namespace fathom {
 
@@ -44,6 +47,37 @@ bool isQuoted(const YAML::Node& node) {
     return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
 }
 
+// Learns where each document begins, and nothing else.
+class DocumentStarts : public YAML::EventHandler {
+public:
+    int last = 0; // line, from 0
+
+    void OnDocumentStart(const YAML::Mark& mark) override { last = mark.line; }
+    void OnDocumentEnd() override {}
+    void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+    void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+    void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                         YAML::EmitterStyle::value) override {}
+    void OnSequenceEnd() override {}
+    void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                    YAML::EmitterStyle::value) override {}
+    void OnMapEnd() override {}
+};
+
+// YAML::LoadAll takes memory without end for a text whose first document is followed by what begins none, as
+// a comma: it is no further after each document than before.
+YAML::Node onlyDocument(const std::filesystem::path& file, const std::string& text) {
+    std::istringstream stream(text);
+    YAML::Parser parser(stream);
+    DocumentStarts starts;
+    if (parser.HandleNextDocument(starts) && parser.HandleNextDocument(starts)) {
+        throw BadInput(file.string(), "line " + std::to_string(starts.last + 1), "more than a YAML document",
+                       "one document");
+    }
+    return YAML::Load(text);
+}
+
 // However long the value is.
 std::string shown(std::string text) {
     if (text.size() > kShownCharacters) {
@@ -62,18 +96,12 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
 
 YamlNode YamlNode::parseFile(const std::filesystem::path& file) {
     const std::string text = readText(file);
-    std::vector<YAML::Node> documents;
     try {
-        documents = YAML::LoadAll(text);
+        return YamlNode(onlyDocument(file, text), file.string(), "");
     } catch (const YAML::Exception& e) {
         const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
         throw BadInput(file.string(), where, shown(e.msg), "YAML");
     }
-    if (documents.size() > 1) {
-        throw BadInput(file.string(), "file", std::to_string(documents.size()) + " YAML documents",
-                       "one document");
-    }
-    return YamlNode(documents.empty() ? YAML::Node() : documents[0], file.string(), "");
 }
 
 std::string YamlNode::childPath(std::string_view key) const {

@@ -239,7 +239,9 @@ TEST_CASE("a file that is no YAML, no file or too deep is refused with its line"
     checkRefused({
         {kMinimal + "camera: {near: 1\n", "line ", "YAML"},
         {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: ", "YAML"},
-        {kMinimal + "---\nhold_s: 1\n", "file: 2 YAML documents", "one document"},
+        {kMinimal + "---\nhold_s: 1\n", "line 3: more than a YAML document", "one document"},
+        {",", "line 1: more than a YAML document", "one document"},
+        {kMinimal + "]\n", "line ", "YAML"},
         {std::string(100000, '['), "line 1: ", "YAML"},
         {"&a [*a]\n", "file: ", "a mapping"},
         {"fixtures: &a [*a]\n" + kTool, "fixtures[0]: ", "a mapping"},
