@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stable counting sort by cell. Shared by several threads it goes by two digits: things fall into buckets of
-// neighbouring cells, and each bucket is sorted by whoever is free. One thread alone takes one digit, which
-// is two thirds of the work.
+// Stable counting sort by cell: its caller moves each thing, whatever it is made of, to its place at once.
+// Shared by several threads each counts and moves a part of the things; or, when there are more cells than
+// things, they fall into buckets of neighbouring cells first, and each bucket is sorted by whoever is free.
 #pragma once
+
+#include "engine/types/crew.h"
 
 #include <cstdint>
 #include <span>
@@ -10,30 +12,115 @@
 
 namespace fathom {
 
-class Crew;
-
 class CellSort {
 public:
     // cell: of each thing, below `cells`. begins (cells + 1): place of each cell's first thing, then their
-    // number. order (as many as things): things by cell, within one by number. crew: who shares the work;
-    // the result is the same whoever does; null: the caller alone. Allocates when there is more than ever
-    // before.
-    void sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins,
-              std::span<uint32_t> order, Crew* crew);
+    // number. put(thing, place), noexcept, is called once for each thing, by any thread, things by cell,
+    // within one by number. crew: who shares the work; begins and places are the same whoever does; null: the
+    // caller alone. Allocates when there is more than ever before.
+    template <class Put>
+    void sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins, const Put& put,
+              Crew* crew);
 
 private:
+    static constexpr size_t kLeastPart = 4096;  // things
+    static constexpr size_t kLeastBuckets = 16; // of a part
+
     struct Placed {
         uint32_t cell, thing;
     };
+    // Things `begin` to `end`, at(i) the cell of the i-th, to begins of the cells from `from` up to `to`.
+    // Each is left at the place of its cell's end.
+    template <class Cell>
+    static void countCells(uint32_t begin, uint32_t end, const Cell& at, uint32_t from, uint32_t to,
+                           uint32_t* begins) noexcept;
+    template <class Put>
+    void sortParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, const Put& put, uint32_t parts,
+                   Crew& crew);
+    template <class Put>
+    void sortBucket(uint32_t bucket, std::span<uint32_t> begins, const Put& put) const noexcept;
+
+    void countParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, uint32_t parts, Crew& crew);
+    void placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& crew);
     void chooseBuckets(size_t things, uint32_t cells);
     void toBuckets(std::span<const uint32_t> cell, uint32_t parts, Crew& crew);
-    void countsToPlaces(uint32_t parts);
-    void sortBucket(uint32_t bucket, std::span<uint32_t> begins, std::span<uint32_t> order) const noexcept;
+    void placesOfBuckets(uint32_t parts);
 
     uint32_t shift_ = 0, buckets_ = 0; // bucket = cell >> shift
-    std::vector<uint32_t> next_;       // of each part of the things, a bucket each: where its next thing goes
-    std::vector<uint32_t> first_;      // buckets + 1: place of each bucket's first thing
-    std::vector<Placed> placed_;       // by bucket
+    std::vector<uint32_t>
+        next_; // of each part of the things, a cell or bucket each: where its next thing goes
+    std::vector<uint32_t> first_; // buckets + 1, or runs of cells: place of the first thing
+    std::vector<Placed> placed_;  // by bucket
 };
+
+template <class Put>
+void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins,
+                    const Put& put, Crew* crew) {
+    const auto things = static_cast<uint32_t>(cell.size());
+    const size_t members = crew == nullptr ? 1 : crew->members();
+    const auto parts = static_cast<uint32_t>(std::clamp<size_t>(things / kLeastPart, 1, members));
+    begins[cells] = things;
+    if (parts < 2) {
+        countCells(
+            0, things, [&](uint32_t i) { return cell[i]; }, 0, cells, begins.data());
+        for (uint32_t i = things; i-- > 0;) { // backwards: keeps the order within a cell
+            put(i, --begins[cell[i]]);
+        }
+    } else if (cells <= things) {
+        sortParts(cell, begins.first(cells), put, parts, *crew);
+    } else {
+        chooseBuckets(things, cells);
+        toBuckets(cell, parts, *crew);
+        inParts(crew, buckets_, kLeastBuckets, [&](size_t begin, size_t end) {
+            for (size_t bucket = begin; bucket < end; ++bucket) {
+                sortBucket(static_cast<uint32_t>(bucket), begins.first(cells), put);
+            }
+        });
+    }
+}
+
+template <class Cell>
+void CellSort::countCells(uint32_t begin, uint32_t end, const Cell& at, uint32_t from, uint32_t to,
+                          uint32_t* begins) noexcept {
+    std::fill(begins + from, begins + to, begin == end ? begin : 0);
+    if (begin == end) {
+        return;
+    }
+    for (uint32_t i = begin; i < end; ++i) {
+        ++begins[at(i)];
+    }
+    uint32_t sum = begin;
+    for (uint32_t cell = from; cell < to; ++cell) {
+        sum += begins[cell];
+        begins[cell] = sum;
+    }
+}
+
+template <class Put>
+void CellSort::sortParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, const Put& put,
+                         uint32_t parts, Crew& crew) {
+    countParts(cell, begins, parts, crew);
+    placesOfParts(begins, parts, crew);
+    crew.run(parts, [&](uint32_t part) {
+        uint32_t* const next = &next_[size_t{part} * begins.size()];
+        const size_t from = cell.size() * part / parts, to = cell.size() * (part + 1) / parts;
+        for (size_t i = from; i < to; ++i) {
+            put(static_cast<uint32_t>(i), next[cell[i]]++);
+        }
+    });
+}
+
+template <class Put>
+void CellSort::sortBucket(uint32_t bucket, std::span<uint32_t> begins, const Put& put) const noexcept {
+    const auto cells = static_cast<uint32_t>(begins.size());
+    const Placed* const placed = placed_.data();
+    const uint32_t begin = first_[bucket], end = first_[bucket + 1];
+    countCells(
+        begin, end, [&](uint32_t i) { return placed[i].cell; }, bucket << shift_,
+        std::min(cells, (bucket + 1) << shift_), begins.data());
+    for (uint32_t i = end; i-- > begin;) {
+        put(placed[i].thing, --begins[placed[i].cell]);
+    }
+}
 
 } // namespace fathom

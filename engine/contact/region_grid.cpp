@@ -21,6 +21,7 @@ constexpr uint64_t kFewestCells = 4096;   // below this clearing costs nothing
 constexpr uint64_t kCellsPerSphere = 8;   // clearing and summing stay cheaper than sorting the spheres
 constexpr size_t kRun = 4096;             // spheres that are handled in one go: 16 KiB a column
 constexpr size_t kBoundLanes = 8;         // of running bounds and sums
+constexpr size_t kBoundRows = 4;          // of lanes: a comparison need not wait for the one before
 using Lanes = float __attribute__((vector_size(4 * kBoundLanes)));
 
 int64_t cellsAlong(double extent, double size) {
@@ -43,17 +44,21 @@ FATHOM_CLONES uint32_t countPlaceless(const float* x, const float* y, const floa
 
 FATHOM_CLONES void boundsOf(const float* v, size_t n, float& lo, float& hi) noexcept {
     constexpr float kFar = std::numeric_limits<float>::infinity();
-    Lanes low = Lanes{} + kFar, high = Lanes{} - kFar;
+    std::array<Lanes, kBoundRows> low, high;
+    low.fill(Lanes{} + kFar), high.fill(Lanes{} - kFar);
     size_t i = 0;
-    for (; i + kBoundLanes <= n; i += kBoundLanes) {
-        Lanes some;
-        std::memcpy(&some, v + i, sizeof some);
-        low = some < low ? some : low;
-        high = some > high ? some : high;
+    for (; i + kBoundRows * kBoundLanes <= n; i += kBoundRows * kBoundLanes) {
+        for (size_t row = 0; row < kBoundRows; ++row) {
+            Lanes some;
+            std::memcpy(&some, v + i + row * kBoundLanes, sizeof some);
+            low[row] = some < low[row] ? some : low[row];
+            high[row] = some > high[row] ? some : high[row];
+        }
     }
     lo = kFar, hi = -kFar;
-    for (size_t l = 0; l < kBoundLanes; ++l) {
-        lo = std::min(lo, low[l]), hi = std::max(hi, high[l]);
+    for (size_t l = 0; l < kBoundRows * kBoundLanes; ++l) {
+        lo = std::min(lo, low[l / kBoundLanes][l % kBoundLanes]);
+        hi = std::max(hi, high[l / kBoundLanes][l % kBoundLanes]);
     }
     for (; i < n; ++i) {
         lo = std::min(lo, v[i]), hi = std::max(hi, v[i]);
@@ -193,17 +198,18 @@ void RegionGrid::layOut(const Columns& columns, Crew* crew) {
             addAxis(columns[0].data() + at, count, lo_.x, perMetre_, static_cast<int32_t>(nx_), cell + at);
         }
     });
-    sort_.sort(cell_, cells, cellBegin_, order_, crew);
     const float *const x = columns[0].data(), *const y = columns[1].data(), *const z = columns[2].data(),
                        *const radius = columns[3].data();
     float *const toX = x_.data(), *const toY = y_.data(), *const toZ = z_.data(),
                  *const toRadius = radius_.data();
-    inParts(crew, n, kRun, [&](size_t first, size_t end) {
-        for (size_t slot = first; slot < end; ++slot) {
-            const uint32_t i = order_[slot];
+    uint32_t* const order = order_.data();
+    sort_.sort(
+        cell_, cells, cellBegin_,
+        [=](uint32_t i, uint32_t slot) {
+            order[slot] = i;
             toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
-        }
-    });
+        },
+        crew);
 }
 
 } // namespace fathom

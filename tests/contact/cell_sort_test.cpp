@@ -25,7 +25,8 @@ std::vector<uint32_t> cellsOf(size_t things, uint32_t cells, std::mt19937& rando
 
 void check(CellSort& sort, const std::vector<uint32_t>& cell, uint32_t cells, Crew* crew) {
     std::vector<uint32_t> begins(size_t{cells} + 1, 77), order(cell.size(), 77), expected(cell.size());
-    sort.sort(cell, cells, begins, order, crew);
+    sort.sort(
+        cell, cells, begins, [&](uint32_t thing, uint32_t place) { order[place] = thing; }, crew);
     std::iota(expected.begin(), expected.end(), 0u);
     std::ranges::stable_sort(expected, {}, [&](uint32_t i) { return cell[i]; });
     CHECK(order == expected);
