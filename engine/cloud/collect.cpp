@@ -20,17 +20,16 @@ namespace {
 constexpr size_t kLeastReadings = 16384; // of a part
 
 // 16 bits of each of the four rows of pixels that the sub-patches sub[0..3], side by side, have; of row k
-// from bit 16 k on.
+// from bit 16 k on: four times four nibbles, transposed.
 uint64_t rowsOfSubs(const uint32_t* sub) {
-    uint64_t rows = 0;
-    for (uint32_t row = 0; row < 4; ++row) {
-        uint64_t word = 0;
-        for (uint32_t k = 0; k < 4; ++k) {
-            word |= uint64_t{sub[k] >> 4 * row & 15u} << 4 * k;
-        }
-        rows |= word << 16 * row;
+    uint64_t n = 0;
+    for (uint32_t k = 0; k < 4; ++k) {
+        n |= uint64_t{sub[k] & 0xffff} << 16 * k;
     }
-    return rows;
+    const uint64_t near = (n ^ n >> 12) & 0x0000f0f00000f0f0; // nibbles of 2x2 blocks
+    n ^= near ^ near << 12;
+    const uint64_t far = (n ^ n >> 24) & 0x00000000ff00ff00; // the blocks
+    return n ^ far ^ far << 24;
 }
 
 // Sub-patch bits of the listed patches of a row of patches to row-major bits of the picture. Returns how many

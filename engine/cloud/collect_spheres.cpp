@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/collect_spheres.h"
 
+#include "engine/contact/clones.h"
 #include "engine/types/crew.h"
 
 #include <algorithm>
@@ -13,16 +14,38 @@ namespace {
 constexpr uint32_t kLeastPart = 4096; // spheres
 constexpr size_t kLeastPatches = 64;  // that are counted in one go
 
-// Pixel, row-major in the picture, of each slot of the patch in the top left corner; held points behind them,
-// which count on from the last pixel. The order in which spheres are collected is by pixel.
-std::array<uint32_t, 512> sourcesOfPatch(uint32_t width, uint32_t pixels) {
-    std::array<uint32_t, 512> sources;
-    for (uint32_t slot = 0; slot < 256; ++slot) {
-        const uint32_t sub = slot >> 4, p = slot & 15;
-        sources[slot] = ((sub >> 2) * 4 + (p >> 2)) * width + (sub & 3) * 4 + (p & 3);
-        sources[256 + slot] = sources[slot] + pixels;
+// Tags as spheres.comp packs them: (layer * 256 + slot in the patch) * 8 + class of points.
+constexpr uint32_t kClassMask = 7, kClassBits = 3;
+
+uint32_t tagOf(uint32_t place, uint32_t pointClass) {
+    return place << kClassBits | pointClass;
+}
+
+FATHOM_CLONES void toColumns(const glm::vec4* spheres, size_t n, float* __restrict x, float* __restrict y,
+                             float* __restrict z, float* __restrict radius) noexcept {
+    for (size_t i = 0; i < n; ++i) {
+        x[i] = spheres[i].x, y[i] = spheres[i].y, z[i] = spheres[i].z, radius[i] = spheres[i].w;
     }
-    return sources;
+}
+
+// Pixels, row-major in the picture, of a patch whose first is `corner`; held points count on from the last
+// pixel. The order in which spheres are collected is by pixel.
+FATHOM_CLONES void toSources(const uint32_t* tags, size_t n, uint32_t corner, uint32_t width, uint32_t pixels,
+                             uint32_t* __restrict source) noexcept {
+    for (size_t i = 0; i < n; ++i) {
+        const uint32_t place = tags[i] >> kClassBits;
+        const uint32_t row = (place >> 6 & 3) * 4 + (place >> 2 & 3);
+        const uint32_t column = (place >> 4 & 3) * 4 + (place & 3);
+        source[i] = corner + row * width + column + (place >> 8) * pixels;
+    }
+}
+
+FATHOM_CLONES uint32_t countClass(const uint32_t* tags, size_t n, uint32_t pointClass) noexcept {
+    uint32_t count = 0;
+    for (size_t i = 0; i < n; ++i) {
+        count += static_cast<uint32_t>((tags[i] & kClassMask) == pointClass);
+    }
+    return count;
 }
 
 } // namespace
@@ -30,66 +53,52 @@ std::array<uint32_t, 512> sourcesOfPatch(uint32_t width, uint32_t pixels) {
 // Writes the host's columns, which are large enough already, in order of patches.
 class SphereColumns {
 public:
-    // One sphere of a patch: layer * 256 + slot, and its class.
-    struct Placed {
-        glm::vec4 sphere;
-        uint32_t place, fixture;
-    };
-
     SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
         : set_(set)
+        , rows_(rows)
         , across_(layout.across)
         , width_(set.host.camera.depth.width)
-        , sources_(sourcesOfPatch(width_, static_cast<uint32_t>(set.host.camera.depth.pixels()))) {
-        std::copy(rows.begin(), rows.end(), rows_.begin());
-    }
+        , pixels_(static_cast<uint32_t>(set.host.camera.depth.pixels())) {}
 
-    // All n > 0 spheres of a patch, from the columns' place `first` on; at(i) is the i-th, as Placed.
-    template <class At>
-    void put(uint32_t patch, size_t first, uint32_t n, const At& at) {
+    // All n > 0 spheres of a patch, from the columns' place `first` on.
+    void put(uint32_t patch, size_t first, uint32_t n, const glm::vec4* spheres, const uint32_t* tags) {
         RegionSpheres& out = set_.host.spheres;
-        // In variables of their own: a byte that is written might be any of them otherwise.
-        float *const x = &out.x[first], *const y = &out.y[first], *const z = &out.z[first],
-                     *const radius = &out.radius[first];
-        uint32_t* const source = &out.source[first];
-        uint8_t* const fixture = &out.fixture[first];
+        toColumns(spheres, n, &out.x[first], &out.y[first], &out.z[first], &out.radius[first]);
         const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
-        uint32_t last = 0, from = 0; // a run of one class is counted at its end
-        for (uint32_t i = 0; i < n; ++i) {
-            const Placed p = at(i);
-            x[i] = p.sphere.x, y[i] = p.sphere.y, z[i] = p.sphere.z, radius[i] = p.sphere.w;
-            source[i] = corner + sources_[p.place];
-            fixture[i] = static_cast<uint8_t>(rows_[p.fixture]);
-            if (p.fixture != last) {
-                here_[last] += i - from;
-                last = p.fixture, from = i;
-            }
-        }
-        here_[last] += n - from;
+        toSources(tags, n, corner, width_, pixels_, &out.source[first]);
+        putClasses(&out.fixture[first], n, tags);
         for (uint32_t i = 0; i < n && !set_.keys.empty(); ++i) {
-            set_.keys[first + i] = patch * 512 + at(i).place;
+            set_.keys[first + i] = patch * 512 + (tags[i] >> kClassBits);
         }
-        tally(n);
     }
 
     const SphereCounts& counts() const { return counts_; }
 
 private:
-    void tally(uint32_t n) {
+    void putClasses(uint8_t* fixture, uint32_t n, const uint32_t* tags) {
         counts_.all += n;
         ++counts_.patches;
-        for (size_t c = 0; c < here_.size(); ++c) {
-            counts_.ofClass[c] += here_[c];
-            counts_.patchesOfClass[c] += here_[c] != 0;
+        uint32_t classes = 0, left = n;
+        for (uint32_t c = 0; left > 0 && c < shared::kMaxClasses; ++c) {
+            const uint32_t here = countClass(tags, n, c);
+            counts_.ofClass[c] += here;
+            counts_.patchesOfClass[c] += here != 0;
+            classes += here != 0;
+            left -= here;
         }
-        here_.fill(0);
+        if (classes == 1) { // as in most patches
+            std::fill_n(fixture, n, static_cast<uint8_t>(rows_[tags[0] & kClassMask]));
+            return;
+        }
+        for (uint32_t i = 0; i < n; ++i) {
+            fixture[i] = static_cast<uint8_t>(rows_[tags[i] & kClassMask]);
+        }
     }
 
     FixtureSet& set_;
     SphereCounts counts_;
-    uint32_t across_, width_;
-    std::array<uint32_t, 512> sources_;
-    std::array<uint32_t, shared::kMaxClasses> rows_{}, here_{}; // here_: spheres of each class in the patch
+    const std::vector<uint32_t>& rows_;
+    uint32_t across_, width_, pixels_;
 };
 
 namespace {
@@ -102,16 +111,6 @@ void bringNear(std::span<T> run) noexcept {
     for (size_t i = 0; i < run.size(); i += kLine / sizeof(T)) {
         __builtin_prefetch(&run[i]);
     }
-}
-
-// Which of a patch's 256 slots have a radius, as places from `first` on. Writes one place beyond them.
-uint32_t placesOf(const float* radii, uint32_t first, uint16_t* places) {
-    uint32_t n = 0;
-    for (uint32_t slot = 0; slot < 256; ++slot) {
-        places[n] = static_cast<uint16_t>(first + slot);
-        n += radii[slot] >= 0.0f ? 1u : 0u;
-    }
-    return n;
 }
 
 void add(SphereCounts& to, const SphereCounts& more) {
@@ -210,34 +209,33 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
         bring(patch + 1);
         const uint32_t n = begins_[patch + 1] - begins_[patch];
         if (n > 0) {
-            const size_t from = runs[patch].x;
-            columns.put(patch, begins_[patch], n, [&](uint32_t i) {
-                const uint32_t tag = tags[from + i];
-                return SphereColumns::Placed{packed[from + i], tag >> 3 & 511, tag & 7};
-            });
+            columns.put(patch, begins_[patch], n, &packed[runs[patch].x], &tags[runs[patch].x]);
         }
     }
 }
 
-// Of patches [first, end).
+// Of patches [first, end): what a device of its own would have packed.
 void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
     const std::array<std::span<const glm::vec4>, 2> points{work_.points.as<glm::vec4>(),
                                                            work_.kept.as<glm::vec4>()};
     const std::array<std::span<const float>, 2> radii{work_.radii.as<float>(), work_.heldRadii.as<float>()};
     const auto classes = work_.classes.as<uint8_t>();
-    std::array<uint16_t, 513> places; // that hold a sphere, and one more
+    std::array<glm::vec4, 513> spheres; // of a patch, and a place that is written beyond them
+    std::array<uint32_t, 513> tags;
     for (uint32_t patch = first; patch < end; ++patch) {
         uint32_t n = 0;
-        for (uint32_t layer = 0; begins_[patch + 1] > begins_[patch] && layer < (plan_.hold ? 2u : 1u);
-             ++layer) {
-            n += placesOf(&radii[layer][patch * 256], layer * 256, &places[n]);
+        const uint32_t layers = begins_[patch + 1] == begins_[patch] ? 0 : (plan_.hold ? 2 : 1);
+        for (uint32_t layer = 0; layer < layers; ++layer) {
+            for (uint32_t slot = 0; slot < 256; ++slot) {
+                const size_t at = size_t{patch} * 256 + slot;
+                const float radius = radii[layer][at];
+                spheres[n] = glm::vec4(glm::vec3(points[layer][at]), radius);
+                tags[n] = tagOf(layer * 256 + slot, classes[at] >> (4 * layer) & 15u);
+                n += radius >= 0.0f ? 1u : 0u;
+            }
         }
         if (n > 0) {
-            columns.put(patch, begins_[patch], n, [&](uint32_t i) {
-                const uint32_t layer = places[i] >> 8u, slot = patch * 256u + (places[i] & 255u);
-                return SphereColumns::Placed{glm::vec4(glm::vec3(points[layer][slot]), radii[layer][slot]),
-                                             places[i], classes[slot] >> (4 * layer) & 15u};
-            });
+            columns.put(patch, begins_[patch], n, spheres.data(), tags.data());
         }
     }
 }
