@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// The lists of patches that classify has marked and of those with points in memory, an invocation a patch. Of a device whose classify pays for what any pixel might do; others list as
-// they mark.
+// The lists of patches that classify has marked and of those with points in memory, an invocation a patch. Of a device whose classify
+// pays for what any pixel might do; others list as they mark.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/frame_params.h"
 

@@ -16,9 +16,10 @@ constexpr size_t kLeastPatches = 64;  // that are counted in one go
 
 // Tags as spheres.comp packs them: (layer * 256 + slot in the patch) * 8 + class of points.
 constexpr uint32_t kClassMask = 7, kClassBits = 3;
+static_assert(shared::kMaxClasses <= kClassMask + 1);
 
 uint32_t tagOf(uint32_t place, uint32_t pointClass) {
-    return place << kClassBits | pointClass;
+    return place << kClassBits | (pointClass & kClassMask);
 }
 
 FATHOM_CLONES void toColumns(const glm::vec4* spheres, size_t n, float* __restrict x, float* __restrict y,
@@ -55,10 +56,11 @@ class SphereColumns {
 public:
     SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
         : set_(set)
-        , rows_(rows)
         , across_(layout.across)
         , width_(set.host.camera.depth.width)
-        , pixels_(static_cast<uint32_t>(set.host.camera.depth.pixels())) {}
+        , pixels_(static_cast<uint32_t>(set.host.camera.depth.pixels())) {
+        std::ranges::transform(rows, rows_.begin(), [](uint32_t row) { return static_cast<uint8_t>(row); });
+    }
 
     // All n > 0 spheres of a patch, from the columns' place `first` on.
     void put(uint32_t patch, size_t first, uint32_t n, const glm::vec4* spheres, const uint32_t* tags) {
@@ -87,18 +89,19 @@ private:
             left -= here;
         }
         if (classes == 1) { // as in most patches
-            std::fill_n(fixture, n, static_cast<uint8_t>(rows_[tags[0] & kClassMask]));
+            std::fill_n(fixture, n, rows_[tags[0] & kClassMask]);
             return;
         }
+        const std::array rows = rows_; // a byte that is written might be any of the members otherwise
         for (uint32_t i = 0; i < n; ++i) {
-            fixture[i] = static_cast<uint8_t>(rows_[tags[i] & kClassMask]);
+            fixture[i] = rows[tags[i] & kClassMask];
         }
     }
 
     FixtureSet& set_;
     SphereCounts counts_;
-    const std::vector<uint32_t>& rows_;
     uint32_t across_, width_, pixels_;
+    std::array<uint8_t, shared::kMaxClasses> rows_{}; // of the scene's fixtures, for each class
 };
 
 namespace {

@@ -62,6 +62,10 @@ void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& c
             }
         }
     };
+    if (runs == 1) { // nobody is called for it
+        place(0);
+        return;
+    }
     crew.run(static_cast<uint32_t>(runs), place);
 }
 

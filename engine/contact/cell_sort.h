@@ -6,6 +6,8 @@
 
 #include "engine/types/crew.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -15,9 +17,10 @@ namespace fathom {
 class CellSort {
 public:
     // cell: of each thing, below `cells`. begins (cells + 1): place of each cell's first thing, then their
-    // number. put(thing, place), noexcept, is called once for each thing, by any thread, things by cell,
-    // within one by number. crew: who shares the work; begins and places are the same whoever does; null: the
-    // caller alone. Allocates when there is more than ever before.
+    // number. put(thing, place), noexcept, is called once for each thing, by any thread and in any order;
+    // places are by cell, within one by number. crew: who shares the work; begins and places are the same
+    // whoever does; null: the caller alone. Allocates when there is more than ever before: up to 4 bytes a
+    // cell for each member of the crew, and 8 a thing.
     template <class Put>
     void sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins, const Put& put,
               Crew* crew);

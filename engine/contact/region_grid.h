@@ -15,8 +15,6 @@
 
 namespace fathom {
 
-class Crew;
-
 // Built once a frame on the contact or frame cadence (allocates); queries are const, noexcept and allocate
 // nothing. Cells are about half a mean sphere radius, at least 5 mm, and coarser where the extent would ask
 // for more cells than a bound of 8 a sphere (4 Mi at most): outliers cost speed, never memory or answers.

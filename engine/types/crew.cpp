@@ -7,7 +7,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kLooks = 256; // between two looks at the clock, or two offers of the processor
+constexpr uint32_t kLooks = 256; // between two looks at the clock, or two offers of the processor
 
 void relax() noexcept {
 #if defined(__x86_64__)
@@ -60,7 +60,7 @@ void Crew::runWork(uint32_t parts, const Work& work) noexcept {
     }
     // A part is in work: as short as the one that was just done here, unless its thread has lost its
     // processor.
-    for (int looks = 1; done_.load(std::memory_order_acquire) < parts; ++looks) {
+    for (uint32_t looks = 1; done_.load(std::memory_order_acquire) < parts; ++looks) {
         if (looks % kLooks == 0) {
             std::this_thread::yield();
         }
@@ -89,7 +89,7 @@ void Crew::member() noexcept {
         }
         Clock::time_point until = Clock::now() + lookOut_;
         while (Clock::now() < until) {
-            for (int i = 0; i < kLooks; ++i) {
+            for (uint32_t i = 0; i < kLooks; ++i) {
                 if (takePart()) {
                     until = Clock::now() + lookOut_;
                 }

@@ -58,7 +58,10 @@ TEST_CASE("Things are sorted by cell and stay in order within one, alone or by a
 TEST_CASE("Things that are all in one cell, the first or the last, keep their order") {
     Crew crew(2);
     CellSort sort;
-    for (const uint32_t cell : {0u, 9999u}) {
-        check(sort, std::vector<uint32_t>(20'000, cell), 10'000, &crew);
+    for (const uint32_t cells : {10'000u, 40'000u}) { // fewer than things, and more: in parts, and in buckets
+        for (const uint32_t cell : {0u, cells - 1}) {
+            CAPTURE(cells);
+            check(sort, std::vector<uint32_t>(20'000, cell), cells, &crew);
+        }
     }
 }

@@ -101,28 +101,38 @@ TEST_CASE("Spheres that are not finite are left out and the others are found") {
     CHECK(seen == std::vector<uint32_t>{0, 3});
 }
 
+// One of them, in the middle, is not finite the second time.
+void checkSharedGrid(size_t count, double leastRadius, Crew& crew) {
+    Fixtures set = emptySet();
+    for (size_t i = 0; i < count; ++i) {
+        const double at = static_cast<double>(i * 7919 % 50'021) / 50'021.0;
+        addSphere(set, dvec3(at, std::fmod(at * 37.0, 0.6), std::fmod(at * 411.0, 0.3)),
+                  leastRadius * (1.0 + 2.0 * at));
+    }
+    for (const bool broken : {false, true}) {
+        set.spheres.y[count / 2] = broken ? std::numeric_limits<float>::quiet_NaN() : 0.1f;
+        RegionGrid alone, shared;
+        alone.build(set.spheres);
+        shared.build(set.spheres, &crew);
+        CHECK(alone.size() == count - (broken ? 1 : 0));
+        CHECK(alone.maxRadius() == shared.maxRadius());
+        CHECK(std::ranges::equal(alone.order(), shared.order()));
+        CHECK(std::ranges::equal(alone.x(), shared.x()));
+        CHECK(std::ranges::equal(alone.y(), shared.y()));
+        CHECK(std::ranges::equal(alone.z(), shared.z()));
+        CHECK(std::ranges::equal(alone.radius(), shared.radius()));
+        checkAgainstBruteForce(set.spheres, shared, dvec3(0.4, 0.3, 0.1), 0.05);
+    }
+}
+
 TEST_CASE(
     "A grid is the same whether one thread builds it or a crew, also with spheres that are not finite") {
     Crew crew(3);
     for (const size_t count : {size_t{1}, size_t{4097}, size_t{50'000}}) {
-        CAPTURE(count);
-        Fixtures set = emptySet();
-        for (size_t i = 0; i < count; ++i) {
-            const double at = static_cast<double>(i * 7919 % 50'021) / 50'021.0;
-            addSphere(set, dvec3(at, std::fmod(at * 37.0, 0.6), std::fmod(at * 411.0, 0.3)),
-                      0.01 + 0.02 * at);
-        }
-        for (const bool broken : {false, true}) {
-            set.spheres.y[count / 2] = broken ? std::numeric_limits<float>::quiet_NaN() : 0.1f;
-            RegionGrid alone, shared;
-            alone.build(set.spheres);
-            shared.build(set.spheres, &crew);
-            CHECK(alone.size() == count - (broken ? 1 : 0));
-            CHECK(alone.maxRadius() == shared.maxRadius());
-            CHECK(std::ranges::equal(alone.order(), shared.order()));
-            CHECK(std::ranges::equal(alone.x(), shared.x()));
-            CHECK(std::ranges::equal(alone.radius(), shared.radius()));
-            checkAgainstBruteForce(set.spheres, shared, dvec3(0.4, 0.3, 0.1), 0.05);
+        for (const double radius : {0.01, 0.1}) { // more cells than spheres, and fewer
+            CAPTURE(count);
+            CAPTURE(radius);
+            checkSharedGrid(count, radius, crew);
         }
     }
 }
