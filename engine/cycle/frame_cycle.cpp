@@ -262,7 +262,7 @@ FrameReport FrameCycle::finish() {
 // When nobody waits for the set any more. It is out and must be told of: a device that is lost by now says so
 // at the next submission, and the times stay zero.
 void FrameCycle::readTimes(const InFlight& f, FrameReport& report) const {
-    if (!plan_.cloud) {
+    if (!plan_.cloud || !plan_.passTimes) {
         return;
     }
     try {

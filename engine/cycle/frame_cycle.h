@@ -29,7 +29,8 @@ struct FrameReport {
     cloud::FrameCounts counts;
     uint32_t guidanceCount = 0; // pixels in guidance classes, as classify marks them
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;
-    std::vector<double> passMs; // in the order of FrameCycle::passNames(); device time
+    std::vector<double> passMs; // in the order of FrameCycle::passNames(); device time, zeros without
+                                // Plan::passTimes
     struct Times {              // on the host's monotonic clock
         // landed: the device is done; collected: what it made is the host's; published: so is its grid
         std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published;

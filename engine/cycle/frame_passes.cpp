@@ -8,7 +8,8 @@ namespace fathom {
 FramePasses::FramePasses(const cloud::CloudContext& c)
     : work_(c.work)
     , sets_(c.sets)
-    , device_(c.device) {
+    , device_(c.device)
+    , timed_(c.plan.passTimes) {
     const auto add = [&](bool in, auto& pass, const char* name) {
         if (in) {
             pass.emplace(c);
@@ -48,14 +49,21 @@ const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
 
 void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload,
                          uint32_t set) const {
+    const auto mark = [&] {
+        if (timed_) {
+            watch.mark(commands.handle());
+        }
+    };
     commands.begin(gpu::Submissions::Many);
-    watch.resetIn(commands.handle());
-    watch.mark(commands.handle());
+    if (timed_) {
+        watch.resetIn(commands.handle());
+    }
+    mark();
     const auto run = [&](const auto& pass, auto... arguments) {
         if (pass) {
             pass->record(commands, arguments...);
             commands.barrier();
-            watch.mark(commands.handle());
+            mark();
         }
     };
     run(occlusion_, upload);
@@ -67,7 +75,7 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
         if (!moments_) { // which neither read what thinning writes nor the reverse: they overlap
             commands.barrier();
         }
-        watch.mark(commands.handle());
+        mark();
     }
     run(moments_, upload, set);
     run(spheres_, upload, set);

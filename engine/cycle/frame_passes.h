@@ -33,7 +33,8 @@ public:
     // the same upload may be in flight.
     const gpu::Commands& frame(uint32_t upload, uint32_t set);
     const std::vector<std::string>& names() const { return names_; }
-    const gpu::Stopwatch& watch(uint32_t upload) const { return *watches_[upload]; } // of the pair used last
+    // Of the pair used last; without a mark where the plan asks for no times of passes.
+    const gpu::Stopwatch& watch(uint32_t upload) const { return *watches_[upload]; }
 
 private:
     void record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload, uint32_t set) const;
@@ -51,6 +52,7 @@ private:
     std::optional<cloud::MomentsPass> moments_;
     std::vector<std::string> names_;
     const gpu::Device& device_;
+    bool timed_;
     cloud::PerUpload<std::vector<std::unique_ptr<gpu::Commands>>> commands_; // a set; null = not yet
     cloud::PerUpload<std::unique_ptr<gpu::Stopwatch>> watches_;
 };

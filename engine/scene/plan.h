@@ -58,6 +58,7 @@ struct Plan {
     bool arm = false;   // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions
     bool water = false; // colours are put right for what water took of them
     bool selfFilter = false; // the arm's spheres are taken out of the cloud
+    bool passTimes = true;   // each pass is marked with the device's clock; else its time stays zero
     uint32_t publishers = 1; // threads that lay out a set for the host, the frame cadence's own among them
     // Contact query.
     enum class Query { None, Cpu, Gpu } query = Query::None;

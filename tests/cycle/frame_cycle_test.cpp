@@ -152,6 +152,19 @@ TEST_CASE("Two cycles give the same bits for the same frames, held points, guida
     }
 }
 
+TEST_CASE("Without times of passes the set is the same and all of them stay zero") {
+    const CameraInfo camera = freiburgCamera(123, 77);
+    CloudRig timed(fullScene(), camera);
+    CloudRig other(fullScene(), camera, [](Plan& plan) { plan.passTimes = false; });
+    for (uint64_t seed = 1; seed <= 3; ++seed) {
+        const FrameReport known = timed.run(stressPicture(camera, seed));
+        const FrameReport unknown = other.run(stressPicture(camera, seed));
+        CHECK(std::ranges::count(known.passMs, 0.0) < std::ssize(known.passMs));
+        CHECK(unknown.passMs == std::vector<double>(other.cycle().passNames().size(), 0.0));
+        CHECK(sameBits(timed.host(), other.host()));
+    }
+}
+
 TEST_CASE("Without hold a frame's set does not depend on the frames before it") {
     const CameraInfo camera = freiburgCamera(123, 77);
     Scene scene = fullScene();
