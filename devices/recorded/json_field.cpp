@@ -4,9 +4,45 @@
 #include "devices/recorded/text_file.h"
 #include "engine/types/error.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace fathom {
+
+namespace {
+
+constexpr size_t kShownCharacters = 80, kReasonCharacters = 240;
+
+std::string scalar(const nlohmann::json& value) {
+    return value.is_structured() ? "..."
+                                 : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+}
+
+// A list's own numbers and words, and nothing of what is below them: the library's writer calls itself for
+// each level, and a file may have more of them than the stack has room for.
+std::string shown(const nlohmann::json& value) {
+    if (value.is_object()) {
+        return "an object";
+    }
+    if (!value.is_array()) {
+        return excerpt(scalar(value), kShownCharacters);
+    }
+    std::string all = "[";
+    for (size_t i = 0; i < value.size() && all.size() <= kShownCharacters; ++i) {
+        all += (i == 0 ? "" : ",") + scalar(value[i]);
+    }
+    return excerpt(all + "]", kShownCharacters);
+}
+
+// The library quotes all that it read last, however long, byte by byte.
+std::string reasonOf(const nlohmann::json::exception& e) {
+    std::string reason = e.what();
+    std::replace_if(
+        reason.begin(), reason.end(), [](unsigned char c) { return c >= 0x80; }, '?');
+    return excerpt(std::move(reason), kReasonCharacters);
+}
+
+} // namespace
 
 std::optional<JsonField> JsonField::find(std::string_view key) const {
     if (!value_->is_object()) {
@@ -85,11 +121,7 @@ std::vector<double> JsonField::numbers(size_t n) const {
 }
 
 void JsonField::refuse(const std::string& allowed) const {
-    std::string shown = value_->dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-    if (shown.size() > 80) {
-        shown = shown.substr(0, 80) + "...";
-    }
-    throw BadInput(file_, path_.empty() ? "file" : path_, shown, allowed);
+    throw BadInput(file_, path_.empty() ? "file" : path_, shown(*value_), allowed);
 }
 
 nlohmann::json parseJsonFile(const std::filesystem::path& file) {
@@ -97,7 +129,7 @@ nlohmann::json parseJsonFile(const std::filesystem::path& file) {
     try {
         return nlohmann::json::parse(text);
     } catch (const nlohmann::json::exception& e) { // its text names line, column and what was read last
-        throw BadInput(file.string(), "syntax", e.what(), "JSON (which has no NaN or infinity)");
+        throw BadInput(file.string(), "syntax", reasonOf(e), "JSON (which has no NaN or infinity)");
     }
 }
 

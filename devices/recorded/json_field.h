@@ -31,6 +31,7 @@ public:
     std::vector<double> numbers() const;         // list of finite numbers, any length
     std::vector<double> numbers(size_t n) const; // of exactly n
 
+    // Shows this value in 80 characters at most, and of lists and objects nothing below the first level.
     [[noreturn]] void refuse(const std::string& allowed) const;
     const std::string& path() const { return path_; }
 

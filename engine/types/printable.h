@@ -14,4 +14,14 @@ inline std::string printable(std::string text) {
     return text;
 }
 
+// The first `most` bytes, with dots where there are more: what a message quotes of strangers may be a whole
+// file.
+inline std::string excerpt(std::string text, size_t most = 80) {
+    if (text.size() > most) {
+        text.resize(most);
+        text += "...";
+    }
+    return text;
+}
+
 } // namespace fathom

@@ -4,6 +4,7 @@
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
 
+#include <algorithm>
 #include <doctest/doctest.h>
 
 using namespace fathom;
@@ -126,6 +127,26 @@ TEST_CASE("what is no JSON is refused with the place: NaN, infinity, a cut file,
     CHECK(holds(refusalOf(kSmallIntrinsics.substr(0, 30)), "line 1"));
     CHECK(holds(refusalOf(""), "intrinsics.json: syntax"));
     CHECK(holds(refusalOf("[1, 2]"), "intrinsics.json: file: [1,2] (allowed: an object)"));
+}
+
+TEST_CASE("a value nested deeper than any stack is refused in one line, and so is a text cut within it") {
+    constexpr size_t kDeep = 200'000;
+    const std::string opened(kDeep, '['), closed(kDeep, ']');
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": )" + opened + closed, "fx: [...] (");
+    checkIntrinsics(R"("fx": 6.5)", R"("fx": {"a": )" + opened + closed + "}", "fx: an object (");
+    CHECK(holds(refusalOf(opened), "syntax: "));
+}
+
+TEST_CASE("what a refusal quotes of a JSON text is short and printable, however long the text is") {
+    const std::string bytes(100'000, 'k');
+    for (const std::string& text : {"{\"" + bytes + "\x01", "{\"width\": \"" + bytes + "\"}",
+                                    "{\"\xc2\x85\xe2\x80\xae" + bytes, std::string("{\"a\": \xff\xfe")}) {
+        const std::string message = refusalOf(text);
+        CAPTURE(message);
+        CHECK(message != "");
+        CHECK(message.size() < 500);
+        CHECK(std::all_of(message.begin(), message.end(), [](char c) { return c >= 0x20 && c < 0x7f; }));
+    }
 }
 
 TEST_CASE("distortion that is unknown, incomplete or folds the picture is refused") {
