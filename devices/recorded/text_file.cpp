@@ -12,16 +12,14 @@ namespace fathom {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r";
-constexpr uint64_t kMaxBytes = 64u << 20;
+constexpr uint64_t kMostBytes = 64u << 20;
+constexpr size_t kMostLines = 1'000'000; // nine hours of pictures; a line of two bytes becomes hundreds
+constexpr size_t kMostText = 4u << 20;   // the stamps of an hour of pictures; a byte of it becomes forty
 
 std::string_view trim(std::string_view text) {
     const size_t begin = text.find_first_not_of(kSpace);
     return begin == std::string_view::npos ? std::string_view{}
                                            : text.substr(begin, text.find_last_not_of(kSpace) - begin + 1);
-}
-
-[[noreturn]] void refuseSize(const std::filesystem::path& file) {
-    throw BadInput(file.string(), "file", "over 64 MiB", "at most 64 MiB");
 }
 
 template <class T>
@@ -33,14 +31,7 @@ bool parseWhole(std::string_view word, T& value) {
 } // namespace
 
 std::string readTextFile(const std::filesystem::path& file) {
-    std::optional<std::string> text = readFileAtMost(file, kMaxBytes);
-    if (!text) {
-        throw BadInput(file.string(), "file", "cannot be read", "a readable text file");
-    }
-    if (text->size() > kMaxBytes) {
-        refuseSize(file);
-    }
-    return std::move(*text);
+    return readWholeFile(file, kMostText, "a readable text file");
 }
 
 DataLines::DataLines(const std::filesystem::path& file)
@@ -79,8 +70,10 @@ std::vector<TextLine> readDataLines(const std::filesystem::path& file) {
     size_t bytes = 0;
     for (TextLine line; from.next(line); lines.push_back(line)) {
         bytes += line.text.size() + 1;
-        if (bytes > kMaxBytes) {
-            refuseSize(file);
+        if (bytes > kMostBytes || lines.size() == kMostLines) {
+            throw BadInput(file.string(), "line " + std::to_string(line.number),
+                           bytes > kMostBytes ? "over 64 MiB so far" : "over 1000000 lines so far",
+                           "at most 1000000 lines of 64 MiB in all");
         }
     }
     return lines;

@@ -15,7 +15,9 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kLargestSet = 64u << 20;
+constexpr size_t kLargestSet = 1u << 20; // 15 000 spheres; real sets have 50 kB, a byte can become 250
+constexpr size_t kShownNames = 1000;
+constexpr size_t kMostSpheres = 65536; // of all links: one list can be named for each of them
 
 std::string lineOf(const YAML::Node& node) {
     return "line " + std::to_string(node.Mark().line + 1);
@@ -24,7 +26,7 @@ std::string lineOf(const YAML::Node& node) {
 double number(const std::string& file, const YAML::Node& node) {
     double value = NAN;
     if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !std::isfinite(value)) {
-        throw BadInput(file, lineOf(node), node.IsScalar() ? "'" + node.Scalar() + "'" : "no number",
+        throw BadInput(file, lineOf(node), node.IsScalar() ? "'" + excerpt(node.Scalar()) + "'" : "no number",
                        "a finite number [m]");
     }
     return value;
@@ -40,8 +42,9 @@ Sphere sphereOf(const std::string& file, const YAML::Node& entry) {
             number(file, radius)};
 }
 
-YAML::Node sectionOf(const YAML::Node& root) {
-    if (!root.IsMap()) {
+// `levels` is as deep as cuRobo's files are: an alias may name the table that it is in.
+YAML::Node sectionOf(const YAML::Node& root, int levels = 3) {
+    if (levels == 0 || !root.IsMap()) {
         return {};
     }
     for (const char* name : {"collision_spheres", "robot_cfg", "kinematics"}) {
@@ -50,7 +53,7 @@ YAML::Node sectionOf(const YAML::Node& root) {
             return below;
         }
         if (below) {
-            if (const YAML::Node found = sectionOf(below)) {
+            if (const YAML::Node found = sectionOf(below, levels - 1)) {
                 return found;
             }
         }
@@ -63,7 +66,7 @@ std::string namesOf(const std::vector<LinkSpheres>& sets) {
     for (const LinkSpheres& set : sets) {
         names += (names.empty() ? "" : ", ") + set.link;
     }
-    return names;
+    return excerpt(std::move(names), kShownNames);
 }
 
 } // namespace
@@ -93,19 +96,13 @@ std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file) {
 }
 
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file) {
-    const std::optional<std::string> text = readFileAtMost(file, kLargestSet);
-    if (!text || text->size() > kLargestSet) {
-        throw BadInput(file.string(), "file", text ? "over 64 MiB" : "cannot be read",
-                       "a readable YAML file");
-    }
+    const std::string text = readWholeFile(file, kLargestSet, "a readable YAML file");
     YAML::Node root;
     try {
-        root = YAML::Load(*text);
+        root = YAML::Load(text);
     } catch (const YAML::Exception& e) {
-        std::string why = e.msg; // quotes what it stumbled over, whatever that is
-        std::replace_if(
-            why.begin(), why.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');
-        throw BadInput(file.string(), "line " + std::to_string(e.mark.line + 1), why, "a readable YAML file");
+        throw BadInput(file.string(), "line " + std::to_string(e.mark.line + 1), excerpt(e.msg),
+                       "a readable YAML file");
     }
     const YAML::Node section = sectionOf(root);
     if (!section || !section.IsMap()) {
@@ -113,11 +110,17 @@ std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file) {
                        "{LINK: [{center: [x, y, z], radius: r}]}");
     }
     std::vector<LinkSpheres> sets;
+    size_t all = 0;
     for (const auto& entry : section) {
         LinkSpheres set{entry.first.Scalar(), {}};
         if (!entry.second.IsSequence()) {
-            throw BadInput(file.string(), lineOf(entry.second), "link " + set.link + ": not a list",
+            throw BadInput(file.string(), lineOf(entry.second), "link " + excerpt(set.link) + ": not a list",
                            "a list of spheres");
+        }
+        all += entry.second.size();
+        if (all > kMostSpheres) {
+            throw BadInput(file.string(), "collision_spheres", "over " + std::to_string(kMostSpheres),
+                           std::to_string(kMostSpheres) + " spheres at most");
         }
         for (const YAML::Node& sphere : entry.second) {
             const Sphere s = sphereOf(file.string(), sphere);

@@ -2,11 +2,11 @@
 #include "engine/scene/yaml_node.h"
 
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <set>
 #include <sstream>
 #include <yaml-cpp/eventhandler.h>
@@ -16,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMaxFileBytes = 4u << 20;
+constexpr size_t kMostBytes = 1u << 20; // a scene has a few kB; a byte of it can become 250
 constexpr size_t kShownCharacters = 80;
 
 std::string join(std::span<const std::string_view> words) {
@@ -25,22 +25,6 @@ std::string join(std::span<const std::string_view> words) {
         all += (all.empty() ? "" : ", ") + std::string(word);
     }
     return all;
-}
-
-std::string readText(const std::filesystem::path& file) {
-    std::error_code ignored;
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, ignored)) {
-        throw BadInput(file.string(), "file", "cannot be read", "a readable scene file (YAML)");
-    }
-    std::string text(kMaxFileBytes + 1, '\0');
-    in.read(text.data(), static_cast<std::streamsize>(text.size()));
-    text.resize(static_cast<size_t>(in.gcount()));
-    if (in.bad() || text.size() > kMaxFileBytes) {
-        throw BadInput(file.string(), "file", in.bad() ? "cannot be read" : "longer than 4 MiB",
-                       "a readable scene file (YAML) of at most 4 MiB");
-    }
-    return text;
 }
 
 bool isQuoted(const YAML::Node& node) {
@@ -78,15 +62,6 @@ YAML::Node onlyDocument(const std::filesystem::path& file, const std::string& te
     return YAML::Load(text);
 }
 
-// However long the value is.
-std::string shown(std::string text) {
-    if (text.size() > kShownCharacters) {
-        text.resize(kShownCharacters);
-        text += "...";
-    }
-    return text;
-}
-
 } // namespace
 
 YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
@@ -95,12 +70,12 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
     , path_(std::move(path)) {}
 
 YamlNode YamlNode::parseFile(const std::filesystem::path& file) {
-    const std::string text = readText(file);
+    const std::string text = readWholeFile(file, kMostBytes, "a readable scene file (YAML)");
     try {
         return YamlNode(onlyDocument(file, text), file.string(), "");
     } catch (const YAML::Exception& e) {
         const std::string where = e.mark.is_null() ? "syntax" : "line " + std::to_string(e.mark.line + 1);
-        throw BadInput(file.string(), where, shown(e.msg), "YAML");
+        throw BadInput(file.string(), where, excerpt(e.msg), "YAML");
     }
 }
 
@@ -119,7 +94,7 @@ void YamlNode::checkKeys(std::initializer_list<std::string_view> known) const {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
             const std::string hint =
                 "unknown key, did you mean '" + std::string(nearestWord(key, words)) + "'?";
-            throw BadInput(file_, childPath(shown(key)), hint, join(words));
+            throw BadInput(file_, childPath(excerpt(key)), hint, join(words));
         }
         if (!seen.insert(key).second) {
             throw BadInput(file_, childPath(key), "given twice", "each key once");
@@ -249,7 +224,7 @@ void YamlNode::refuse(const std::string& value, const std::string& allowed) cons
 
 std::string YamlNode::value() const {
     if (node_.IsScalar()) {
-        return node_.Scalar().empty() ? "empty text" : shown(node_.Scalar());
+        return node_.Scalar().empty() ? "empty text" : excerpt(node_.Scalar());
     }
     if (node_.IsSequence()) {
         // Never emitted as a whole: an alias inside its own anchor would have no end.
@@ -260,7 +235,7 @@ std::string YamlNode::value() const {
                 break;
             }
         }
-        return shown(all + "]");
+        return excerpt(all + "]", kShownCharacters);
     }
     return node_.IsMap() ? "a mapping" : "nothing";
 }

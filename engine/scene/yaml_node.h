@@ -37,7 +37,7 @@ struct Range {
 // allowed.
 class YamlNode {
 public:
-    // The one document of a file of at most 4 MiB. Broken syntax is named with its line.
+    // The one document of a file of at most 1 MiB. Broken syntax is named with its line.
     static YamlNode parseFile(const std::filesystem::path& file);
 
     // Mappings. checkKeys refuses what is no mapping, a key that is not known (with the nearest known key as

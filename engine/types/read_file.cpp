@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/read_file.h"
 
+#include "engine/types/error.h"
+
 #include <algorithm>
 #include <fstream>
 
@@ -21,6 +23,21 @@ std::optional<std::string> readFileAtMost(const std::filesystem::path& file, siz
         text.resize(before + static_cast<size_t>(in.gcount()));
     }
     return text;
+}
+
+std::string readWholeFile(const std::filesystem::path& file, size_t most, const std::string& kind) {
+    std::optional<std::string> text = readFileAtMost(file, most);
+    if (!text) {
+        throw BadInput(file.string(), "file", "cannot be read", kind);
+    }
+    if (text->size() > most) {
+        std::error_code failed;
+        const uintmax_t size = std::filesystem::file_size(file, failed);
+        throw BadInput(file.string(), "file",
+                       failed || size <= most ? "grows" : std::to_string(size) + " bytes",
+                       kind + " of at most " + std::to_string(most >> 20) + " MiB");
+    }
+    return *std::move(text);
 }
 
 } // namespace fathom

@@ -14,4 +14,8 @@ namespace fathom {
 // a folder.
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most);
 
+// The whole of it. Throws BadInput when it cannot be read or has more than `most` bytes (a whole number of
+// MiB), with both sizes. kind: what is allowed, "a readable ...".
+std::string readWholeFile(const std::filesystem::path& file, size_t most, const std::string& kind);
+
 } // namespace fathom

@@ -149,6 +149,20 @@ TEST_CASE("what a refusal quotes of a JSON text is short and printable, however 
     }
 }
 
+TEST_CASE("a recording whose texts are larger than any real one's is refused with the limit") {
+    CHECK(holds(refusalOf(std::string(5u << 20, ' ')),
+                "intrinsics.json: file: 5242880 bytes (allowed: a readable text file of at most 4 MiB)"));
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 1);
+    std::string lines;
+    for (int i = 0; i <= 1'000'000; ++i) {
+        lines += "0\n";
+    }
+    folder.write("associations.txt", lines);
+    CHECK(holds(recordingRefusal(folder.path()),
+                "associations.txt: line 1000001: over 1000000 lines so far (allowed: "));
+}
+
 TEST_CASE("distortion that is unknown, incomplete or folds the picture is refused") {
     const std::string none = R"("distortion_model": "none", "distortion": [])";
     const auto with = [&](const std::string& model, const std::string& list, const std::string& expected) {

@@ -103,6 +103,43 @@ TEST_CASE("a damaged set is refused with its place") {
     CHECK(refusalOf(".txt", "x").find("kind of file: '.txt'") != std::string::npos);
 }
 
+TEST_CASE("a set whose tables or lists name themselves or each other without end is refused") {
+    CHECK(refusalOf(".yaml", "&a {robot_cfg: {kinematics: *a}}").find("collision_spheres: missing") !=
+          std::string::npos);
+    CHECK(refusalOf(".yaml", "collision_spheres: &a {hand: &b [*b], arm: *a}").find("not a sphere") !=
+          std::string::npos);
+    std::string many = "collision_spheres:\n  base: &l [&s {center: [0, 0, 0], radius: 1}";
+    for (int i = 0; i < 1000; ++i) {
+        many += ", *s";
+    }
+    many += "]\n";
+    for (int i = 0; i < 1000; ++i) {
+        many += "  l" + std::to_string(i) + ": *l\n";
+    }
+    CHECK(refusalOf(".yaml", many).find("collision_spheres: over 65536 (allowed: 65536 spheres at most)") !=
+          std::string::npos);
+}
+
+TEST_CASE("a set larger than any real one is refused before it takes memory, and quoted in part only") {
+    const std::string set = "collision_spheres: {hand: [{center: [0, 0, 0], radius: 1}]}\n#";
+    CHECK(refusalOf(".yaml", set + std::string(900'000, 'x') + "\n") == "");
+    const std::string large = refusalOf(".yaml", set + std::string(1'100'000, 'x') + "\n");
+    CHECK_MESSAGE(large.find("file: " + std::to_string(set.size() + 1'100'001) +
+                             " bytes (allowed: a readable YAML file of at most 1 MiB)") != std::string::npos,
+                  large);
+    std::string names = "collision_spheres:\n";
+    for (int i = 100; i < 200; ++i) { // a key of YAML has 1024 characters at most
+        names += "  " + std::string(900, 'x') + std::to_string(i) + ": [{center: [0, 0, 0], radius: 1}]\n";
+    }
+    const std::string word(500'000, 'x');
+    for (const std::string& text :
+         {names, "collision_spheres: {hand: [{center: [0, 0, " + word + "], radius: 1}]}"}) {
+        const std::string refusal = refusalOf(".yaml", text);
+        CHECK(refusal != "");
+        CHECK(refusal.size() < 1500);
+    }
+}
+
 TEST_CASE("the sphere sets that foam made of a real arm are read, every link a sound tree") {
     const std::filesystem::path file =
         "../shared/data/meshes/foam_spherized_MIT/smaller_panda_spherized.urdf";

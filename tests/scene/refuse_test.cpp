@@ -235,6 +235,12 @@ TEST_CASE("hand, haptics and contact values outside their range are refused") {
     });
 }
 
+TEST_CASE("a scene larger than any real one is refused with its size and the limit") {
+    checkRefused({{kMinimal + "#" + std::string(1 << 20, 'x'),
+                   "file: " + std::to_string(kMinimal.size() + 1 + (1 << 20)) + " bytes",
+                   "a readable scene file (YAML) of at most 1 MiB"}});
+}
+
 TEST_CASE("a file that is no YAML, no file or too deep is refused with its line") {
     checkRefused({
         {kMinimal + "camera: {near: 1\n", "line ", "YAML"},

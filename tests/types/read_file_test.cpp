@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/types/read_file.h"
 
+#include "engine/types/error.h"
 #include "engine/types/inside.h"
 
 #include <doctest/doctest.h>
@@ -23,6 +24,27 @@ TEST_CASE("A file is read to its end or one byte past the bound, and one that ne
     CHECK(readFileAtMost("/dev/zero", 70'000)->size() == 70'001);
     CHECK_FALSE(readFileAtMost(file, 100));
     CHECK_FALSE(readFileAtMost(std::filesystem::temp_directory_path(), 100));
+}
+
+TEST_CASE("A file larger than its reader's bound is refused with both sizes, and an endless one, too") {
+    const auto file = std::filesystem::temp_directory_path() / "fathom-read-whole-file-test";
+    const auto refusal = [](const std::filesystem::path& path) -> std::string {
+        try {
+            readWholeFile(path, 2u << 20, "a readable text");
+        } catch (const BadInput& e) {
+            return e.what();
+        }
+        return "";
+    };
+    std::ofstream(file, std::ios::binary) << std::string(2u << 20, 'x');
+    CHECK(refusal(file) == "");
+    CHECK(readWholeFile(file, 2u << 20, "") == std::string(2u << 20, 'x'));
+    std::ofstream(file, std::ios::binary | std::ios::app) << 'x';
+    CHECK(refusal(file) ==
+          file.string() + ": file: 2097153 bytes (allowed: a readable text of at most 2 MiB)");
+    std::filesystem::remove(file);
+    CHECK(refusal(file) == file.string() + ": file: cannot be read (allowed: a readable text)");
+    CHECK(refusal("/dev/zero").starts_with("/dev/zero: file: "));
 }
 
 TEST_CASE("A path stays inside when it is relative and never goes above where it starts") {
