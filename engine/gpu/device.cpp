@@ -7,17 +7,12 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
-#include <filesystem>
-#include <fstream>
-#include <unistd.h>
-
 namespace fathom::gpu {
 
 Device::Device(const Instance& instance, const std::string& selector, Drawing drawing)
     : physical_(choosePhysicalDevice(instance, selector))
     , family_(*computeFamily(physical_))
-    , facts_(readFacts(physical_))
-    , cacheFile_(cacheFileOf(physical_, ".pipelines")) {
+    , facts_(readFacts(physical_)) {
     facts_.gpuQueryLeaves = storedQueryCrossover(physical_, facts_.gpuQueryLeaves);
     vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
     if (drawing != Drawing::None) {
@@ -28,7 +23,7 @@ Device::Device(const Instance& instance, const std::string& selector, Drawing dr
     if (drawing != Drawing::None) {
         vkGetDeviceQueue(handle_, drawFamily_, drawIndex_, &drawQueue_);
     }
-    loadPipelineCache();
+    cache_.emplace(handle_, cacheFileOf(physical_, ".pipelines"));
     log::info("device {} ({})", facts_.name, facts_.driver);
 }
 
@@ -102,9 +97,8 @@ std::vector<const char*> Device::extensionsFor(Drawing drawing) const {
 }
 
 Device::~Device() {
-    savePipelineCache();
     pipelines_.clear();
-    vkDestroyPipelineCache(handle_, cache_, nullptr);
+    cache_.reset();
     vkDestroyDevice(handle_, nullptr);
 }
 
@@ -185,39 +179,6 @@ VkResult Device::present(const VkPresentInfoKHR& info) {
 void Device::waitForDrawing() noexcept {
     const std::lock_guard lock(sharesQueue() ? queueMutex_ : drawMutex_);
     vkQueueWaitIdle(drawQueue_);
-}
-
-void Device::loadPipelineCache() {
-    std::vector<char> bytes;
-    if (std::ifstream file(cacheFile_, std::ios::binary); file) {
-        bytes.assign(std::istreambuf_iterator<char>(file), {});
-    }
-    VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    info.initialDataSize = bytes.size();
-    info.pInitialData = bytes.data();
-    check(vkCreatePipelineCache(handle_, &info, nullptr, &cache_), "vkCreatePipelineCache");
-}
-
-void Device::savePipelineCache() const noexcept {
-    size_t size = 0;
-    if (cacheFile_.empty() || vkGetPipelineCacheData(handle_, cache_, &size, nullptr) != VK_SUCCESS ||
-        size == 0) {
-        return;
-    }
-    try { // a cache that cannot be written costs time at the next start and nothing else
-        std::vector<char> bytes(size);
-        if (vkGetPipelineCacheData(handle_, cache_, &size, bytes.data()) != VK_SUCCESS) {
-            return;
-        }
-        const std::filesystem::path target(cacheFile_);
-        std::filesystem::create_directories(target.parent_path());
-        const std::filesystem::path fresh = target.string() + "." + std::to_string(::getpid()) + "." +
-                                            std::to_string(reinterpret_cast<uintptr_t>(this));
-        std::ofstream(fresh, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(size));
-        std::filesystem::rename(fresh, target);
-    } catch (const std::exception& e) {
-        log::debug("pipeline cache not kept: {}", e.what());
-    }
 }
 
 std::vector<std::string> Device::list(const Instance& instance) {

@@ -3,10 +3,12 @@
 #pragma once
 
 #include "engine/gpu/instance.h"
+#include "engine/gpu/pipeline_cache.h"
 #include "engine/gpu/pipeline_store.h"
 #include "engine/types/device_facts.h"
 
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,7 +40,7 @@ public:
     VkDevice handle() const { return handle_; }
     VkPhysicalDevice physical() const { return physical_; }
     const DeviceFacts& facts() const { return facts_; }
-    VkPipelineCache pipelineCache() const { return cache_; }
+    VkPipelineCache pipelineCache() const { return cache_->handle(); }
     PipelineStore& pipelines() const { return pipelines_; }
     uint32_t queueFamily() const { return family_; }
 
@@ -71,8 +73,6 @@ private:
     void createLogicalDevice(bool gpuAssisted, Drawing drawing);
     std::vector<const char*> extensionsFor(Drawing drawing) const;
     void chooseDrawQueue();
-    void loadPipelineCache();
-    void savePipelineCache() const noexcept;
 
     VkPhysicalDevice physical_ = VK_NULL_HANDLE;
     VkDevice handle_ = VK_NULL_HANDLE;
@@ -80,12 +80,11 @@ private:
     uint32_t family_ = 0;
     VkQueue drawQueue_ = VK_NULL_HANDLE;
     uint32_t drawFamily_ = 0, drawIndex_ = 0;
-    std::mutex queueMutex_, drawMutex_; // the second one only where the queues differ
-    VkPipelineCache cache_ = VK_NULL_HANDLE;
-    mutable PipelineStore pipelines_; // what is kept changes nothing of the device
+    std::mutex queueMutex_, drawMutex_;  // the second one only where the queues differ
+    std::optional<PipelineCache> cache_; // always, once the device is made
+    mutable PipelineStore pipelines_;    // what is kept changes nothing of the device
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceFacts facts_;
-    std::string cacheFile_;
     PFN_vkGetMemoryHostPointerPropertiesEXT hostPointerProperties_ = nullptr; // null: nothing is imported
 };
 

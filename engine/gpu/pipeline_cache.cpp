@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/gpu/pipeline_cache.h"
+
+#include "engine/gpu/result.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+#include "engine/types/read_file.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <string>
+#include <unistd.h>
+
+namespace fathom::gpu {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr size_t kMostBytes = size_t{256} << 20;
+constexpr std::array<char, 8> kMagic{'f', 'a', 't', 'h', 'o', 'm', 'P', '1'};
+
+// Before the data. The file is of this machine alone: its order of bytes is the machine's.
+struct Head {
+    std::array<char, 8> magic = kMagic;
+    uint64_t bytes = 0;
+    uint64_t sum = 0;
+};
+
+// FNV-1a, 64 bits: against files that were cut or damaged, not against anybody.
+uint64_t sumOf(std::span<const char> data) {
+    uint64_t sum = 0xcbf29ce484222325u;
+    for (const char c : data) {
+        sum = (sum ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+    }
+    return sum;
+}
+
+// Beside the file, of this process and this call alone.
+fs::path freshBeside(const fs::path& file) {
+    static std::atomic<uint32_t> count{0};
+    return file.string() + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".new";
+}
+
+} // namespace
+
+std::vector<char> storedPipelines(const fs::path& file) {
+    const std::optional<std::string> text = readFileAtMost(file, sizeof(Head) + kMostBytes);
+    Head head;
+    if (!text || text->size() < sizeof head) {
+        return {};
+    }
+    std::memcpy(&head, text->data(), sizeof head);
+    const std::span<const char> data = std::span(*text).subspan(sizeof head);
+    if (head.magic != kMagic || head.bytes != data.size() || data.size() > kMostBytes ||
+        head.sum != sumOf(data)) {
+        return {};
+    }
+    return {data.begin(), data.end()};
+}
+
+void storePipelines(const fs::path& file, std::span<const char> data) {
+    if (data.size() > kMostBytes) {
+        throw Error(file.string() + ": " + std::to_string(data.size()) + " bytes are too many");
+    }
+    const Head head{kMagic, data.size(), sumOf(data)};
+    const fs::path fresh = freshBeside(file);
+    std::error_code failed;
+    fs::create_directories(file.parent_path(), failed);
+    std::ofstream out(fresh, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(&head), sizeof head);
+    out.write(data.data(), static_cast<std::streamsize>(data.size()));
+    out.close(); // writes what is left, and the disk may be full by then
+    if (out) {
+        fs::rename(fresh, file, failed);
+    }
+    if (!out || failed) {
+        const std::string why = out ? failed.message() : "cannot be written whole";
+        fs::remove(fresh, failed);
+        throw Error(file.string() + ": " + why);
+    }
+}
+
+PipelineCache::PipelineCache(VkDevice device, fs::path file)
+    : device_(device)
+    , file_(std::move(file)) {
+    const std::vector<char> data = file_.empty() ? std::vector<char>() : storedPipelines(file_);
+    if (data.empty() || create(data) != VK_SUCCESS) { // what a driver refuses, it refuses at every start
+        check(create({}), "vkCreatePipelineCache");
+    }
+}
+
+PipelineCache::~PipelineCache() {
+    save();
+    vkDestroyPipelineCache(device_, handle_, nullptr);
+}
+
+VkResult PipelineCache::create(std::span<const char> data) {
+    VkPipelineCacheCreateInfo info{VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    info.initialDataSize = data.size();
+    info.pInitialData = data.data();
+    return vkCreatePipelineCache(device_, &info, nullptr, &handle_);
+}
+
+void PipelineCache::save() const noexcept {
+    size_t size = 0;
+    if (file_.empty() || vkGetPipelineCacheData(device_, handle_, &size, nullptr) != VK_SUCCESS ||
+        size == 0) {
+        return;
+    }
+    try {
+        std::vector<char> data(size);
+        if (vkGetPipelineCacheData(device_, handle_, &size, data.data()) == VK_SUCCESS) {
+            storePipelines(file_, std::span(data).first(size));
+        }
+    } catch (const std::exception& e) {
+        log::debug("pipeline cache not kept: {}", e.what());
+    }
+}
+
+} // namespace fathom::gpu

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a driver keeps of pipelines, in files that are cut, foreign, too large or in the way.
+#include "engine/gpu/pipeline.h"
+#include "engine/gpu/query_crossover.h"
+#include "engine/types/error.h"
+#include "shaders/ceiling.h"
+#include "tests/support/vulkan.h"
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+using namespace fathom;
+using fathom::test::Vulkan;
+using fathom::test::vulkan;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// The user's cache folder, for as long as it lives.
+class CacheFolder {
+public:
+    CacheFolder()
+        : path_(fs::temp_directory_path() / ("fathom-cache-" + std::to_string(::getpid()))) {
+        const char* was = std::getenv("XDG_CACHE_HOME");
+        before_ = was == nullptr ? "" : was;
+        vulkan(); // keeps its own
+        fs::remove_all(path_);
+        ::setenv("XDG_CACHE_HOME", path_.c_str(), 1);
+    }
+    ~CacheFolder() {
+        before_.empty() ? ::unsetenv("XDG_CACHE_HOME") : ::setenv("XDG_CACHE_HOME", before_.c_str(), 1);
+        fs::remove_all(path_);
+    }
+    CacheFolder(const CacheFolder&) = delete;
+    CacheFolder& operator=(const CacheFolder&) = delete;
+
+    // Opens a device that compiles something, and ends it. Returns how many bytes are stored then.
+    size_t openOnce() const {
+        {
+            gpu::Device device(vulkan().instance, Vulkan::selector());
+            const gpu::Pipeline pipeline(
+                device, {"ceiling", ceiling_spv, 1, false, 0, std::array<uint32_t, 2>{64, 1}});
+            REQUIRE(pipeline.handle() != VK_NULL_HANDLE);
+        }
+        return gpu::storedPipelines(file()).size();
+    }
+    fs::path file() const { return gpu::cacheFileOf(vulkan().device.physical(), ".pipelines"); }
+    size_t files() const {
+        return static_cast<size_t>(std::distance(fs::directory_iterator(file().parent_path()), {}));
+    }
+    void write(const std::string& bytes) const { std::ofstream(file(), std::ios::binary) << bytes; }
+
+private:
+    fs::path path_;
+    std::string before_;
+};
+
+std::string contentOf(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+} // namespace
+
+TEST_CASE(
+    "a device opens over a pipeline file that is cut, foreign, empty or changed, and stores a whole one") {
+    const CacheFolder cache;
+    const size_t stored = cache.openOnce();
+    REQUIRE(stored > 0);
+    const std::string whole = contentOf(cache.file());
+    std::string changed = whole, longer = whole + "x";
+    changed.back() = static_cast<char>(changed.back() ^ 1);
+    for (const std::string& bytes :
+         {std::string(), whole.substr(0, 1), whole.substr(0, 20), whole.substr(0, whole.size() / 2),
+          whole.substr(0, whole.size() - 1), changed, longer, std::string(100'000, '\xa5'),
+          whole.substr(24)}) { // the last: without what is before the driver's data
+        cache.write(bytes);
+        CAPTURE(bytes.size());
+        CHECK(gpu::storedPipelines(cache.file()).empty());
+        CHECK(cache.openOnce() == stored);
+    }
+    CHECK(cache.files() == 1);
+}
+
+TEST_CASE("a pipeline file larger than any real one is not read, and one in its place is whole again") {
+    const CacheFolder cache;
+    const size_t stored = cache.openOnce();
+    const std::string whole = contentOf(cache.file());
+    fs::resize_file(cache.file(), uint64_t{64} << 30); // a hole: takes no room on the disk
+    CHECK(gpu::storedPipelines(cache.file()).empty());
+    CHECK(cache.openOnce() == stored);
+    CHECK(contentOf(cache.file()).size() == whole.size());
+}
+
+TEST_CASE(
+    "a device opens and ends with a folder where its pipeline file should be, and leaves nothing there") {
+    const CacheFolder cache;
+    fs::create_directories(cache.file() / "in the way");
+    CHECK(cache.openOnce() == 0);
+    CHECK(cache.files() == 1);
+    fs::remove_all(cache.file());
+    CHECK(cache.openOnce() > 0);
+}
+
+TEST_CASE("pipelines that cannot be written whole leave the file as it was and nothing beside it") {
+    const CacheFolder cache;
+    const std::string old(100, 'o'), fresh(100'000, 'f');
+    gpu::storePipelines(cache.file(), old);
+    rlimit limit{};
+    REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
+    const auto before = std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{5000, limit.rlim_max}; // as a disk that is full after so many bytes
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+    CHECK_THROWS_AS(gpu::storePipelines(cache.file(), fresh), Error);
+    REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);
+    std::signal(SIGXFSZ, before);
+    const std::vector<char> kept = gpu::storedPipelines(cache.file());
+    CHECK(std::string(kept.begin(), kept.end()) == old);
+    CHECK(cache.files() == 1);
+    gpu::storePipelines(cache.file(), fresh);
+    CHECK(gpu::storedPipelines(cache.file()).size() == fresh.size());
+}
