@@ -4,6 +4,7 @@
 #include "devices/bag/byte_cursor.h"
 #include "devices/bag/unpack_chunk.h"
 #include "engine/types/printable.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -50,12 +51,13 @@ std::string word(const std::map<std::string, std::string>& fields, const char* n
 
 BagFile::BagFile(const std::filesystem::path& file)
     : file_(file)
-    , in_(file, std::ios::binary) {
+    , in_(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream()) {
     std::error_code failed;
     size_ = std::filesystem::file_size(file, failed);
     std::string magic(sizeof kMagic - 1, ' ');
-    if (failed || !in_.read(magic.data(), static_cast<std::streamsize>(magic.size())) || magic != kMagic) {
-        throw BadInput(file.string(), "format", failed ? "cannot be read" : "no bag",
+    if (failed || !in_.is_open() || !in_.read(magic.data(), static_cast<std::streamsize>(magic.size())) ||
+        magic != kMagic) {
+        throw BadInput(file.string(), "format", in_.is_open() ? "no bag" : whyUnreadable(file),
                        "a ROS 1 bag of version 2.0");
     }
     try {

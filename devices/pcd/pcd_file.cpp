@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstring>
 #include <iterator>
-#include <optional>
 #include <sstream>
 #include <string>
 
@@ -257,12 +256,8 @@ bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out) {
 }
 
 PcdCloud readPcd(const std::filesystem::path& file) {
-    std::optional<std::string> text = readFileAtMost(file, kMostBytes);
-    if (!text || text->size() > kMostBytes) {
-        throw BadInput(file.string(), "file", text ? "over 1 GiB" : "cannot be read",
-                       "an organised PCD file");
-    }
-    Source source{file.string(), {text->begin(), text->end()}, 0};
+    const std::string text = readWholeFile(file, kMostBytes, "an organised PCD file");
+    Source source{file.string(), {text.begin(), text.end()}, 0};
     const Header header = readHeader(source);
     const Field *x = find(header, "x"), *y = find(header, "y"), *z = find(header, "z");
     const Field* colour = find(header, "rgb") != nullptr ? find(header, "rgb") : find(header, "rgba");

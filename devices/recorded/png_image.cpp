@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "devices/recorded/png_image.h"
 
+#include "engine/types/read_file.h"
+
 #include <array>
 #include <bit>
 #include <csetjmp>
@@ -36,9 +38,9 @@ void onWarning(png_structp, png_const_charp) {} // what matters comes as an erro
 class PngReader {
 public:
     explicit PngReader(const std::filesystem::path& file)
-        : file_(std::fopen(file.c_str(), "rb")) {
+        : file_(isRegularFile(file) ? std::fopen(file.c_str(), "rb") : nullptr) {
         if (!file_) {
-            say("cannot be opened");
+            say(whyUnreadable(file).c_str());
             return;
         }
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, onError, onWarning);

@@ -36,9 +36,9 @@ std::string readTextFile(const std::filesystem::path& file) {
 
 DataLines::DataLines(const std::filesystem::path& file)
     : name_(file.string())
-    , in_(file) {
-    if (!in_ || std::filesystem::is_directory(file)) {
-        throw BadInput(name_, "file", "cannot be read", "a readable text file");
+    , in_(isRegularFile(file) ? std::ifstream(file) : std::ifstream()) {
+    if (!in_.is_open()) {
+        throw BadInput(name_, "file", whyUnreadable(file), "a readable text file");
     }
 }
 

@@ -84,7 +84,7 @@ void greet(FtdiPort& port) {
 std::vector<uint8_t> readFalconFirmware(const std::filesystem::path& file) {
     const std::optional<std::string> text = readFileAtMost(file, kLargest);
     if (!text) {
-        throw BadInput(file.string(), "firmware", "cannot be read", "a file with the Falcon's firmware");
+        throw BadInput(file.string(), "firmware", whyUnreadable(file), "a file with the Falcon's firmware");
     }
     if (text->empty() || text->size() > kLargest) {
         throw BadInput(file.string(), "firmware",

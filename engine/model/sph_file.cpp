@@ -2,6 +2,7 @@
 #include "engine/model/sph_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/read_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -42,11 +43,11 @@ class Lines {
 public:
     explicit Lines(const std::filesystem::path& file)
         : name_(file.string())
-        , in_(file, std::ios::binary) {
+        , in_(isRegularFile(file) ? std::ifstream(file, std::ios::binary) : std::ifstream()) {
         std::error_code failed;
         size_ = std::filesystem::file_size(file, failed);
-        if (!in_ || failed) {
-            throw BadInput(name_, "file", "cannot be read", "a readable sphere tree (.sph)");
+        if (!in_.is_open() || failed) {
+            throw BadInput(name_, "file", whyUnreadable(file), "a readable sphere tree (.sph)");
         }
         if (size_ > kMaxBytes) {
             throw BadInput(name_, "file", std::to_string(size_) + " bytes",

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <console_bridge/console.h>
 #include <iterator>
-#include <optional>
 #include <set>
 #include <urdf_model/pose.h>
 #include <urdf_parser/urdf_parser.h>
@@ -17,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kLargestUrdf = 64u << 20;
+constexpr size_t kLargestUrdf = 16u << 20;
 constexpr size_t kMostLinks = 1000; // whoever walks down from the root calls itself for each
 
 // Takes what the parser would print, so that it becomes part of one line of ours.
@@ -104,14 +103,12 @@ void tryOut(const std::filesystem::path& file, const std::string& text) {
 } // namespace
 
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file) {
-    const std::optional<std::string> text = readFileAtMost(file, kLargestUrdf);
-    if (!text || text->empty() || text->size() > kLargestUrdf) {
-        throw BadInput(file.string(), "file",
-                       text && !text->empty() ? "over 64 MiB" : "cannot be read or empty",
-                       "a readable URDF file");
+    const std::string text = readWholeFile(file, kLargestUrdf, "a readable URDF file");
+    if (text.empty()) {
+        throw BadInput(file.string(), "file", "empty", "a readable URDF file");
     }
-    tryOut(file, *text);
-    return parse(file, *text);
+    tryOut(file, text);
+    return parse(file, text);
 }
 
 Pose poseOf(const urdf::Pose& pose) {

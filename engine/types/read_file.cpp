@@ -8,11 +8,23 @@
 
 namespace fathom {
 
+bool isRegularFile(const std::filesystem::path& file) {
+    std::error_code failed;
+    return std::filesystem::is_regular_file(file, failed);
+}
+
+std::string whyUnreadable(const std::filesystem::path& file) {
+    std::error_code failed;
+    return std::filesystem::is_other(file, failed) ? "a pipe or a device" : "cannot be read";
+}
+
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most) {
     constexpr size_t kPiece = 1u << 16;
-    std::error_code ignored;
+    if (!isRegularFile(file)) {
+        return std::nullopt;
+    }
     std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file, ignored)) {
+    if (!in) {
         return std::nullopt;
     }
     std::string text;
@@ -28,7 +40,7 @@ std::optional<std::string> readFileAtMost(const std::filesystem::path& file, siz
 std::string readWholeFile(const std::filesystem::path& file, size_t most, const std::string& kind) {
     std::optional<std::string> text = readFileAtMost(file, most);
     if (!text) {
-        throw BadInput(file.string(), "file", "cannot be read", kind);
+        throw BadInput(file.string(), "file", whyUnreadable(file), kind);
     }
     if (text->size() > most) {
         std::error_code failed;

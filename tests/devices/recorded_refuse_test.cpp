@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recordings that are unusable as a whole, and what the message says.
+#include "devices/bag/bag_camera.h"
+#include "devices/pcd/pcd_camera.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
 #include "tests/devices/recorded_folder.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
+#include <sys/stat.h>
 
 using namespace fathom;
 
@@ -161,6 +164,31 @@ TEST_CASE("a recording whose texts are larger than any real one's is refused wit
     folder.write("associations.txt", lines);
     CHECK(holds(recordingRefusal(folder.path()),
                 "associations.txt: line 1000001: over 1000000 lines so far (allowed: "));
+}
+
+TEST_CASE("a pipe in place of a recording's file is not waited for: a picture is a fault of its frame") {
+    const TemporaryFolder folder;
+    writeSmallRecording(folder, 3);
+    const auto toPipe = [&](const char* name) {
+        std::filesystem::remove(folder.path() / name);
+        REQUIRE(::mkfifo((folder.path() / name).c_str(), 0600) == 0);
+    };
+    toPipe("rgb/0.png");
+    toPipe("depth/1.png");
+    RecordedCamera camera(folder.path());
+    CHECK(camera.next().value()->index == 2);
+    CHECK(camera.skipped() == 2);
+    toPipe("rgb/2.png");
+    CHECK(holds(recordingRefusal(folder.path()), "rgb/0.png: a pipe or a device"));
+    toPipe("associations.txt");
+    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: file: a pipe or a device (allowed: "));
+    toPipe("intrinsics.json");
+    CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: a pipe or a device (allowed: "));
+    toPipe("x.bag");
+    CHECK_THROWS_WITH_AS(BagCamera(folder.path() / "x.bag"), doctest::Contains("a pipe or a device"),
+                         BadInput);
+    CHECK_THROWS_WITH_AS(PcdCamera(folder.path() / "x.bag"), doctest::Contains("a pipe or a device"),
+                         BadInput);
 }
 
 TEST_CASE("distortion that is unknown, incomplete or folds the picture is refused") {

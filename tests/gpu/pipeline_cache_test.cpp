@@ -15,6 +15,7 @@
 #include <string>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace fathom;
@@ -108,6 +109,13 @@ TEST_CASE(
     CHECK(cache.openOnce() == 0);
     CHECK(cache.files() == 1);
     fs::remove_all(cache.file());
+    CHECK(cache.openOnce() > 0);
+}
+
+TEST_CASE("a pipe in place of the pipeline file is not waited for, and the next one is whole") {
+    const CacheFolder cache;
+    fs::create_directories(cache.file().parent_path());
+    REQUIRE(::mkfifo(cache.file().c_str(), 0600) == 0);
     CHECK(cache.openOnce() > 0);
 }
 

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 #include <fstream>
+#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace fathom;
@@ -85,7 +86,7 @@ TEST_CASE("cuRobo's YAML is read at the top and under its tables; spheres switch
 }
 
 TEST_CASE("a damaged set is refused with its place") {
-    CHECK(refusalOf(".urdf", "").find("cannot be read or empty") != std::string::npos);
+    CHECK(refusalOf(".urdf", "").find("file: empty") != std::string::npos);
     CHECK(refusalOf(".urdf", "<robot").find("robot: ") != std::string::npos);
     CHECK(refusalOf(".urdf", "<robot name='r'><link name='x'/></robot>").find("spheres: none") !=
           std::string::npos);
@@ -137,6 +138,16 @@ TEST_CASE("a set larger than any real one is refused before it takes memory, and
         const std::string refusal = refusalOf(".yaml", text);
         CHECK(refusal != "");
         CHECK(refusal.size() < 1500);
+    }
+}
+
+TEST_CASE("a pipe in place of spheres or an arm is refused and not waited for") {
+    for (const char* kind : {".yaml", ".urdf", ".sph"}) {
+        const TextFile file(kind, "");
+        std::filesystem::remove(file.path());
+        REQUIRE(::mkfifo(file.path().c_str(), 0600) == 0);
+        CHECK_THROWS_WITH_AS(readSphereTree(file.path()), doctest::Contains("file: a pipe or a device"),
+                             BadInput);
     }
 }
 

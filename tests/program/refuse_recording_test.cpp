@@ -55,7 +55,7 @@ TEST_CASE("a recording of which no frame is usable is refused in one line that n
     checkRefused(stage, {(stage / "rec").string(), "frames", "none of 3", "depth/000000.png",
                          "at least one good pair"});
     fs::remove_all(stage / "rec/depth");
-    checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "cannot be opened"});
+    checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "cannot be read"});
     stage.write("rec/associations.txt", "this is no index\n");
     checkRefused(stage, {"frames", "none of 1", "line 1"});
 }

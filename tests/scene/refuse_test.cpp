@@ -253,13 +253,15 @@ TEST_CASE("a file that is no YAML, no file or too deep is refused with its line"
         {"fixtures: &a [*a]\n" + kTool, "fixtures[0]: ", "a mapping"},
         {std::string("\x00\x01\xff\xfe{", 5), "", ""},
     });
-    for (const char* path : {"no/such/scene.yaml", "tests"}) {
+    for (const auto& [path, why] : {std::pair("no/such/scene.yaml", "cannot be read"),
+                                    {"tests", "cannot be read"},
+                                    {"/dev/zero", "a pipe or a device"}}) {
         std::string message;
         try {
             loadScene(path);
         } catch (const BadInput& e) {
             message = e.what();
         }
-        CHECK(message.find(std::string(path) + ": file: cannot be read") == 0);
+        CHECK(message.find(std::string(path) + ": file: " + why) == 0);
     }
 }
