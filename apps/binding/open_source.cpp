@@ -25,9 +25,7 @@ namespace fathom {
 namespace {
 
 void warnOutside(const std::filesystem::path& scene, const std::string& path) {
-    if (!staysInside(path)) {
-        log::warn("{}: '{}' leads out of the scene file's folder", scene.string(), path);
-    }
+    log::warn("{}: '{}' leads out of the scene file's folder", scene.string(), path);
 }
 
 std::unique_ptr<Camera> openSimulated(const Scene& scene) {
@@ -84,8 +82,11 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
     }
     CameraRequest request = parseCameraRequest(scene.source.value);
     if (!request.intrinsics.empty()) { // as all paths in a scene file
-        warnOutside(scene.file, request.intrinsics.string());
-        request.intrinsics = scene.file.parent_path() / request.intrinsics;
+        const std::filesystem::path folder = scene.file.parent_path(), file = folder / request.intrinsics;
+        if (!staysInside(request.intrinsics) || !liesInside(file, folder)) {
+            warnOutside(scene.file, request.intrinsics.string());
+        }
+        request.intrinsics = file;
     }
     return openLive(request, pictures);
 }

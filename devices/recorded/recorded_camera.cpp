@@ -3,6 +3,7 @@
 
 #include "devices/recorded/png_image.h"
 #include "engine/types/error.h"
+#include "engine/types/inside.h"
 #include "engine/types/log.h"
 
 #include <algorithm>
@@ -38,6 +39,17 @@ std::string words(PngSize size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
+// Empty, or which of a line's pictures is elsewhere. Its words are judged by readIndex(); a link may have
+// come with the recording, too.
+std::string outsideOf(const fs::path& folder, const IndexLine& line) {
+    for (const fs::path& picture : {line.depth, line.colour}) {
+        if (!picture.empty() && !liesInside(picture, folder)) {
+            return picture.string() + ": a link that leads out of the recording's folder";
+        }
+    }
+    return "";
+}
+
 } // namespace
 
 RecordedCamera::RecordedCamera(const fs::path& folder)
@@ -70,6 +82,9 @@ void RecordedCamera::checkColourSize() const {
     const PngSize wanted = sizeOf(info().colour);
     std::optional<PngSize> other;
     for (const IndexLine& line : index_) {
+        if (!outsideOf(folder_, line).empty()) {
+            continue;
+        }
         const auto depth = readPngSize(line.depth), colour = readPngSize(line.colour);
         if (colour == wanted) {
             return;
@@ -92,6 +107,9 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
     if (lastStamp_ && line.depthStamp < *lastStamp_) {
         return "depth stamp " + std::to_string(line.depthStamp) + " goes back from " +
                std::to_string(*lastStamp_);
+    }
+    if (std::string outside = outsideOf(folder_, line); !outside.empty()) {
+        return outside;
     }
     const CameraInfo& camera = info();
     std::string fault =

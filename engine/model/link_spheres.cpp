@@ -43,13 +43,8 @@ std::filesystem::path pathOf(std::string name, const ShapeSource& source) {
     return folder / name;
 }
 
-// By the words of the paths alone, as staysInside().
 bool liesOutside(const std::filesystem::path& file, const ShapeSource& source) {
-    const auto plain = [](const std::filesystem::path& path) {
-        return std::filesystem::absolute(path).lexically_normal();
-    };
-    const std::filesystem::path folder = source.meshes.empty() ? source.urdf.parent_path() : source.meshes;
-    return !staysInside(plain(file).lexically_relative(plain(folder)));
+    return !liesInside(file, source.meshes.empty() ? source.urdf.parent_path() : source.meshes);
 }
 
 LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {

@@ -18,10 +18,12 @@ Pose loadPose(const YamlNode& node) {
 }
 
 std::filesystem::path besideScene(Scene& scene, const std::string& path) {
-    if (!staysInside(path)) {
+    const std::filesystem::path folder = scene.file.parent_path();
+    std::filesystem::path file = (folder / path).lexically_normal();
+    if (!staysInside(path) || !liesInside(file, folder)) {
         scene.outside.push_back(path);
     }
-    return (scene.file.parent_path() / path).lexically_normal();
+    return file;
 }
 
 Scene loadScene(const std::filesystem::path& file) {

@@ -29,8 +29,8 @@ Pose loadPose(const YamlNode& node);
 // 0 or one bit of the hand's buttons that nothing else has (1 guidance, 2 dead-man open).
 uint32_t loadButtonBit(const YamlNode& node);
 
-// As given when absolute, else taken from the scene file's folder. Notes a path that leads out of it in
-// Scene::outside.
+// As given when absolute, else taken from the scene file's folder. Notes a path that leads out of it, by its
+// words or by a link, in Scene::outside.
 std::filesystem::path besideScene(Scene& scene, const std::string& path);
 
 } // namespace fathom

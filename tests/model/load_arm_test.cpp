@@ -239,7 +239,9 @@ TEST_CASE("Meshes from outside of the URDF's folder are told of once, however ma
         std::ofstream(file) << "<robot name='r'><link name='a'>" << shapes << "</link></robot>";
         return loadArm(file).notes;
     };
+    std::filesystem::create_symlink("../one.obj", folder / "urdf/link.obj");
     CHECK(notes(shape("beside.obj")).empty());
+    CHECK(notes(shape("link.obj")).size() == 1);
     const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
     REQUIRE(told.size() == 1);
     CHECK(told[0] == "meshes outside of the folder that they are looked for in: 2, the first " +

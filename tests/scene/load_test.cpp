@@ -221,4 +221,6 @@ TEST_CASE("Paths of a scene that lead out of its folder are noted, the others ar
     const SceneFile outside(kMinimal +
                             "hand: {path: sub/../../way.csv}\ncamera: {source: {recorded: /rec}}\n");
     CHECK(loadScene(outside.path()).outside == std::vector<std::string>{"/rec", "sub/../../way.csv"});
+    std::filesystem::create_symlink(outside.path(), inside.folder() / "way.csv");
+    CHECK(loadScene(inside.path()).outside == std::vector<std::string>{"sub/../way.csv"});
 }

@@ -71,6 +71,33 @@ TEST_CASE(
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("A file lies inside a folder when the links on its way lead nowhere else, whatever its name says") {
+    const auto above = std::filesystem::temp_directory_path() / "fathom-inside-test";
+    std::filesystem::remove_all(above);
+    std::filesystem::create_directories(above / "rec/rgb");
+    std::ofstream(above / "secret") << "x";
+    std::ofstream(above / "rec/rgb/0.png") << "x";
+    std::filesystem::create_symlink("../../secret", above / "rec/rgb/out.png");
+    std::filesystem::create_symlink("0.png", above / "rec/rgb/in.png");
+    std::filesystem::create_symlink("..", above / "rec/up");
+    std::filesystem::create_symlink("loop", above / "rec/loop");
+    std::filesystem::create_symlink("rec", above / "again");
+    for (const auto& folder : {above / "rec", above / "again", above / "rec/"}) {
+        CAPTURE(folder);
+        for (const char* inside :
+             {"rgb/0.png", "rgb/in.png", "rgb/../rgb/0.png", "none", "loop", "up/rec/rgb"}) {
+            CAPTURE(inside);
+            CHECK(liesInside(folder / inside, folder));
+        }
+        for (const char* outside : {"rgb/out.png", "up/secret", "up", "up/none"}) {
+            CAPTURE(outside);
+            CHECK_FALSE(liesInside(folder / outside, folder));
+        }
+    }
+    CHECK(liesInside("tests", ""));
+    std::filesystem::remove_all(above);
+}
+
 TEST_CASE("A path stays inside when it is relative and never goes above where it starts") {
     for (const char* inside : {"", "a", "./a", "a/../b", "a/b/../../c", "...", "..a", "rgb/0.png"}) {
         CAPTURE(inside);
