@@ -25,8 +25,9 @@ std::string textOf(const char (&from)[N]) {
     return {from, ::strnlen(from, N)};
 }
 
-// Pose of a packet; false when it is none.
-bool poseOf(const fathom_door_hand& packet, Pose& out) noexcept {
+} // namespace
+
+bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept {
     const dquat q(packet.orientation[0], packet.orientation[1], packet.orientation[2], packet.orientation[3]);
     const double length = glm::dot(q, q);
     if (!(length > 0.5 && length < 2.0)) {
@@ -35,8 +36,6 @@ bool poseOf(const fathom_door_hand& packet, Pose& out) noexcept {
     out = {{packet.position[0], packet.position[1], packet.position[2]}, glm::normalize(q)};
     return isFinite(out);
 }
-
-} // namespace
 
 DoorHand::DoorHand(std::filesystem::path path, uint32_t clutchBit, double patience)
     : path_(std::move(path))
@@ -93,7 +92,7 @@ void DoorHand::take(const fathom_door_hand& packet) noexcept {
     Pose pose;
     // Another kind of device has other limits: it is not what the springs were made for.
     const bool same = std::strncmp(packet.preset, preset_.c_str(), sizeof packet.preset) == 0;
-    status_ = same && poseOf(packet, pose) ? packet.status : 0;
+    status_ = same && soundPose(packet, pose) ? packet.status : 0;
     if ((status_ & kReady) == kReady) {
         last_.deviceThandle = pose;
     }

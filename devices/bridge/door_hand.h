@@ -11,6 +11,10 @@
 
 namespace fathom {
 
+// The pose of a sample; false, and `out` no pose to be used, when it is not finite or its orientation is
+// none.
+bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept;
+
 // read() and write() belong to the haptic thread: a few system calls each, no wait, no lock, no allocation. A
 // thread of its own looks for the bridge again when it has gone, ten times a second.
 class DoorHand final : public LiveHand {

@@ -56,7 +56,10 @@ std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh
     Assimp::Importer importer;
     importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+    const aiScene* scene = [&] {
+        const LibraryAtWork library;
+        return importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_SortByPType);
+    }();
     if (scene == nullptr || scene->mRootNode == nullptr) {
         const std::string why = importer.GetErrorString();
         return why.empty() ? "not understood" : why.substr(0, why.find('\n'));

@@ -9,11 +9,16 @@
 #include <csignal>
 #include <cstring>
 #include <fstream>
+#include <stdexcept>
 #include <type_traits>
 
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#ifdef FATHOM_SANITIZED
+#include <sanitizer/common_interface_defs.h>
+#endif
 
 namespace fathom {
 
@@ -22,6 +27,10 @@ namespace {
 constexpr rlim_t kMostSeconds = 60;     // of CPU time
 constexpr unsigned kMostPatience = 300; // [s] for a reader that waits for what never comes
 constexpr uint64_t kMostText = 4096;
+
+constexpr int kReported = 86; // exit code of a child that a sanitizer ended outside of the library
+
+bool libraryAtWork = false; // in the child, which has one thread
 
 template <class Byte>
 bool moveAll(ssize_t (*move)(int, Byte*, size_t), int pipe, Byte* data, size_t size) {
@@ -55,6 +64,13 @@ rlim_t mappedNow() {
     for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM, SIGALRM}) {
         std::signal(fault, SIG_DFL); // it dies alone, and says nothing
     }
+#ifdef FATHOM_SANITIZED
+    __sanitizer_set_death_callback([] {
+        if (!libraryAtWork) {
+            ::_exit(kReported);
+        }
+    });
+#endif
     ::alarm(kMostPatience);
     const rlimit none{0, 0}, time{kMostSeconds, kMostSeconds};
     ::setrlimit(RLIMIT_CORE, &none);
@@ -67,6 +83,14 @@ rlim_t mappedNow() {
 }
 
 } // namespace
+
+LibraryAtWork::LibraryAtWork() noexcept {
+    libraryAtWork = true;
+}
+
+LibraryAtWork::~LibraryAtWork() {
+    libraryAtWork = false;
+}
 
 bool writeAll(int pipe, const void* data, size_t size) {
     return moveAll<const void>(::write, pipe, data, size);
@@ -109,6 +133,9 @@ ReaderEnd runReader(const std::filesystem::path& file, const ReaderProcess& read
     }
     if (process < 0) {
         throw Error(file.string() + ": no process to read it in");
+    }
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kReported) {
+        throw std::logic_error(file.string() + ": a sanitizer ended its reader in code that is ours");
     }
     end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     return end;

@@ -27,10 +27,20 @@ struct ReaderProcess {
     uint64_t mostMemory = uint64_t{4} << 30; // [bytes] of address space beyond what this process has
 };
 
+// While one lives, the library is at work in the child: what a sanitizer says is then its own fault, and a
+// refusal as a crash is.
+class LibraryAtWork {
+public:
+    LibraryAtWork() noexcept;
+    ~LibraryAtWork();
+    LibraryAtWork(const LibraryAtWork&) = delete;
+    LibraryAtWork& operator=(const LibraryAtWork&) = delete;
+};
+
 // A child is forked, so that no thread is needed; it has at most a minute of CPU time and five minutes in
 // all, and so much memory (no bound under a sanitizer, whose own memory is none). Returns the signal that
 // ended it (0: none), and whether take() was served. Throws Error, naming the file, when no child can be
-// made.
+// made; std::logic_error, which is no refusal, when a sanitizer ended the child in code of ours.
 struct ReaderEnd {
     bool whole = false;
     int signal = 0;

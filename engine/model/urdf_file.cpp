@@ -69,7 +69,10 @@ void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
 std::shared_ptr<const urdf::ModelInterface> parse(const std::filesystem::path& file,
                                                   const std::string& text) {
     const Listener listener;
-    std::shared_ptr<const urdf::ModelInterface> model = urdf::parseURDF(text);
+    const std::shared_ptr<const urdf::ModelInterface> model = [&] {
+        const LibraryAtWork library;
+        return urdf::parseURDF(text);
+    }();
     if (!model) {
         throw BadInput(file.string(), "robot", listener.first().empty() ? "not understood" : listener.first(),
                        "a URDF robot");

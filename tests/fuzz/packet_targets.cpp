@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets that read what devices and bridges send: descriptors, tables, pictures, packets.
+#include "devices/bridge/door_hand.h"
 #include "devices/bridge/door_socket.h"
 #include "devices/bridge/force_gate.h"
 #include "devices/haply/haply_message.h"
@@ -16,6 +17,7 @@
 #include "engine/types/error.h"
 #include "tests/fuzz/fuzz_target.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -96,6 +98,12 @@ void readFalcon(Bytes input) {
         stream.feed(input.subspan(at, std::min<size_t>(7, input.size() - at)));
     }
     need(stream.packets() * kFalconPacket <= input.size());
+    const LegAngles angles = FalconKinematics::anglesOf(stream.newest().encoder);
+    if (const auto knob = FalconKinematics::forward(angles)) {
+        need(isFinite(*knob) && glm::distance(*knob, FalconKinematics::kHome) < 0.1);
+        const auto torques = FalconKinematics::torques(*knob, angles, dvec3(8.0, -8.0, 8.0));
+        need(!torques || std::ranges::all_of(*torques, [](double t) { return std::isfinite(t); }));
+    }
 }
 
 void readSpaceMouse(Bytes input) {
@@ -157,7 +165,11 @@ void readDoor(Bytes input) {
     fathom_door_hand sample{};
     fathom_door_wrench wrench{};
     if (hand) {
-        need(mine.receive(sample, FATHOM_DOOR_HAND) != DoorEvent::Packet || packet.size() == sizeof sample);
+        Pose pose;
+        const bool whole = mine.receive(sample, FATHOM_DOOR_HAND) == DoorEvent::Packet;
+        need(!whole || packet.size() == sizeof sample);
+        need(!whole || !soundPose(sample, pose) ||
+             (isFinite(pose) && std::abs(glm::length(pose.rotation) - 1.0) < 1e-9));
     } else if (mine.receive(wrench, FATHOM_DOOR_WRENCH) == DoorEvent::Packet) {
         ForceGate gate(8.0, 1.0);
         Wrench w;
