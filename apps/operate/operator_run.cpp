@@ -47,7 +47,8 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , answers_(session_)
     , observers_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
     , published_(recorder_, observers_.get())
-    , sink_(published_)
+    , faults_(options.shots, haptics_.period, published_)
+    , sink_(faults_)
     , view_(sink_)
     , log_(options.state) {
     console_.takeSettings(session_.scene, options.textScale);

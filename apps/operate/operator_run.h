@@ -13,6 +13,7 @@
 #include "apps/operate/state_log.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/traces_panel.h"
+#include "apps/replay/fault_trace.h"
 
 #include <memory>
 #include <semaphore>
@@ -74,6 +75,7 @@ private:
     std::unique_ptr<ViewPublisher> observers_; // null = nobody may look on
     Recorder recorder_;
     PublishedSink published_;
+    FaultTrace faults_;
     SnapshotSink sink_;
     std::unique_ptr<RealtimeRun> engine_;
     std::unique_ptr<HapticCycle> cycle_;

@@ -23,6 +23,27 @@ bool isFixtureFile(const std::filesystem::path& file) {
            std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
+// Of an earlier run: FaultTrace.
+bool isFaultFile(const std::filesystem::path& file) {
+    constexpr std::string_view kStart = "fault-";
+    const std::string stem = file.stem().string();
+    return file.extension() == ".csv" && stem.size() > kStart.size() &&
+           stem.compare(0, kStart.size(), kStart) == 0 &&
+           stem.find_first_not_of("0123456789.", kStart.size()) == std::string::npos;
+}
+
+void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::filesystem::path&)) {
+    std::vector<std::filesystem::path> old;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        if (wanted(entry.path())) {
+            old.push_back(entry.path());
+        }
+    }
+    for (const auto& file : old) {
+        std::filesystem::remove(file);
+    }
+}
+
 } // namespace
 
 OutputFile::OutputFile(std::filesystem::path path)
@@ -104,16 +125,9 @@ void prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures)
     const std::filesystem::path fixtures = folder / "fixtures";
     try {
         std::filesystem::create_directories(withFixtures ? fixtures : folder);
+        removeAll(folder, isFaultFile);
         if (std::filesystem::is_directory(fixtures)) {
-            std::vector<std::filesystem::path> old;
-            for (const auto& entry : std::filesystem::directory_iterator(fixtures)) {
-                if (isFixtureFile(entry.path())) {
-                    old.push_back(entry.path());
-                }
-            }
-            for (const auto& file : old) {
-                std::filesystem::remove(file);
-            }
+            removeAll(fixtures, isFixtureFile);
         }
     } catch (const std::filesystem::filesystem_error& error) {
         throw Error(folder.string() + ": cannot use as output folder: " + error.code().message());

@@ -38,8 +38,8 @@ private:
     std::vector<char> buffer_;
 };
 
-// Makes `folder` (and fixtures/ in it when asked for) and takes away the frame files of an earlier run, so
-// that no set of another run stands beside this one's. Throws Error that names the folder.
+// Makes `folder` (and fixtures/ in it when asked for) and takes away the frame and fault files of an earlier
+// run, so that no set of another run stands beside this one's. Throws Error that names the folder.
 void prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures);
 
 } // namespace fathom

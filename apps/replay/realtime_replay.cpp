@@ -121,6 +121,7 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , shapes_(shapesOf(session.scene))
     , haptics_(makeHapticOptions(session.scene, session.tool))
     , audit_(session.tool, session.arm.get())
+    , faults_(recorder.folder(), haptics_.period, *this)
     , view_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
     , feed_(std::make_unique<Feed>(session, [this](const std::vector<Shape>& shapes) { takeShapes(shapes); }))
     , answers_(session.cycles.plan().query != Plan::Query::None ? std::make_unique<Answers>(session)
@@ -188,7 +189,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
         const std::unique_ptr<HapticDevice> hand = openHand(path, session_, options_);
         cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle, nullptr,
                        session_.arm.get());
-        run_->run(*cycle_, *hand, path.duration(), *this, signals_.asked());
+        run_->run(*cycle_, *hand, path.duration(), faults_, signals_.asked());
     }
     progress_.finish();
     figures_.wokenLateMicros = percentilesOf(std::move(wokenLateMicros_));
@@ -211,7 +212,7 @@ void RealtimeReplay::runLive(const HandPath& path) {
     cycle_.emplace(session_.tool, shapes_, haptics_, hand.read(0.0).deviceThandle, &start,
                    session_.arm.get());
     watched_.emplace(hand);
-    run_->run(*cycle_, *watched_, options_.seconds, *this, signals_.asked());
+    run_->run(*cycle_, *watched_, options_.seconds, faults_, signals_.asked());
 }
 
 ReplayRecorder::Ending RealtimeReplay::ending() {

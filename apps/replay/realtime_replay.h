@@ -7,6 +7,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/view_publisher.h"
 #include "apps/binding/watched_hand.h"
+#include "apps/replay/fault_trace.h"
 #include "apps/replay/percentiles.h"
 #include "apps/replay/progress.h"
 #include "apps/replay/replay_recorder.h"
@@ -81,6 +82,7 @@ private:
     HapticOptions haptics_;
     ToolAudit audit_;
     bool audited_ = true;                 // every turn so far could be
+    FaultTrace faults_;                   // before this as a sink
     std::unique_ptr<ViewPublisher> view_; // null = nobody may watch
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<Answers> answers_;

@@ -78,19 +78,25 @@ TEST_CASE("a missing folder, a folder in the file's place and a full disk are er
     }
 }
 
-TEST_CASE(
-    "an output folder is made with its parents and loses the frame files of an earlier run, nothing else") {
+TEST_CASE("an output folder is made with its parents and loses the frame and fault files of an earlier run, "
+          "nothing else") {
     const ScratchFolder folder;
     const auto out = folder.path() / "x" / "y";
     prepareOutputFolder(out, true);
     put(out / "fixtures" / "000007.ply", "old");
     put(out / "fixtures" / "1234567.ply", "old");
     put(out / "fixtures" / "notes.txt", "mine");
+    put(out / "fault-12.345.csv", "old");
+    put(out / "fault-notes.csv", "mine");
+    put(out / "fault-.csv", "mine");
     put(out / "summary.json", "old");
     prepareOutputFolder(out, false);
     CHECK(!std::filesystem::exists(out / "fixtures" / "000007.ply"));
     CHECK(!std::filesystem::exists(out / "fixtures" / "1234567.ply"));
     CHECK(textOf(out / "fixtures" / "notes.txt") == "mine");
+    CHECK(!std::filesystem::exists(out / "fault-12.345.csv"));
+    CHECK(textOf(out / "fault-notes.csv") == "mine");
+    CHECK(textOf(out / "fault-.csv") == "mine");
     CHECK(textOf(out / "summary.json") == "old");
     put(folder.path() / "file", "");
     CHECK_THROWS_AS(prepareOutputFolder(folder.path() / "file", false), Error);

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/fault_trace.h"
+
+#include "apps/replay/haptics_csv.h"
+#include "apps/replay/turn_to_tick.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kMostTurns = 20000.0; // of the fastest rate that a scene may ask for
+
+size_t turnsOf(double seconds, double period) {
+    return static_cast<size_t>(std::clamp(std::ceil(seconds / period), 1.0, kMostTurns));
+}
+
+} // namespace
+
+FaultTrace::FaultTrace(std::filesystem::path folder, double period, RunSink& next)
+    : folder_(std::move(folder))
+    , next_(next)
+    , ring_(turnsOf(kSeconds, period)) {}
+
+void FaultTrace::turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+                      std::span<const uint32_t> behind) {
+    keep(row);
+    if (!row.record.finite && row.record.t >= quietUntil_) {
+        quietUntil_ = row.record.t + kQuiet;
+        write(row.record.t);
+    }
+    next_.turn(row, obeyed, known, behind);
+}
+
+void FaultTrace::keep(const TurnRow& row) {
+    if (row.record.t < newest_) { // another run on a clock of its own
+        seen_ = 0;
+        quietUntil_ = 0.0;
+    }
+    newest_ = row.record.t;
+    ring_[seen_++ % ring_.size()] = tickOf(row.record, row.startArm, row.micros, row.late);
+}
+
+void FaultTrace::write(double t) const {
+    const std::filesystem::path path = folder_ / fmt::format("fault-{:.3f}.csv", t);
+    try {
+        HapticsCsv file(path);
+        for (uint64_t i = seen_ - std::min<uint64_t>(seen_, ring_.size()); i < seen_; ++i) {
+            const TickRecord& tick = ring_[i % ring_.size()];
+            if (tick.t >= t - kSeconds) { // periods without a turn make it reach farther back
+                file.add(tick);
+            }
+        }
+        file.commit();
+        log::warn("at {:.2f} s a number is not finite: the turns before it are in {}", t, path.string());
+    } catch (const Error& e) {
+        log::warn("at {:.2f} s a number is not finite, and the turns before it are lost: {}", t, e.what());
+    }
+}
+
+} // namespace fathom

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/fault_trace.h"
+
+#include "apps/replay/haptics_csv.h"
+#include "tests/apps/scratch_folder.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+#include <sstream>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+struct Nothing final : RunSink {
+    uint64_t turns = 0;
+    void frame(const PublishedFrame&, const Fixtures&) override {}
+    void query(const QueryNote&) override {}
+    void turn(const TurnRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override { ++turns; }
+};
+
+TurnRow turnAt(double t, bool finite = true) {
+    TurnRow row;
+    row.record.t = t;
+    row.record.finite = finite;
+    row.record.device.position.x = finite ? t : kUnknown;
+    return row;
+}
+
+struct Traced {
+    explicit Traced(const std::filesystem::path& folder)
+        : trace(folder, 0.001, next) {}
+    // One turn a millisecond over [from, to), `broken` among them.
+    void turns(double from, double to, double broken = -1.0) {
+        for (auto i = static_cast<int>(std::lround(from * 1000.0)); i < std::lround(to * 1000.0); ++i) {
+            const double t = 0.001 * i;
+            trace.turn(turnAt(t, std::abs(t - broken) > 1e-6), nullptr, false, {});
+        }
+    }
+    Nothing next;
+    FaultTrace trace;
+};
+
+std::vector<std::string> linesOf(const std::filesystem::path& file) {
+    std::vector<std::string> lines;
+    std::istringstream text(textOf(file));
+    for (std::string line; std::getline(text, line);) {
+        lines.push_back(line);
+    }
+    return lines;
+}
+
+} // namespace
+
+TEST_CASE("A turn that is not finite leaves the turns of the two seconds before it, and itself as the last") {
+    const ScratchFolder folder;
+    Traced run(folder.path());
+    run.turns(0.0, 5.0, 4.5);
+    CHECK(run.next.turns == 5000);
+    REQUIRE(folder.files() == 1);
+    const auto lines = linesOf(folder.path() / "fault-4.500.csv");
+    REQUIRE(lines.size() == 2001); // the ring's, below the header
+    CHECK(lines[0] == HapticsCsv::kHeader);
+    CHECK(std::stod(lines[1]) == doctest::Approx(2.501));
+    CHECK(std::stod(lines[2000]) == doctest::Approx(4.5));
+    CHECK(lines[2000].find(",nan,") != std::string::npos);
+    CHECK(lines[1999].find("4.49") == 0);
+    const auto columns = std::count(lines[0].begin(), lines[0].end(), ',');
+    CHECK(std::count(lines[2000].begin(), lines[2000].end(), ',') == columns);
+}
+
+TEST_CASE(
+    "A run that was shorter leaves what there was of it, and one with pauses no more than two seconds") {
+    const ScratchFolder folder;
+    Traced run(folder.path());
+    run.turns(0.0, 0.1, 0.05);
+    CHECK(linesOf(folder.path() / "fault-0.050.csv").size() == 52);
+    Traced paused(folder.path());
+    paused.turns(0.0, 0.5);
+    paused.turns(2.1, 3.0, 2.2);
+    const auto lines = linesOf(folder.path() / "fault-2.200.csv");
+    REQUIRE(lines.size() > 390);
+    CHECK(lines.size() <= 1 + 300 + 101);
+    CHECK(std::stod(lines[1]) >= 0.2);
+}
+
+TEST_CASE("Turns that are not finite leave one file a minute, and a run on a clock of its own begins anew") {
+    const ScratchFolder folder;
+    Traced run(folder.path());
+    run.turns(1.0, 1.1, 1.05);
+    run.turns(60.0, 61.1, 61.0);
+    CHECK(folder.files() == 1);
+    run.turns(61.1, 61.2, 61.1);
+    CHECK(folder.files() == 2);
+    run.turns(0.0, 0.2, 0.1);
+    CHECK(folder.files() == 3);
+    CHECK(linesOf(folder.path() / "fault-0.100.csv").size() == 102); // nothing of the run before
+}
+
+TEST_CASE("A run whose turns are all finite leaves no file, and one that cannot be written ends nothing") {
+    const ScratchFolder folder;
+    Traced run(folder.path());
+    run.turns(0.0, 3.0);
+    CHECK(folder.files() == 0);
+    Traced nowhere(folder.path() / "none");
+    CHECK_NOTHROW(nowhere.turns(0.0, 0.1, 0.05));
+    CHECK(nowhere.next.turns == 100);
+}
