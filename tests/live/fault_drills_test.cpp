@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: Apache-2.0
+// Faults under a pressing hand, from outside: what the files of the run say the hand felt.
+#include "tests/rig/played_device.h"
+#include "tests/rig/stage.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <sys/wait.h>
+#include <thread>
+
+using namespace fathom;
+
+namespace {
+
+const PixelBox kWholeWall{0, 0, kWidth, kHeight};
+constexpr double kSlewStep = 2.0; // [N] a turn may change a force by: the default of a scene
+using Clock = std::chrono::steady_clock;
+
+void waitMillis(int count) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(count));
+}
+
+int exitCodeOf(pid_t engine) { // -1 = a signal ended it
+    int status = 0;
+    ::waitpid(engine, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+// Until an observer at the door has been told of a turn that pushes the hand with this much [N].
+bool awaitForce(const std::filesystem::path& path, double force) {
+    DoorSocket door;
+    union {
+        fathom_door_header header;
+        fathom_door_state state;
+        fathom_door_regions regions;
+    } packet;
+    for (int i = 0; i < 60000; ++i) {
+        size_t got = 0;
+        if (!door.open() && DoorSocket::tryConnect(path, door) != 0) {
+            waitMillis(1);
+            continue;
+        }
+        switch (door.receive(packet.regions, FATHOM_DOOR_REGIONS, &got)) {
+        case DoorEvent::Closed:
+            return false;
+        case DoorEvent::Empty:
+            waitMillis(1);
+            break;
+        default:
+            if (doorFault(packet.header, got, FATHOM_DOOR_STATE, sizeof packet.state).empty() &&
+                std::abs(packet.state.force[2]) > force) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+// A red wall 0.6 m away and a hand that presses 20 mm deeper than the tool can go.
+void setUpPressing(const Stage& stage, size_t pictures, double seconds) {
+    stage.recording(std::vector<Picture>(pictures, Picture(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
+    stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.3, {0.0, 0.0, 0.57}}, {seconds, {0.0, 0.0, 0.57}}});
+}
+
+double largestStep(const std::vector<Tick>& ticks) {
+    double largest = 0.0;
+    for (size_t i = 1; i < ticks.size(); ++i) {
+        largest = std::max(largest, glm::distance(ticks[i].force, ticks[i - 1].force));
+    }
+    return largest;
+}
+
+std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        files[entry.path().filename().string()] = readWhole(entry.path());
+    }
+    return files;
+}
+
+} // namespace
+
+TEST_CASE(
+    "Numbers that are none in a realtime run leave the turns before them as a file, and force comes back") {
+    Stage stage;
+    setUpPressing(stage, 2, 2.0);
+    const double beyond = 1e308; // a number, but not its square
+    stage.hand({{0.0, {0.0, 0.0, 0.5}},
+                {0.3, {0.0, 0.0, 0.57}},
+                {0.9, {0.0, 0.0, 0.57}},
+                {0.901, {0.0, 0.0, beyond}},
+                {0.95, {0.0, 0.0, beyond}},
+                {0.951, {0.0, 0.0, 0.57}},
+                {2.0, {0.0, 0.0, 0.57}}});
+    const ProgramRun run = runFathom(stage.command({"--realtime"}));
+    CHECK_MESSAGE(run.exitCode == 0, run.err);
+    const Replay replay = readReplay(stage / "out", run);
+    CHECK(replay.haptic().at("not_finite_ticks") > 0);
+    std::vector<std::string> names;
+    for (const auto& [name, text] : filesOf(stage / "out")) {
+        if (name.find("fault-") == 0) {
+            names.push_back(name);
+        }
+    }
+    REQUIRE(names.size() == 1);
+    CHECK(run.err.find("at 0.9") != std::string::npos);
+    CHECK(run.err.find("the turns before it are in " + (stage / "out" / names[0]).string()) !=
+          std::string::npos);
+    const std::vector<Tick> before = readTicks(stage / "out" / names[0]);
+    REQUIRE(before.size() > 50);
+    CHECK(before.front().t < 0.1);
+    CHECK(before.back().t > 0.89);
+    CHECK(before.back().force == dvec3(0.0));
+    CHECK(glm::length(before[before.size() - 2].force) > 1.0);
+    CHECK(glm::length(replay.ticks.back().force) > 1.0);
+}
+
+TEST_CASE("A device that is unplugged while it presses leaves no force and the tool where it was, and force "
+          "comes back with it") {
+    Stage stage;
+    stage.recording(std::vector<Picture>(3, Picture(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
+    SceneText scene;
+    scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
+    stage.scene(scene);
+    stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
+    std::optional<PlayedDevice> device;
+    device.emplace(stage / "hand.door");
+    const pid_t engine = startFathom(
+        stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"}),
+        stage / "said");
+    for (int i = 0; i < 60000 && device->silent; ++i) {
+        waitMillis(1);
+    }
+    bool felt = device->pushUntil(-8.0 - 1e-9, -4.0);
+    const auto unplugged = Clock::now();
+    felt = felt && device->fz < -1.0; // in contact to the last
+    device.reset();
+    waitMillis(600);
+    const auto plugged = Clock::now();
+    device.emplace(stage / "hand.door");
+    felt = device->pushUntil(-8.0 - 1e-9, -4.0) && felt;
+    const bool hopeless = device->hopeless();
+    ::kill(engine, SIGINT);
+    const auto ended = Clock::now();
+    CHECK(exitCodeOf(engine) == 0);
+    const Replay replay = readReplay(stage / "out", {});
+    REQUIRE(!replay.ticks.empty());
+    // The run's clock where the test's was, from its end: the last turn was about when it was asked to end.
+    const auto inRun = [&](Clock::time_point when) {
+        return replay.ticks.back().t - std::chrono::duration<double>(ended - when).count();
+    };
+    const double gone = inRun(unplugged), back = inRun(plugged);
+    std::optional<dvec3> held;
+    size_t turns = 0;
+    double moved = 0.0, strongest = 0.0;
+    for (const Tick& tick : replay.ticks) {
+        if (tick.t < gone + 0.2 || tick.t > back - 0.02) {
+            continue;
+        }
+        held = held ? held : std::optional(tick.tool.position);
+        moved = std::max(moved, glm::distance(tick.tool.position, *held));
+        strongest = std::max(strongest, glm::length(tick.force));
+        turns += tick.state == "off" ? 1 : 0;
+    }
+    CHECK(turns > 100);
+    CHECK(strongest == 0.0);
+    CHECK(moved < 1e-5);
+    const Tick before = replay.at(gone - 0.02);
+    CHECK(glm::distance(before.tool.position, *held) < 1e-5);
+    CHECK(largestStep(replay.ticks) <= kSlewStep * (1.0 + 1e-9));
+    CHECK(replay.haptic().at("max_penetration_m").get<double>() <= 1e-5);
+    if (hopeless) {
+        MESSAGE("SKIPPED ALOUD: the device was lost over and over, its force was not looked for");
+    } else {
+        CHECK(felt);
+        CHECK(glm::length(before.force) > 1.0);
+        CHECK(glm::length(replay.ticks.back().force) > 1.0);
+    }
+}
+
+TEST_CASE(
+    "A realtime replay that is killed leaves the files of the run before it, and the next one succeeds") {
+    Stage stage;
+    setUpPressing(stage, 3, 0.4);
+    REQUIRE(runFathom(stage.command({"--realtime"})).exitCode == 0);
+    const auto before = filesOf(stage / "out");
+    CHECK(before.count("haptics.csv") == 1);
+    setUpPressing(stage, 3, 60.0);
+    const pid_t engine = startFathom(
+        stage.command({"--realtime", "--view-door", (stage / "view.door").string()}), stage / "said");
+    CHECK(awaitForce(stage / "view.door", 1.0));
+    ::kill(engine, SIGKILL);
+    CHECK(exitCodeOf(engine) == -1);
+    size_t partial = 0;
+    for (const auto& [name, text] : filesOf(stage / "out")) {
+        CAPTURE(name);
+        if (before.count(name) == 1) {
+            CHECK((text == before.at(name)));
+        } else {
+            CHECK(std::filesystem::path(name).extension() == ".partial");
+            ++partial;
+        }
+    }
+    CHECK(partial > 0);
+    setUpPressing(stage, 3, 0.4);
+    const ProgramRun run = runFathom(stage.command({"--realtime"}));
+    CHECK_MESSAGE(run.exitCode == 0, run.err);
+    const auto after = filesOf(stage / "out");
+    CHECK(after.size() == before.size());
+    CHECK((after.at("haptics.csv") != before.at("haptics.csv")));
+}
+
+TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts the periods, says how old the "
+          "scene is, and no force leaps") {
+    Stage stage;
+    setUpPressing(stage, 70, 3.2);
+    const pid_t engine = startFathom(
+        stage.command({"--realtime", "--view-door", (stage / "view.door").string()}), stage / "said");
+    CHECK(awaitForce(stage / "view.door", 5.0));
+    ::kill(engine, SIGSTOP);
+    waitMillis(1200);
+    ::kill(engine, SIGCONT);
+    CHECK(exitCodeOf(engine) == 0);
+    const Replay replay = readReplay(stage / "out", {});
+    const std::vector<Tick>& ticks = replay.ticks;
+    REQUIRE(ticks.size() > 100);
+    double longest = 0.0, resumed = 0.0;
+    bool stale = false;
+    for (size_t i = 1; i < ticks.size(); ++i) {
+        stale = stale || ticks[i].sceneAge > 0.1;
+        if (ticks[i].t - ticks[i - 1].t > longest) {
+            longest = ticks[i].t - ticks[i - 1].t;
+            resumed = ticks[i].t;
+        }
+    }
+    CHECK(longest > 1.1);
+    CHECK(largestStep(ticks) <= kSlewStep * (1.0 + 1e-9));
+    CHECK(replay.haptic().at("max_penetration_m").get<double>() <= 1e-5);
+    const std::string said = stage.read("said");
+    const size_t count = said.find(" periods without one");
+    REQUIRE(count != std::string::npos);
+    const size_t number = said.rfind(' ', count - 1);
+    const double missed = std::stod(said.substr(number));
+    CHECK(missed >= 1100);
+    // A turn a period, or told of: from the first turn to the last.
+    CHECK(static_cast<double>(ticks.size()) + missed >= 0.99 * ticks.back().t * 1000.0);
+    // A machine may let the camera come first, and then no turn sees an old scene.
+    CHECK((said.find("ms old: forces fade") != std::string::npos) == stale);
+    CHECK(glm::length(replay.at(resumed + 1.0).force) > 5.0); // it is back
+}
