@@ -49,6 +49,11 @@ void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::fi
 OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path))
     , temporary_(path_) {
+    std::error_code unknown;
+    const std::filesystem::file_status there = std::filesystem::status(path_, unknown);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        throw Error(path_.string() + ": cannot replace: a folder, a device or a pipe");
+    }
     temporary_ += ".partial";
     descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
     if (descriptor_ < 0) {

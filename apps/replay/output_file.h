@@ -12,8 +12,8 @@
 namespace fathom {
 
 // Holds one megabyte at most, whatever is written. One thread. Every failure (no such folder, not writable,
-// disk full) throws Error that names the file. Destroyed without commit(), it leaves what stood at `path`
-// before untouched.
+// disk full, a folder, device or pipe at `path`) throws Error that names the file. Destroyed without
+// commit(), it leaves what stood at `path` before untouched.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path);

@@ -50,10 +50,20 @@ std::string arguments(const TraceDetail& detail) {
     return ",\"args\":{" + quoted(detail.name) + ":" + value + "}";
 }
 
+// What was written takes its place in the end, and nothing but a file may be taken away for it.
+std::filesystem::path replaceable(std::filesystem::path file) {
+    std::error_code unknown;
+    const std::filesystem::file_status there = std::filesystem::status(file, unknown);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        throw Error("trace " + file.string() + ": cannot be written: a folder, a device or a pipe");
+    }
+    return file;
+}
+
 } // namespace
 
 Trace::Trace(std::filesystem::path file, uint64_t maxBytes)
-    : file_(std::move(file))
+    : file_(replaceable(std::move(file)))
     , temporary_(file_.string() + ".part")
     , maxBytes_(maxBytes)
     , out_(temporary_, std::ios::binary | std::ios::trunc)

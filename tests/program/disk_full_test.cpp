@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// A disk that is full: each file is written under a name of its own first, and that name leads to /dev/full
+// here.
+#include "tests/rig/stage.h"
+
+#include <doctest/doctest.h>
+#include <map>
+
+using namespace fathom;
+
+namespace {
+
+// What an earlier run left, and what must still be there.
+const std::map<std::string, std::string> kLeft{{"haptics.csv", "old haptics"},
+                                               {"frames.csv", "old frames"},
+                                               {"summary.json", "old summary"},
+                                               {"traces.png", "old traces"},
+                                               {"overlay.png", "old overlay"}};
+
+void setUpFullDisk(const Stage& stage, double seconds, const std::string& full) {
+    stage.recording({bumpPicture(), bumpPicture()});
+    SceneText scene;
+    scene.haptics = "rate_hz: 4000"; // a megabyte, which is what waits in memory, in 0.6 s
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}, {seconds, {0.0, 0.0, 0.53}}});
+    std::filesystem::create_directories(stage / "out");
+    for (const auto& [name, text] : kLeft) {
+        stage.write("out/" + name, text);
+    }
+    std::filesystem::create_symlink("/dev/full", stage / full);
+}
+
+void checkFull(const Stage& stage, const ProgramRun& run, const std::string& named) {
+    CAPTURE(run.err);
+    CHECK(run.exitCode == 1);
+    REQUIRE(run.errorLines().size() == 1);
+    CHECK(run.err.find((stage / named).string() + ": cannot") != std::string::npos);
+}
+
+} // namespace
+
+TEST_CASE(
+    "A disk that is full ends a replay in one line that names the file, and the files of the run before "
+    "are as they were") {
+    for (const bool realtime : {false, true}) {
+        for (const double seconds : {0.1, 1.2}) { // full at the end, or in the middle
+            CAPTURE(realtime);
+            CAPTURE(seconds);
+            const Stage stage;
+            setUpFullDisk(stage, seconds, "out/haptics.csv.partial");
+            checkFull(stage,
+                      runFathom(stage.command(realtime ? std::vector<std::string>{"--realtime", "--hand"}
+                                                       : std::vector<std::string>{})),
+                      "out/haptics.csv");
+            for (const auto& entry : std::filesystem::directory_iterator(stage / "out")) {
+                const std::string name = entry.path().filename().string();
+                CAPTURE(name);
+                REQUIRE(kLeft.count(name) == 1);
+                CHECK(stage.read("out/" + name) == kLeft.at(name));
+            }
+        }
+    }
+}
+
+TEST_CASE(
+    "A disk that is full under a trace is told of in one line, when the replay's own files are written") {
+    for (const bool realtime : {false, true}) {
+        CAPTURE(realtime);
+        const Stage stage;
+        setUpFullDisk(stage, 0.1, "trace.json.part");
+        stage.write("trace.json", "old trace");
+        std::vector<std::string> more{"--trace", (stage / "trace.json").string()};
+        if (realtime) {
+            more.insert(more.end(), {"--realtime", "--hand"});
+        }
+        checkFull(stage, runFathom(stage.command(more)), "trace.json");
+        CHECK(stage.read("trace.json") == "old trace");
+        CHECK_FALSE(std::filesystem::exists(std::filesystem::symlink_status(stage / "trace.json.part")));
+        CHECK(readTicks(stage / "out/haptics.csv").size() > 100);
+        CHECK(nlohmann::json::parse(stage.read("out/summary.json")).at("lockstep") == !realtime);
+    }
+}
+
+TEST_CASE("A trace or an output that would take the place of a device or a pipe is refused in one line") {
+    const Stage stage;
+    setUpFullDisk(stage, 0.1, "trace.json");
+    std::filesystem::create_symlink("/dev/full", stage / "frames.link");
+    checkFull(stage, runFathom(stage.command({"--trace", (stage / "trace.json").string()})), "trace.json");
+    CHECK(std::filesystem::is_symlink(stage / "trace.json"));
+    std::filesystem::remove(stage / "out/frames.csv");
+    std::filesystem::rename(stage / "frames.link", stage / "out/frames.csv");
+    checkFull(stage, runFathom(stage.command()), "out/frames.csv");
+    CHECK(std::filesystem::is_symlink(stage / "out/frames.csv"));
+}
