@@ -10,11 +10,13 @@ namespace fathom {
 
 inline constexpr size_t kMostArmAxes = 8; // joints of the chain, then the grasp
 
+// What an arm's driver is to do next.
 struct ArmCommand {
     std::array<double, kMostArmAxes> position{}; // [rad], [m]; of the axes in the driver's order
     bool hold = true;                            // stand still, whatever the positions say
 };
 
+// What is known of the arm: measured, not asked for.
 struct ArmFeedback {
     std::array<double, kMostArmAxes> position{}; // [rad], [m]; of the last good answer of each axis
     std::array<double, kMostArmAxes> current{};  // [A]

@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+// Counts since the start.
 struct LiveHandFigures {
     uint64_t samples = 0;  // taken from the device
     uint64_t losses = 0;   // times that it fell silent or went away

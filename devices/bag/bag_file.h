@@ -13,12 +13,14 @@
 
 namespace fathom {
 
+// Where one message is.
 struct BagEntry {
     uint64_t time = 0;   // [ns] when it was recorded
     uint64_t chunk = 0;  // place of the chunk record in the file
     uint32_t offset = 0; // in the chunk, unpacked
 };
 
+// One topic of a bag, with all of its messages.
 struct BagTopic {
     std::string name, type;
     std::vector<BagEntry> messages; // in order of time

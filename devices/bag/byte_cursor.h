@@ -19,6 +19,7 @@ public:
     explicit ByteCursor(std::span<const uint8_t> bytes)
         : rest_(bytes) {}
 
+    // The next bytes, in the order of this machine (little-endian), and past them.
     std::span<const uint8_t> take(size_t count) {
         if (count > rest_.size()) {
             throw Error("truncated");

@@ -14,6 +14,7 @@ namespace fathom::ros {
 
 // All throw Error when the message is cut short or makes no sense.
 
+// sensor_msgs/Image; a view of the message that it was taken from.
 struct Image {
     double stamp = 0.0; // [s]
     std::string frame, encoding;

@@ -14,6 +14,7 @@ namespace fathom {
 // One thread. Listens from construction on; the socket file goes with it.
 class DoorServer {
 public:
+    // What the door is called, and what no wrench that leaves it exceeds.
     struct Options {
         std::filesystem::path path;
         std::string preset; // of engine/haptics/device_preset.h

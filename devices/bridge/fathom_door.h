@@ -44,6 +44,7 @@
 #define FATHOM_DOOR_FORCES_ON 1u /* not set: the wrench is zero on purpose */
 #define FATHOM_DOOR_LAST 2u      /* the engine is about to close */
 
+/* Begins every packet, either way. */
 struct fathom_door_header {
     uint32_t magic;
     uint16_t version;
@@ -92,6 +93,7 @@ struct fathom_door_state {
     uint32_t state;             /* 0 off, 1 free, 2 contact, 3 escape, 4 trapped, 5 fading */
 };
 
+/* One region sphere. */
 struct fathom_door_sphere {
     float x, y, z, radius; /* [m], base axes, about fathom_door_regions.origin */
     uint32_t fixture;      /* row of the scene's fixtures */
@@ -125,6 +127,7 @@ struct fathom_door_regions {
 #define FATHOM_DOOR_SEEN 1u    /* a target: enough of its points are in the picture */
 #define FATHOM_DOOR_KEEP_IN 2u /* a shape: the tool stays inside, not outside */
 
+/* One target or shape: what its numbers mean is said with its kind. */
 struct fathom_door_fixture {
     uint32_t fixture; /* row of the scene's fixtures */
     uint32_t kind, flags;

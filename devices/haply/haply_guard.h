@@ -13,6 +13,7 @@
 
 namespace fathom {
 
+// Counts of the exchange with the service since the start.
 struct HaplyFigures {
     uint64_t replies = 0, losses = 0;
     uint64_t late = 0;   // requests without an answer in kReplyTime
@@ -23,6 +24,7 @@ struct HaplyFigures {
 // documentation; never tried on the device).
 class HaplyGuard {
 public:
+    // Where the door is made, and where the service listens.
     struct Options {
         std::filesystem::path door;
         std::string host = "localhost";

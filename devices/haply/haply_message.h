@@ -11,6 +11,7 @@
 
 namespace fathom {
 
+// The state of one Inverse3, and of the grip on it, as the service tells it.
 struct HaplyState {
     std::string device; // device_id of the Inverse3
     HandSample sample;  // cursor_position [m], the service's application space; orientation and buttons of a

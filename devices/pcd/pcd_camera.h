@@ -11,6 +11,7 @@
 
 namespace fathom {
 
+// The lens whose rays the points of a cloud lie on, found by least squares.
 struct FittedLens {
     Intrinsics lens;
     double residual = 0.0;         // [pixels] root of the mean square

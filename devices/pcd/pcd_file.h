@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// The fields of a cloud that are used; one value a point in each column that is not empty.
 struct PcdCloud {
     uint32_t width = 0, height = 0;
     std::vector<dvec3> points;    // [m] row by row; not finite where nothing was measured

@@ -23,9 +23,10 @@ public:
     std::optional<JsonField> find(std::string_view key) const; // refuses when this is no object
     JsonField at(std::string_view key) const;                  // refuses when the key is missing
 
+    // This value, which has to be that; else refused.
     double finite() const;
     double positive() const;
-    uint32_t integer(uint32_t lo, uint32_t hi) const;
+    uint32_t integer(uint32_t lo, uint32_t hi) const; // lo..hi, both allowed
     bool boolean() const;
     std::string text() const;
     std::vector<double> numbers() const;         // list of finite numbers, any length

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// Size of a picture.
 struct PngSize {
     uint32_t width = 0, height = 0; // [pixels]
     bool operator==(const PngSize&) const = default;

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// One line of the index: a depth picture and its colour picture.
 struct IndexLine {
     double depthStamp = 0.0, colourStamp = 0.0; // [s]
     std::filesystem::path depth, colour;        // files, the folder included

@@ -10,7 +10,8 @@
 namespace fathom {
 
 // Largest picture that is read [pixels].
-inline constexpr uint32_t kMaxImageWidth = 3840, kMaxImageHeight = 2160;
+inline constexpr uint32_t kMaxImageWidth = 3840;
+inline constexpr uint32_t kMaxImageHeight = 2160;
 
 struct RecordingIntrinsics {
     CameraInfo camera;

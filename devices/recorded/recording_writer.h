@@ -31,6 +31,7 @@ public:
     // As finish(), but says nothing of failures.
     ~RecordingWriter();
 
+    // One depth picture with its colour picture, row by row, as the camera's info describes them.
     struct Picture {
         double stamp = 0.0; // [s]
         std::vector<uint16_t> depth;

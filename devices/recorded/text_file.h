@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// One line of a file.
 struct TextLine {
     uint32_t number = 0; // from 1, as editors count
     std::string text;    // without the line end

@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// How the arm is driven, and what of it no answer of the arm tells.
 struct EcaOptions {
     double period = 0.05;                  // [s] between frames, as the public driver
     double staleAfter = 0.25;              // [s]

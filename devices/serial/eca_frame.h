@@ -11,8 +11,10 @@
 namespace fathom {
 
 inline constexpr size_t kEcaJoints = 5; // shoulder, slew, elbow, wrist, gripper
+// One frame, either way.
 using EcaBytes = std::array<uint8_t, 51>;
 
+// What one joint is told.
 struct EcaDemand {
     enum class Kind : uint8_t { Hold = 0, SpeedCw = 3, SpeedCcw = 4 };
     Kind kind = Kind::Hold;
@@ -21,6 +23,7 @@ struct EcaDemand {
     uint16_t currentLimit = 4095; // 0..4095
 };
 
+// What one joint answers.
 struct EcaStatus {
     uint16_t encoder = 0; // wraps
     uint16_t speed = 0;

@@ -9,7 +9,9 @@
 namespace fathom {
 
 // What comes over the pipe from the engine, and the one byte that goes back.
-inline constexpr char kGuardAlive = 'a', kGuardFarewell = 'f', kGuardReady = 'r';
+inline constexpr char kGuardAlive = 'a';
+inline constexpr char kGuardFarewell = 'f';
+inline constexpr char kGuardReady = 'r';
 
 // When to write. Pure state; the caller brings the clock [s]. noexcept, no allocation, one thread.
 class LineGuard {

@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// How the arm is driven.
 struct ReachOptions {
     double period = 0.02;    // [s] between commands
     double staleAfter = 0.1; // [s] age of feedback at which the arm is told to stop

@@ -23,6 +23,7 @@ struct ReachPacket {
     std::optional<float> asFloat() const noexcept;    // of a packet with four bytes of data
 };
 
+// Room for any packet on the line, its closing zero included.
 using ReachFrame = std::array<uint8_t, ReachPacket::kMostData + 8>;
 
 // CRC8: polynomial 0x4D, reflected, from 0, inverted at the end.

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// Where the hand is to be, and what it presses, at one time.
 struct HandWaypoint {
     double t = 0.0;       // [s] since the run's start
     Pose deviceThandle;   // raw, device frame

@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// What the camera is like; equal options give equal pictures.
 struct SimulatedCameraOptions {
     uint32_t width = 640, height = 480; // [pixels] 1..3840 x 1..2160
     double focal = 0.0;                 // [pixels]; 0 = 570/640 of the width

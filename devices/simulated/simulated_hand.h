@@ -23,6 +23,7 @@ private:
     HandPath path_;
 };
 
+// What the simulated hand and its device are like.
 struct SimulatedHandOptions {
     HandLoop loop;
     double armLength = 0.05; // [m] k: inertia, rotational damping and stiffness are the linear ones times k^2

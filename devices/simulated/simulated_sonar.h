@@ -11,14 +11,15 @@
 
 namespace fathom {
 
+// What the sonar is like; equal options give equal pictures.
 struct SimulatedSonarOptions {
     uint32_t width = 160, height = 120; // beams, 1..1024 each
     double step = 0.0054541539;         // [rad] from beam to beam: 50 degrees across
     BeamSigma beam{0.004, 0.0005, 0.0104719755};
     uint32_t frames = 240;
-    double metresPerUnit = 0.001;
-    bool noise = true; // of the range, of the strength, beams without an echo
-    double dropShare = 0.01;
+    double metresPerUnit = 0.001; // of the stored ranges
+    bool noise = true;            // of the range, of the strength, beams without an echo
+    double dropShare = 0.01;      // of the beams: those without an echo
     uint64_t seed = 1;
     Pose baseTscene; // the sonar stands still
 };

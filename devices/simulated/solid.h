@@ -22,6 +22,7 @@ struct Paint {
     float grime = 0.0f; // 0..1: how much the brightness varies over the surface
 };
 
+// What a solid is; the sizes that each kind has are said below.
 enum class SolidKind { Sphere, Box, Plane, Capsule, Cylinder, Torus };
 
 // Frames: `scene` is the scene's, `local` the solid's own. Sizes by kind [m]:
@@ -43,11 +44,13 @@ struct Solid {
     dvec3 toLocal(const dvec3& scenePoint) const { return localTscene * (scenePoint - position); }
 };
 
+// A ray in scene axes [m].
 struct Ray {
     dvec3 origin{0.0};
     dvec3 direction{0.0, 0.0, 1.0}; // unit
 };
 
+// Solids of each kind, placed. Scene axes, lengths [m].
 Solid sphereAt(const dvec3& centre, double radius, const Paint& paint);
 Solid boxAt(const Pose& sceneTbox, const dvec3& halfEdges, const Paint& paint);
 Solid planeThrough(const dvec3& point, const dvec3& outwardNormal, const Paint& paint);

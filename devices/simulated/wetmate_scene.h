@@ -8,8 +8,10 @@ namespace fathom {
 
 // Scene frame as all. The red wheel's middle and the middle of the yellow receptacle's face, which looks at
 // the camera [m].
-inline constexpr dvec3 kWetmateWheel{-0.08, 0.0, 0.86}, kWetmateFace{0.12, 0.03, 0.88};
+inline constexpr dvec3 kWetmateWheel{-0.08, 0.0, 0.86};
+inline constexpr dvec3 kWetmateFace{0.12, 0.03, 0.88};
 
+// The whole scene. Any thread.
 AnalyticScene wetmateScene();
 
 } // namespace fathom

@@ -7,6 +7,7 @@
 
 namespace fathom {
 
+// One device, or several whose product numbers share some bits.
 struct ClosedDevice {
     uint16_t vendor = 0, product = 0, mask = 0xffff; // of the product number: the bits that count
     const char* name = "";

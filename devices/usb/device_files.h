@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+// One thing that is plugged in.
 struct DeviceFile {
     // OpenNi: a camera that a driver of OpenNI2 may serve. SerialPort: where a manipulator may be. Closed:
     // known, but no driver here can serve it.

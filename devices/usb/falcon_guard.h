@@ -18,6 +18,7 @@ namespace fathom {
 // source says whether the firmware drops the motors by itself.
 class FalconGuard {
 public:
+    // Where the door is made, and what a device that has just been switched on is given.
     struct Options {
         std::filesystem::path door;
         std::filesystem::path firmware; // empty = none: a device that was just switched on is refused

@@ -32,7 +32,7 @@ public:
     static std::optional<std::array<double, 3>> torques(const dvec3& knob, const LegAngles& angles,
                                                         const dvec3& force) noexcept;
 
-    static constexpr dvec3 kHome{0.0, 0.0, 0.1346};
+    static constexpr dvec3 kHome{0.0, 0.0, 0.1346}; // [m] of the knob, device frame
 };
 
 } // namespace fathom

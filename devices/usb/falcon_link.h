@@ -7,6 +7,7 @@
 
 namespace fathom {
 
+// Counts since the link was opened.
 struct FalconFigures {
     uint64_t sent = 0, replies = 0;
     uint64_t late = 0;    // requests without an answer in kReplyTime

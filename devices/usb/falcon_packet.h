@@ -12,14 +12,17 @@
 namespace fathom {
 
 inline constexpr size_t kFalconPacket = 16; // bytes
+// Largest size of a motor's number.
 inline constexpr int kFalconMotorLimit = 4096;
 
+// What the device is told.
 struct FalconCommand {
     std::array<int16_t, 3> motor{}; // -4096..4096, one a leg
     bool homing = true;             // must be asked for in every packet for the device to stay homed
     bool green = false, blue = false, red = false;
 };
 
+// What the device answers.
 struct FalconState {
     std::array<int16_t, 3> encoder{}; // counts since home, one a leg
     uint8_t buttons = 0;              // bits: 1 plus, 2 forward, 4 centre, 8 minus

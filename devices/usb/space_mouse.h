@@ -13,6 +13,7 @@
 
 namespace fathom {
 
+// Deflection and buttons after the reports so far.
 struct SpaceMouseState {
     std::array<int16_t, 3> shift{}, turn{}; // raw, about +-350; device axes
     uint32_t buttons = 0;                   // bit i: button i
@@ -22,6 +23,7 @@ struct SpaceMouseState {
 // Report 1: shift, or shift and turn when 12 bytes long; 2: turn; 3: buttons.
 bool takeSpaceMouseReport(std::span<const uint8_t> report, SpaceMouseState& state) noexcept;
 
+// Whether a device with these USB numbers is one of the known kinds.
 bool isSpaceMouse(uint16_t vendor, uint16_t product) noexcept;
 
 // Raw axes to the device frame that the engine sees: x right, y away from the pilot, z up. The device's own

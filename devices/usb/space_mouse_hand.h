@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// How fast full deflection moves the hand.
 struct SpaceMouseOptions {
     double speed = 0.05;    // [m/s] at full deflection
     double turnSpeed = 0.5; // [rad/s] at full deflection

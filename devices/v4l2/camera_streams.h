@@ -7,6 +7,7 @@
 
 namespace fathom {
 
+// Depth, colour where there is one, and metadata where the camera gives it.
 struct V4l2Camera::Streams {
     std::unique_ptr<MetadataStream> metadata; // of depth; may be none. Runs before the first picture
     CaptureStream depth;

@@ -13,12 +13,14 @@
 
 namespace fathom {
 
+// What a stream is asked for; the driver may give another rate, never another size or format.
 struct StreamRequest {
     uint32_t fourcc = 0;
     VideoSize size;     // [pixels]
     double rate = 30.0; // [1/s]
 };
 
+// One filled buffer: the camera's until it is given back to the stream.
 struct CapturedBuffer {
     uint32_t index = 0;
     uint32_t sequence = 0;          // the driver's frame counter; a gap = frames that never came here

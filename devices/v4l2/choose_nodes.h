@@ -8,6 +8,7 @@
 
 namespace fathom {
 
+// The nodes that serve a request, opened, and the format (fourcc) to ask each for.
 struct ChosenNodes {
     VideoNode depth;
     uint32_t depthFormat = 0;

@@ -20,6 +20,7 @@ namespace fathom {
 // picture serves every depth picture that it is nearest to.
 class FramePairing {
 public:
+    // A depth picture and the colour picture nearest to it in time, where one is near enough.
     struct Pair {
         CapturedBuffer depth;
         std::optional<CapturedBuffer> colour;
@@ -28,6 +29,7 @@ public:
     // colourPeriod [s]: 0 = there is no colour, each depth picture is a pair.
     explicit FramePairing(double colourPeriod);
 
+    // The next buffer of that stream, in order.
     void depth(const CapturedBuffer& buffer);
     void colour(const CapturedBuffer& buffer);
 

@@ -20,6 +20,7 @@ public:
     // The answer's data. Throws Error when the camera refuses the command or answers another one.
     std::vector<uint8_t> ask(uint32_t command, uint32_t parameter = 0) const;
 
+    // kDepthTable or kColourTable, header included, as realsense_tables.h takes it apart. Throws as ask().
     std::vector<uint8_t> calibrationTable(uint32_t number) const;
     // Metres of one depth unit; 0.001 (said in the log) where the firmware does not tell.
     double depthUnit() const;

@@ -11,13 +11,16 @@
 
 namespace fathom::realsense {
 
-constexpr uint32_t kDepthTable = 25, kColourTable = 32;
+// Numbers by which the camera is asked for its tables.
+constexpr uint32_t kDepthTable = 25;
+constexpr uint32_t kColourTable = 32;
 
 // All throw Error that says what is wrong: length, table number or checksum.
 
 // Lens of the rectified depth picture of that size, no distortion. table: 576 bytes, header included.
 Intrinsics depthLens(std::span<const uint8_t> table, VideoSize size);
 
+// What the colour table says of pictures of one size.
 struct ColourTable {
     Intrinsics lens;
     Pose colourTdepth; // maps points of the depth camera to the colour camera

@@ -14,6 +14,7 @@ class Crew;
 
 namespace fathom::cloud {
 
+// How many spheres there are, and in how many patches.
 struct SphereCounts {
     uint32_t all = 0, patches = 0;                                         // patches with at least one sphere
     std::array<uint32_t, shared::kMaxClasses> ofClass{}, patchesOfClass{}; // a class of points

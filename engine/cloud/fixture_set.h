@@ -22,6 +22,7 @@ struct FixtureSet {
         : device(gpu, plan, layout) {}
 };
 
+// Sets that are used again once nobody looks at them.
 using FixturePool = LeasePool<FixtureSet>;
 
 } // namespace fathom::cloud

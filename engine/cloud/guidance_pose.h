@@ -15,7 +15,7 @@ namespace fathom::cloud {
 // Moments of a set of points about their mean: sums of products xx xy xz yy yz zz [m^2].
 struct Moments {
     double count = 0.0;
-    dvec3 mean{0.0};
+    dvec3 mean{0.0}; // [m] axes of the points
     std::array<double, 6> products{};
 };
 Moments merge(const Moments& a, const Moments& b) noexcept;

@@ -21,6 +21,7 @@ public:
 
     UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
 
+    // Where one frame's pictures go.
     struct Choice {
         uint32_t slot;
         bool isNew; // its buffers were made just now

@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// Counts since the loop was made.
 struct QueryStatistics {
     uint64_t queries = 0;
     uint64_t overflows = 0;  // queries that had to shrink their reach

@@ -34,6 +34,7 @@ struct SideGap {
     dvec3 normal{0.0, 0.0, 1.0}; // unit, base axes, the way that the gap grows
 };
 
+// Half-spaces of one shape: the faces of a box that keeps the tool inside.
 inline constexpr size_t kMostSides = 6;
 
 // Exact gap of a leaf (centre in the base frame [m], radius [m]) to the whole shape. Not for equalities.
@@ -50,6 +51,7 @@ struct Equality {
     double error = 0.0;              // [m] or [rad]
 };
 
+// Rows of one line or axis.
 inline constexpr size_t kMostEqualities = 4;
 
 // Two rows of a line; two more, of rotation, of an axis. Returns how many were written.

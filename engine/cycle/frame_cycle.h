@@ -28,8 +28,8 @@ struct FrameReport {
     bool inPlace = false;   // the device read depth where the camera left it
     cloud::FrameCounts counts;
     uint32_t guidanceCount = 0; // pixels in guidance classes, as classify marks them
-    double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0;
-    std::vector<double> passMs; // in the order of FrameCycle::passNames(); device time, zeros without
+    double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0; // [ms]
+    std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
                                 // Plan::passTimes
     struct Times {              // on the host's monotonic clock
         // landed: the device is done; collected: what it made is the host's; published: so is its grid
@@ -49,8 +49,8 @@ public:
     // fixtures are as setScene() left them, and what is held still stays where it is.
     struct Mark {
         uint64_t generation = 0;
-        std::optional<dvec3> origin;
-        std::optional<Scene> scene; // empty = the one that the cycle is made with
+        std::optional<dvec3> origin; // [m] base frame; empty = not chosen yet
+        std::optional<Scene> scene;  // empty = the one that the cycle is made with
         cloud::FrozenClasses frozen;
     };
     Mark mark() const { return {generation_, origin_, scene_, frozen_}; }

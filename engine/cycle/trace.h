@@ -15,6 +15,7 @@
 
 namespace fathom {
 
+// The clock of every event; shown as time since the trace was made.
 using TraceTime = std::chrono::steady_clock::time_point;
 
 // Something worth reading beside an event: a number, or a word when `word` is set. Null name = nothing. All
@@ -25,6 +26,7 @@ struct TraceDetail {
     const char* word = nullptr;
 };
 
+// One span or instant of a track.
 struct TraceEvent {
     const char* name = nullptr;
     TraceTime begin{};

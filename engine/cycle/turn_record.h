@@ -26,9 +26,11 @@ enum class TurnState : uint8_t {
     Fading,  // scene too old, or forces off and not yet ramped out
 };
 
+// Bits of a hand's buttons.
 inline constexpr uint32_t kGuidanceButton = 1;
 inline constexpr uint32_t kDeadManOpen = 2; // by level; the clutch's bit is an option
 
+// What a turn is given.
 struct TurnInput {
     double time = 0.0;    // [s] of this turn, on the clock of capture times
     Pose deviceThandle;   // raw, as the device gives it
@@ -53,6 +55,7 @@ struct TurnInput {
     Deadline deadline;           // realtime; none in lockstep
 };
 
+// A number of a record that no turn has found yet.
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 // A condition that pushed in the last solve of the turn, for those who look on. Base frame [m].

@@ -9,6 +9,7 @@
 
 namespace fathom::gpu {
 
+// How often what was recorded is submitted.
 enum class Submissions { One, Many };
 
 // One thread at a time. Recorded anew for each submission, or once for many; the previous one must have
@@ -27,15 +28,17 @@ public:
     void begin(Submissions submissions = Submissions::One);
     void end();
 
+    // groups: work groups, in x or in x, y, z. push: Pipeline::pushBytes of push constants, copied at once.
     void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups,
                   const void* push = nullptr) {
         dispatch(pipeline, bindings, {groups, 1, 1}, push);
     }
     void dispatch(const Pipeline& pipeline, const Bindings& bindings, const std::array<uint32_t, 3>& groups,
                   const void* push = nullptr);
+    // Groups are read from `arguments` on the device: three uint32_t from `offset` [bytes].
     void dispatchIndirect(const Pipeline& pipeline, const Bindings& bindings, const Buffer& arguments,
                           uint64_t offset, const void* push = nullptr);
-    void fill(const Buffer& buffer, uint32_t value);
+    void fill(const Buffer& buffer, uint32_t value);                                      // the whole buffer
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
     // Everything before is visible to everything after, indirect arguments included; the host is at the end()

@@ -11,6 +11,7 @@
 
 namespace fathom::gpu {
 
+// Which checks of the validation layer are asked for.
 struct Validation {
     bool enabled = false;     // core and synchronisation checks
     bool gpuAssisted = false; // instruments shaders as well: slow

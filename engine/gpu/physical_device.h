@@ -10,6 +10,7 @@
 
 namespace fathom::gpu {
 
+// What the driver says of a device; hostProcessors is of the thread that asks.
 DeviceFacts readFacts(VkPhysicalDevice device);
 
 // Queue family to use: compute, preferably without graphics. Empty when none computes.
@@ -21,6 +22,7 @@ std::string refusal(VkPhysicalDevice device);
 // See Device's constructor. Throws BadInput.
 VkPhysicalDevice choosePhysicalDevice(const Instance& instance, const std::string& selector);
 
+// Whether the device offers the extension of that name.
 bool hasExtension(VkPhysicalDevice device, const char* name);
 
 } // namespace fathom::gpu

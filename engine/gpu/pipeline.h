@@ -18,6 +18,7 @@ struct Texels {
     VkFormat format; // one that every device can fetch from a buffer
 };
 
+// What a pipeline is made from. Views: what they point at outlives the constructor's call, spirv the device.
 struct PipelineInfo {
     const char* name;                // shows in messages and traces
     std::span<const uint32_t> spirv; // outlives the device

@@ -9,6 +9,7 @@
 
 namespace fathom::gpu {
 
+// Leaves that no tool has: the CPU answers always.
 inline constexpr uint32_t kNeverOnGpu = 0xffffffffu;
 
 // File of one device and driver in the user's cache folder; empty when there is no such folder.

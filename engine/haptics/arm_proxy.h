@@ -21,6 +21,7 @@ namespace fathom {
 // leaves.
 Tool armTool(const ArmModel& arm, const ArmFrames& frames);
 
+// How an arm's proxy moves; fixed when it is made.
 struct ArmProxyOptions {
     double stepCap = 0.002;        // [m] farthest that any leaf of any link travels in one solve
     uint32_t solves = 4;           // linearisations a turn, at most
@@ -32,6 +33,7 @@ struct ArmProxyOptions {
     double graspPerTurn = 0.0;     // of the whole way from open to closed, in one turn
 };
 
+// What a turn asks of the arm.
 struct ArmInput {
     Pose target;                          // base_T_tip that the hand asks for
     double metricRadius = 0.1;            // [m] k = sqrt(K_r / K_t); 0 = the tip's direction is free
@@ -40,6 +42,7 @@ struct ArmInput {
     Deadline deadline;
 };
 
+// What became of it.
 struct ArmTurn {
     JointVector q{};           // after the turn
     double grasp = 0.0;        // after the turn

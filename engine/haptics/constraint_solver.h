@@ -14,6 +14,7 @@
 
 namespace fathom {
 
+// How a solve ended.
 enum class SolveStatus {
     Optimal,
     Infeasible,     // no x obeys all rows: x is left at the last iterate, do not use it

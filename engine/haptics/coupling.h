@@ -32,6 +32,7 @@ struct Springs {
     double metricRadius = 0.0;
 };
 
+// What the springs are sized from.
 struct CouplingOptions {
     double period = 0.001;                     // T [s]
     double delayTicks = 0.0;                   // n

@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// How strong guidance may be, and how fast it may change.
 struct GuidanceLimits {
     double force = 2.0;    // F_g [N]: most that the pull can be felt as
     double torque = 0.1;   // tau_g [N m]

@@ -8,8 +8,10 @@
 
 namespace fathom {
 
+// All six numbers finite.
 bool isFinite(const Wrench& wrench) noexcept;
 
+// Force and torque times the factor.
 Wrench scaled(const Wrench& wrench, double factor) noexcept;
 
 // v, shortened to length `limit` without turning it. limit >= 0.

@@ -29,6 +29,7 @@ struct RowReduction {
     bool checked = true;
 };
 
+// How the proxy moves; fixed when it is made.
 struct ProxyOptions {
     double stepCap = 0.002;       // [m] farthest that a leaf centre travels in one solve
     uint32_t solves = 4;          // linearisations a turn, at most
@@ -43,6 +44,7 @@ struct Deadline {
     const void* context = nullptr;
 };
 
+// What a turn asks of the proxy.
 struct ProxyInput {
     Pose target;               // base_T_tool that the hand (and guidance) asks for
     double metricRadius = 0.1; // [m] k = sqrt(K_r / K_t)
@@ -58,6 +60,7 @@ struct ActiveContact {
     double multiplier = 0.0; // > 0, such that M (x - x_u) = sum of multiplier x row
 };
 
+// What became of it.
 struct ProxyTurn {
     Pose pose;                             // base_T_tool after the turn
     std::span<const ActiveContact> active; // valid until the next turn

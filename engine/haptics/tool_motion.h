@@ -17,12 +17,14 @@ struct Motion {
     dvec3 a{0.0}, alpha{0.0};
 };
 
+// Part by part.
 inline Motion operator+(const Motion& m, const Motion& o) {
     return {m.a + o.a, m.alpha + o.alpha};
 }
 inline Motion operator-(const Motion& m, const Motion& o) {
     return {m.a - o.a, m.alpha - o.alpha};
 }
+// Part by part.
 inline Motion operator*(double s, const Motion& m) {
     return {s * m.a, s * m.alpha};
 }

@@ -15,9 +15,10 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostJoints = 7; // the solver takes eight unknowns
-inline constexpr size_t kMostFingers = 4;
+inline constexpr size_t kMostJoints = 7;  // the solver takes eight unknowns
+inline constexpr size_t kMostFingers = 4; // joints of the jaws, of one arm
 
+// A moving joint of the chain, or a finger's.
 struct ArmJoint {
     std::string name;
     bool slides = false;       // prismatic; else it turns
@@ -39,6 +40,7 @@ struct ArmFinger {
     double upper = std::numeric_limits<double>::infinity();
 };
 
+// A sphere of a link.
 struct ArmLeaf {
     Sphere sphere;       // in its frame [m]: of `finger`, or the one after `joint` moving joints
     uint32_t joint;      // how many joints move it: 0 = stands still
@@ -69,6 +71,7 @@ public:
     std::vector<std::string> notes; // a line each: what the files have and the leaves have not
 
     size_t count() const { return joints.size(); }
+    // Frames of joints and fingers at joint values q [rad], [m], grasp 0 open .. 1 closed.
     void place(const JointVector& q, const Pose& worldTbase, ArmFrames& frames,
                double grasp = 0.0) const noexcept;
     Pose tip(const ArmFrames& frames) const noexcept { return frames[count()] * lastTtip; }
@@ -85,7 +88,9 @@ public:
     }
 };
 
+// What of the URDF the arm is, where a scene says otherwise than the file.
 struct ArmOptions {
+    // A joint that opens and closes and is not of the chain.
     struct Finger {
         std::string joint;
         std::optional<double> open, closed; // [rad], [m]; empty = the lower and the upper limit of the URDF

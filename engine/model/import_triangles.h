@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// What came back from that process.
 struct ImportedTriangles {
     TriangleMesh mesh; // in the file's units, node transforms applied; empty when `fault` is not
     std::string fault; // one line; why nothing was read

@@ -11,16 +11,19 @@
 
 namespace fathom {
 
+// Where a shape's meshes are looked for, and how many spheres it may have.
 struct ShapeSource {
     std::filesystem::path urdf;   // file names of meshes are looked for beside it and above,
     std::filesystem::path meshes; // or here, unless empty
     uint32_t leaves = 64;         // spheres of a box, cylinder or mesh, at most
 };
 
+// Thrown: the value that cannot be, and what is allowed instead. The caller knows the file and the link.
 struct ShapeRefused {
     std::string value, allowed;
 };
 
+// The spheres of one shape, and what a person should be told of them.
 struct ShapeSpheres {
     std::vector<Sphere> spheres;    // in the shape's own frame [m]
     std::vector<std::string> notes; // what about its file may not be as it was meant, a line each

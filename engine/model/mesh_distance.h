@@ -15,6 +15,7 @@ public:
     // `mesh` must outlive this. A mesh that is not `solid` has no inside: winding is not asked for.
     MeshDistance(const TriangleMesh& mesh, bool solid);
 
+    // The point of the mesh that is nearest to another [m].
     struct Nearest {
         dvec3 point{0.0};
         double distance = 0.0; // [m] >= 0

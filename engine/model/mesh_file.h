@@ -9,6 +9,7 @@
 
 namespace fathom {
 
+// What a mesh file does not say of itself.
 struct MeshOptions {
     std::optional<double>
         scale;          // metres a unit of the file, on top of the unit that a .dae declares; empty: 1
@@ -17,6 +18,7 @@ struct MeshOptions {
     bool dropStray = false; // leave out pieces far away instead of refusing them
 };
 
+// A mesh in metres, and what was found in its file.
 struct LoadedMesh {
     TriangleMesh mesh; // [m], tidy
     MeshFacts facts;

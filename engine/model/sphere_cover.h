@@ -12,12 +12,14 @@
 
 namespace fathom {
 
+// How many spheres, or how near they lie.
 struct CoverOptions {
     uint32_t leaves = 128;   // at most; not looked at when protrusion > 0
     double protrusion = 0.0; // [m] allowed; > 0: as few spheres as that takes
     uint32_t effort = 2;     // rounds of fitting and covering anew, 0..8
 };
 
+// Spheres that contain the mesh, and how far they stand out of it.
 struct Cover {
     std::vector<Sphere> spheres;
     // [m] proven: no point of any sphere is farther than this from the mesh (outside of a solid; from its

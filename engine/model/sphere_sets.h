@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// The spheres of one link.
 struct LinkSpheres {
     std::string link;
     std::vector<Sphere> spheres; // link frame [m]

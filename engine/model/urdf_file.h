@@ -13,6 +13,7 @@ namespace fathom {
 // Never null. Throws BadInput with what the parser said.
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file);
 
+// The same pose in this project's type [m], the quaternion of unit length.
 Pose poseOf(const urdf::Pose& pose);
 
 } // namespace fathom

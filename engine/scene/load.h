@@ -8,6 +8,7 @@
 
 namespace fathom {
 
+// Each reads the section of that name into its part of the scene. Any thread; no state.
 void loadCamera(const YamlNode& camera, Scene& scene);
 void loadFilter(const YamlNode& filter, Scene& scene);
 void loadFixtures(const YamlNode& fixtures, Scene& scene);

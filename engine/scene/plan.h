@@ -14,6 +14,7 @@ namespace fathom {
 
 // Pure data: everything that builds pipelines and buffers reads it and decides nothing itself.
 struct Plan {
+    // Something that is in or left out, with the sentence that says why.
     struct Item {
         std::string kind; // "pass", "buffer", "thread", "arm"
         std::string name;
@@ -78,6 +79,7 @@ double leaksFrom(const Intrinsics& lens, double radius) noexcept;
 // Sizes of the picture in patches of 16x16 pixels and in the levels of the region tree.
 struct PatchLayout {
     uint32_t across = 0, down = 0;
+    // Nodes of one level: how many across and down, and the index of the first.
     struct Level {
         uint32_t across, down, first;
     };
@@ -86,6 +88,7 @@ struct PatchLayout {
     uint32_t slots() const { return patches() * 256; }
     uint32_t nodes() const { return levels.back().first + levels.back().across * levels.back().down; }
 };
+// Of a depth picture [pixels]. Throws BadInput when it is empty or larger than 3840x2160.
 PatchLayout patchLayout(uint32_t width, uint32_t height);
 
 // Slot of a pixel in patch-major order: the same arithmetic as shaders/lib/slots.glsl.

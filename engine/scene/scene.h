@@ -23,8 +23,10 @@ struct Box { // base frame [m], inclusive
     dvec3 min{0.0}, max{0.0};
 };
 
+// What a row of fixtures does: push the tool back, or pull it home.
 enum class Role { Forbidden, Guidance };
 
+// Kinds of authored shapes; None: a class of points.
 enum class ShapeKind { None, Sphere, Box, Plane, Cylinder, Line, Axis };
 
 // A row of `fixtures:`. Either a class of points (shape None) or an authored analytic shape.
@@ -56,6 +58,7 @@ struct FixtureClass {
     bool isPoints() const { return shape == ShapeKind::None; }
 };
 
+// Where pictures come from.
 struct CameraSource {
     enum class Kind { Simulated, Recorded, V4l2 } kind = Kind::Simulated;
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
@@ -85,10 +88,12 @@ struct SceneArm {
     bool freeDirection = false; // the hand's direction means nothing: too few joints, or a hand without one
     std::optional<double>
         selfFilter; // [m] by which the links' spheres grow; empty = the arm stays in the cloud
+    // A joint of the jaws.
     struct Finger {
         std::string joint;
         std::optional<double> open, closed; // [rad], [m]; else the URDF's lower and upper limit
     };
+    // How the jaws close.
     struct Grasp {
         std::vector<Finger> fingers;
         uint32_t button = 8;  // bit of the hand's buttons: closes while it is down
@@ -123,6 +128,7 @@ struct Scene {
     double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
     Pose baseTcamera;
     double registrationSigma = 0.0; // [m]; regions grow by 3 of them
+    // A flat window between the camera and the water.
     struct Port {
         double distance = 0.0; // [m] from the lens to the water
         double index = 1.34;   // sea water
@@ -137,6 +143,7 @@ struct Scene {
     };
     std::optional<Beam> beam;
 
+    // How depth is smoothed before anything else.
     struct Filter {
         uint32_t radius = 2; // [pixels] 0..16; 0 = none
         double sigma = 0.01; // [m] paper eq. 2
@@ -149,6 +156,7 @@ struct Scene {
 
     std::vector<FixtureClass> fixtures;
 
+    // What the tool's spheres are.
     struct ToolSource {
         std::vector<std::array<double, 4>> spheres; // tool frame x y z r [m]
         std::filesystem::path file;                 // .sph; empty when spheres are listed
@@ -157,6 +165,7 @@ struct Scene {
 
     std::optional<SceneArm> arm; // carries the tool; empty = the tool moves freely
 
+    // How the hand moves, or the simulated one does, and how it is mapped to the tool.
     struct Hand {
         std::string path = "approach"; // built-in name or CSV file
         bool builtIn = true;
@@ -166,8 +175,9 @@ struct Scene {
         HandLoop loop;
     } hand;
 
+    // The haptic turn.
     struct Haptics {
-        double rateHz = 1000.0;
+        double rateHz = 1000.0;                    // [1/s] turns
         std::string device = "ideal";              // preset name
         std::optional<double> stiffness;           // [N/m]; empty = auto
         std::optional<double> rotationalStiffness; // [N m/rad]; empty = auto
@@ -200,6 +210,7 @@ struct Scene {
     };
     std::optional<Window> window;
 
+    // Where contact queries are answered, and how far they look.
     struct Contact {
         enum class Where { Auto, Cpu, Gpu } where = Where::Auto;
         double reach = 0.01; // [m]

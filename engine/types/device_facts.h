@@ -7,6 +7,7 @@
 
 namespace fathom {
 
+// What the driver calls the device.
 enum class DeviceKind { Discrete, Integrated, Cpu, Other };
 
 struct DeviceFacts {

@@ -17,6 +17,7 @@ namespace fathom {
 // uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, empty when the camera has none.
 class Frame {
 public:
+    // What a frame is made of.
     struct Content {
         uint32_t index = 0;        // line of associations.txt from 0, or a live counter
         uint64_t sourceNumber = 0; // the source's own frame number; unchanged = the same picture again

@@ -7,6 +7,7 @@
 
 namespace fathom::log {
 
+// How much a line matters.
 enum class Level { Debug, Info, Warning, Error };
 
 // Any thread but the haptic one: it makes a text, takes the logger's lock and writes.

@@ -17,10 +17,12 @@ struct Pose {
     dvec3 apply(const dvec3& point) const { return position + rotation * point; }
 };
 
+// a_T_c of a_T_b and b_T_c.
 inline Pose operator*(const Pose& aTb, const Pose& bTc) {
     return {aTb.apply(bTc.position), aTb.rotation * bTc.rotation};
 }
 
+// b_T_a of a_T_b.
 inline Pose inverse(const Pose& aTb) {
     const dquat inv = glm::conjugate(aTb.rotation);
     return {inv * -aTb.position, inv};

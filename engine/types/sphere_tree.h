@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// One sphere, in the frame of its owner.
 struct Sphere {
     dvec3 centre{0.0};    // [m]
     double radius = -1.0; // [m]; negative = unused slot

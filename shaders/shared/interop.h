@@ -10,6 +10,7 @@
 namespace fathom::shared {
 using glm::uvec4;
 using glm::vec4;
+// GLSL's name.
 using uint = uint32_t;
 } // namespace fathom::shared
 #define FATHOM_SHARED_BEGIN namespace fathom::shared {
