@@ -1,7 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs what the documents say can be run: every line of a block that begins with ```runnable, from the repository root, with the
-# built program in front of the search path. Prints 'docs: N passed, N failed'; a block is a case.
+# Runs what the documents say can be run: every line of a block that begins with ```runnable, in all documents of the tree. Each
+# document has a folder of its own to run in, which looks like the repository's root with the built tree at build/, so that a command
+# runs as it stands there and what it writes stays out of the tree; the built program is in front of the search path, $OUT is an empty
+# folder. Ends with 'docs: N passed, N failed'; a block is a case.
 #   docs_test.sh BUILD_FOLDER
 set -uo pipefail
 build=$(realpath "$1")
@@ -9,16 +11,22 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH="$build:$PATH"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-export OUT=$scratch
 passed=0 failed=0
-for document in README.md ARCHITECTURE.md CONTRIBUTING.md docs/*.md; do
-    awk -v to="$scratch/block" '/^```runnable/ { n++; file = to "." n; next } /^```/ { file = "" } file { print > file }' "$document"
+while read -r document; do
+    root=$scratch/${document//\//_}
+    export OUT=$root.out
+    mkdir -p "$root" "$OUT"
+    for entry in *; do
+        case $entry in build | out) ;; *) ln -s "$PWD/$entry" "$root/" ;; esac
+    done
+    ln -s "$build" "$root/build"
+    awk -v to="$scratch/block" '/^```runnable/ { n++; file = sprintf("%s.%02d", to, n); next } /^```/ { file = "" } file { print > file }' "$document"
     for block in "$scratch"/block.*; do
         [ -e "$block" ] || continue
-        if grep -qE '(\./)?run test' "$block"; then
-            echo "ERROR: $document: a runnable block must not run the tests"
+        if grep -qE '(^|[;&|(]|build/) *(\./run|ctest)( |$)' "$block"; then
+            echo "ERROR: $document: a runnable block must not build or run the tests"
             failed=$((failed + 1))
-        elif timeout 120 bash -euo pipefail "$block" >"$scratch/log" 2>&1; then
+        elif (cd "$root" && timeout 120 bash -euo pipefail "$block") </dev/null >"$scratch/log" 2>&1; then
             passed=$((passed + 1))
         else
             echo "ERROR: $document: this does not run:"
@@ -28,7 +36,8 @@ for document in README.md ARCHITECTURE.md CONTRIBUTING.md docs/*.md; do
         fi
         rm -f "$block"
     done
-done
+done < <(find . \( -name build -o -name out -o -name '.?*' \) -prune -o -name '*.md' -print | cut -c3- | sort)
 [ "$passed" -gt 0 ] || { echo "ERROR: no document has a runnable block"; failed=$((failed + 1)); }
+echo "docs: took $SECONDS s"
 echo "docs: $passed passed, $failed failed"
 [ "$failed" = 0 ]
