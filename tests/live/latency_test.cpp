@@ -2,18 +2,40 @@
 // `fathom latency` on a small recording. How late a thread wakes is the machine's affair and no test's.
 #include "tests/rig/stage.h"
 
+#include <csignal>
+#include <cstdlib>
 #include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <thread>
 
 using namespace fathom;
 
-TEST_CASE("latency measures with and without frames, and tells of every turn") {
-    Stage stage;
+namespace {
+
+// latency on four pictures over and over, with `more` options.
+std::vector<std::string> latencyCommand(const Stage& stage, const std::vector<std::string>& more) {
     stage.recording(std::vector<Picture>(4, bumpPicture()));
     stage.scene({});
-    const std::string out = (stage / "latency.json").string();
-    const ProgramRun run = runFathom({"latency", (stage / "scene.yaml").string(), "--source",
-                                      (stage / "rec").string(), "--device", "llvmpipe", "--seconds", "0.7",
-                                      "--load", "idle", "--load", "frames", "--out", out});
+    std::vector<std::string> words{"latency",  (stage / "scene.yaml").string(),
+                                   "--source", (stage / "rec").string(),
+                                   "--device", "llvmpipe",
+                                   "--out",    (stage / "latency.json").string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+nlohmann::json onlyPart(const Stage& stage) {
+    const auto report = nlohmann::json::parse(stage.read("latency.json"));
+    REQUIRE(report.at("parts").size() == 1);
+    return report["parts"][0];
+}
+
+} // namespace
+
+TEST_CASE("latency measures with and without frames, and tells of every turn") {
+    const Stage stage;
+    const ProgramRun run =
+        runFathom(latencyCommand(stage, {"--seconds", "0.7", "--load", "idle", "--load", "frames"}));
     CAPTURE(run.err);
     REQUIRE(run.exitCode == 0);
     const auto report = nlohmann::json::parse(stage.read("latency.json"));
@@ -31,6 +53,48 @@ TEST_CASE("latency measures with and without frames, and tells of every turn") {
     CHECK(report["parts"][0].at("load") == "idle");
     CHECK(report["parts"][0].at("frames_lost") == 0);
     CHECK(run.out.find("frames late") != std::string::npos);
+}
+
+TEST_CASE("latency measures beside a window, which is drawn without a display where there is none") {
+    ::unsetenv("DISPLAY");
+    const Stage stage;
+    const ProgramRun run = runFathom(latencyCommand(stage, {"--seconds", "0.7", "--load", "window"}));
+    CAPTURE(run.err);
+    REQUIRE(run.exitCode == 0);
+    const auto part = onlyPart(stage);
+    CHECK(part.at("load") == "window");
+    CHECK(part.at("seconds").get<double>() >= 0.69);
+    CHECK(part.at("turn").at("count").get<uint64_t>() > 5);
+    CHECK(part.at("woken_late").at("count") == part["turn"]["count"]);
+    CHECK(run.out.find("window turn") != std::string::npos);
+}
+
+TEST_CASE("A soak ends with exit code 0 where it kept what it asks, and with 1 where it missed any of it") {
+    const Stage stage;
+    const ProgramRun run = runFathom(latencyCommand(stage, {"--soak", "0.02"}));
+    CAPTURE(run.err);
+    const auto part = onlyPart(stage);
+    CHECK(part.at("load") == "frames");
+    CHECK(part.at("seconds").get<double>() >= 1.19);
+    CHECK(part.at("memory_MiB").size() >= 20);
+    const bool holds = part.at("frames_lost") == 0 && part.at("records_lost") == 0 &&
+                       part.at("memory_growth_MiB").get<double>() <= 8.0;
+    CHECK(run.exitCode == (holds ? 0 : 1));
+    CHECK(run.out.find(holds ? "soak         kept: asked are 1.2 s" : "MISSED") != std::string::npos);
+}
+
+TEST_CASE("A soak that is ended before its time has missed it: exit code 1") {
+    const Stage stage;
+    const pid_t child = startFathom(latencyCommand(stage, {"--soak", "60"}), stage / "said");
+    std::this_thread::sleep_for(std::chrono::seconds(2));
+    ::kill(child, SIGINT);
+    int status = 0;
+    REQUIRE(::waitpid(child, &status, 0) == child);
+    const std::string said = stage.read("said");
+    CAPTURE(said);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 1);
+    CHECK(said.find("soak         MISSED: asked are 3600.0 s") != std::string::npos);
 }
 
 TEST_CASE("latency refuses a load that it does not know and a length that is none, in one line") {
