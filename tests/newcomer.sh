@@ -1,49 +1,93 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Follows the README as somebody who has nothing: an empty Debian 12 root (debootstrap), this commit in it, then the two commands of
-# its block, as they stand there. Prints how long each took and how much was downloaded, and of both together. Needs root, debootstrap and the network.
-#   newcomer.sh [demo|test]...      only these of them; FATHOM_ROOT: where the root is made (removed at the end)
+# its block, as they stand there. Then makes the Debian packages in that root, installs them in a second one that was as empty, plays an
+# installed scene there and builds the install test's program on /usr. Prints how long each took and how much was downloaded, and of
+# all together. Needs root, debootstrap and the network.
+#   newcomer.sh [demo|test|packages]...      only these of them; FATHOM_ROOT: where the root is made (removed at the end)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 [ "$(id -u)" = 0 ] || { echo "newcomer: needs root, for debootstrap and chroot" >&2; exit 2; }
-wanted=" ${*:-demo test} "
+for word in "$@"; do
+    case $word in demo | test | packages) ;; *) echo "newcomer: $word (allowed: demo, test, packages)" >&2; exit 2 ;; esac
+done
+wanted=" ${*:-demo test packages} "
 # The lines of the block below "## Two commands" that run one of them without anything more.
 commands=$(awk '/^## /{on = /Two commands/} on && /^```/{block = !block; next} on && block && $1 == "./run" && ($2 == "demo" || $2 == "test") && ($3 == "#") {print $1, $2}' README.md)
 [ "$(echo "$commands" | wc -l)" = 2 ] || { echo "newcomer: the README does not have its two commands: $commands" >&2; exit 1; }
 root=${FATHOM_ROOT:-$(mktemp -d /var/tmp/fathom-newcomer.XXXXXX)}
+second=$root.installed
 # The mirror that this machine uses, if it says one for bookworm.
 mirror=$(grep -hsoE '^(URIs:|deb) +http[^ ]*/debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources | awk 'NR == 1 { print $2 }' || true)
 leave() {
-    umount -l "$root/dev/pts" "$root/dev" "$root/sys" "$root/proc" 2>/dev/null || true
-    rm -rf --one-file-system "$root" "$root".*log
+    local place
+    for place in "$root" "$second"; do
+        umount -l "$place/dev/pts" "$place/dev" "$place/sys" "$place/proc" 2>/dev/null || true
+    done
+    rm -rf --one-file-system "$root" "$second" "$root.cache" "$root".*log "$root.log"
 }
 trap leave EXIT
 since() { echo $(($(date +%s) - $1)); }
+megabytes() { du -smxc "$@" | tail -1 | cut -f1; }
+
+# furnish ROOT: this commit, how this machine reaches its mirror, and what a running system has mounted.
+furnish() {
+    git archive --prefix=fathom/ HEAD | tar -x -C "$1"
+    cp /etc/resolv.conf "$1/etc/" 2>/dev/null || true
+    for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -e "$file" ] || cp "$file" "$1/etc/apt/apt.conf.d/"; done
+    echo 'Binary::apt::APT::Keep-Downloaded-Packages "true"; APT::Keep-Downloaded-Packages "true";' >"$1/etc/apt/apt.conf.d/90keep"
+    rm -f "$1/etc/apt/apt.conf.d/docker-clean"
+    mount -t proc proc "$1/proc"
+    mount -t sysfs -o ro sysfs "$1/sys"
+    mount --bind /dev "$1/dev"
+    mount -t devpts -o newinstance,ptmxmode=0666 devpts "$1/dev/pts"
+}
+
+# step ROOT NAME COMMAND: in /fathom of that root. Its last line, how long it took and how much it downloaded; its end where it fails.
+step() {
+    local start before log=$root.step.log
+    start=$(date +%s)
+    before=$(megabytes "$1/var/cache/apt/archives")
+    chroot "$1" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 DEBIAN_FRONTEND=noninteractive sh -c "cd /fathom && $3" \
+        </dev/null >"$log" 2>&1 || { tail -20 "$log"; echo "newcomer: $2 failed"; exit 1; }
+    tail -1 "$log"
+    echo "newcomer: $2 in $(since "$start") s, $(($(megabytes "$1/var/cache/apt/archives") - before)) MB downloaded"
+}
+
+# What README's `cpack` makes, where nothing has to be built but what is packed unless the tests were.
+make_packages() {
+    local configure="true"
+    [ -e "$root/fathom/build/CMakeCache.txt" ] && [[ $wanted == *" test "* ]] ||
+        configure="cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DFATHOM_BATCHES=ON -DBUILD_TESTING=OFF"
+    step "$root" "packages made" "apt-get update -qq &&
+        apt-get install -y -qq --no-install-recommends dpkg-dev fakeroot file \$(grep -v '^#' third_party/packages.txt) && $configure &&
+        cd build && rm -f *.deb && cpack -G DEB && ls *.deb | tr '\n' ' '"
+}
+
+install_packages() {
+    furnish "$second"
+    cp "$root"/fathom/build/*.deb "$second/fathom/"
+    step "$second" "fathom installed" "apt-get update -qq && apt-get install -y -qq ./fathom_*.deb && fathom --version"
+    step "$second" "an installed scene" "cd /root && fathom replay /usr/share/fathom/scenes/demo.yaml --device llvmpipe --out demo && ls demo | tr '\n' ' '"
+    step "$second" "libfathom-dev installed" "apt-get install -y -qq --no-install-recommends ./libfathom-dev_*.deb g++ cmake ninja-build pkg-config"
+    step "$second" "a program on /usr" "cmake -DSOURCE=/fathom -DPREFIX=/usr -DCXX=g++ -DVERSION=\$(fathom --version | cut -d' ' -f2) -P tests/install/install_test.cmake"
+    step "$second" "packages removed" "apt-get purge -y -qq fathom libfathom-dev && ! ls -d /usr/share/fathom /usr/include/fathom 2>/dev/null"
+}
 
 start=$(date +%s)
-debootstrap --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
-echo "newcomer: empty root in $(since "$start") s, $(du -smx "$root" | cut -f1) MB"
-git archive --prefix=fathom/ HEAD | tar -x -C "$root"
-cp /etc/resolv.conf "$root/etc/" 2>/dev/null || true
-for file in /etc/apt/apt.conf.d/*proxy*; do [ ! -e "$file" ] || cp "$file" "$root/etc/apt/apt.conf.d/"; done
-echo 'Binary::apt::APT::Keep-Downloaded-Packages "true"; APT::Keep-Downloaded-Packages "true";' >"$root/etc/apt/apt.conf.d/90keep"
-rm -f "$root/etc/apt/apt.conf.d/docker-clean"
-mount -t proc proc "$root/proc"
-mount -t sysfs -o ro sysfs "$root/sys"
-mount --bind /dev "$root/dev"
-mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"
+mkdir -p "$root" "$root.cache"
+debootstrap --cache-dir="$root.cache" --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
+bootstrap=$(megabytes "$root.cache" "$root/var/lib/apt/lists")
+echo "newcomer: empty root in $(since "$start") s, $bootstrap MB downloaded, $(megabytes "$root") MB"
+[[ $wanted != *" packages "* ]] || cp -a "$root" "$second"
+furnish "$root"
 begun=$(date +%s)
-downloaded=$(du -sm "$root/var/cache/apt/archives" | cut -f1)
-echo "$commands" | while read -r line; do
-    command=${line#./run }
-    [[ $wanted == *" $command "* ]] || continue
-    start=$(date +%s)
-    before=$(du -sm "$root/var/cache/apt/archives" | cut -f1)
-    chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LANG=C.UTF-8 sh -c "cd /fathom && $line" </dev/null \
-        >"$root.$command.log" 2>&1 || { tail -20 "$root.$command.log"; echo "newcomer: ./run $command failed"; exit 1; }
-    tail -1 "$root.$command.log"
-    echo "newcomer: ./run $command in $(since "$start") s, $(($(du -sm "$root/var/cache/apt/archives" | cut -f1) - before)) MB downloaded"
-    rm -f "$root.$command.log"
-done
-echo "newcomer: all in $(since "$begun") s, $(($(du -sm "$root/var/cache/apt/archives" | cut -f1) - downloaded)) MB downloaded, root of $(du -smx "$root" | cut -f1) MB"
-rm -f "$root.log"
+downloaded=$(megabytes "$root/var/cache/apt/archives")
+while read -r line; do
+    [[ $wanted != *" ${line#./run } "* ]] || step "$root" "$line" "$line"
+done <<<"$commands"
+echo "newcomer: all in $(since "$begun") s, $(($(megabytes "$root/var/cache/apt/archives") - downloaded)) MB downloaded, root of $(megabytes "$root") MB"
+if [[ $wanted == *" packages "* ]]; then
+    make_packages
+    install_packages
+fi

@@ -2,6 +2,7 @@
 # Installs the built tree into an empty folder and builds consumer.cpp outside of the sources, once by find_package and once by
 # pkg-config; both must feel the wall. What must lie where is checked, and that no installed file knows where it was built.
 #   cmake -DSOURCE= -DBINARY= -DCXX= -DVERSION= -P install_test.cmake
+#   cmake -DSOURCE= -DPREFIX=/usr -DCXX= -DVERSION= -P install_test.cmake    the same of what is installed there
 cmake_minimum_required(VERSION 3.25)
 set(passed 0)
 set(failed 0)
@@ -16,12 +17,20 @@ macro(check what)
 endmacro()
 
 execute_process(COMMAND mktemp -d OUTPUT_VARIABLE stage OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-set(root ${stage}/installed)
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${BINARY} --prefix ${root} OUTPUT_QUIET RESULT_VARIABLE result)
-check("cmake --install ends with ${result}" result EQUAL 0)
+if(DEFINED PREFIX)
+    set(root ${PREFIX})
+    set(ours bin/fathom share/fathom/* share/doc/fathom/* share/man/*/fathom* share/bash-completion/completions/fathom lib/udev/rules.d/70-fathom.rules
+        include/fathom/* lib/*/pkgconfig/fathom.pc lib/*/cmake/fathom/*)
+else()
+    set(root ${stage}/installed)
+    set(ours *)
+    execute_process(COMMAND ${CMAKE_COMMAND} --install ${BINARY} --prefix ${root} OUTPUT_QUIET RESULT_VARIABLE result)
+    check("cmake --install ends with ${result}" result EQUAL 0)
+endif()
 
 # What is where.
-file(GLOB_RECURSE files RELATIVE ${root} ${root}/*)
+list(TRANSFORM ours PREPEND ${root}/)
+file(GLOB_RECURSE files RELATIVE ${root} ${ours})
 foreach(wanted bin/fathom share/fathom/scenes/demo.yaml share/fathom/scenes/task1.csv share/fathom/scenes/arm41.urdf lib/udev/rules.d/70-fathom.rules
         share/fathom/limits.d/fathom-limits.conf share/bash-completion/completions/fathom share/man/man1/fathom.1.gz
         share/man/man5/fathom-scene.5.gz share/doc/fathom/copyright include/fathom/engine/cycle/haptic_cycle.h
