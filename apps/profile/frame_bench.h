@@ -73,10 +73,10 @@ public:
     std::vector<uint32_t> masks() const;
     reference::PointPicture points() const;
 
-    // Compares class bits and points of the last frame with the float64 twins. Empty when they agree (points
-    // to 20 um; what the twins call unsure is left out), else what differs.
-    // Class bits are compared of every pixel, points of `mostPatches` patches spread over the picture, its
-    // corners among them.
+    // Compares occlusion cells, class bits and points of the last frame with the float64 twins. Empty when
+    // they agree (cells to 1 um, points to 20 um; what the twins call unsure is left out), else what differs.
+    // Cells are all compared, class bits are compared of every pixel, points of `mostPatches` patches spread
+    // over the picture, its corners among them.
     std::string differsFromTwins(const Shot& shot, size_t mostPatches = SIZE_MAX) const;
     // Compares the host's spheres with the points that they came from: each stands about a forbidden point of
     // its own, no farther than rounding, with at least its class's radius. Empty when they agree.

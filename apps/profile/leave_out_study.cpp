@@ -28,13 +28,22 @@ Scene fullScene(const Settings& settings) {
     return scene;
 }
 
-// The lens of TUM freiburg1, mild: rays come from a table then. Colour from a second camera beside the first.
+// Pictures of one camera, and the same with the colour of a second one beside it.
+struct Pictures {
+    ShotSource registered, beside;
+    const ShotSource& of(const CameraInfo& camera) const { return camera.registered ? registered : beside; }
+};
+
+// The lens of TUM freiburg1, mild, on both cameras: rays come from a table then.
 CameraInfo fullCamera(CameraInfo camera) {
     camera.depth.distortion = {0.02, -0.03, 0.0005, 0.0003, 0.0};
     camera.colour = camera.depth;
-    camera.registered = false;
-    camera.colourTdepth.position = dvec3(0.0, 0.0, 0.0);
     return camera;
+}
+
+void registerColour(CameraInfo& camera) {
+    camera.registered = true;
+    camera.colourTdepth = {};
 }
 
 void dropClasses(Scene& scene, Role role) {
@@ -54,19 +63,24 @@ std::vector<Stage> stages() {
         {"tree and slots for the GPU query",
          [](Scene& s, CameraInfo&) { s.contact.where = Scene::Contact::Where::Cpu; }},
         {"lens distortion", [](Scene&, CameraInfo& c) { c.depth.distortion = {}, c.colour.distortion = {}; }},
-        {"colour registration", [](Scene&, CameraInfo& c) { c.registered = true; }},
+        {"colour registration", [](Scene&, CameraInfo& c) { registerColour(c); }},
     };
 }
 
-// A frame cycle whose result was compared with the twins before anything is timed.
-std::unique_ptr<FrameBench> verified(const StudyContext& context, const Scene& scene,
-                                     const CameraInfo& camera, const ShotSource& source,
-                                     const std::string& name) {
-    auto bench = std::make_unique<FrameBench>(context.device, scene, camera);
-    bench->run(source.shots.front());
-    const std::string wrong = bench->differsFromTwins(source.shots.front());
+// A frame cycle and its pictures, whose result was compared with the twins before anything is timed.
+struct Verified {
+    std::unique_ptr<FrameBench> bench;
+    const std::vector<Shot>& shots;
+};
+Verified verified(const StudyContext& context, const Scene& scene, const CameraInfo& camera,
+                  const Pictures& pictures, const std::string& name) {
+    Verified v{std::make_unique<FrameBench>(context.device, scene, camera), pictures.of(camera).shots};
+    v.bench->run(v.shots.front());
+    const std::string wrong = v.bench->differsFromTwins(v.shots.front());
     verify(wrong.empty(), "leave_out", name, wrong + " differs from the float64 twin");
-    return bench;
+    const std::string sphere = v.bench->spheresDiffer();
+    verify(sphere.empty(), "leave_out", name, sphere + " is not about a forbidden point of its own");
+    return v;
 }
 
 // The full frame and the one that leaves a stage out in turn, so that a change of the machine's mood hits
@@ -74,15 +88,15 @@ std::unique_ptr<FrameBench> verified(const StudyContext& context, const Scene& s
 struct Pair {
     FrameCost full, less;
 };
-Pair measureInTurn(FrameBench& full, FrameBench& less, const ShotSource& source, const Effort& effort) {
+Pair measureInTurn(const Verified& full, const Verified& less, const Effort& effort) {
     constexpr size_t kRounds = 5;
     const Effort part{(effort.least + kRounds - 1) / kRounds, effort.most, effort.seconds / kRounds};
     FrameSamples a, b;
     for (size_t round = 0; round < kRounds; ++round) {
-        full.sample(source.shots, part, a);
-        less.sample(source.shots, part, b);
+        full.bench->sample(full.shots, part, a);
+        less.bench->sample(less.shots, part, b);
     }
-    return {full.costOf(a), less.costOf(b)};
+    return {full.bench->costOf(a), less.bench->costOf(b)};
 }
 
 StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved) {
@@ -112,7 +126,8 @@ Study leaveOutStudy(const StudyContext& context) {
     Study study;
     study.name = "leave_out";
     study.title = "Leave out: what each optional stage costs a scene that asks for everything";
-    study.verified = "class bits and points against the float64 twins where colour is registered";
+    study.verified = "of every row: occlusion cells, class bits and points against the float64 twins, every "
+                     "region sphere about a forbidden point of its own";
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault =
         "its rows are scenes that ask for less; what a scene does not ask for is left out by itself";
@@ -120,21 +135,21 @@ Study leaveOutStudy(const StudyContext& context) {
     study.moreNames = {"upload_to_published_p50_ms", "saved_ms", "share_of_frame_percent", "gpu_saved_ms",
                        "memory_saved_MiB"};
     const uint32_t w = context.settings.quick ? 320 : 640, h = context.settings.quick ? 240 : 480;
-    const ShotSource source = analyticShots("tank", w, h, context.settings.quick ? 1 : 4);
+    const uint32_t frames = context.settings.quick ? 1 : 4;
+    const Pictures pictures{analyticShots("tank", w, h, frames), twoCameraShots("tank", w, h, frames)};
     const Scene scene = fullScene(context.settings);
-    const CameraInfo camera = fullCamera(source.camera);
-    const auto full = verified(context, scene, camera, source, "nothing left out");
-    const FrameCost alone = full->measure(source.shots, context.settings.effort());
+    const CameraInfo camera = fullCamera(pictures.beside.camera);
+    const Verified full = verified(context, scene, camera, pictures, "nothing left out");
+    const FrameCost alone = full.bench->measure(full.shots, context.settings.effort());
     study.rows.push_back(rowOf("nothing left out", {alone, alone}, 0.0));
     for (const Stage& stage : stages()) {
         Scene fewer = scene;
         CameraInfo plainer = camera;
         stage.leaveOut(fewer, plainer);
-        const auto less = verified(context, fewer, plainer, source, stage.name);
-        const double bytes =
-            static_cast<double>(bytesOf(full->plan())) - static_cast<double>(bytesOf(less->plan()));
-        study.rows.push_back(
-            rowOf(stage.name, measureInTurn(*full, *less, source, context.settings.effort()), bytes));
+        const Verified less = verified(context, fewer, plainer, pictures, stage.name);
+        const double bytes = static_cast<double>(bytesOf(full.bench->plan())) -
+                             static_cast<double>(bytesOf(less.bench->plan()));
+        study.rows.push_back(rowOf(stage.name, measureInTurn(full, less, context.settings.effort()), bytes));
         const StudyRow& row = study.rows.back();
         study.findings.push_back(std::string("without ") + stage.name + ": " + digits(row.more[1]) +
                                  " ms less (" + digits(row.more[2]) + " % of the frame), " +

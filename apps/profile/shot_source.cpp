@@ -27,6 +27,21 @@ void take(Camera& camera, uint32_t frames, ShotSource& source) {
     }
 }
 
+// firstFrame: none = the camera stands still.
+SimulatedCamera cameraOn(const std::string& scene, uint32_t width, uint32_t height,
+                         std::optional<uint32_t> firstFrame) {
+    const auto solids = analyticScene(scene);
+    if (!solids) {
+        throw Error("no analytic scene '" + scene + "'");
+    }
+    SimulatedCameraOptions options;
+    options.width = width, options.height = height;
+    options.motion = firstFrame.has_value();
+    options.firstFrame = firstFrame.value_or(0);
+    options.metresPerUnit = 0.0001;
+    return SimulatedCamera(*solids, options);
+}
+
 FixtureClass coloured(const std::string& name, Role role, Band hue) {
     FixtureClass f;
     f.name = name;
@@ -40,21 +55,27 @@ FixtureClass coloured(const std::string& name, Role role, Band hue) {
 } // namespace
 
 ShotSource analyticShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
-    const auto solids = analyticScene(scene);
-    if (!solids) {
-        throw Error("no analytic scene '" + scene + "'");
-    }
-    SimulatedCameraOptions options;
-    options.width = width, options.height = height;
-    options.motion = false;
-    options.metresPerUnit = 0.0001;
-    SimulatedCamera camera(*solids, options);
+    SimulatedCamera camera = cameraOn(scene, width, height, {});
     ShotSource source{scene, camera.info(), {}};
     take(camera, frames, source);
     const auto exact = camera.exactView(0); // nothing moves
     for (Shot& shot : source.shots) {
         shot.truth = exact.depth;
     }
+    return source;
+}
+
+ShotSource twoCameraShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
+    constexpr uint32_t kAside = 52; // where the sway has taken the camera 25 mm from its first pose
+    ShotSource source = analyticShots(scene, width, height, frames);
+    SimulatedCamera second = cameraOn(scene, width, height, kAside);
+    const std::optional<Frame> frame = second.next();
+    for (Shot& shot : source.shots) {
+        shot.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
+    }
+    source.camera.colour = source.camera.depth;
+    source.camera.registered = false;
+    source.camera.colourTdepth = inverse(second.poseAt(kAside));
     return source;
 }
 

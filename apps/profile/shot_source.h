@@ -11,6 +11,10 @@ namespace fathom::profile {
 // `frames` pictures of a built-in scene with sensor noise and their truth. Throws Error for an unknown name.
 ShotSource analyticShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames);
 
+// The same with the colour of a second camera, 25 mm beside the first and turned by 2 degrees: it sees some
+// points in other places and others not at all. Both lenses are the same.
+ShotSource twoCameraShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames);
+
 // The first `frames` good pictures of a recording. Throws BadInput.
 ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames);
 

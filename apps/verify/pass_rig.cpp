@@ -22,6 +22,17 @@ std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, cons
     return out;
 }
 
+reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle) {
+    const cloud::WorkBuffers& work = cycle.work();
+    reference::CellPicture out{work.cellEdge, work.cellsAcross, work.cellsDown, {}};
+    const auto bits = readBack<uint32_t>(device, work.nearest);
+    for (size_t i = 0; i < static_cast<size_t>(out.across) * out.down; ++i) {
+        out.nearest.push_back(bits[i] == 0xffffffffu ? HUGE_VAL
+                                                     : static_cast<double>(std::bit_cast<float>(bits[i])));
+    }
+    return out;
+}
+
 reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera,
                                  const dvec3& origin) {
     const auto slots = readBack<glm::vec4>(device, cycle.work().points);
@@ -177,14 +188,7 @@ shared::FrameCounters PassRig::counters() const {
 }
 
 reference::CellPicture PassRig::cells() const {
-    const cloud::WorkBuffers& work = cycle_->work();
-    reference::CellPicture out{work.cellEdge, work.cellsAcross, work.cellsDown, {}};
-    const auto bits = readBack<uint32_t>(device_, work.nearest);
-    for (size_t i = 0; i < static_cast<size_t>(out.across) * out.down; ++i) {
-        out.nearest.push_back(bits[i] == 0xffffffffu ? HUGE_VAL
-                                                     : static_cast<double>(std::bit_cast<float>(bits[i])));
-    }
-    return out;
+    return cellsOf(device_, *cycle_);
 }
 
 } // namespace fathom::verify

@@ -26,6 +26,8 @@ struct Picture {
 std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera);
 reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera,
                                  const dvec3& origin);
+// Depths of the occlusion cells [m]; needs Plan::occlusion.
+reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle);
 
 // One frame cycle. Everything below run() speaks of the last frame; positions are in the base frame. The
 // device must outlive it. One thread.
@@ -65,7 +67,7 @@ public:
     std::vector<reference::RegionSphere> slotSpheres(bool held = false) const;
     std::vector<std::vector<reference::Bound>> tree() const; // needs Plan::tree
     shared::FrameCounters counters() const;
-    reference::CellPicture cells() const; // depths of the occlusion cells [m]
+    reference::CellPicture cells() const; // of occlusion
 
 private:
     std::vector<glm::vec4> slots(bool held) const;

@@ -63,6 +63,55 @@ TEST_CASE(
     CHECK(rig.bench.spheresDiffer() == "region sphere 9");
 }
 
+TEST_CASE(
+    "Colour of a second camera is looked up through the occlusion cells, and both are compared with their "
+    "twins") {
+    const gpu::Instance instance;
+    gpu::Device device{instance, "llvmpipe"};
+    const ShotSource source = twoCameraShots("tank", 160, 120, 1);
+    const Shot& shot = source.shots.front();
+    FrameBench bench(device, studyScene({}), source.camera);
+    bench.run(shot);
+    REQUIRE(bench.plan().occlusion);
+    CHECK(bench.differsFromTwins(shot).empty());
+    Shot near = shot; // a cell that must be lower
+    near.depth[60 * 160 + 80] = static_cast<uint16_t>(near.depth[60 * 160 + 80] / 2);
+    CHECK(bench.differsFromTwins(near).rfind("occlusion cell ", 0) == 0);
+    Shot grey = shot; // no pixel finds its class again
+    std::fill(grey.colour.begin(), grey.colour.end(), 0xff808080u);
+    CHECK(bench.differsFromTwins(grey).rfind("class bits of pixel ", 0) == 0);
+}
+
+TEST_CASE(
+    "The second camera stands 25 mm beside the first, sees the same surfaces there and misses what they "
+    "hide") {
+    const gpu::Instance instance;
+    gpu::Device device{instance, "llvmpipe"};
+    const ShotSource one = analyticShots("tank", 320, 240, 1), two = twoCameraShots("tank", 320, 240, 1);
+    CHECK(glm::length(two.camera.colourTdepth.position) > 0.020);
+    CHECK(glm::length(two.camera.colourTdepth.position) < 0.030);
+    CHECK(two.shots.front().depth == one.shots.front().depth);
+    const auto masksOf = [&](const CameraInfo& camera, const Shot& shot) {
+        FrameBench bench(device, studyScene({}), camera);
+        bench.run(shot);
+        return bench.masks();
+    };
+    const auto own = masksOf(one.camera, one.shots.front());
+    CameraInfo nowhere = two.camera; // as if both stood in one place
+    nowhere.colourTdepth = {};
+    const auto seen = masksOf(two.camera, two.shots.front()), astray = masksOf(nowhere, two.shots.front());
+    size_t marked = 0, missed = 0, wrong = 0;
+    for (size_t i = 0; i < own.size(); ++i) {
+        marked += own[i] != 0 ? 1 : 0;
+        missed += own[i] != 0 && seen[i] != own[i] ? 1 : 0;
+        wrong += own[i] != 0 && astray[i] != own[i] ? 1 : 0;
+    }
+    CHECK(marked > 1000);
+    CHECK(missed > marked / 500);
+    CHECK(missed < marked / 4);
+    CHECK(wrong > 2 * missed);
+}
+
 TEST_CASE("Half precision rounds to the nearest, or up where a bound must hold") {
     for (const double value : {0.0, 1.0, 0.5, 65504.0, 6e-8, 0.0312, 1.0009765625, 0.8, 3.14159}) {
         CAPTURE(value);
