@@ -17,12 +17,13 @@ namespace {
 struct Need {
     double bytes = 0.0, operations = 0.0;
     enum class Where { Device, Host, Crew } where = Where::Device; // Crew: those who publish
+    double pictures = 0.0; // bytes that are read where the pictures lie, not among `bytes`
 };
 
 // What a frame selects.
 struct Load {
-    double pixels, slots, guidedSlots, selected, guided, spheres, tapsPerPixel;
-    bool hold, colour, inPlace, pack, keepDepth, thin, tree;
+    double pixels, slots, guidedSlots, selected, guided, spheres, tapsPerPixel, cells;
+    bool occlusion, hold, colour, inPlace, pack, keepDepth, thin, tree;
 };
 
 // Class bits of guidance.
@@ -55,9 +56,12 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.spheres = report.counts.spheres;
     const double edge = 2.0 * bench.plan().filterRadius + 1.0;
     load.tapsPerPixel = bench.plan().filterRadius > 0 ? edge * edge : 0.0;
+    load.occlusion = bench.plan().occlusion;
+    const cloud::WorkBuffers& work = bench.cycle().work();
+    load.cells = load.occlusion ? static_cast<double>(work.cellsAcross) * work.cellsDown : 0.0;
     load.hold = bench.plan().hold;
     load.colour = bench.plan().colour;
-    load.inPlace = bench.plan().inPlace;
+    load.inPlace = report.inPlace;
     load.keepDepth = bench.plan().keepDepth;
     load.pack = bench.plan().pack;
     load.thin = bench.plan().thin;
@@ -77,14 +81,27 @@ double sphereBytes(const Load& l) {
            (l.pack ? 20.0 * l.spheres : 0.0);
 }
 
+// The pictures are read where the camera left them, or where they were uploaded to; where a pass before has
+// read the depth the same bytes are read again, for it does not keep them.
+Need classifyNeed(const Load& l) {
+    Need need{l.pixels * ((l.keepDepth ? 2.0 : 0.0) + 1.0) + 4.0 * l.cells, 40.0 * l.pixels};
+    need.pictures = l.pixels * (2.0 + (l.colour ? 4.0 : 0.0));
+    return need;
+}
+Need occlusionNeed(const Load& l) {
+    Need need{4.0 * l.cells, l.occlusion ? 40.0 * l.pixels : 0.0};
+    need.pictures = l.occlusion ? 2.0 * l.pixels : 0.0;
+    return need;
+}
+
 // Each buffer counted once, however often a pass reads it: what a perfect cache would move.
 std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     return {
         {"upload",
          {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0,
           Need::Where::Host}},
-        {"classify",
-         {l.pixels * (2.0 + (l.colour ? 4.0 : 0.0) + (l.keepDepth ? 2.0 : 0.0) + 1.0), 40.0 * l.pixels}},
+        {"occlusion", occlusionNeed(l)},
+        {"classify", classifyNeed(l)},
         {"list", {l.pixels / 256.0 * (l.hold ? 8.0 : 4.0) + l.slots / 256.0 * (l.hold ? 8.0 : 4.0), 0.0}},
         {"surface", {l.slots * (1.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel)}},
         {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0}},
@@ -123,10 +140,13 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         row.setting = step;
         const bool onDevice = need.where == Need::Where::Device;
         (onDevice ? row.cost.gpu : row.cost.cpu) = time;
-        const double moving = need.bytes / bytesPerSecond(ceilings, need.where) * 1e3;
+        const double moving = need.pictures > 0.0
+                                  ? readingMs(ceilings, need.bytes, need.pictures, load.inPlace)
+                                  : 1e3 * need.bytes / bytesPerSecond(ceilings, need.where);
         const double computing = onDevice ? need.operations / ceilings.deviceFlops * 1e3 : 0.0;
         const double floor = std::max(moving, computing), ratio = floor > 0.0 ? time.p50 / floor : NAN;
-        row.more = {need.bytes / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
+        row.more = {
+            (need.bytes + need.pictures) / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
         study.rows.push_back(row);
         if (floor == 0.0) { // dispatched over nothing
             study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, has no work");
@@ -136,6 +156,37 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
                                  digits(floor) + " ms (" + (computing > moving ? "arithmetic" : "bytes") +
                                  "), ratio " + digits(ratio));
     }
+}
+
+struct LimitCase {
+    std::string name;
+    Scene scene;
+    ShotSource pictures;
+};
+// A tenth of the picture and all of it, and the passes that such a scene does not have: colour of a second
+// camera, and a tree for a query on the device.
+std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t h) {
+    Scene asked = studyScene(settings);
+    asked.contact.where = Scene::Contact::Where::Gpu;
+    return {{"10 % forbidden", studyScene(settings), wallShot(w, h, 0.1)},
+            {"100 % forbidden", studyScene(settings), wallShot(w, h, 1.0)},
+            {"two cameras, query on the device", asked, twoCameraShots("tank", w, h, 1)}};
+}
+
+void sayCeilings(Study& study, const Ceilings& c) {
+    study.findings.push_back(
+        "device: its memory gives " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), it computes " +
+        digits(c.deviceFlops * 1e-9) + " GFLOP/s, reads what the CPU writes at " +
+        digits(c.uploadBytes * 1e-9) + " GB/s" +
+        (c.importBytes > 0.0 ? " and the host's own pages at " + digits(c.importBytes * 1e-9) + " GB/s"
+                             : std::string(" and cannot read the host's own pages")) +
+        "; an empty submission takes " + digits(c.submitMs) + " ms");
+    study.findings.push_back("host: copies " + digits(c.hostBytes * 1e-9) + " GB/s on one thread, " +
+                             digits(c.crewBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
+                             " that publish (read + written)");
+    study.findings.push_back("ceilings: " + c.how +
+                             ", the host's copies of 64 MiB; a step whose data stay in a cache may take "
+                             "less than its floor");
 }
 
 PlotPanel panelOf(const Study& study, const std::string& source) {
@@ -164,8 +215,8 @@ Study limitStudy(const StudyContext& context) {
     Study study;
     study.name = "limit";
     study.title = "Limit: each step of a frame against what the machine allows";
-    study.verified =
-        "the ceilings' copies and sums, class bits and points of a frame against the float64 twins";
+    study.verified = "what the ceilings copied, read and computed, class bits and points of a frame against "
+                     "the float64 twins";
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are the steps of one frame at the default settings";
     study.timeName = "time p50";
@@ -177,23 +228,15 @@ Study limitStudy(const StudyContext& context) {
     const CameraInfo camera = wallShot(w, h, 1.0).camera;
     const uint32_t publishers = makePlan(studyScene(plain), camera, 1, context.device.facts()).publishers;
     const Ceilings c = measureCeilings(context.device, publishers, context.settings.effort());
-    study.findings.push_back(
-        "device: copies " + digits(c.deviceBytes * 1e-9) + " GB/s (read + written), computes " +
-        digits(c.deviceFlops * 1e-9) + " GFLOP/s, an empty submission takes " + digits(c.submitMs) +
-        " ms; host: copies " + digits(c.hostBytes * 1e-9) + " GB/s on one thread, " +
-        digits(c.crewBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
-        " that publish; copies of 64 MiB, so a step whose data stay in a cache may take less "
-        "than its floor");
-    for (double share : {0.1, 1.0}) {
-        const std::string source = digits(share * 100) + " % forbidden";
-        const ShotSource shots = wallShot(w, h, share);
-        FrameBench bench(context.device, studyScene(plain), shots.camera);
-        const FrameReport report = bench.run(shots.shots.front());
-        const std::string wrong = bench.differsFromTwins(shots.shots.front());
-        verify(wrong.empty(), "limit", source, wrong + " differs from the float64 twin");
+    sayCeilings(study, c);
+    for (const LimitCase& each : limitCases(plain, w, h)) {
+        FrameBench bench(context.device, each.scene, each.pictures.camera);
+        const FrameReport report = bench.run(each.pictures.shots.front());
+        const std::string wrong = bench.differsFromTwins(each.pictures.shots.front());
+        verify(wrong.empty(), "limit", each.name, wrong + " differs from the float64 twin");
         const Load load = loadOf(bench, report);
-        addRows(study, source, load, bench.measure(shots.shots, context.settings.effort()), c);
-        study.panels.push_back(panelOf(study, source));
+        addRows(study, each.name, load, bench.measure(each.pictures.shots, context.settings.effort()), c);
+        study.panels.push_back(panelOf(study, each.name));
     }
     return study;
 }

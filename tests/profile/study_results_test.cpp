@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -150,6 +151,21 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
     CHECK(rows.at("smaller spheres, with gaps").rbegin()->second["gap_mm"].get<double>() > 0.1);
 }
 
+TEST_CASE(
+    "Every pass of a frame has a row of its limit: those of a second camera and of the device's query, too") {
+    std::map<std::string, std::set<std::string>> steps;
+    for (const auto& row : quickRun().study("limit")["rows"]) {
+        steps[row["source"]].insert(row["setting"].get<std::string>());
+    }
+    REQUIRE(steps.size() == 3);
+    for (const char* pass : {"upload", "occlusion", "classify", "list", "surface", "thin", "spheres", "tree",
+                             "moments", "collect", "grid"}) {
+        CAPTURE(std::string(pass));
+        CHECK(steps.at("two cameras, query on the device").count(pass) == 1);
+    }
+    CHECK(steps.at("10 % forbidden").count("occlusion") == 0);
+}
+
 TEST_CASE("A step's floor is the longer of moving and computing, and its ratio what it took over that") {
     for (const auto& row : quickRun().study("limit")["rows"]) {
         const double moving = row["moving_ms"], computing = row["computing_ms"], floor = row["floor_ms"];
@@ -157,6 +173,7 @@ TEST_CASE("A step's floor is the longer of moving and computing, and its ratio w
         CHECK(floor == std::max(moving, computing));
         if (floor == 0.0) { // dispatched over nothing: every pixel is forbidden and none guides
             CHECK(row["setting"] == "moments");
+            CHECK(row["source"] == "100 % forbidden");
             CHECK(row["ratio"].is_null());
             continue;
         }
