@@ -163,13 +163,14 @@ struct LimitCase {
     Scene scene;
     ShotSource pictures;
 };
-// A tenth of the picture and all of it, and the passes that such a scene does not have: colour of a second
-// camera, and a tree for a query on the device.
+// A tenth of the picture and all of it, with noise and without (thinning leaves fewer points then), and the
+// passes that such a scene does not have: colour of a second camera, and a tree for a query on the device.
 std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t h) {
     Scene asked = studyScene(settings);
     asked.contact.where = Scene::Contact::Where::Gpu;
-    return {{"10 % forbidden", studyScene(settings), wallShot(w, h, 0.1)},
-            {"100 % forbidden", studyScene(settings), wallShot(w, h, 1.0)},
+    return {{"10 % forbidden", studyScene(settings), wallShot(w, h, 0.1, WallNoise::Sensor)},
+            {"100 % forbidden", studyScene(settings), wallShot(w, h, 1.0, WallNoise::Sensor)},
+            {"100 % forbidden, noise-free", studyScene(settings), wallShot(w, h, 1.0)},
             {"two cameras, query on the device", asked, twoCameraShots("tank", w, h, 1)}};
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the cost of a frame grows and how: picture size, share of selected pixels, number of classes.
+// Where the cost of a frame grows and how: picture size, share of selected pixels, number of classes. Of a
+// wall with the sensor's noise; without noise thinning leaves fewer points, and what follows it has less to
+// do.
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
 
@@ -118,15 +120,16 @@ private:
     Study& study_;
 };
 
-Curve sizesOf(ScalingRun& run, bool quick) {
+Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
     using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
     Curve sizes;
     for (const auto& [w, h] :
          quick ? Sizes{{80, 60}, {160, 120}, {400, 300}}
                : Sizes{{160, 120}, {320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
-        const ShotSource shots = wallShot(w, h, 1.0);
-        sizes.push_back(
-            run.take("size, every point forbidden", shots.name, w * static_cast<double>(h), shots, 2));
+        const ShotSource shots = wallShot(w, h, 1.0, noise);
+        const char* source = noise == WallNoise::Sensor ? "size, every point forbidden"
+                                                        : "size, every point forbidden, noise-free";
+        sizes.push_back(run.take(source, shots.name, w * static_cast<double>(h), shots, 2));
     }
     return sizes;
 }
@@ -135,7 +138,8 @@ Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve shares;
     for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
         shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
-                                  digits(share * 100.0) + " %", share * 100.0, wallShot(w, h, share), 2));
+                                  digits(share * 100.0) + " %", share * 100.0,
+                                  wallShot(w, h, share, WallNoise::Sensor), 2));
     }
     return shares;
 }
@@ -143,8 +147,8 @@ Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
 Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve classes;
     for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
-        classes.push_back(
-            run.take("classes, 10 % forbidden", std::to_string(c) + " classes", c, wallShot(w, h, 0.1), c));
+        classes.push_back(run.take("classes, 10 % forbidden", std::to_string(c) + " classes", c,
+                                   wallShot(w, h, 0.1, WallNoise::Sensor), c));
     }
     return Curve(classes.rbegin(), classes.rend()); // the most passes first: they name the lines
 }
@@ -179,9 +183,10 @@ Study scalingStudy(const StudyContext& context) {
     const uint32_t w = quick ? 160 : 640, h = quick ? 120 : 480;
     const std::string size = std::to_string(w) + "x" + std::to_string(h);
     ScalingRun run(context, study);
-    const Curve sizes = sizesOf(run, quick), shares = sharesOf(run, w, h, quick),
-                classes = classesOf(run, w, h, quick);
+    const Curve sizes = sizesOf(run, WallNoise::Sensor, quick), smooth = sizesOf(run, WallNoise::None, quick),
+                shares = sharesOf(run, w, h, quick), classes = classesOf(run, w, h, quick);
     run.draw(sizes, "every point forbidden", "pixels", true);
+    run.draw(smooth, "every point forbidden, noise-free", "pixels", true);
     run.draw(shares, size + ", forbidden share", "forbidden pixels [%]", false);
     run.draw(classes, size + ", 10 % forbidden, by classes", "classes of points", false);
     return study;

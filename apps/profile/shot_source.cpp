@@ -88,7 +88,7 @@ ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames) {
     return source;
 }
 
-ShotSource wallShot(uint32_t width, uint32_t height, double share) {
+ShotSource wallShot(uint32_t width, uint32_t height, double share, WallNoise noise) {
     ShotSource source{std::to_string(width) + "x" + std::to_string(height), {}, {}};
     Intrinsics& lens = source.camera.depth;
     lens.width = width, lens.height = height;
@@ -97,12 +97,17 @@ ShotSource wallShot(uint32_t width, uint32_t height, double share) {
     source.camera.colour = lens;
     source.camera.metresPerUnit = 0.0001;
     Shot& shot = source.shots.emplace_back();
+    const NormalTable normal;
     const auto redRows = static_cast<uint32_t>(std::lround(share * height));
     const auto yellowRows = std::max(1u, height / 50);
     for (uint32_t v = 0; v < height; ++v) {
         for (uint32_t u = 0; u < width; ++u) {
             const double x = u / static_cast<double>(width), y = v / static_cast<double>(height);
-            const double z = 0.8 + 0.03 * std::sin(9.0 * x) * std::cos(7.0 * y);
+            double z = 0.8 + 0.03 * std::sin(9.0 * x) * std::cos(7.0 * y);
+            if (noise == WallNoise::Sensor) {
+                const uint64_t bits = counterBits(1, 0, v * width + u, NoisePurpose::Depth);
+                z += SimulatedCamera::kDepthSigmaShare * depthSigma(z) * normal(static_cast<uint32_t>(bits));
+            }
             shot.depth.push_back(static_cast<uint16_t>(std::lround(z / source.camera.metresPerUnit)));
             shot.colour.push_back(v < redRows ? kRed : v < redRows + yellowRows ? kYellow : kGrey);
         }

@@ -18,9 +18,11 @@ ShotSource twoCameraShots(const std::string& scene, uint32_t width, uint32_t hei
 // The first `frames` good pictures of a recording. Throws BadInput.
 ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames);
 
-// A gently waved wall 0.8 m away, noise-free. Of the picture, `share` (0..1, whole rows from the top) shows
-// red, the next 2 % yellow, the rest grey.
-ShotSource wallShot(uint32_t width, uint32_t height, double share);
+// A gently waved wall 0.8 m away. Of the picture, `share` (0..1, whole rows from the top) shows red, the next
+// 2 % yellow, the rest grey. Sensor: with the depth noise of the simulated camera (0.6 mm there), which
+// thinning leaves three times as many points of at 640x480; no pixel is without a reading.
+enum class WallNoise { None, Sensor };
+ShotSource wallShot(uint32_t width, uint32_t height, double share, WallNoise noise = WallNoise::None);
 
 // Every point of a picture forbidden, R = 20 mm, and nothing left out or moved: as many spheres as points, in
 // sets that the CPU's query and the GPU's can both be asked about.

@@ -112,6 +112,36 @@ TEST_CASE(
     CHECK(wrong > 2 * missed);
 }
 
+TEST_CASE("The wall's noise is the simulated camera's: its sigma at 0.8 m, no pixel without a reading") {
+    const ShotSource noisy = wallShot(320, 240, 1.0, WallNoise::Sensor), smooth = wallShot(320, 240, 1.0);
+    const auto& a = noisy.shots.front().depth;
+    const auto& b = smooth.shots.front().depth;
+    double squares = 0.0, sum = 0.0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        const double e = (a[i] - b[i]) * noisy.camera.metresPerUnit;
+        squares += e * e, sum += e;
+        CHECK((a[i] != 0 && std::abs(e) < 0.003));
+    }
+    const double count = static_cast<double>(a.size());
+    CHECK(std::sqrt(squares / count) / (0.3 * depthSigma(0.8)) == doctest::Approx(1.0).epsilon(0.02));
+    CHECK(std::abs(sum / count) < 1e-5);
+}
+
+TEST_CASE(
+    "Thinning leaves three quarters of a noisy wall's points at 640x480 and less than a third of a smooth "
+    "one's") {
+    const gpu::Instance instance;
+    gpu::Device device{instance, "llvmpipe"};
+    const auto left = [&](WallNoise noise) {
+        const ShotSource source = wallShot(640, 480, 1.0, noise);
+        FrameBench bench(device, studyScene({}), source.camera);
+        bench.run(source.shots.front());
+        return static_cast<double>(bench.set().host.spheres.size()) / (640.0 * 480.0);
+    };
+    CHECK(left(WallNoise::Sensor) == doctest::Approx(0.77).epsilon(0.03));
+    CHECK(left(WallNoise::None) == doctest::Approx(0.26).epsilon(0.03));
+}
+
 TEST_CASE("Half precision rounds to the nearest, or up where a bound must hold") {
     for (const double value : {0.0, 1.0, 0.5, 65504.0, 6e-8, 0.0312, 1.0009765625, 0.8, 3.14159}) {
         CAPTURE(value);
