@@ -139,7 +139,7 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         row.source = source;
         row.setting = step;
         const bool onDevice = need.where == Need::Where::Device;
-        (onDevice ? row.cost.gpu : row.cost.cpu) = time;
+        (onDevice ? row.cost.gpu : row.cost.wall) = time; // the host's steps are shared by threads
         const double moving = need.pictures > 0.0
                                   ? readingMs(ceilings, need.bytes, need.pictures, load.inPlace)
                                   : 1e3 * need.bytes / bytesPerSecond(ceilings, need.where);
@@ -220,7 +220,7 @@ Study limitStudy(const StudyContext& context) {
                      "the float64 twins";
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are the steps of one frame at the default settings";
-    study.timeName = "time p50";
+    study.timeName = "GPU time p50 of a pass, wall time p50 of a step of the host's";
     study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",
                        "computing_ms",      "floor_ms",           "ratio"};
     Settings plain = context.settings;

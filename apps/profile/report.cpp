@@ -44,11 +44,13 @@ std::vector<std::pair<std::string, double>> timesOf(const Cost& cost) {
     add("gpu", cost.gpu);
     add("submit_to_result", cost.submit);
     add("cpu", cost.cpu);
+    add("wall", cost.wall);
     return out;
 }
 
 int64_t repeatsOf(const Cost& cost) {
-    return static_cast<int64_t>(std::max({cost.gpu.count, cost.submit.count, cost.cpu.count}));
+    return static_cast<int64_t>(
+        std::max({cost.gpu.count, cost.submit.count, cost.cpu.count, cost.wall.count}));
 }
 
 Json number(double value) {

@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <ctime>
+#include <limits>
 
 namespace fathom::profile {
 
 namespace {
+
+constexpr size_t kLeastForP99 = 100;
 
 double threadSeconds() {
     timespec t{};
@@ -24,7 +27,8 @@ Spread spreadOf(std::vector<double> values) {
     const auto rank = [&](size_t percent) {
         return values[std::max<size_t>(1, (percent * values.size() + 99) / 100) - 1];
     };
-    return {rank(50), rank(90), rank(99), values.size()};
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    return {rank(50), rank(90), values.size() >= kLeastForP99 ? rank(99) : none, values.size()};
 }
 
 Clocks::Clocks()

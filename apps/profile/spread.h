@@ -9,7 +9,7 @@
 namespace fathom::profile {
 
 // Nearest-rank percentiles of `count` values, in the unit of the values; all zero when count is 0. With fewer
-// than 100 values p99 is the largest.
+// than 100 values p99 is not a number: by rank it would be the largest of them, whatever that is a rank of.
 struct Spread {
     double p50 = 0.0, p90 = 0.0, p99 = 0.0;
     size_t count = 0;
@@ -18,10 +18,12 @@ struct Spread {
 };
 Spread spreadOf(std::vector<double> values);
 
-// What one piece of work costs, in ms. The three overlap and none is subtracted from another: device time by
-// timestamps, from the submission until its result is known to the host, and CPU time of the calling thread.
+// What one piece of work costs, in ms. They overlap and none is subtracted from another: device time by
+// timestamps, from the submission until its result is known to the host, and CPU time of the calling thread;
+// where a step of the host's is known by its begin and end alone, or several threads share it, wall time.
 struct Cost {
     Spread gpu, submit, cpu;
+    Spread wall = {};
 };
 
 // How often a measurement is repeated: at least `least` times, then until `seconds` are over or `most` is
