@@ -9,6 +9,8 @@
 #include "engine/cloud/tree_query.h"
 #include "engine/contact/cull_cpu.h"
 
+#include <unordered_map>
+
 namespace fathom::profile {
 
 namespace {
@@ -58,6 +60,19 @@ struct Workload {
     }
 };
 
+// Times work(pose index) over all poses, each a share of a sample.
+template <class Work>
+void timePoses(const StudyContext& context, Work&& work, StudyRow& row) {
+    row.cost = timeCpu(context.settings.effort(), [&] {
+        for (size_t i = 0; i < kPoses; ++i) {
+            work(i);
+        }
+    });
+    for (Spread* s : {&row.cost.submit, &row.cost.cpu}) {
+        s->p50 /= kPoses, s->p90 /= kPoses, s->p99 /= kPoses;
+    }
+}
+
 // Answers query(pose index, found) at every pose, counts what differs from float64, then times it.
 template <class Query>
 void answerAndTime(const StudyContext& context, const Workload& work, Query&& query, StudyRow& row) {
@@ -70,14 +85,8 @@ void answerAndTime(const StudyContext& context, const Workload& work, Query&& qu
         row.more[kTies] += static_cast<double>(d.ties);
     }
     row.more[kFound] = work.found;
-    row.cost = timeCpu(context.settings.effort(), [&] {
-        for (size_t i = 0; i < kPoses; ++i) {
-            query(i, found);
-        }
-    });
-    for (Spread* s : {&row.cost.submit, &row.cost.cpu}) {
-        s->p50 /= kPoses, s->p90 /= kPoses, s->p99 /= kPoses;
-    }
+    timePoses(
+        context, [&](size_t i) { query(i, found); }, row);
 }
 
 void demandRight(const StudyRow& row) {
@@ -103,21 +112,43 @@ StudyRow ourGrid(const StudyContext& context, const Rig& rig, const Workload& wo
     return row;
 }
 
-// What a turn really gets: the same set sorted, with all pairs, certified. An overflow halves the reach: then
-// it is another question and its answer is not compared.
+// The spheres of a whole answer, by index; compared within the reach that it certifies, for an overflow
+// halves it.
+peers::Disagreement wholeDisagreement(const Rig& rig, const PosedLeaves& leaves, const ContactSet& set) {
+    const RegionSpheres& spheres = rig.host().spheres;
+    std::unordered_map<uint32_t, uint32_t> indexOf; // of a slot
+    for (uint32_t i = 0; i < spheres.size(); ++i) {
+        indexOf.emplace(spheres.source[i], i);
+    }
+    std::vector<uint32_t> found;
+    for (const uint32_t slot : set.source) {
+        found.push_back(indexOf.at(slot));
+    }
+    return peers::disagreement(peers::nearbyGaps(spheres, leaves, set.reach), found);
+}
+
+// What a turn really gets: the same set sorted, with all pairs, certified.
 StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workload& work,
                         const std::string& source) {
     StudyRow row = peerRow(source, "Fathom CPU whole answer");
     row.more[kThreads] = 1.0;
     CullCpu cull;
     ContactSet set;
-    answerAndTime(
-        context, work,
-        [&](size_t i, std::vector<uint32_t>&) {
+    peers::Disagreement all;
+    for (size_t i = 0; i < kPoses; ++i) {
+        cull.query(work.tool, work.poses[i], kReach, rig.host(), rig.bench.set().grid, set);
+        const peers::Disagreement d = wholeDisagreement(rig, work.leaves[i], set);
+        all.differ += d.differ, all.ties += d.ties;
+    }
+    row.error = static_cast<double>(all.differ);
+    row.more[kTies] = static_cast<double>(all.ties);
+    demandRight(row);
+    timePoses(
+        context,
+        [&](size_t i) {
             cull.query(work.tool, work.poses[i], kReach, rig.host(), rig.bench.set().grid, set);
         },
         row);
-    row.error = row.more[kTies] = NAN;
     return row;
 }
 

@@ -22,14 +22,27 @@ std::vector<std::string> sourcesOf(const Study& study) {
     return names;
 }
 
-bool counts(const Study& study, const StudyRow& row) {
-    return std::isfinite(row.error) && timeOf(study, row) > 0.0;
-}
+// What rows are compared by.
+class Ranking {
+public:
+    Ranking(const Study& study, const Judgement& by)
+        : study_(study)
+        , by_(by) {}
+    double time(const StudyRow& row) const { return by_.time ? by_.time(row) : timeOf(study_, row); }
+    double error(const StudyRow& row) const { return by_.error ? by_.error(row) : row.error; }
+    std::string unit(const StudyRow& row) const {
+        return by_.errorUnit ? by_.errorUnit(row) : study_.errorUnit;
+    }
+    bool counts(const StudyRow& row) const { return std::isfinite(error(row)) && time(row) > 0.0; }
+    bool dominates(const StudyRow& a, const StudyRow& b, double margin) const {
+        return a.source == b.source && counts(a) && time(a) <= time(b) && error(a) <= error(b) &&
+               (time(a) < margin * time(b) || error(a) < margin * error(b));
+    }
 
-bool dominates(const Study& study, const StudyRow& a, const StudyRow& b, double margin) {
-    const double ta = timeOf(study, a), tb = timeOf(study, b);
-    return ta <= tb && a.error <= b.error && (ta < margin * tb || a.error < margin * b.error);
-}
+private:
+    const Study& study_;
+    const Judgement& by_;
+};
 
 // The front of a cloud of points.
 void markPoints(std::vector<PlotPoint>& points) {
@@ -40,21 +53,30 @@ void markPoints(std::vector<PlotPoint>& points) {
     }
 }
 
-void judgeDefault(Study& study, const StudyRow& chosen) {
+std::string wordsOf(const Study& study, const Ranking& ranking, const StudyRow& chosen,
+                    const StudyRow* best) {
+    if (!ranking.counts(chosen)) {
+        return "is not judged: it has no error or no time on this source";
+    }
+    if (best == nullptr) {
+        return "lies on the Pareto front";
+    }
+    return "is off the front: '" + best->setting + "' has " + digits(ranking.error(*best)) + " against " +
+           digits(ranking.error(chosen)) + " " + ranking.unit(chosen) + " at " + digits(ranking.time(*best)) +
+           " against " + digits(ranking.time(chosen)) + " ms" +
+           (study.defaultReason.empty() ? "" : "; it stays the default: " + study.defaultReason);
+}
+
+void judgeDefault(Study& study, const Ranking& ranking, const StudyRow& chosen) {
     const StudyRow* best = nullptr;
     for (const StudyRow& row : study.rows) {
-        if (row.source == chosen.source && counts(study, row) && dominates(study, row, chosen, kSame) &&
-            (best == nullptr || timeOf(study, row) < timeOf(study, *best))) {
+        if (ranking.dominates(row, chosen, kSame) &&
+            (best == nullptr || ranking.time(row) < ranking.time(*best))) {
             best = &row;
         }
     }
-    Verdict verdict{chosen.source, chosen.setting, best == nullptr, "lies on the Pareto front"};
-    if (best != nullptr) {
-        verdict.words = "is off the front: '" + best->setting + "' has " + digits(best->error) + " against " +
-                        digits(chosen.error) + " " + study.errorUnit + " at " + digits(timeOf(study, *best)) +
-                        " against " + digits(timeOf(study, chosen)) + " ms" +
-                        (study.defaultReason.empty() ? "" : "; it stays the default: " + study.defaultReason);
-    }
+    Verdict verdict{chosen.source, chosen.setting, best == nullptr && ranking.counts(chosen),
+                    wordsOf(study, ranking, chosen, best)};
     study.findings.push_back("default '" + verdict.setting + "' on " + verdict.source + " " + verdict.words);
     study.verdicts.push_back(std::move(verdict));
 }
@@ -73,17 +95,17 @@ double timeOf(const Study& study, const StudyRow& row) {
     return 0.0;
 }
 
-void markFront(Study& study) {
+void markFront(Study& study, const Judgement& by) {
+    const Ranking ranking(study, by);
     for (StudyRow& row : study.rows) {
-        row.onFront = counts(study, row) &&
+        row.onFront = ranking.counts(row) &&
                       std::none_of(study.rows.begin(), study.rows.end(), [&](const StudyRow& other) {
-                          return &other != &row && other.source == row.source && counts(study, other) &&
-                                 dominates(study, other, row, 1.0);
+                          return &other != &row && ranking.dominates(other, row, 1.0);
                       });
     }
     for (const StudyRow& row : study.rows) {
-        if (row.isDefault && counts(study, row)) {
-            judgeDefault(study, row);
+        if (row.isDefault) {
+            judgeDefault(study, ranking, row);
         }
     }
 }

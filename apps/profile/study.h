@@ -93,13 +93,21 @@ struct Study {
 // p50 of the time that the study ranks by [ms].
 double timeOf(const Study& study, const StudyRow& row);
 
+// A number of a row; empty = the study's own time or error.
+using RowValue = std::function<double(const StudyRow&)>;
+// What a study is judged by where its sources differ in it.
+struct Judgement {
+    RowValue time, error;                                       // [ms]; lower is better
+    std::function<std::string(const StudyRow&)> errorUnit = {}; // empty = the study's
+};
+
 // Marks the Pareto front of each source and says of each default, as a verdict and as a finding, whether it
-// lies on it (within 5 % of time and error, what repeats differ by) or which setting beats it.
-void markFront(Study& study);
+// lies on it (within 5 % of time and error, what repeats differ by), which setting beats it, or that it has
+// no error or time to be judged by.
+void markFront(Study& study, const Judgement& by = {});
 
 // One panel with a series a source and the front of what it shows. x and y of a row; empty = the study's own
 // time and error. Rows without a finite y or a positive x are left out, and sources without any row.
-using RowValue = std::function<double(const StudyRow&)>;
 PlotPanel frontPanel(const Study& study, const std::string& title, const RowValue& x = {},
                      const RowValue& y = {});
 

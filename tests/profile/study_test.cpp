@@ -87,6 +87,38 @@ TEST_CASE(
     CHECK(study.findings[0] == "default 'mine' on s lies on the Pareto front");
 }
 
+TEST_CASE("A study whose sources differ in what errs and what is timed is judged by that, in its own unit") {
+    Study study;
+    study.errorUnit = "count";
+    study.defaultReason = "because";
+    study.rows = {row("ours", NAN, 2.0, true), row("theirs", NAN, 1.0)};
+    study.rows[0].cost.cpu = {0.5, 0.5, 0.5, 5}, study.rows[1].cost.cpu = {0.4, 0.4, 0.4, 5};
+    study.rows[0].more = {3.0}, study.rows[1].more = {2.0};
+    const Judgement by{[](const StudyRow& r) { return r.cost.cpu.p50; },
+                       [](const StudyRow& r) { return r.more[0]; }, [](const StudyRow&) { return "mm"; }};
+    markFront(study, by);
+    REQUIRE(study.verdicts.size() == 1);
+    CHECK(
+        study.verdicts[0].words ==
+        "is off the front: 'theirs' has 2 against 3 mm at 0.4 against 0.5 ms; it stays the default: because");
+    CHECK(!study.verdicts[0].onFront);
+    CHECK(study.rows[1].onFront);
+    study.verdicts.clear();
+    study.rows[1].more = {3.1}; // errs more
+    markFront(study, by);
+    CHECK(study.verdicts[0].onFront);
+    CHECK(study.verdicts[0].words == "lies on the Pareto front");
+}
+
+TEST_CASE("A default without an error is not called one on the front") {
+    Study study;
+    study.rows = {row("mine", NAN, 2.0, true), row("other", 1.0, 3.0)};
+    markFront(study);
+    REQUIRE(study.verdicts.size() == 1);
+    CHECK(!study.verdicts[0].onFront);
+    CHECK(study.verdicts[0].words == "is not judged: it has no error or no time on this source");
+}
+
 TEST_CASE("A power law is found again from its points, and one point or none gives no law") {
     std::vector<PlotPoint> points;
     for (double x : {1.0, 3.0, 10.0, 70.0}) {
