@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/study_plot.h"
+#include "apps/profile/plot_labels.h"
 
 #include <algorithm>
 #include <array>
@@ -23,11 +24,6 @@ constexpr std::array<Colour, 11> kSeries{{{0.0, 0.45, 0.70},
                                           {0.0, 0.0, 0.0},
                                           {0.53, 0.56, 0.0},
                                           {0.43, 0.27, 0.67}}};
-
-struct Box4 {
-    double x0, y0, x1, y1;
-    bool meets(const Box4& o) const { return x0 < o.x1 && o.x0 < x1 && y0 < o.y1 && o.y0 < y1; }
-};
 
 // One panel in its rectangle of the picture.
 class PanelPainter {
@@ -171,48 +167,42 @@ private:
         }
     }
 
-    bool free(const Box4& box) const {
-        const auto meets = [&](const Box4& b) { return b.meets(box); };
-        return box.x1 < x1_ + 14.0 && box.y0 > y0_ - 12.0 && box.y1 < y1_ &&
-               std::none_of(taken_.begin(), taken_.end(), meets);
-    }
-
-    // Points of the front and defaults first; a label that finds no room is left out (the table has all).
-    void paintLabels() {
+    // Points of the front and defaults choose first.
+    void paintLabels() const {
+        std::vector<PlotBox> taken;
+        std::vector<LabelWish> wishes;
+        std::vector<const PlotPoint*> points;
         for (const PlotSeries& s : panel_.series) {
             for (const PlotPoint& q : s.points) {
-                const double r = q.isDefault ? 10.0 : 4.0;
-                taken_.push_back({x_.at(q.x) - r, y_.at(q.y) - r, x_.at(q.x) + r, y_.at(q.y) + r});
-            }
-        }
-        for (int pass = 0; pass < 3; ++pass) {
-            for (const PlotSeries& s : panel_.series) {
-                for (const PlotPoint& q : s.points) {
-                    if (!q.label.empty() && pass == (q.isDefault ? 0 : q.isFront ? 1 : 2)) {
-                        place(q);
-                    }
+                const double r = q.isDefault ? 10.0 : 4.0, x = x_.at(q.x), y = y_.at(q.y);
+                taken.push_back({x - r, y - r, x + r, y + r});
+                if (!q.label.empty()) {
+                    points.push_back(&q);
                 }
             }
         }
+        std::stable_sort(points.begin(), points.end(), [](const PlotPoint* a, const PlotPoint* b) {
+            return std::pair(!a->isDefault, !a->isFront) < std::pair(!b->isDefault, !b->isFront);
+        });
+        for (const PlotPoint* q : points) {
+            wishes.push_back({x_.at(q->x), y_.at(q->y), p_.textWidth(textOf(*q), 12, q->isDefault)});
+        }
+        const auto places = placeLabels(wishes, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
+        for (size_t i = 0; i < points.size(); ++i) {
+            paintLabel(*points[i], wishes[i], places[i]);
+        }
     }
 
-    void place(const PlotPoint& q) {
-        const std::string label = q.isDefault ? q.label + " (default)" : q.label;
-        const double width = p_.textWidth(label, 12, q.isDefault), x = x_.at(q.x), y = y_.at(q.y);
-        const std::array<std::array<double, 2>, 6> offsets{{{11.0, -7.0},
-                                                            {11.0, 4.0},
-                                                            {11.0, 18.0},
-                                                            {-11.0 - width, -7.0},
-                                                            {-11.0 - width, 4.0},
-                                                            {-11.0 - width, 18.0}}};
-        for (const auto& [dx, dy] : offsets) {
-            const Box4 box{x + dx, y + dy - 11.0, x + dx + width, y + dy + 3.0};
-            if (free(box) && box.x0 > x0_) {
-                words(x + dx, y + dy, label, q.isFront || q.isDefault ? kInk : kFaint, q.isDefault);
-                taken_.push_back(box);
-                return;
-            }
+    static std::string textOf(const PlotPoint& q) { return q.isDefault ? q.label + " (default)" : q.label; }
+
+    void paintLabel(const PlotPoint& q, const LabelWish& wish, const LabelPlace& place) const {
+        if (!place.beside) { // to the nearer end of the text
+            const bool right = place.x >= wish.x;
+            line(wish.x, wish.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0, kFaint.alpha(0.5),
+                 0.8);
         }
+        const Colour colour = q.isFront || q.isDefault ? kInk : kFaint;
+        words(place.x, place.y, textOf(q), colour, q.isDefault);
     }
 
     void paintLegend() const {
@@ -257,7 +247,6 @@ private:
     const PlotPanel& panel_;
     double x0_, x1_, y0_, y1_;
     PanelAxis x_, y_;
-    std::vector<Box4> taken_;
 };
 
 } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arithmetic that studies rest on: percentiles, the front, the fit, the distance between boundaries.
+#include "apps/profile/plot_labels.h"
 #include "apps/profile/region_boundary.h"
 #include "apps/profile/study_plot.h"
 #include "engine/types/error.h"
@@ -179,4 +180,45 @@ TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart
         CHECK(brief.ticks().size() <= 6);
     }
     CHECK(panelAxis({5.0, 5.0}, true, 0.0, 1.0).at(5.0) == doctest::Approx(0.5));
+}
+
+TEST_CASE(
+    "Every point of a crowded panel gets a label of its own that meets no other, no point and no border") {
+    const PlotBox room{80.0, 100.0, 700.0, 560.0};
+    std::vector<LabelWish> wishes;
+    std::vector<PlotBox> points;
+    for (int i = 0; i < 70; ++i) { // a cluster, and some at the borders
+        const int across = i % 10, down = i / 10;
+        const double x = i < 60 ? 300.0 + 7.0 * across : 85.0 + 68.0 * (i - 60),
+                     y = i < 60 ? 200.0 + 6.0 * down : (i % 2 == 0 ? 104.0 : 556.0);
+        wishes.push_back({x, y, 90.0});
+        points.push_back({x - 4.0, y - 4.0, x + 4.0, y + 4.0});
+    }
+    const std::vector<LabelPlace> places = placeLabels(wishes, room, points);
+    REQUIRE(places.size() == wishes.size());
+    size_t led = 0;
+    for (size_t i = 0; i < places.size(); ++i) {
+        CAPTURE(i);
+        const PlotBox& box = places[i].box;
+        led += places[i].beside ? 0 : 1;
+        CHECK((box.x0 > room.x0 && box.x1 < room.x1 && box.y0 > room.y0 && box.y1 < room.y1));
+        for (size_t k = 0; k < i; ++k) {
+            CHECK(!box.meets(places[k].box));
+        }
+        for (const PlotBox& point : points) {
+            CHECK(!box.meets(point));
+        }
+    }
+    CHECK(led > 20);
+    CHECK(led < 65);
+    const auto alone = placeLabels({{400.0, 300.0, 90.0}}, room, {{396.0, 296.0, 404.0, 304.0}});
+    CHECK(alone.front().beside);
+}
+
+TEST_CASE("Where no spot is free a label still stands beside its point") {
+    const auto places =
+        placeLabels({{50.0, 50.0, 90.0}}, {0.0, 0.0, 100.0, 100.0}, {{0.0, 0.0, 100.0, 100.0}});
+    REQUIRE(places.size() == 1);
+    CHECK(places.front().beside);
+    CHECK(places.front().x == doctest::Approx(61.0));
 }

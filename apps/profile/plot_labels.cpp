@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/plot_labels.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kAscent = 11.0, kDescent = 3.0, kGap = 11.0; // [pixels]
+constexpr int kDirections = 24;
+
+LabelPlace placeAt(const LabelWish& wish, double x, double y, bool beside) {
+    return {x, y, beside, {x, y - kAscent, x + wish.width, y + kDescent}};
+}
+
+bool isFree(const PlotBox& box, const PlotBox& room, const std::vector<PlotBox>& taken) {
+    return box.x0 > room.x0 && box.x1 < room.x1 && box.y0 > room.y0 && box.y1 < room.y1 &&
+           std::none_of(taken.begin(), taken.end(), [&](const PlotBox& b) { return b.meets(box); });
+}
+
+// At the right or the left of the point, above it, level with it or below.
+std::optional<LabelPlace> placeBeside(const LabelWish& wish, const PlotBox& room,
+                                      const std::vector<PlotBox>& taken) {
+    for (const double dx : {kGap, -kGap - wish.width}) {
+        for (const double dy : {-7.0, 4.0, 18.0}) {
+            const LabelPlace place = placeAt(wish, wish.x + dx, wish.y + dy, true);
+            if (isFree(place.box, room, taken)) {
+                return place;
+            }
+        }
+    }
+    return {};
+}
+
+// On rings about the point, the nearest that is free.
+std::optional<LabelPlace> placeOff(const LabelWish& wish, const PlotBox& room,
+                                   const std::vector<PlotBox>& taken) {
+    const double farthest = std::hypot(room.x1 - room.x0, room.y1 - room.y0);
+    for (double ring = 24.0; ring < farthest; ring += 8.0) {
+        for (int k = 0; k < kDirections; ++k) {
+            const double angle = 2.0 * M_PI * k / kDirections, x = wish.x + ring * std::cos(angle),
+                         y = wish.y + ring * std::sin(angle);
+            const LabelPlace place = placeAt(wish, std::cos(angle) < 0.0 ? x - wish.width : x, y, false);
+            if (isFree(place.box, room, taken)) {
+                return place;
+            }
+        }
+    }
+    return {};
+}
+
+} // namespace
+
+std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const PlotBox& room,
+                                    std::vector<PlotBox> taken) {
+    std::vector<LabelPlace> places;
+    for (const LabelWish& wish : wishes) {
+        std::optional<LabelPlace> place = placeBeside(wish, room, taken);
+        place = place ? place : placeOff(wish, room, taken);
+        places.push_back(place ? *place : placeAt(wish, wish.x + kGap, wish.y - 7.0, true));
+        taken.push_back(places.back().box);
+    }
+    return places;
+}
+
+} // namespace fathom::profile
