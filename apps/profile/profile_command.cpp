@@ -10,6 +10,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
+#include <ctime>
 #include <iostream>
 #include <memory>
 
@@ -71,7 +73,8 @@ std::string subtitleOf(const Facts& facts) {
 void writeStudy(const Study& study, const Facts& facts, const std::filesystem::path& folder) {
     writeStudyCsv(study, folder / (study.name + ".csv"));
     writeStudyPlot(study, subtitleOf(facts), folder / (study.name + ".png"));
-    std::cout << study.name << ": " << study.rows.size() << " settings, verified: " << study.verified << "\n";
+    std::cout << study.name << ": " << study.rows.size() << " settings, verified: " << study.verified << "\n"
+              << "  measured: " << study.served << "\n";
     for (const std::string& finding : study.findings) {
         std::cout << "  " << finding << "\n";
     }
@@ -84,20 +87,24 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
     const gpu::Instance instance;
     gpu::Device device(instance, global.device);
     const StudyContext context{device, settings};
+    const auto began = std::chrono::steady_clock::now();
     const Facts facts = runFacts(device, settings, commandOf(settings, global));
     std::vector<Study> studies;
     for (const StudyEntry& entry : allStudies()) {
         if (wanted(settings, entry.name)) {
             studies.push_back(entry.run(context));
+            studies.back().served = servedBy(entry.name, settings);
             writeStudy(studies.back(), facts, settings.out);
         }
     }
     if (!global.trace.empty()) {
         writeTimeLine(context, global.trace);
     }
-    writeProfileJson(facts, studies, settings.out / "profile.json");
+    const RunTime time{std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
+                       static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+    writeProfileJson(facts, studies, time, settings.out / "profile.json");
     writeReportHtml(facts, studies, settings.out);
-    std::cout << "written to " << settings.out.string() << "\n";
+    std::cout << "took " << digits(time.wall) << " s; written to " << settings.out.string() << "\n";
 }
 
 } // namespace

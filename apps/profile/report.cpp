@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/report.h"
 
+#include "apps/profile/shot_source.h"
 #include "apps/replay/csv.h"
 #include "apps/replay/output_file.h"
 #include "engine/types/processors.h"
+#include "engine/types/version.h"
 
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +17,14 @@ namespace fathom::profile {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+#ifdef FATHOM_SANITIZED
+constexpr const char* kBuild = "sanitized: no time below means anything";
+#elif defined(NDEBUG)
+constexpr const char* kBuild = "release";
+#else
+constexpr const char* kBuild = "not optimised: no time below means anything";
+#endif
 
 std::string firstMatch(const std::string& file, const std::string& key) {
     std::ifstream in(file);
@@ -102,6 +113,7 @@ Json studyJson(const Study& study) {
     s["name"] = study.name;
     s["title"] = study.title;
     s["verified"] = study.verified;
+    s["served"] = study.served;
     s["error"] = study.errorName;
     s["error_unit"] = study.errorUnit;
     s["time"] = study.timeName;
@@ -115,32 +127,59 @@ Json studyJson(const Study& study) {
     return s;
 }
 
+std::string nowInUtc() {
+    const std::time_t now = std::time(nullptr);
+    std::tm utc{};
+    gmtime_r(&now, &utc);
+    char text[32];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+    return text;
+}
+
+// What a table depends on and a scene file may change; the studies that go over one of them say so in their
+// rows.
+Facts sceneFacts(const gpu::Device& device, const Settings& settings) {
+    const Scene scene = studyScene(settings);
+    std::string radii;
+    for (const FixtureClass& f : scene.fixtures) {
+        radii +=
+            f.role == Role::Forbidden && f.isPoints() ? (radii.empty() ? "" : " ") + digits(f.radius) : "";
+    }
+    const Plan plan = makePlan(scene, wallShot(640, 480, 1.0).camera, 1, device.facts());
+    return {{"filter_radius_pixels", std::to_string(scene.filter.radius)},
+            {"filter_sigma_m", digits(scene.filter.sigma)},
+            {"filter_edge", digits(scene.filter.edge)},
+            {"region_radius_m", radii.empty() ? "no forbidden class" : radii},
+            {"error_budget_m", digits(scene.errorBudget)},
+            {"hold_s", digits(scene.holdSeconds)},
+            {"publishers", std::to_string(plan.publishers)}};
+}
+
 } // namespace
 
 Facts runFacts(const gpu::Device& device, const Settings& settings, const std::string& command) {
     const DeviceFacts& f = device.facts();
     const char* const threads = std::getenv("LP_NUM_THREADS"); // of Mesa's software device
     const char* kinds[] = {"discrete", "integrated", "cpu", "other"};
-    return {{"command", command},
-            {"device", f.name},
-            {"driver", f.driver},
-            {"device_kind", kinds[static_cast<size_t>(f.kind)]},
-            {"subgroup", std::to_string(f.subgroupSize)},
-            {"timestamps", f.timestampPeriodNs > 0.0 ? "yes" : "no"},
-            {"host_cpu", firstMatch("/proc/cpuinfo", "model name")},
-            {"host_cpus", std::to_string(usableProcessors())},
-            {"LP_NUM_THREADS", threads == nullptr ? "not set" : threads},
-            {"load_average", firstMatch("/proc/loadavg", "")},
-            {"source", settings.source.empty() ? "analytic scenes" : settings.source.filename().string()},
-            {"scene", settings.scene.empty() ? "built in" : settings.scene.filename().string()},
-            {"quick", settings.quick ? "yes" : "no"},
-#ifdef FATHOM_SANITIZED
-            {"build", "sanitized: no time below means anything"}};
-#elif defined(NDEBUG)
-            {"build", "release"}};
-#else
-            {"build", "not optimised: no time below means anything"}};
-#endif
+    Facts facts{{"command", command},
+                {"version", version()},
+                {"date", nowInUtc()},
+                {"device", f.name},
+                {"driver", f.driver},
+                {"device_kind", kinds[static_cast<size_t>(f.kind)]},
+                {"subgroup", std::to_string(f.subgroupSize)},
+                {"timestamps", f.timestampPeriodNs > 0.0 ? "yes" : "no"},
+                {"host_cpu", firstMatch("/proc/cpuinfo", "model name")},
+                {"host_cpus", std::to_string(usableProcessors())},
+                {"LP_NUM_THREADS", threads == nullptr ? "not set" : threads},
+                {"load_average", firstMatch("/proc/loadavg", "")},
+                {"source", settings.source.empty() ? "analytic scenes" : settings.source.filename().string()},
+                {"scene", settings.scene.empty() ? "built in" : settings.scene.filename().string()},
+                {"quick", settings.quick ? "yes" : "no"},
+                {"build", kBuild}};
+    const Facts ofScene = sceneFacts(device, settings);
+    facts.insert(facts.end(), ofScene.begin(), ofScene.end());
+    return facts;
 }
 
 void writeStudyCsv(const Study& study, const std::filesystem::path& file) {
@@ -179,9 +218,11 @@ void writeStudyCsv(const Study& study, const std::filesystem::path& file) {
     out.commit();
 }
 
-void writeProfileJson(const Facts& facts, const std::vector<Study>& studies,
+void writeProfileJson(const Facts& facts, const std::vector<Study>& studies, const RunTime& time,
                       const std::filesystem::path& file) {
     Json all;
+    all["run_seconds"] = time.wall;
+    all["run_cpu_seconds"] = time.cpu;
     for (const auto& [name, value] : facts) {
         all["facts"][name] = value;
     }

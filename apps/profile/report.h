@@ -10,13 +10,19 @@
 
 namespace fathom::profile {
 
-// Facts of the run that every figure hangs on: device, driver, host CPU, settings, load. In order.
+// Facts of the run that every figure hangs on: version, date, device, driver, host CPU, load, and the
+// settings of the scene. In order. Throws BadInput for the scene file.
 using Facts = std::vector<std::pair<std::string, std::string>>;
 Facts runFacts(const gpu::Device& device, const Settings& settings, const std::string& command);
 
+// How long the studies took [s]: on the clock, and of all the program's threads on the processors.
+struct RunTime {
+    double wall = 0.0, cpu = 0.0;
+};
+
 // Every file appears whole or not at all. Throw Error that names the file.
 void writeStudyCsv(const Study& study, const std::filesystem::path& file);
-void writeProfileJson(const Facts& facts, const std::vector<Study>& studies,
+void writeProfileJson(const Facts& facts, const std::vector<Study>& studies, const RunTime& time,
                       const std::filesystem::path& file);
 // Self-contained: the pictures, which lie beside it, are embedded.
 void writeReportHtml(const Facts& facts, const std::vector<Study>& studies,

@@ -101,8 +101,9 @@ std::string defaultsOf(const Study& study) {
 std::string sectionOf(const Study& study, const std::filesystem::path& folder) {
     std::string html = "<h2 id=" + study.name + ">" + escaped(study.title) +
                        "</h2>\n<p class=why>verified before timing: " + escaped(study.verified) +
-                       "</p>\n<img alt=\"" + escaped(study.title) + "\" src=\"data:image/png;base64," +
-                       base64Of(folder / (study.name + ".png")) + "\">\n<ul>";
+                       "<br>measured: " + escaped(study.served) + "</p>\n<img alt=\"" + escaped(study.title) +
+                       "\" src=\"data:image/png;base64," + base64Of(folder / (study.name + ".png")) +
+                       "\">\n<ul>";
     for (const std::string& finding : study.findings) {
         html += "<li>" + escaped(finding) + "</li>\n";
     }

@@ -4,6 +4,7 @@
 
 #include "apps/profile/study.h"
 
+#include <string>
 #include <vector>
 
 namespace fathom::profile {
@@ -24,5 +25,10 @@ struct StudyEntry {
     Study (*run)(const StudyContext&);
 };
 const std::vector<StudyEntry>& allStudies(); // in the order in which they run
+
+// Whether a study measures the recording of --source; the others make what they need to measure.
+bool takesRecording(const std::string& study);
+// What served a study, for people: the recording, or why it did not.
+std::string servedBy(const std::string& study, const Settings& settings);
 
 } // namespace fathom::profile

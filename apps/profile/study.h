@@ -78,6 +78,7 @@ struct Study {
     std::string name;     // of its files
     std::string title;    // what it shows, for people
     std::string verified; // what was checked before anything was timed
+    std::string served;   // what it measured: a recording or pictures made for it; set by who runs it
     std::string errorName, errorUnit;
     TimeKind time = TimeKind::Submit;
     std::string timeName; // what the plotted time is

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom profile --quick` from outside: that every study runs, verifies what it times and leaves whole files
-// with the fields that they promise. No test looks at a time.
+// with the fields that they promise. No test looks at a time but that of the whole run.
 #include "tests/profile/quick_run.h"
+
+#include "engine/types/version.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <map>
 
 using namespace fathom;
 using namespace fathom::testing;
+using fathom::profile::Settings;
 
 TEST_CASE("A quick profile verifies every study and ends with code 0") {
     const QuickRun& run = quickRun();
@@ -18,6 +22,30 @@ TEST_CASE("A quick profile verifies every study and ends with code 0") {
         const auto& study = run.study(entry.name);
         CHECK(study["rows"].size() >= 2);
         CHECK(!study["verified"].get<std::string>().empty());
+    }
+}
+
+TEST_CASE("A quick profile takes less than two minutes by its own figure") {
+    if (kSanitized) {
+        MESSAGE("SKIPPED ALOUD: a sanitized program is slower by what its checks cost");
+        return;
+    }
+    const auto& report = quickRun().report;
+    const double wall = report["run_seconds"], cpu = report["run_cpu_seconds"];
+    CHECK(wall > 1.0);
+    CHECK(cpu > 1.0);
+    CHECK(std::min(wall, cpu) < 120.0); // others on the machine stretch the one and not the other
+}
+
+TEST_CASE("A study that measures no recording says so when one is given, and one that does names it") {
+    Settings settings;
+    CHECK(profile::servedBy("query", settings) == "pictures made for it");
+    settings.source = "data/valve_ball_d435/";
+    CHECK(profile::servedBy("filter", settings) == "the recording valve_ball_d435");
+    CHECK(profile::servedBy("query", settings) ==
+          "pictures made for it; this study has no use for --source valve_ball_d435");
+    for (const auto& entry : profile::allStudies()) {
+        CHECK(quickRun().study(entry.name)["served"] == "pictures made for it");
     }
 }
 
@@ -43,6 +71,14 @@ TEST_CASE("The report names the device, its driver, the settings and the clocks 
     const auto& facts = run.report["facts"];
     CHECK(facts["device"].get<std::string>().find("llvmpipe") != std::string::npos);
     CHECK(facts["command"] == "fathom --device llvmpipe profile --quick --out DIR");
+    CHECK(facts["version"] == version());
+    CHECK(facts["date"].get<std::string>().size() == std::string("2026-01-01T00:00:00Z").size());
+    CHECK(facts["filter_radius_pixels"] == "2");
+    CHECK(facts["filter_sigma_m"] == "0.01");
+    CHECK(facts["region_radius_m"] == "0.04");
+    CHECK(facts["error_budget_m"] == "0.0001");
+    CHECK(facts["hold_s"] == "0.5");
+    CHECK(std::stoul(facts["publishers"].get<std::string>()) >= 1);
     for (const char* name : {"driver", "host_cpu", "host_cpus", "LP_NUM_THREADS", "load_average", "source",
                              "scene", "quick", "build"}) {
         CHECK_MESSAGE(!facts[name].get<std::string>().empty(), name);
@@ -157,6 +193,7 @@ TEST_CASE("A recording gives the scatter between its repeats") {
     CHECK(run.exitCode == 0);
     const auto report = nlohmann::json::parse(textOf(out / "profile.json"));
     CHECK(report["facts"]["source"] == "valve_globe_d435");
+    CHECK(report["studies"][0]["served"] == "the recording valve_globe_d435");
     CHECK(report["studies"][0]["error"] == "scatter between repeats");
     for (const auto& row : report["studies"][0]["rows"]) {
         CHECK(row["error"].get<double>() > 0.1); // [mm] the D435's own noise at this range
