@@ -2,11 +2,14 @@
 #include "apps/profile/frame_bench.h"
 
 #include <algorithm>
+#include <malloc.h>
 #include <numeric>
 
 namespace fathom::profile {
 
 namespace {
+
+constexpr uint32_t kStill = 0xffffffffu; // source number that no other picture has
 
 double millis(std::chrono::steady_clock::duration d) {
     return std::chrono::duration<double, std::milli>(d).count();
@@ -15,6 +18,11 @@ double millis(std::chrono::steady_clock::duration d) {
 } // namespace
 
 void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
+    if (report.unchanged) { // nothing was submitted, landed or published
+        cpu.push_back(clocks.cpuMs());
+        total.push_back(report.latencyMs);
+        return;
+    }
     gpu.push_back(std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0));
     submit.push_back(millis(report.times.landed - report.times.submitted));
     cpu.push_back(clocks.cpuMs());
@@ -67,7 +75,7 @@ FrameReport FrameBench::process(size_t at) {
     lease_ = {};
     Frame::Content& content = placed_[at];
     content.index = frames_;
-    content.sourceNumber = frames_;
+    content.sourceNumber = still_ ? kStill : frames_;
     content.captureTime = frames_++ / 30.0;
     FrameReport report = cycle_->process(memory_[at]->lend(content));
     lease_ = cycle_->sets().newest();
@@ -105,6 +113,16 @@ FrameCost FrameBench::costOf(const FrameSamples& samples) const {
         cost.passes[cycle_->passNames()[i]] = spreadOf(samples.passes[i]);
     }
     return cost;
+}
+
+void FrameBench::setArm(cloud::LinkSpheres arm) {
+    arm_ = std::move(arm);
+    cycle_->setArm(arm_);
+}
+
+uint64_t heapBytes() {
+    const struct mallinfo2 heap = mallinfo2();
+    return heap.uordblks + heap.hblkhd;
 }
 
 uint64_t bytesOf(const Plan& plan) {

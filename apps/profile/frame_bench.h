@@ -33,7 +33,7 @@ struct ShotSource {
 
 struct FrameCost {
     Cost frame;   // gpu = sum of the passes, submit = submission until landed, cpu = of the calling thread
-    Spread total; // upload to published [ms]
+    Spread total; // upload to published [ms]; of a picture that is not new, until that is known
     Spread collected;       // upload until the host has what the device made: all of it but the grid [ms]
     Spread upload, publish; // on the host [ms]; publish: collect, then grid
     Spread collect, grid;   // what the device made; the grid over its spheres
@@ -63,6 +63,11 @@ public:
     void sample(const std::vector<Shot>& shots, const Effort& effort, FrameSamples& samples);
     FrameCost costOf(const FrameSamples& samples) const;
 
+    // The arm that pictures show from now on; nothing happens without Plan::selfFilter.
+    void setArm(cloud::LinkSpheres arm);
+    // From now on every picture is the same one again, as of a camera that has nothing new.
+    void holdStill() { still_ = true; }
+
     const Scene& scene() const { return scene_; }
     const Plan& plan() const { return plan_; }
     FrameCycle& cycle() const { return *cycle_; }
@@ -81,6 +86,8 @@ public:
     // Compares the host's spheres with the points that they came from: each stands about a forbidden point of
     // its own, no farther than rounding, with at least its class's radius. Empty when they agree.
     std::string spheresDiffer() const;
+    // Compares count and position (to 20 um) of every guidance class with the twin's. Empty when they agree.
+    std::string guidanceDiffers() const;
 
 private:
     void place(size_t at, const Shot& shot);
@@ -94,9 +101,14 @@ private:
     std::vector<std::unique_ptr<FrameSlot>> memory_; // shots of the present measurement
     std::vector<Frame::Content> placed_;
     cloud::FixturePool::Lease lease_;
+    cloud::LinkSpheres arm_;
     uint32_t frames_ = 0;
+    bool still_ = false;
 };
 
 uint64_t bytesOf(const Plan& plan); // of all buffers that the plan has in
+// Bytes of the program's heap in use. Beside the host's own memory a CPU device's buffers are in it. 0 where
+// the allocator does not tell (a sanitized build).
+uint64_t heapBytes();
 
 } // namespace fathom::profile

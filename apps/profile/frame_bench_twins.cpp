@@ -2,7 +2,10 @@
 // What a bench's last frame is compared with before it is timed.
 #include "apps/profile/frame_bench.h"
 #include "apps/verify/pass_rig.h"
+#include "engine/cloud/frame_params.h"
 #include "engine/reference/classify.h"
+#include "engine/reference/guidance.h"
+#include "engine/reference/self_filter.h"
 #include "engine/reference/surface.h"
 
 #include <algorithm>
@@ -72,7 +75,10 @@ std::string FrameBench::differsFromTwins(const Shot& shot, size_t mostPatches) c
             return wrong;
         }
     }
-    const reference::ClassPicture classes = reference::classify(view, cells ? &*cells : nullptr);
+    reference::ClassPicture classes = reference::classify(view, cells ? &*cells : nullptr);
+    if (plan_.selfFilter) {
+        reference::removeArm(view, arm_.spheres, classes);
+    }
     for (size_t i = 0; i < looked.size(); ++i) {
         if (looked[i] != classes.masks[i] && classes.unsure[i] == 0) {
             return "class bits of pixel " + std::to_string(i);
@@ -118,6 +124,27 @@ std::string FrameBench::spheresDiffer() const {
             return "region sphere " + std::to_string(i);
         }
         taken[pixel] = 1;
+    }
+    return "";
+}
+
+std::string FrameBench::guidanceDiffers() const {
+    const std::vector<uint32_t> rows = cloud::classRows(scene_), bits = masks();
+    const reference::PointPicture all = points();
+    const int width = static_cast<int>(camera_.depth.width), height = static_cast<int>(camera_.depth.height);
+    for (const GuidancePose& here : set().host.guidance) {
+        const FixtureClass& f = scene_.fixtures[here.fixture];
+        const auto c = static_cast<size_t>(std::find(rows.begin(), rows.end(), here.fixture) - rows.begin());
+        std::vector<uint32_t> own = bits;
+        if (f.largestPart) {
+            const auto part = reference::largestPart(width, height, bits, all, c, scene_.filter.edge);
+            std::transform(part.begin(), part.end(), own.begin(), [&](uint8_t in) { return in * (1u << c); });
+        }
+        const auto chosen = reference::trimmed(reference::pointsOfClass(own, all, c), f.trim);
+        const GuidancePose there = reference::guidance(chosen, f, set().host.baseTcamera.position);
+        if (here.count != there.count || !(glm::distance(here.position, there.position) <= kSamePoint)) {
+            return "guidance of '" + f.name + "'";
+        }
     }
     return "";
 }

@@ -1,18 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a scene gains by what it leaves out: each optional stage on and off, one at a time, from a scene that
 // asks for everything.
+#include "apps/profile/device_stream.h"
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
 
 #include <functional>
+#include <optional>
 
 namespace fathom::profile {
 
 namespace {
 
+// A scene, its camera and what no scene says.
+struct Setup {
+    Scene scene;
+    CameraInfo camera;
+    bool selfFilter = true; // the arm's spheres are taken out of the cloud
+    bool still = false;     // the camera has nothing new
+};
+
 struct Stage {
     const char* name;
-    std::function<void(Scene&, CameraInfo&)> leaveOut;
+    std::function<void(Setup&)> leaveOut;
+    std::function<void(Setup&)> before = {}; // what it is left out of, where that is not everything on
 };
 
 // Everything that a scene can ask for at once.
@@ -23,9 +34,23 @@ Scene fullScene(const Settings& settings) {
     if (settings.scene.empty()) {
         scene.fixtures.front().box = Box{{-2.0, -2.0, 0.0}, {2.0, 2.0, 3.0}};
         scene.fixtures.back().largestPart = true;
+        scene.fixtures.back().trim = 0.1;
         scene.contact.where = Scene::Contact::Where::Gpu;
     }
     return scene;
+}
+
+// An arm of 64 spheres before the left of the picture.
+cloud::LinkSpheres armInView() {
+    cloud::LinkSpheres arm;
+    for (uint32_t i = 0; i < 64; ++i) {
+        const uint32_t across = i % 8, down = i / 8;
+        arm.spheres.push_back({dvec3(-0.25 + 0.02 * across, -0.2 + 0.05 * down, 0.75), 0.04});
+        if (i % 16 == 15) {
+            arm.ends.push_back(i + 1);
+        }
+    }
+    return arm;
 }
 
 // Pictures of one camera, and the same with the colour of a second one beside it.
@@ -50,20 +75,46 @@ void dropClasses(Scene& scene, Role role) {
     std::erase_if(scene.fixtures, [&](const FixtureClass& f) { return f.isPoints() && f.role == role; });
 }
 
+// Gates that ask for colour and let everything through, so that both sides select the same points.
+void gateNothing(Setup& s) {
+    registerColour(s.camera);
+    for (FixtureClass& f : s.scene.fixtures) {
+        f.hue.reset(), f.saturation.reset();
+        f.lightness = Band{0.0, 0.9999};
+    }
+}
+void dropColour(Setup& s) {
+    for (FixtureClass& f : s.scene.fixtures) {
+        f.lightness.reset();
+    }
+}
+
+void dropGuidancePoints(Setup& s) {
+    for (FixtureClass& f : s.scene.fixtures) {
+        f.largestPart = false, f.trim = 0.0;
+    }
+}
+
 std::vector<Stage> stages() {
     return {
-        {"filter", [](Scene& s, CameraInfo&) { s.filter.radius = 0; }},
-        {"flying pixels", [](Scene& s, CameraInfo&) { s.filter.edge = 0.0; }},
-        {"thinning", [](Scene& s, CameraInfo&) { s.errorBudget = 0.0; }},
-        {"hold", [](Scene& s, CameraInfo&) { s.holdSeconds = 0.0; }},
-        {"guidance class", [](Scene& s, CameraInfo&) { dropClasses(s, Role::Guidance); }},
-        {"forbidden class", [](Scene& s, CameraInfo&) { dropClasses(s, Role::Forbidden); }},
-        {"largest part", [](Scene& s, CameraInfo&) { s.fixtures.back().largestPart = false; }},
-        {"box", [](Scene& s, CameraInfo&) { s.fixtures.front().box.reset(); }},
+        {"filter", [](Setup& s) { s.scene.filter.radius = 0; }},
+        {"flying pixels", [](Setup& s) { s.scene.filter.edge = 0.0; }},
+        {"thinning", [](Setup& s) { s.scene.errorBudget = 0.0; }},
+        {"hold", [](Setup& s) { s.scene.holdSeconds = 0.0; }},
+        {"guidance class", [](Setup& s) { dropClasses(s.scene, Role::Guidance); }},
+        {"forbidden class", [](Setup& s) { dropClasses(s.scene, Role::Forbidden); }},
+        {"largest part", [](Setup& s) { s.scene.fixtures.back().largestPart = false; }},
+        {"trimmed mean", [](Setup& s) { s.scene.fixtures.back().trim = 0.0; }},
+        {"guidance points on the host (both)", dropGuidancePoints},
+        {"box", [](Setup& s) { s.scene.fixtures.front().box.reset(); }},
         {"tree and slots for the GPU query",
-         [](Scene& s, CameraInfo&) { s.contact.where = Scene::Contact::Where::Cpu; }},
-        {"lens distortion", [](Scene&, CameraInfo& c) { c.depth.distortion = {}, c.colour.distortion = {}; }},
-        {"colour registration", [](Scene&, CameraInfo& c) { registerColour(c); }},
+         [](Setup& s) { s.scene.contact.where = Scene::Contact::Where::Cpu; }},
+        {"lens distortion",
+         [](Setup& s) { s.camera.depth.distortion = {}, s.camera.colour.distortion = {}; }},
+        {"colour registration", [](Setup& s) { registerColour(s.camera); }},
+        {"colour, of gates that pass all", dropColour, gateNothing},
+        {"self-filter", [](Setup& s) { s.selfFilter = false; }},
+        {"pictures that are not new", [](Setup& s) { s.still = true; }},
     };
 }
 
@@ -71,15 +122,37 @@ std::vector<Stage> stages() {
 struct Verified {
     std::unique_ptr<FrameBench> bench;
     const std::vector<Shot>& shots;
+    double heap = 0.0; // bytes that another of its kind takes, pipelines compiled
 };
-Verified verified(const StudyContext& context, const Scene& scene, const CameraInfo& camera,
-                  const Pictures& pictures, const std::string& name) {
-    Verified v{std::make_unique<FrameBench>(context.device, scene, camera), pictures.of(camera).shots};
+
+std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const Setup& setup) {
+    const auto change = [&](Plan& plan) { plan.selfFilter = setup.selfFilter; };
+    auto bench = std::make_unique<FrameBench>(context.device, setup.scene, setup.camera, change);
+    bench->setArm(armInView());
+    return bench;
+}
+
+double heapOf(const StudyContext& context, const Setup& setup, const std::vector<Shot>& shots) {
+    const auto before = static_cast<double>(heapBytes());
+    const auto bench = benchOf(context, setup);
+    bench->run(shots.front());
+    return static_cast<double>(heapBytes()) - before;
+}
+
+Verified verified(const StudyContext& context, const Setup& setup, const Pictures& pictures,
+                  const std::string& name) {
+    Verified v{benchOf(context, setup), pictures.of(setup.camera).shots};
     v.bench->run(v.shots.front());
     const std::string wrong = v.bench->differsFromTwins(v.shots.front());
     verify(wrong.empty(), "leave_out", name, wrong + " differs from the float64 twin");
     const std::string sphere = v.bench->spheresDiffer();
     verify(sphere.empty(), "leave_out", name, sphere + " is not about a forbidden point of its own");
+    const std::string pose = v.bench->guidanceDiffers();
+    verify(pose.empty(), "leave_out", name, pose + " differs from the float64 twin");
+    v.heap = heapOf(context, setup, v.shots);
+    if (setup.still) {
+        v.bench->holdStill();
+    }
     return v;
 }
 
@@ -99,15 +172,43 @@ Pair measureInTurn(const Verified& full, const Verified& less, const Effort& eff
     return {full.bench->costOf(a), less.bench->costOf(b)};
 }
 
-StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved) {
+StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved, double heapSaved) {
+    constexpr double kMiB = 1 << 20;
     StudyRow row;
     row.source = "everything on";
     row.setting = setting;
     row.cost = pair.less.frame;
     const double saved = pair.full.total.p50 - pair.less.total.p50;
-    row.more = {pair.less.total.p50, saved, 100.0 * saved / pair.full.total.p50,
-                pair.full.frame.gpu.p50 - pair.less.frame.gpu.p50, bytesSaved / (1 << 20)};
+    row.more = {pair.less.total.p50,
+                saved,
+                100.0 * saved / pair.full.total.p50,
+                pair.full.frame.gpu.p50 - pair.less.frame.gpu.p50,
+                bytesSaved / kMiB,
+                heapSaved / kMiB};
     return row;
+}
+
+StudyRow stageRow(const StudyContext& context, const Stage& stage, const Verified& full, const Setup& setup,
+                  const Pictures& pictures) {
+    Setup less = setup;
+    std::optional<Verified> own; // where it is left out of something else
+    if (stage.before) {
+        stage.before(less);
+        own.emplace(verified(context, less, pictures, stage.name));
+    }
+    stage.leaveOut(less);
+    const Verified& from = own ? *own : full;
+    const Verified without = verified(context, less, pictures, stage.name);
+    const Pair pair = measureInTurn(from, without, context.settings.effort());
+    const double bytes = static_cast<double>(bytesOf(from.bench->plan())) -
+                         static_cast<double>(bytesOf(without.bench->plan()));
+    return rowOf(stage.name, pair, bytes, from.heap - without.heap);
+}
+
+void sayRow(Study& study, const StudyRow& row) {
+    study.findings.push_back("without " + row.setting + ": " + digits(row.more[1]) + " ms less (" +
+                             digits(row.more[2]) + " % of the frame), " + digits(row.more[4]) +
+                             " MiB of the plan's buffers less, " + digits(row.more[5]) + " MiB of heap");
 }
 
 PlotPanel bars(const Study& study, size_t column, const std::string& title, const std::string& label) {
@@ -126,39 +227,35 @@ Study leaveOutStudy(const StudyContext& context) {
     Study study;
     study.name = "leave_out";
     study.title = "Leave out: what each optional stage costs a scene that asks for everything";
-    study.verified = "of every row: occlusion cells, class bits and points against the float64 twins, every "
-                     "region sphere about a forbidden point of its own";
+    study.verified =
+        "of every row: occlusion cells, class bits, points and guidance against the float64 twins, "
+        "every region sphere about a forbidden point of its own";
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault =
         "its rows are scenes that ask for less; what a scene does not ask for is left out by itself";
     study.timeName = "upload to published p50";
-    study.moreNames = {"upload_to_published_p50_ms", "saved_ms", "share_of_frame_percent", "gpu_saved_ms",
-                       "memory_saved_MiB"};
+    study.moreNames = {"upload_to_published_p50_ms", "saved_ms",
+                       "share_of_frame_percent",     "gpu_saved_ms",
+                       "memory_saved_MiB",           "heap_saved_MiB"};
     const uint32_t w = context.settings.quick ? 320 : 640, h = context.settings.quick ? 240 : 480;
     const uint32_t frames = context.settings.quick ? 1 : 4;
     const Pictures pictures{analyticShots("tank", w, h, frames), twoCameraShots("tank", w, h, frames)};
-    const Scene scene = fullScene(context.settings);
-    const CameraInfo camera = fullCamera(pictures.beside.camera);
-    const Verified full = verified(context, scene, camera, pictures, "nothing left out");
+    const Setup setup{fullScene(context.settings), fullCamera(pictures.beside.camera)};
+    const Verified full = verified(context, setup, pictures, "nothing left out");
     const FrameCost alone = full.bench->measure(full.shots, context.settings.effort());
-    study.rows.push_back(rowOf("nothing left out", {alone, alone}, 0.0));
+    study.rows.push_back(rowOf("nothing left out", {alone, alone}, 0.0, 0.0));
     for (const Stage& stage : stages()) {
-        Scene fewer = scene;
-        CameraInfo plainer = camera;
-        stage.leaveOut(fewer, plainer);
-        const Verified less = verified(context, fewer, plainer, pictures, stage.name);
-        const double bytes = static_cast<double>(bytesOf(full.bench->plan())) -
-                             static_cast<double>(bytesOf(less.bench->plan()));
-        study.rows.push_back(rowOf(stage.name, measureInTurn(full, less, context.settings.effort()), bytes));
-        const StudyRow& row = study.rows.back();
-        study.findings.push_back(std::string("without ") + stage.name + ": " + digits(row.more[1]) +
-                                 " ms less (" + digits(row.more[2]) + " % of the frame), " +
-                                 digits(row.more[4]) + " MiB less");
+        study.rows.push_back(stageRow(context, stage, full, setup, pictures));
+        sayRow(study, study.rows.back());
     }
+    study.findings.push_back(
+        std::string("heap: what malloc gave the cycle and its sets, the host's copies and grids among it; ") +
+        (oneMemory(context.device) ? "this device's buffers are there, too" : "no buffer of the device"));
     study.panels.push_back(
         bars(study, 1, "time saved by leaving it out", "upload to published p50, saved [ms]"));
     study.panels.push_back(
         bars(study, 4, "memory saved by leaving it out", "buffers of the plan, saved [MiB]"));
+    study.panels.push_back(bars(study, 5, "heap saved by leaving it out", "the program's heap, saved [MiB]"));
     return study;
 }
 

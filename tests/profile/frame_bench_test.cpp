@@ -112,6 +112,45 @@ TEST_CASE(
     CHECK(wrong > 2 * missed);
 }
 
+TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidance is what its points say") {
+    const gpu::Instance instance;
+    gpu::Device device{instance, "llvmpipe"};
+    const ShotSource source = wallShot(160, 120, 0.5);
+    Scene scene = studyScene({});
+    scene.fixtures.back().largestPart = true, scene.fixtures.back().trim = 0.1;
+    scene.fixtures.back().minCount = 10;
+    FrameBench bench(device, scene, source.camera, [](Plan& plan) { plan.selfFilter = true; });
+    bench.run(source.shots.front());
+    const auto before = bench.masks();
+    bench.setArm({{{dvec3(0.0, -0.1, 0.8), 0.08}}, {1}});
+    bench.run(source.shots.front());
+    CHECK(bench.masks() != before);
+    CHECK(bench.differsFromTwins(source.shots.front()).empty());
+    CHECK(bench.guidanceDiffers().empty());
+    auto& guidance = const_cast<std::vector<GuidancePose>&>(bench.set().host.guidance);
+    REQUIRE(guidance.size() == 1);
+    REQUIRE(guidance[0].count > 100);
+    guidance[0].position.x += 1e-4;
+    CHECK(bench.guidanceDiffers() == "guidance of 'yellow'");
+}
+
+TEST_CASE("A picture that is not new costs nothing of the device and publishes nothing") {
+    const gpu::Instance instance;
+    gpu::Device device{instance, "llvmpipe"};
+    const ShotSource source = wallShot(160, 120, 0.5);
+    FrameBench bench(device, studyScene({}), source.camera);
+    bench.holdStill();
+    CHECK(!bench.run(source.shots.front()).unchanged);
+    const uint64_t generation = bench.set().host.generation;
+    CHECK(bench.run(source.shots.front()).unchanged);
+    const FrameCost cost = bench.measure(source.shots, {5, 5, 0.0});
+    CHECK(bench.set().host.generation == generation);
+    CHECK(!cost.frame.gpu);
+    CHECK(!cost.frame.submit);
+    CHECK(cost.total.count == 5);
+    CHECK(cost.total.p50 >= 0.0);
+}
+
 TEST_CASE("The wall's noise is the simulated camera's: its sigma at 0.8 m, no pixel without a reading") {
     const ShotSource noisy = wallShot(320, 240, 1.0, WallNoise::Sensor), smooth = wallShot(320, 240, 1.0);
     const auto& a = noisy.shots.front().depth;
