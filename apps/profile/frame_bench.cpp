@@ -23,7 +23,9 @@ void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
         total.push_back(report.latencyMs);
         return;
     }
-    gpu.push_back(std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0));
+    if (const double sum = std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0); sum > 0.0) {
+        gpu.push_back(sum); // else nobody timed them
+    }
     submit.push_back(millis(report.times.landed - report.times.submitted));
     cpu.push_back(clocks.cpuMs());
     total.push_back(millis(report.times.published - report.times.started));

@@ -18,6 +18,7 @@ struct Setup {
     CameraInfo camera;
     bool selfFilter = true; // the arm's spheres are taken out of the cloud
     bool still = false;     // the camera has nothing new
+    bool passTimes = true;  // passes are told apart by the device's clock
 };
 
 struct Stage {
@@ -115,6 +116,7 @@ std::vector<Stage> stages() {
         {"colour, of gates that pass all", dropColour, gateNothing},
         {"self-filter", [](Setup& s) { s.selfFilter = false; }},
         {"pictures that are not new", [](Setup& s) { s.still = true; }},
+        {"times of passes", [](Setup& s) { s.passTimes = false; }},
     };
 }
 
@@ -126,7 +128,10 @@ struct Verified {
 };
 
 std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const Setup& setup) {
-    const auto change = [&](Plan& plan) { plan.selfFilter = setup.selfFilter; };
+    const auto change = [&](Plan& plan) {
+        plan.selfFilter = setup.selfFilter;
+        plan.passTimes = setup.passTimes;
+    };
     auto bench = std::make_unique<FrameBench>(context.device, setup.scene, setup.camera, change);
     bench->setArm(armInView());
     return bench;

@@ -126,11 +126,15 @@ TEST_CASE("What is left out of a scene saves the memory that its buffers took") 
         saved[row["setting"]] = row["memory_saved_MiB"].get<double>();
         heap[row["setting"]] = row["heap_saved_MiB"].get<double>();
         ms[row["setting"]] = row["share_of_frame_percent"].get<double>();
+        const bool untimed =
+            row["setting"] == "times of passes" || row["setting"] == "pictures that are not new";
+        CHECK(row["gpu_p50_ms"].is_null() == untimed);
     }
     CHECK(saved.at("nothing left out") == 0.0);
     CHECK(saved.at("hold") > 1.0);
     CHECK(saved.at("forbidden class") > saved.at("hold"));
     CHECK(saved.at("filter") == 0.0);
+    CHECK(saved.at("times of passes") == 0.0);
     CHECK(saved.at("colour, of gates that pass all") > 0.5); // the colour picture, twice
     CHECK(ms.at("pictures that are not new") > 90.0);        // nothing is done, not faster
     for (const char* also : {"trimmed mean", "self-filter", "guidance points on the host (both)"}) {
