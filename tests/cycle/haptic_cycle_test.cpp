@@ -16,22 +16,6 @@ using namespace fathom::testing;
 
 static_assert(noexcept(std::declval<HapticCycle&>().turn(std::declval<const TurnInput&>())));
 
-namespace {
-
-// Pressed 5 mm into the wall and at rest: 5 N at 1000 N/m.
-HapticRig pressedRig(const Scene& scene = handScene()) {
-    HapticRig rig(scene, at(0, 0, 0.02));
-    rig.age = false;
-    rig.show(wallSet());
-    rig.age = false;
-    rig.turns(250);
-    rig.hand = at(0, 0, 0.005);
-    rig.turns(100);
-    return rig;
-}
-
-} // namespace
-
 TEST_CASE("Until the first contact set the tool is held, the wrench is zero and the state is off") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.hand = at(0, 0, -0.05);
@@ -263,10 +247,13 @@ TEST_CASE(
     auto rig = pressedRig();
     const double full = forceOf(rig.turn());
     const Pose good = rig.hand;
-    for (const double bad :
-         {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const Pose& bad :
+         {Pose{{0.0, nan, 0.0}, good.rotation}, Pose{{0.0, infinite, 0.0}, good.rotation},
+          Pose{good.position, {1.0, nan, 0.0, 0.0}}, Pose{good.position, {1.0, 0.0, infinite, 0.0}}}) {
         const uint64_t before = rig.cycle->notFinite();
-        rig.hand.position.y = bad;
+        rig.hand = bad;
         auto record = rig.turn();
         CHECK_FALSE(record.finite);
         CHECK(forceOf(record) == 0.0);
@@ -279,5 +266,24 @@ TEST_CASE(
         CHECK(record.finite);
         CHECK(forceOf(record) == doctest::Approx(2.0)); // slews up from zero
         CHECK(forceOf(rig.turns(5)) == doctest::Approx(full));
+    }
+}
+
+TEST_CASE("A rotation that is none, of zeros or without a length, does no lasting harm") {
+    for (const dquat& none :
+         {dquat(0.0, 0.0, 0.0, 0.0), dquat(1e200, 0.0, 1e200, 0.0), dquat(1e-200, 0.0, 0.0, 0.0)}) {
+        auto rig = pressedRig();
+        const double full = forceOf(rig.turn());
+        const Pose good = rig.hand;
+        rig.hand.rotation = none;
+        for (int i = 0; i < 10; ++i) {
+            const auto record = rig.turn();
+            CHECK(isFinite(record.wrench));
+            CHECK(isFinite(record.deviceWrench));
+            CHECK(isFinite(record.tool));
+        }
+        rig.hand = good;
+        CHECK(forceOf(rig.turns(20)) == doctest::Approx(full));
+        CHECK(rig.gap() > -1e-5);
     }
 }

@@ -116,4 +116,16 @@ inline Scene handScene(const char* device = "ideal") {
     return scene;
 }
 
+// Pressed 5 mm into the wall and at rest: 5 N at 1000 N/m.
+inline HapticRig pressedRig(const Scene& scene = handScene()) {
+    HapticRig rig(scene, at(0, 0, 0.02));
+    rig.age = false;
+    rig.show(wallSet());
+    rig.age = false;
+    rig.turns(250);
+    rig.hand = at(0, 0, 0.005);
+    rig.turns(100);
+    return rig;
+}
+
 } // namespace fathom::testing
