@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "tests/realtime/fake_scene.h"
+#include "tests/realtime/listening.h"
 
 using namespace fathom;
 using namespace fathom::testing;
@@ -21,7 +22,27 @@ struct Fade {
     double gone = -1.0;   // [s] after it until there is none; -1 = there is always some
     double back = -1.0;   // [s] after a picture has come again until the force is full; -1 = not tried
     double deepest = 0.0; // [m] penetration
+    bool told = true;     // the state was `fading` while the scene was too old, and only then
 };
+
+// No force leaps, and none is left under a scene of 0.61 s: where a machine left turns out before that, as
+// little as the slew limit leaves of the turn before. Returns how many turns had such a scene.
+size_t checkFades(const FakeRun& fake) {
+    const double step = fake.options.slewForce * fake.options.period;
+    size_t old = 0, leaps = 0, forced = 0;
+    dvec3 before(0.0);
+    for (const TurnRow& row : fake.sink.rows) {
+        const dvec3 force = row.record.wrench.force;
+        const double most = std::max(0.0, glm::length(before) - step) + 1e-9;
+        leaps += glm::distance(force, before) > step + 1e-9 ? 1 : 0;
+        old += row.record.sceneAge > 0.61 ? 1 : 0;
+        forced += row.record.sceneAge > 0.61 && glm::length(force) > most ? 1 : 0;
+        before = force;
+    }
+    CHECK(leaps == 0);
+    CHECK(forced == 0);
+    return old;
+}
 
 // A hand that presses 10 mm into a wall; pictures every 33 ms, then none for `stall` seconds. By the cycle's
 // own clock.
@@ -34,7 +55,10 @@ Fade stallCamera(double stall, bool comesBack) {
         if (picture) {
             rig.show(wallSet(++generation));
         }
-        const double force = forceOf(rig.turn());
+        const TurnRecord record = rig.turn();
+        const double force = forceOf(record);
+        fade.told =
+            fade.told && (record.state == TurnState::Fading) == (record.sceneAge > rig.options.staleAfter);
         fade.deepest = std::max(fade.deepest, -rig.gap());
         return force;
     };
@@ -76,6 +100,7 @@ TEST_CASE("Drill: a camera that stalls for 100 ms changes no force") {
     CHECK(fade.untouched == doctest::Approx(0.1));
     CHECK(fade.gone < 0.0);
     CHECK(fade.deepest < 1e-5);
+    CHECK(fade.told);
 }
 
 TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 600 ms, and it is back 0.5 s after "
@@ -87,12 +112,40 @@ TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 600 ms, a
     CHECK(fade.back > 0.3);
     CHECK(fade.back <= 0.51);
     CHECK(fade.deepest < 1e-5);
+    CHECK(fade.told);
+}
+
+TEST_CASE(
+    "Drill: a camera that stalls for 1 s under threads is told of when forces fade and when it is back") {
+    for (const double stall : {0.0, 1.0}) {
+        CAPTURE(stall);
+        FakeRun fake(stall > 0.0 ? 30 : 15, pressingPath(stall > 0.0 ? 2.2 : 0.5));
+        fake.feed.beforeFetch = [stall](uint32_t index) {
+            if (index == 12) {
+                std::this_thread::sleep_for(std::chrono::duration<double>(stall));
+            }
+        };
+        const Listening log;
+        fake.go();
+        size_t fading = 0, other = 0;
+        for (const TurnRow& row : fake.sink.rows) {
+            const bool stale = row.record.sceneAge > fake.options.staleAfter;
+            fading += stale && row.record.state == TurnState::Fading ? 1 : 0;
+            other += stale && row.record.state != TurnState::Fading ? 1 : 0;
+        }
+        CHECK(other == 0);
+        CHECK(fading == fake.run->staleTurns());
+        CHECK((log.count("ms old: forces fade") > 0) == (fading > 0));
+        CHECK((log.count("the scene is fresh again") > 0) == (fading > 0));
+        CHECK((stall == 0.0 || fading > 0));
+    }
 }
 
 TEST_CASE("Drill: a camera that stalls for ever leaves no force, and the tool still obeys the last regions") {
     const Fade fade = stallCamera(20.0, false);
     CHECK(fade.gone <= 0.61);
     CHECK(fade.deepest < 1e-5);
+    CHECK(fade.told);
 }
 
 TEST_CASE(
@@ -126,8 +179,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Drill: with every CPU busy no turn penetrates, periods without a turn are counted, the end is "
-          "zero force") {
+TEST_CASE("Drill: with every CPU busy no turn penetrates, no force leaps or outlives its scene, periods "
+          "without a turn are counted, the end is zero force") {
     std::atomic<bool> done{false};
     std::vector<std::thread> load;
     for (unsigned i = 0; i < 2 * std::max(2u, std::thread::hardware_concurrency()); ++i) {
@@ -136,7 +189,12 @@ TEST_CASE("Drill: with every CPU busy no turn penetrates, periods without a turn
             }
         });
     }
-    FakeRun fake(45, wipingPath(1.5));
+    FakeRun fake(45, wipingPath(2.5));
+    fake.feed.beforePublish = [](uint32_t index) { // a camera that stalls as well: until no force may be left
+        if (index == 20) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1000));
+        }
+    };
     fake.go();
     done.store(true);
     for (std::thread& thread : load) {
@@ -149,7 +207,8 @@ TEST_CASE("Drill: with every CPU busy no turn penetrates, periods without a turn
         missed += row.missed;
     }
     CHECK(missed == fake.run->periodsMissed());
-    CHECK(fake.sink.rows.size() + missed >= 1495); // every period had a turn or is told of
+    CHECK(fake.sink.rows.size() + missed >= 2495); // every period had a turn or is told of
+    CHECK(checkFades(fake) > 0);
     MESSAGE("turns " << fake.sink.rows.size() << ", periods without one " << missed);
 }
 

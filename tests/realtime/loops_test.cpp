@@ -19,6 +19,32 @@
 using namespace fathom;
 using namespace fathom::testing;
 
+namespace {
+
+// Pictures that come without a pause, each `age` after it was taken.
+class LiveFeed final : public FrameFeed {
+public:
+    explicit LiveFeed(FakeFeed& feed)
+        : feed_(feed) {}
+    std::function<std::chrono::milliseconds(uint32_t)> age = [](uint32_t) {
+        return std::chrono::milliseconds(20);
+    };
+
+    std::optional<uint32_t> fetch() override {
+        const std::optional<uint32_t> index = feed_.fetch();
+        taken_ = std::chrono::steady_clock::now() - age(index.value_or(0));
+        return index;
+    }
+    std::optional<RunClock::Time> captured() const override { return taken_; }
+    void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
+
+private:
+    FakeFeed& feed_;
+    RunClock::Time taken_;
+};
+
+} // namespace
+
 TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a trace") {
     FakeRun fake(2, wipingPath(2.0));
     Crossings crossings(4096);
@@ -89,22 +115,6 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
 }
 
 TEST_CASE("Pictures of a live source keep the time they were taken at, and the loop paces none of them") {
-    // Each was taken 20 ms before it is there; they come without a pause.
-    class LiveFeed final : public FrameFeed {
-    public:
-        explicit LiveFeed(FakeFeed& feed)
-            : feed_(feed) {}
-        std::optional<uint32_t> fetch() override {
-            taken_ = std::chrono::steady_clock::now() - std::chrono::milliseconds(20);
-            return feed_.fetch();
-        }
-        std::optional<RunClock::Time> captured() const override { return taken_; }
-        void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
-
-    private:
-        FakeFeed& feed_;
-        RunClock::Time taken_;
-    };
     FakeRun fake(8, pressingPath(1.0));
     LiveFeed live(fake.feed);
     Crossings crossings(16);
@@ -124,6 +134,26 @@ TEST_CASE("Pictures of a live source keep the time they were taken at, and the l
     }
     CHECK(loop.lost() == 0);
     CHECK(loop.news().live);
+}
+
+TEST_CASE("A live camera whose stamps go back gives pictures no older than the one before") {
+    FakeRun fake(10, pressingPath(1.0));
+    LiveFeed live(fake.feed);
+    live.age = [](uint32_t index) { return std::chrono::milliseconds(index == 5 ? 3600000 : 1); };
+    fake.feed.beforeFetch = [](uint32_t) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
+    Crossings crossings(16);
+    RunClock clock;
+    FrameLoop loop(live, crossings, clock, 1000.0, nullptr);
+    REQUIRE(loop.first());
+    clock.start(0.0);
+    std::atomic<bool> stop{false};
+    loop.run(stop);
+    const std::vector<double>& captured = fake.feed.captured;
+    REQUIRE(captured.size() == 10);
+    CHECK(captured[4] > 0.0);
+    CHECK(captured[5] == captured[4]);
+    CHECK(captured[6] > captured[5]);
+    CHECK(loop.news().captureTime == captured[9]);
 }
 
 TEST_CASE(
