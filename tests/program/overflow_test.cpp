@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// A contact answer that is too large, through the whole program.
+#include "tests/rig/stage.h"
+
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+TEST_CASE("A tool of so many spheres before so many regions that an answer overflows touches and does not "
+          "penetrate") {
+    Stage stage;
+    stage.recording({Picture(kWidth, kHeight, 150).paint({0, 0, kWidth, kHeight}, kRed)});
+    SceneText scene;
+    scene.camera = "near: 0.05, far: 3.0";
+    scene.contact = "reach: 0.1"; // the whole wall
+    scene.more = "error_budget: 0\n";
+    std::string spheres; // 100 times 3072 pairs
+    for (int i = 0; i < 100; ++i) {
+        spheres += (i > 0 ? ", [" : "[") + std::to_string(1e-4 * (i % 10)) + ", " +
+                   std::to_string(1e-4 * (i / 10)) + ", 0, 0.01]";
+    }
+    scene.tool = "spheres: [" + spheres + "]";
+    stage.scene(scene);
+    stage.hand({{0.0, {0.0, 0.0, 0.05}}, {0.2, {0.0, 0.0, 0.15}}, {0.3, {0.0, 0.0, 0.15}}});
+    const Replay replay = stage.replay();
+    CHECK(replay.summary.at("contact").at("overflows").get<uint64_t>() > 0);
+    CHECK(replay.haptic().at("max_penetration_m").get<double>() == 0.0);
+    CHECK(replay.ticks.back().state == "contact");
+    CHECK(replay.ticks.back().tool.position.z < 0.101); // the region begins at 0.11, a sphere is 10 mm
+}

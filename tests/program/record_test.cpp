@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/rig/stage.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <doctest/doctest.h>
+#include <sys/wait.h>
+#include <thread>
+
+using namespace fathom;
+
+TEST_CASE("A recording that is ended by SIGINT is whole: each picture that its index names is replayed") {
+    const Stage stage;
+    const std::string scene = "apps/scenes/demo.yaml", folder = (stage / "pictures").string();
+    const pid_t engine = startFathom({"record", scene, "--out", folder}, stage / "said");
+    for (int i = 0; i < 20000 && !std::filesystem::exists(stage / "pictures/depth/000003.png"); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(engine, SIGINT);
+    int status = 0;
+    ::waitpid(engine, &status, 0);
+    CHECK(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    std::string index = stage.read("pictures/associations.txt");
+    REQUIRE_FALSE(index.empty());
+    CHECK(index.back() == '\n');
+    const auto lines = std::count(index.begin(), index.end(), '\n');
+    CHECK(lines >= 3);
+    CHECK(lines < 60); // it was ended: the simulated camera has more
+    const std::string said = "recorded     " + std::to_string(lines) + " pictures";
+    CHECK_MESSAGE(stage.read("said").find(said) != std::string::npos, stage.read("said"));
+    const ProgramRun run =
+        runFathom({"replay", scene, "--source", folder, "--out", (stage / "out").string()});
+    CHECK_MESSAGE(run.exitCode == 0, run.err);
+    CHECK(run.err == "");
+    const Replay replay = readReplay(stage / "out", run);
+    CHECK(replay.summary.at("frames").at("count") == lines);
+    CHECK(replay.summary.at("frames").at("skipped") == 0);
+}
