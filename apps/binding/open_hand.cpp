@@ -28,11 +28,11 @@ std::unique_ptr<LiveHand> open(const std::string& name, uint32_t clutchBit) {
 }
 
 std::string listed(const AxisMask& axes) {
-    static const char* const names[] = {"x", "y", "z", "rx", "ry", "rz"};
+    static const char* const kNames[] = {"x", "y", "z", "rx", "ry", "rz"};
     std::string text;
     for (size_t i = 0; i < axes.size(); ++i) {
         if (axes[i]) {
-            text.append(text.empty() ? "" : " ").append(names[i]);
+            text.append(text.empty() ? "" : " ").append(kNames[i]);
         }
     }
     return text.empty() ? "nothing" : text;

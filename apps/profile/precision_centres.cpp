@@ -88,12 +88,13 @@ struct Scene {
     Scene(size_t spheres, size_t leafCount, double away) {
         const auto side = static_cast<size_t>(std::sqrt(static_cast<double>(spheres) / kBlock));
         for (size_t b = 0; b < side * side; ++b) {
-            const dvec3 corner(0.027 * static_cast<double>(b % side), 0.027 * static_cast<double>(b / side),
-                               away);
+            const size_t row = b / side;
+            const dvec3 corner(0.027 * static_cast<double>(b % side), 0.027 * static_cast<double>(row), away);
             blocks.push_back(corner + dvec3(0.0128, 0.0128, 0.0));
             for (size_t k = 0; k < kBlock; ++k) {
+                const size_t line = k / 16;
                 const dvec3 p =
-                    corner + dvec3(0.0016 * static_cast<double>(k % 16), 0.0016 * static_cast<double>(k / 16),
+                    corner + dvec3(0.0016 * static_cast<double>(k % 16), 0.0016 * static_cast<double>(line),
                                    0.01 * std::sin(37.0 * static_cast<double>(b * kBlock + k)));
                 const dvec3 d = p - blocks.back();
                 exact.add(p.x, p.y, p.z);

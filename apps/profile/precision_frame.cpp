@@ -64,14 +64,15 @@ StudyRow depthRow(const StudyContext& context, const Picture& picture, const cha
     std::transform(picture.raw.begin(), picture.raw.end(), std::back_inserter(pixels), Pixel::of);
     std::vector<T> x(pixels.size()), y(pixels.size()), z(pixels.size());
     const T inverse = static_cast<T>(1.0 / picture.focal());
+    const int middleU = picture.width / 2, middleV = picture.height / 2;
     const auto unproject = [&] {
         for (int v = 0; v < picture.height; ++v) {
-            const T rayY = (static_cast<T>(v) - static_cast<T>(picture.height / 2)) * inverse;
+            const T rayY = (static_cast<T>(v) - static_cast<T>(middleV)) * inverse;
             const size_t row = static_cast<size_t>(v) * static_cast<size_t>(picture.width);
             for (int u = 0; u < picture.width; ++u) {
                 const size_t i = row + static_cast<size_t>(u);
                 z[i] = static_cast<T>(pixels[i].metres());
-                x[i] = (static_cast<T>(u) - static_cast<T>(picture.width / 2)) * inverse * z[i];
+                x[i] = (static_cast<T>(u) - static_cast<T>(middleU)) * inverse * z[i];
                 y[i] = rayY * z[i];
             }
         }
@@ -101,10 +102,11 @@ template <class T, bool kHalfWeights>
 std::vector<double> filter(const Picture& p) {
     const T inverse = static_cast<T>(1.0 / p.focal()), scale = static_cast<T>(1.0 / (2.0 * kSigma * kSigma));
     std::vector<double> out(p.raw.size(), 0.0);
+    const int middleU = p.width / 2, middleV = p.height / 2;
     const auto point = [&](int u, int v) {
         const T z = static_cast<T>(p.raw[static_cast<size_t>(v * p.width + u)]) * static_cast<T>(kUnit);
-        return glm::vec<3, T>(static_cast<T>(u - p.width / 2) * inverse * z,
-                              static_cast<T>(v - p.height / 2) * inverse * z, z);
+        return glm::vec<3, T>(static_cast<T>(u - middleU) * inverse * z,
+                              static_cast<T>(v - middleV) * inverse * z, z);
     };
     for (int v = kWindow; v < p.height - kWindow; ++v) {
         for (int u = kWindow; u < p.width - kWindow; ++u) {

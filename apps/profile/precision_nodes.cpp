@@ -34,12 +34,14 @@ struct Wall {
     Wall(size_t patches, size_t leafCount, double away) {
         const auto across = static_cast<size_t>(std::ceil(std::sqrt(static_cast<double>(patches))));
         for (size_t p = 0; p < patches; ++p) {
+            const size_t row = p / across;
             const dvec3 corner(4.0 * kSpread * static_cast<double>(p % across),
-                               4.0 * kSpread * static_cast<double>(p / across), away);
+                               4.0 * kSpread * static_cast<double>(row), away);
             anchors.push_back(dvec3(glm::vec3(corner + dvec3(2.0 * kSpread, 2.0 * kSpread, 0.0))));
             for (size_t s = 0; s < kChildren; ++s) {
+                const size_t line = s / 4;
                 addSubPatch(corner +
-                            kSpread * dvec3(static_cast<double>(s % 4), static_cast<double>(s / 4), 0.0));
+                            kSpread * dvec3(static_cast<double>(s % 4), static_cast<double>(line), 0.0));
             }
         }
         const double extent = 4.0 * kSpread * static_cast<double>(across);
@@ -55,8 +57,9 @@ private:
         Bound bound;
         for (size_t k = 0; k < kChildren; ++k) {
             const double n = static_cast<double>(spheres.size());
+            const size_t line = k / 4;
             spheres.push_back(corner + dvec3(0.25 * kSpread * static_cast<double>(k % 4),
-                                             0.25 * kSpread * static_cast<double>(k / 4),
+                                             0.25 * kSpread * static_cast<double>(line),
                                              0.01 * std::sin(37.0 * n)));
             bound.centre += spheres.back() / static_cast<double>(kChildren);
         }

@@ -4,7 +4,7 @@
 namespace fathom::profile {
 
 const std::vector<StudyEntry>& allStudies() {
-    static const std::vector<StudyEntry> studies{
+    static const std::vector<StudyEntry> kStudies{
         {"filter", filterStudy},   {"fixture", fixtureStudy},    {"query", queryStudy},
         {"solver", solverStudy},   {"tool", toolStudy},          {"precision", precisionStudy},
         {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy},
@@ -12,7 +12,7 @@ const std::vector<StudyEntry>& allStudies() {
         {"peers", peersStudy}
 #endif
     };
-    return studies;
+    return kStudies;
 }
 
 bool takesRecording(const std::string& study) {

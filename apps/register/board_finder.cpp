@@ -58,8 +58,9 @@ std::vector<PointPair> BoardFinder::find(const Frame& frame) {
         {corners.front(), corners[columns - 1], corners.back(), corners[corners.size() - columns]});
     std::vector<PointPair> pairs;
     for (size_t i = 0; plane && i < corners.size(); ++i) {
+        const size_t row = i / columns;
         const dvec3 own(place_.square * static_cast<double>(i % columns),
-                        place_.square * static_cast<double>(i / columns), 0.0);
+                        place_.square * static_cast<double>(row), 0.0);
         pairs.push_back({plane->at(corners[i]), place_.baseTboard.apply(own), "corner " + std::to_string(i)});
     }
     return pairs;

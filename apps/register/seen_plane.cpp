@@ -54,7 +54,8 @@ std::vector<dvec3> depthInside(const Frame& frame, const CameraInfo& camera,
         if (frame->depth[i] == 0) {
             continue;
         }
-        const glm::dvec2 ray = camera.depth.ray(i % camera.depth.width, i / camera.depth.width);
+        const uint32_t row = i / camera.depth.width;
+        const glm::dvec2 ray = camera.depth.ray(i % camera.depth.width, row);
         const double z = frame->depth[i] * camera.metresPerUnit;
         const Pose& pose = camera.colourTdepth;
         const dvec3 p = pose.rotation * dvec3(ray.x * z, ray.y * z, z) + pose.position;

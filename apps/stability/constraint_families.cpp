@@ -130,25 +130,25 @@ RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Dice& di
 }
 
 RowSet makeArmSet(size_t rows, double floor, Dice& dice) {
-    constexpr size_t n = 8;
+    constexpr size_t kUnknowns = 8;
     RowSet set;
-    set.unknowns = n;
-    std::array<double, n * n> a{};
+    set.unknowns = kUnknowns;
+    std::array<double, kUnknowns * kUnknowns> a{};
     for (double& value : a) {
         value = dice.normal();
     }
-    set.metric.assign(n * n, 0.0);
-    for (size_t i = 0; i < n; ++i) {
+    set.metric.assign(kUnknowns * kUnknowns, 0.0);
+    for (size_t i = 0; i < kUnknowns; ++i) {
         for (size_t j = 0; j <= i; ++j) {
             double sum = i == j ? floor : 0.0;
-            for (size_t k = 0; k < n; ++k) {
-                sum += a[i * n + k] * a[j * n + k];
+            for (size_t k = 0; k < kUnknowns; ++k) {
+                sum += a[i * kUnknowns + k] * a[j * kUnknowns + k];
             }
-            set.metric[i * n + j] = set.metric[j * n + i] = sum;
+            set.metric[i * kUnknowns + j] = set.metric[j * kUnknowns + i] = sum;
         }
     }
-    std::array<double, n> row{}, inside{};
-    for (size_t i = 0; i < n; ++i) {
+    std::array<double, kUnknowns> row{}, inside{};
+    for (size_t i = 0; i < kUnknowns; ++i) {
         set.target.push_back(dice.uniform(-0.1, 0.1));
         inside[i] = dice.uniform(-0.01, 0.01);
     }

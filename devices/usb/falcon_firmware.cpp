@@ -22,12 +22,12 @@ constexpr uint16_t kDtrHigh = 0x0101, kDtrLow = 0x0100, kRtsLow = 0x0200;
 constexpr auto kPatience = milliseconds(1000);
 
 std::string hex(std::span<const uint8_t> bytes) {
-    static const char* const digits = "0123456789abcdef";
+    static const char* const kDigits = "0123456789abcdef";
     std::string text;
     for (const uint8_t byte : bytes.first(std::min<size_t>(bytes.size(), 8))) {
         text.append(text.empty() ? "" : " ");
-        text.push_back(digits[byte >> 4]);
-        text.push_back(digits[byte & 15]);
+        text.push_back(kDigits[byte >> 4]);
+        text.push_back(kDigits[byte & 15]);
     }
     return text.empty() ? "nothing" : text + (bytes.size() > 8 ? " ..." : "");
 }

@@ -28,23 +28,23 @@ private:
 } // namespace
 
 std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<uint32_t> out) {
-    thread_local const Decoder decoder;
-    if (decoder.get() == nullptr) {
+    thread_local const Decoder kDecoder;
+    if (kDecoder.get() == nullptr) {
         return std::string("JPEG: ") + tjGetErrorStr();
     }
     const auto* in = reinterpret_cast<const unsigned char*>(bytes.data());
     const auto count = static_cast<unsigned long>(bytes.size());
     int width = 0, height = 0, sampling = 0, space = 0;
-    if (tjDecompressHeader3(decoder.get(), in, count, &width, &height, &sampling, &space) != 0) {
-        return std::string("JPEG: ") + tjGetErrorStr2(decoder.get());
+    if (tjDecompressHeader3(kDecoder.get(), in, count, &width, &height, &sampling, &space) != 0) {
+        return std::string("JPEG: ") + tjGetErrorStr2(kDecoder.get());
     }
     const VideoSize got{static_cast<uint32_t>(width), static_cast<uint32_t>(height)};
     if (got != size) {
         return "JPEG of " + sizeName(got) + ", " + sizeName(size) + " was agreed";
     }
-    if (tjDecompress2(decoder.get(), in, count, reinterpret_cast<unsigned char*>(out.data()), width, 0,
+    if (tjDecompress2(kDecoder.get(), in, count, reinterpret_cast<unsigned char*>(out.data()), width, 0,
                       height, TJPF_RGBA, TJFLAG_STOPONWARNING) != 0) {
-        return std::string("JPEG: ") + tjGetErrorStr2(decoder.get());
+        return std::string("JPEG: ") + tjGetErrorStr2(kDecoder.get());
     }
     return "";
 }

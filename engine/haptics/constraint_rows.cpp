@@ -31,7 +31,7 @@ inline uint64_t tooShort(double squaredLength) noexcept {
 // Forward substitution L g = n, then unit length, for eight rows at once. N is known to the compiler so that
 // it unrolls the columns and puts the eight rows side by side, which it can when the factor is diagonal (the
 // free tool's is). False when a lane needs fixLanes(). Layout of raw and scaled: see the class.
-template <size_t N, bool Diagonal>
+template <size_t N, bool kDiagonal>
 [[gnu::always_inline]] inline bool scaleLanes(const double* __restrict raw, double* __restrict scaled,
                                               const MetricFactor& factor) noexcept {
     double inverseDiagonal[N];
@@ -44,7 +44,7 @@ template <size_t N, bool Diagonal>
         double squared = 0.0;
         for (size_t j = 0; j < N; ++j) {
             g[j] = raw[j * kLanes + l];
-            if constexpr (!Diagonal) {
+            if constexpr (!kDiagonal) {
                 for (size_t i = 0; i < j; ++i) {
                     g[j] -= factor.lower[j * kMaxUnknowns + i] * g[i];
                 }

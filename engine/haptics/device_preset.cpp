@@ -75,8 +75,8 @@ std::vector<DevicePreset> makePresets() {
 
 // Built at first use, read only: the one table of constants that needs a constructor.
 const std::vector<DevicePreset>& table() {
-    static const std::vector<DevicePreset> presets = makePresets();
-    return presets;
+    static const std::vector<DevicePreset> kPresets = makePresets();
+    return kPresets;
 }
 
 } // namespace

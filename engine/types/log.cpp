@@ -8,10 +8,10 @@
 namespace fathom::log {
 
 void write(Level level, fmt::string_view format, fmt::format_args values) {
-    constexpr spdlog::level::level_enum levels[]{spdlog::level::debug, spdlog::level::info,
-                                                 spdlog::level::warn, spdlog::level::err};
+    constexpr spdlog::level::level_enum kLevels[]{spdlog::level::debug, spdlog::level::info,
+                                                  spdlog::level::warn, spdlog::level::err};
     spdlog::logger* const logger = spdlog::default_logger_raw();
-    const auto wanted = levels[static_cast<int>(level)];
+    const auto wanted = kLevels[static_cast<int>(level)];
     if (logger->should_log(wanted)) {
         logger->log(wanted, printable(fmt::vformat(format, values)));
     }

@@ -30,7 +30,8 @@ void addSpheres(Fixtures& set, const SimulatedCamera& camera, const Pose& baseTs
             continue;
         }
         const Intrinsics& lens = camera.info().depth;
-        const glm::dvec2 ray = lens.ray(pixel % lens.width, pixel / lens.width);
+        const uint32_t down = pixel / lens.width;
+        const glm::dvec2 ray = lens.ray(pixel % lens.width, down);
         const dvec3 p = baseTscene.apply(view.depth[pixel] * dvec3(ray.x, ray.y, 1.0)) - set.origin;
         RegionSpheres& s = set.spheres;
         s.x.push_back(static_cast<float>(p.x)), s.y.push_back(static_cast<float>(p.y));

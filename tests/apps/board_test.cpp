@@ -42,15 +42,18 @@ struct BoardPicture {
         std::mt19937 random(3);
         std::normal_distribution<double> error(0.0, 1.0);
         for (uint32_t i = 0; i < info.depth.pixels(); ++i) {
-            const dvec3 p = hit(info.depth.ray(i % 320, i / 320), Pose{});
+            const uint32_t row = i / 320;
+            const dvec3 p = hit(info.depth.ray(i % 320, row), Pose{});
             depth.push_back(
                 static_cast<uint16_t>(std::lround((p.z + noise * error(random)) / info.metresPerUnit)));
         }
         const Pose boardTcolour = inverse(info.colourTdepth * cameraTboard);
         for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
+            const uint32_t row = i / 640;
             double sum = noise > 0.0 ? 4.0 * error(random) : 0.0;
             for (int s = 0; s < 16; ++s) {
-                const double u = i % 640 + (s % 4 - 1.5) / 4, v = i / 640 + (s / 4 - 1.5) / 4;
+                const int line = s / 4;
+                const double u = i % 640 + (s % 4 - 1.5) / 4, v = row + (line - 1.5) / 4;
                 sum += greyAt(boardTcolour.apply(hit(info.colour.ray(u, v), info.colourTdepth)), blot) / 16.0;
             }
             const auto grey = static_cast<uint32_t>(std::clamp(sum, 0.0, 255.0));
@@ -99,8 +102,9 @@ TEST_CASE("Corners of a chessboard are found to a fifth of a pixel, in its own o
         REQUIRE(corners.size() == kColumns * kRows);
         double worst = 0.0;
         for (size_t i = 0; i < corners.size(); ++i) {
-            const dvec3 own(kSquare * static_cast<double>(i % kColumns),
-                            kSquare * static_cast<double>(i / kColumns), 0.0);
+            const auto row = i / kColumns;
+            const dvec3 own(kSquare * static_cast<double>(i % kColumns), kSquare * static_cast<double>(row),
+                            0.0);
             const dvec3 p = picture.info.colourTdepth.apply(picture.cameraTboard.apply(own));
             worst = std::max(worst, glm::distance(corners[i], picture.info.colour.project(p)));
         }

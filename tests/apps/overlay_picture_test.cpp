@@ -212,8 +212,9 @@ TEST_CASE("an overlay of 60 thousand spheres is timed") {
     RegionSpheres& s = scene.set.spheres;
     s.resize(60000);
     for (size_t i = 0; i < s.size(); ++i) {
+        const size_t row = i / 300;
         s.x[i] = 0.001f * static_cast<float>(i % 300) - 0.15f;
-        s.y[i] = 0.001f * static_cast<float>(i / 300) - 0.1f;
+        s.y[i] = 0.001f * static_cast<float>(row) - 0.1f;
         s.z[i] = 0.5f;
         s.radius[i] = 0.04f;
         s.source[i] = static_cast<uint32_t>(i);

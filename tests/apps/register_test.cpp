@@ -54,7 +54,8 @@ struct TagPicture {
         std::mt19937 random(3);
         std::normal_distribution<double> error(0.0, noise);
         for (uint32_t i = 0; i < info.depth.pixels(); ++i) {
-            const dvec3 p = hit(info.depth.ray(i % 320, i / 320), Pose{});
+            const uint32_t row = i / 320;
+            const dvec3 p = hit(info.depth.ray(i % 320, row), Pose{});
             depth.push_back(static_cast<uint16_t>(std::lround((p.z + error(random)) / info.metresPerUnit)));
         }
         draw();
@@ -71,9 +72,11 @@ struct TagPicture {
             apriltag_to_image(family, 7); // 10 x 10 cells with its white rim; the black square is 8 wide
         const Pose tagTcolour = inverse(info.colourTdepth * cameraTtag);
         for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
+            const uint32_t row = i / 640;
             int sum = 0;
             for (int s = 0; s < 16; ++s) { // 4 x 4 rays a pixel
-                const double u = i % 640 + (s % 4 - 1.5) / 4, v = i / 640 + (s / 4 - 1.5) / 4;
+                const int line = s / 4;
+                const double u = i % 640 + (s % 4 - 1.5) / 4, v = row + (line - 1.5) / 4;
                 const dvec3 p =
                     tagTcolour.rotation * hit(info.colour.ray(u, v), info.colourTdepth) + tagTcolour.position;
                 const int x = static_cast<int>(std::floor(p.x / 0.025)) + 5,

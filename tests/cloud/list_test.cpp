@@ -130,7 +130,8 @@ TEST_CASE(
     "lists") {
     for (const bool byPixel : {false, true}) {
         const auto change = [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; };
-        for (const auto& [width, height] : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {333u, 250u}}) {
+        for (const auto& size : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {333u, 250u}}) {
+            const uint32_t width = size.first, height = size.second; // CAPTURE takes no structured binding
             CAPTURE(byPixel);
             CAPTURE(width);
             const CameraInfo camera = pinholeCamera(width, height);

@@ -76,8 +76,8 @@ std::span<const FuzzTarget> fuzzTargets() {
 }
 
 std::filesystem::path fuzzFile(const std::string& name, Bytes content) {
-    static const Folder folder;
-    const auto file = folder.path() / name;
+    static const Folder kFolder;
+    const auto file = kFolder.path() / name;
     std::ofstream out(file, std::ios::binary);
     out.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
     return file;

@@ -34,8 +34,8 @@ struct QuickRun {
 };
 
 inline const QuickRun& quickRun() { // one run serves every case
-    static const QuickRun run;
-    return run;
+    static const QuickRun kRun;
+    return kRun;
 }
 
 inline std::vector<std::vector<std::string>> tableOf(const std::filesystem::path& file) {

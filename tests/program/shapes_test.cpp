@@ -98,7 +98,8 @@ TEST_CASE(
     std::ostringstream sph;
     sph << "2 1000\n0 0 0 0.05\n";
     for (int i = 0; i < 1000; ++i) {
-        sph << 0.004 * (i % 10 - 4.5) << " " << 0.004 * (i / 10 % 10 - 4.5) << " " << 0.004 * (i / 100 - 9)
+        const int row = i / 10 % 10, layer = i / 100;
+        sph << 0.004 * (i % 10 - 4.5) << " " << 0.004 * (row - 4.5) << " " << 0.004 * (layer - 9)
             << " 0.003\n";
     }
     stage.write("block.sph", sph.str());

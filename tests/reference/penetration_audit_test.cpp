@@ -258,7 +258,8 @@ TEST_CASE("a set with a sphere that is not finite is audited without it") {
 TEST_CASE("the audit of 256 leaves over 60 thousand spheres is timed in free water and in contact") {
     std::vector<Sphere> leaves, wall;
     for (int i = 0; i < 256; ++i) {
-        leaves.push_back({{0.006 * (i % 16) - 0.045, 0.006 * (i / 16) - 0.045, 0.0}, 0.004});
+        const int row = i / 16;
+        leaves.push_back({{0.006 * (i % 16) - 0.045, 0.006 * row - 0.045, 0.0}, 0.004});
     }
     for (int v = 0; v < 200; ++v) {
         for (int u = 0; u < 300; ++u) {

@@ -71,10 +71,10 @@ TEST_CASE("unknown keys are refused at every level with the nearest known key") 
 }
 
 TEST_CASE("the nearest word counts a swap of neighbours as one slip and takes any length") {
-    constexpr std::array<std::string_view, 3> words{"frocks", "force", "near"};
-    CHECK(nearestWord("froce", words) == "force"); // one swap; "frocks" is two letters away and comes first
-    CHECK(nearestWord("", words) == "near");       // fewest letters to add
-    CHECK(nearestWord(std::string(100000, 'k'), words) == "frocks");
+    constexpr std::array<std::string_view, 3> kWords{"frocks", "force", "near"};
+    CHECK(nearestWord("froce", kWords) == "force"); // one swap; "frocks" is two letters away and comes first
+    CHECK(nearestWord("", kWords) == "near");       // fewest letters to add
+    CHECK(nearestWord(std::string(100000, 'k'), kWords) == "frocks");
 }
 
 TEST_CASE("colour gates outside their range, reversed or of another form are refused") {

@@ -130,7 +130,8 @@ Picture stressPicture(const CameraInfo& camera, uint64_t seed) {
     Picture picture;
     const uint32_t w = camera.depth.width, h = camera.depth.height;
     for (uint32_t i = 0; i < camera.depth.pixels(); ++i) {
-        const double x = (i % w + 0.5) / w, y = (i / w + 0.5) / h;
+        const uint32_t row = i / w;
+        const double x = (i % w + 0.5) / w, y = (row + 0.5) / h;
         const uint64_t key = seed * 0x100000000ull + i * 4ull;
         double z = 0.6 + 0.3 * x + 0.2 * std::sin(5.0 * y);
         z += std::hypot(x - 0.5, y - 0.4) < 0.25 ? -0.25 : 0.0; // a step
