@@ -26,7 +26,7 @@ while read -r document; do
         if grep -qE '(^|[;&|(]|build/) *(\./run|ctest)( |$)' "$block"; then
             echo "ERROR: $document: a runnable block must not build or run the tests"
             failed=$((failed + 1))
-        elif (cd "$root" && timeout 120 bash -euo pipefail "$block") </dev/null >"$scratch/log" 2>&1; then
+        elif (cd "$root" && timeout 240 bash -euo pipefail "$block") </dev/null >"$scratch/log" 2>&1; then
             passed=$((passed + 1))
         else
             echo "ERROR: $document: this does not run:"
