@@ -86,7 +86,7 @@ downloaded=$(megabytes "$root/var/cache/apt/archives")
 while read -r line; do
     [[ $wanted != *" ${line#./run } "* ]] || step "$root" "$line" "$line"
 done <<<"$commands"
-echo "newcomer: all in $(since "$begun") s, $(($(megabytes "$root/var/cache/apt/archives") - downloaded)) MB downloaded, root of $(megabytes "$root") MB"
+[ "$wanted" = " packages " ] || echo "newcomer: all in $(since "$begun") s, $(($(megabytes "$root/var/cache/apt/archives") - downloaded)) MB downloaded, root of $(megabytes "$root") MB"
 if [[ $wanted == *" packages "* ]]; then
     make_packages
     install_packages
