@@ -56,11 +56,11 @@ step() {
 
 # What README's `cpack` makes, where nothing has to be built but what is packed unless the tests were.
 make_packages() {
-    local configure="true"
+    local build="true"
     [ -e "$root/fathom/build/CMakeCache.txt" ] && [[ $wanted == *" test "* ]] ||
-        configure="cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DFATHOM_BATCHES=ON -DBUILD_TESTING=OFF"
+        build="cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DFATHOM_BATCHES=ON -DBUILD_TESTING=OFF && cmake --build build"
     step "$root" "packages made" "apt-get update -qq &&
-        apt-get install -y -qq --no-install-recommends dpkg-dev fakeroot file \$(grep -v '^#' third_party/packages.txt) && $configure &&
+        apt-get install -y -qq --no-install-recommends dpkg-dev fakeroot file \$(grep -v '^#' third_party/packages.txt) && $build &&
         cd build && rm -f *.deb && cpack -G DEB && ls *.deb | tr '\n' ' '"
 }
 
