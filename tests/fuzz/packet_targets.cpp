@@ -5,8 +5,6 @@
 #include "devices/bridge/force_gate.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
-#include "devices/serial/eca_frame.h"
-#include "devices/serial/reach_packet.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "devices/usb/falcon_packet.h"
 #include "devices/usb/space_mouse.h"
@@ -115,32 +113,6 @@ void readSpaceMouse(Bytes input) {
         need(isFinite(axes) && std::abs(axes.x) <= 1.0 && std::abs(axes.y) <= 1.0 && std::abs(axes.z) <= 1.0);
         at += 1 + size;
     }
-}
-
-void readReach(Bytes input) {
-    ReachReader reader;
-    for (uint8_t byte : input) {
-        if (const auto packet = reader.take(byte)) {
-            need(packet->size <= ReachPacket::kMostData);
-            ReachFrame frame;
-            need(encodeReach(*packet, frame) > 0);
-        }
-    }
-}
-
-void readEca(Bytes input) {
-    EcaReader reader;
-    for (uint8_t byte : input) {
-        if (const auto frame = reader.take(byte)) {
-            need(frame->at(49) == ecaChecksum(*frame));
-            const auto status = statusOf(*frame), again = statusOf(encodeEca(status));
-            for (size_t j = 0; j < kEcaJoints; ++j) {
-                need(again[j].encoder == status[j].encoder && again[j].current == status[j].current);
-            }
-            need(encodeEca(demandsOf(*frame)).size() == frame->size());
-        }
-    }
-    need(reader.damaged() <= input.size());
 }
 
 // As they come out of the socket: a packet for the engine, or a wrench for the device's side. The first byte

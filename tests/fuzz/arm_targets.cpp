@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Targets that read what real arms answer: telegrams, and what their drivers make of them.
+#include "devices/serial/eca_arm.h"
+#include "devices/serial/reach_arm.h"
+#include "tests/fuzz/fuzz_target.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <vector>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+namespace fathom::testing {
+
+namespace {
+
+// The arm's end of a serial line, which is a pseudo-terminal. One a process and target: a driver is made anew
+// for each input, the line stays.
+class FarEnd {
+public:
+    FarEnd()
+        : master_(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
+        need(master_ >= 0 && ::grantpt(master_) == 0 && ::unlockpt(master_) == 0);
+        port_ = std::make_unique<SerialPort>(::ptsname(master_), 115200);
+    }
+    ~FarEnd() { ::close(master_); }
+    FarEnd(const FarEnd&) = delete;
+    FarEnd& operator=(const FarEnd&) = delete;
+
+    SerialPort& port() { return *port_; }
+
+    // Turns of a driver that is told to move, with so many bytes before each.
+    void feed(ArmDevice& arm, Bytes input) {
+        constexpr size_t kTurn = 512, kMostTurns = 8;
+        constexpr double kPeriod = 0.1; // [s] longer than a driver's own: it sends in every turn
+        ArmCommand command;
+        command.hold = false;
+        for (size_t turn = 0; turn < kMostTurns && turn * kTurn < input.size(); ++turn) {
+            const Bytes bytes = input.subspan(turn * kTurn, std::min(kTurn, input.size() - turn * kTurn));
+            need(::write(master_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+            pollfd there{port_->descriptor(), POLLIN, 0};
+            ::poll(&there, 1, 200);
+            arm.step(now_ += kPeriod, command);
+            needSound(arm.feedback());
+            std::array<uint8_t, 1024> sent{};
+            while (::read(master_, sent.data(), sent.size()) > 0) {
+            }
+        }
+        std::array<uint8_t, kTurn> left{};
+        while (port_->read(left) > 0) {
+        }
+    }
+
+private:
+    static void needSound(const ArmFeedback& feedback) {
+        const auto finite = [](double x) { return std::isfinite(x); };
+        need(std::ranges::all_of(feedback.position, finite) && std::ranges::all_of(feedback.current, finite));
+        need(feedback.age >= 0.0 && (!feedback.stale || feedback.holding));
+    }
+
+    int master_;
+    double now_ = 0.0; // [s]
+    std::unique_ptr<SerialPort> port_;
+};
+
+// The same bytes as what an arm says of its axes, in telegrams whose checksums are right: these guard all
+// that is behind.
+std::vector<uint8_t> reachAnswers(Bytes input) {
+    std::vector<uint8_t> all;
+    for (; input.size() >= 6; input = input.subspan(6)) {
+        ReachPacket packet{static_cast<uint8_t>(input[0] % 2 == 0 ? 0x03 : 0x05), // position, current
+                           static_cast<uint8_t>(input[1] % 7),
+                           4,
+                           {}};
+        std::copy_n(input.begin() + 2, 4, packet.data.begin());
+        ReachFrame frame;
+        const size_t size = encodeReach(packet, frame);
+        all.insert(all.end(), frame.begin(), frame.begin() + static_cast<std::ptrdiff_t>(size));
+    }
+    return all;
+}
+
+std::vector<uint8_t> ecaAnswers(Bytes input) {
+    constexpr size_t kBytes = 4 * kEcaJoints;
+    std::vector<uint8_t> all;
+    for (; input.size() >= kBytes; input = input.subspan(kBytes)) {
+        std::array<EcaStatus, kEcaJoints> status;
+        for (size_t j = 0; j < kEcaJoints; ++j) {
+            const Bytes of = input.subspan(4 * j, 4);
+            status[j] = {static_cast<uint16_t>(of[0] | of[1] << 8), 0, of[2], of[3]};
+        }
+        const EcaBytes frame = encodeEca(status);
+        all.insert(all.end(), frame.begin(), frame.end());
+    }
+    return all;
+}
+
+} // namespace
+
+void readReach(Bytes input) {
+    ReachReader reader;
+    for (uint8_t byte : input) {
+        if (const auto packet = reader.take(byte)) {
+            need(packet->size <= ReachPacket::kMostData);
+            ReachFrame frame;
+            need(encodeReach(*packet, frame) > 0);
+        }
+    }
+    static FarEnd line;
+    ReachArm arm(line.port());
+    line.feed(arm, input);
+    line.feed(arm, reachAnswers(input));
+}
+
+void readEca(Bytes input) {
+    EcaReader reader;
+    for (uint8_t byte : input) {
+        if (const auto frame = reader.take(byte)) {
+            need(frame->at(49) == ecaChecksum(*frame));
+            const auto status = statusOf(*frame), again = statusOf(encodeEca(status));
+            for (size_t j = 0; j < kEcaJoints; ++j) {
+                need(again[j].encoder == status[j].encoder && again[j].current == status[j].current);
+            }
+            need(encodeEca(demandsOf(*frame)).size() == frame->size());
+        }
+    }
+    need(reader.damaged() <= input.size());
+    static FarEnd line;
+    EcaArm arm(line.port());
+    line.feed(arm, input);
+    line.feed(arm, ecaAnswers(input));
+}
+
+} // namespace fathom::testing
