@@ -173,10 +173,15 @@ TEST_CASE("Lists of tags and points are read, and a wrong line is refused with i
     CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
 }
 
-TEST_CASE("A list of points, tags or a board whose line never ends is refused before memory is") {
-    for (const std::filesystem::path endless : {"/dev/zero", "/dev/full"}) {
-        CHECK_THROWS_WITH_AS(readPointPairs(endless), doctest::Contains("line 1"), BadInput);
-        CHECK_THROWS_WITH_AS(readTagPlaces(endless), doctest::Contains("line 1"), BadInput);
-        CHECK_THROWS_WITH_AS(readBoardPlace(endless), doctest::Contains("line 1"), BadInput);
+TEST_CASE("A list of points, tags or a board whose line has no end in sight is refused before memory is") {
+    const testing::ScratchFolder folder;
+    const std::filesystem::path hole = folder.path() / "hole.csv";
+    std::ofstream(hole).close();
+    std::filesystem::resize_file(hole, uint64_t{64} << 30); // takes no room on the disk
+    for (const auto& [file, why] :
+         {std::pair(hole, "line 1"), {std::filesystem::path("/dev/zero"), "a pipe or a device"}}) {
+        CHECK_THROWS_WITH_AS(readPointPairs(file), doctest::Contains(why), BadInput);
+        CHECK_THROWS_WITH_AS(readTagPlaces(file), doctest::Contains(why), BadInput);
+        CHECK_THROWS_WITH_AS(readBoardPlace(file), doctest::Contains(why), BadInput);
     }
 }
