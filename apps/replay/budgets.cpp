@@ -7,7 +7,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kTurnP50 = 30.0, kTurnP99 = 80.0; // [us] 256 leaves in contact with 60 k spheres
+constexpr double kTurnP50 = 30.0, kTurnP99 = 80.0; // [us]
+const char* const kTurnOf = "the budget is of 256 in contact with 60 k spheres";
 
 // [ms] latency of a frame, upload to published.
 std::optional<double> frameBudget(const Intrinsics& depth, double forbiddenShare, DeviceKind device) {
@@ -27,13 +28,13 @@ std::optional<double> frameBudget(const Intrinsics& depth, double forbiddenShare
 } // namespace
 
 std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intrinsics& depth,
-                                        DeviceKind device) {
+                                        DeviceKind device, size_t leaves) {
     double forbidden = 0.0;
     for (const ReplaySummary::FixtureRow& row : summary.fixtures) {
         forbidden += row.role == "forbidden" ? row.pointsMean.value_or(0.0) : 0.0;
     }
     std::vector<BudgetFigure> figures;
-    const auto add = [&](const char* what, const char* unit, const std::optional<double>& measured,
+    const auto add = [&](const std::string& what, const char* unit, const std::optional<double>& measured,
                          double budget) {
         if (measured) {
             figures.push_back({what, unit, *measured, budget});
@@ -42,8 +43,10 @@ std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intr
     if (const auto budget = frameBudget(depth, forbidden / depth.pixels(), device)) {
         add("frame p50", "ms", summary.frames.latencyMs.p50, *budget);
     }
-    add("turn p50", "us", summary.haptic.turnMicros.p50, kTurnP50);
-    add("turn p99", "us", summary.haptic.turnMicros.p99, kTurnP99);
+    const std::string of =
+        " (" + std::to_string(leaves) + (leaves == 1 ? " leaf; " : " leaves; ") + kTurnOf + ")";
+    add("turn p50" + of, "us", summary.haptic.turnMicros.p50, kTurnP50);
+    add("turn p99" + of, "us", summary.haptic.turnMicros.p99, kTurnP99);
     return figures;
 }
 

@@ -70,8 +70,9 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
 }
 
 void printBudgets(const ReplaySummary& summary, const ReplaySession& session) {
+    const size_t leaves = summary.arm ? summary.arm->leaves : session.tool.leafCount();
     for (const BudgetFigure& f :
-         budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind)) {
+         budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind, leaves)) {
         std::cout << "budget       " << f.what << " " << f.measured << " of " << f.budget << " " << f.unit
                   << (f.holds() ? ", kept\n" : ", MISSED\n");
     }
