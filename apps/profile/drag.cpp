@@ -2,6 +2,7 @@
 #include "apps/profile/drag.h"
 
 #include "apps/profile/shot_source.h"
+#include "apps/profile/wavy_wall.h"
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"
 #include "engine/reference/contact_oracle.h"
@@ -13,13 +14,9 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kWall = 0.2, kRadius = 0.04, kCircle = 0.08; // [m]
+constexpr double kWall = 0.2, kCircle = 0.08; // [m]
 
-double bulge(double x, double y) {
-    return 0.01 * std::sin(20.0 * x) * std::cos(17.0 * y);
-}
-
-// Height [m] over the bulging wall of a ball's centre that touches it; `radius` with the wall's own spheres.
+// Height [m] over the wavy wall of a ball's centre that touches it; `radius` with the wall's own spheres.
 double ballOver(double x, double y, double radius) {
     constexpr double kStep = 0.002; // [m]; the surface's slope is 0.2 at most, where it touches
     constexpr int kAround = 12;
@@ -27,33 +24,11 @@ double ballOver(double x, double y, double radius) {
     for (int j = -kAround; j <= kAround; ++j) {
         for (int i = -kAround; i <= kAround; ++i) {
             const double dx = kStep * i, dy = kStep * j;
-            height = std::max(height, bulge(x + dx, y + dy) + std::sqrt(radius * radius - dx * dx - dy * dy));
+            height =
+                std::max(height, wallHeight(x + dx, y + dy) + std::sqrt(radius * radius - dx * dx - dy * dy));
         }
     }
     return height;
-}
-
-// 40 x 40 cm of a noisy, bulging wall whose spheres have a radius of 4 cm.
-Fixtures wall(double spacing) {
-    Fixtures f;
-    f.frame = 0;
-    f.generation = 1;
-    RegionSpheres& s = f.spheres;
-    const int n = static_cast<int>(kWall / spacing);
-    for (int j = -n; j <= n; ++j) {
-        for (int i = -n; i <= n; ++i) {
-            const double x = i * spacing, y = j * spacing;
-            const double noise =
-                3e-4 * (std::fmod(std::abs(std::sin(i * 12.9898 + j * 78.233) * 43758.5453), 1.0) - 0.5);
-            s.x.push_back(static_cast<float>(x));
-            s.y.push_back(static_cast<float>(y));
-            s.z.push_back(static_cast<float>(bulge(x, y) + noise));
-            s.radius.push_back(static_cast<float>(kRadius));
-            s.source.push_back(static_cast<uint32_t>(s.source.size()));
-            s.fixture.push_back(0);
-        }
-    }
-    return f;
 }
 
 struct Clock {
@@ -70,9 +45,9 @@ public:
         : setting_(setting)
         , own_(ballTool(setting.leaves))
         , tool_(setting.tool != nullptr ? *setting.tool : own_)
-        , wall_(wall(setting.spacing))
+        , wall_(wavyWall(static_cast<int>(kWall / setting.spacing), setting.spacing)) // 40 x 40 cm
         , proxy_(tool_, {}, setting.proxy, {dvec3(kCircle, 0, 0.5), dquat(1, 0, 0, 0)})
-        , reach_(tool_.boundingRadius() + kRadius) {
+        , reach_(tool_.boundingRadius() + kWallRadius) {
         grid_.build(wall_.spheres);
         land();
         answer();
@@ -84,8 +59,8 @@ public:
         for (uint32_t k = 0; k < setting_.ticks; ++k) {
             tick(k);
         }
-        result_.query = spreadOf(queries_);
-        result_.turn = spreadOf(turns_);
+        result_.query = queries_.cost();
+        result_.turn = turns_.cost();
         result_.lagRms = std::sqrt(lag_ / setting_.ticks);
         result_.spheres = wall_.spheres.size();
         return std::move(result_);
@@ -120,7 +95,7 @@ private:
         pending_.push_back({now_ + setting_.delay, std::make_unique<ContactSet>()});
         const Clocks clocks;
         cull_.query(tool_, proxy_.pose(), setting_.reach, wall_, grid_, *pending_.back().set);
-        queries_.push_back(clocks.wallMs());
+        queries_.take(clocks);
     }
 
     void tick(uint32_t k) {
@@ -138,7 +113,7 @@ private:
         const Deadline deadline{setting_.deadlineMicros > 0.0 ? &Clock::passed : nullptr, &clock};
         const Clocks clocks;
         const ProxyTurn turn = proxy_.turn({hand, 0.05, &inForce_, deadline});
-        turns_.push_back(clocks.wallMs());
+        turns_.take(clocks);
         note(k, hand, turn);
     }
 
@@ -168,7 +143,7 @@ private:
     uint32_t now_ = 0;
     double reach_ = 0.0; // [m] from the tool's centre to the wall's points, in touch
     double height_ = 0.0, lag_ = 0.0;
-    std::vector<double> queries_, turns_;
+    CpuSamples queries_, turns_;
     DragResult result_;
 };
 

@@ -24,7 +24,7 @@ struct DragSetting {
 };
 
 struct DragResult {
-    Spread query, turn;    // [ms]
+    Cost query, turn;      // wall time as `submit`, and CPU time of the thread
     double lagRms = 0.0;   // [m] of the tool behind the hand along the wall, over all ticks
     double deepest = -1.0; // [m] of any leaf in any sphere, over the ticks looked at; < 0 = clear
     uint64_t stalled = 0, solves = 0, rounds = 0, contacts = 0;

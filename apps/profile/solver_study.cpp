@@ -126,7 +126,7 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
     const Apart error = apartAll(run, optimum);
     const double ticks = static_cast<double>(run.poses.size());
     row.error = error.rms * 1e3;
-    row.cost.submit = row.cost.cpu = run.turn;
+    row.cost = run.turn;
     row.more = {error.max * 1e3,
                 run.lagRms * 1e3,
                 static_cast<double>(run.solves) / ticks,

@@ -32,8 +32,8 @@ Spread spreadOf(std::vector<double> values) {
 }
 
 Clocks::Clocks()
-    : wall_(std::chrono::steady_clock::now())
-    , cpu_(threadSeconds()) {}
+    : cpu_(threadSeconds())
+    , wall_(std::chrono::steady_clock::now()) {}
 
 double Clocks::wallMs() const {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - wall_).count();

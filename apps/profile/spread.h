@@ -33,7 +33,8 @@ struct Effort {
     double seconds = 0.5;
 };
 
-// Wall time and CPU time of the calling thread since construction [ms].
+// Wall time and CPU time of the calling thread since construction [ms]. The CPU clock takes a system call, a
+// fraction of a microsecond: it is read before the wall's begins, so read wallMs() first.
 class Clocks {
 public:
     Clocks();
@@ -41,8 +42,19 @@ public:
     double cpuMs() const;
 
 private:
-    std::chrono::steady_clock::time_point wall_;
     double cpu_;
+    std::chrono::steady_clock::time_point wall_;
+};
+
+// Samples of both clocks, of work on one thread [ms].
+struct CpuSamples {
+    std::vector<double> wall, cpu;
+
+    void take(const Clocks& clocks) {
+        wall.push_back(clocks.wallMs());
+        cpu.push_back(clocks.cpuMs());
+    }
+    Cost cost() const { return {{}, spreadOf(wall), spreadOf(cpu)}; }
 };
 
 // Calls work() as `effort` says and hands each call's clocks to take(clocks), after calls that warm up for a
@@ -64,12 +76,9 @@ void repeat(const Effort& effort, Work&& work, Take&& take) {
 // CPU work that waits for nobody: wall and CPU time of each call.
 template <class Work>
 Cost timeCpu(const Effort& effort, Work&& work) {
-    std::vector<double> wall, cpu;
-    repeat(effort, work, [&](const Clocks& c) {
-        wall.push_back(c.wallMs());
-        cpu.push_back(c.cpuMs());
-    });
-    return {{}, spreadOf(std::move(wall)), spreadOf(std::move(cpu))};
+    CpuSamples samples;
+    repeat(effort, work, [&](const Clocks& clocks) { samples.take(clocks); });
+    return samples.cost();
 }
 
 } // namespace fathom::profile

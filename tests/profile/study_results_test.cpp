@@ -100,6 +100,21 @@ TEST_CASE("With late answers a short reach stalls and lags and a long one does n
     CHECK(brief["error"].get<double>() > ample["error"].get<double>());
 }
 
+TEST_CASE("Turns and queries have a wall time and a CPU time of their own, neither filed as the other") {
+    for (const char* name : {"solver", "tool", "query"}) {
+        size_t rows = 0, same = 0;
+        for (const auto& row : quickRun().study(name)["rows"]) {
+            if (name == std::string("query") && !startsWith(row["source"], "answers ")) {
+                continue;
+            }
+            ++rows;
+            same += row["submit_to_result_p50_ms"] == row["cpu_p50_ms"] ? 1 : 0;
+        }
+        CHECK_MESSAGE(rows >= 4, name);
+        CHECK_MESSAGE(same < rows, name);
+    }
+}
+
 TEST_CASE("Larger pictures cost more of every fitted step, and the exponents are said") {
     size_t fitted = 0;
     for (const std::string finding : quickRun().study("scaling")["findings"]) {
