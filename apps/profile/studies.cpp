@@ -8,8 +8,9 @@ const std::vector<StudyEntry>& allStudies() {
         {"filter", filterStudy},   {"fixture", fixtureStudy},    {"query", queryStudy},
         {"solver", solverStudy},   {"tool", toolStudy},          {"precision", precisionStudy},
         {"scaling", scalingStudy}, {"leave_out", leaveOutStudy}, {"limit", limitStudy},
+        {"budgets", budgetsStudy},
 #ifdef FATHOM_PEERS
-        {"peers", peersStudy}
+                                                 {"peers", peersStudy}
 #endif
     };
     return kStudies;

@@ -18,6 +18,7 @@ Study precisionStudy(const StudyContext& context);
 Study scalingStudy(const StudyContext& context);
 Study leaveOutStudy(const StudyContext& context);
 Study limitStudy(const StudyContext& context);
+Study budgetsStudy(const StudyContext& context);
 Study peersStudy(const StudyContext& context); // only in a build with -DFATHOM_PEERS=ON
 
 struct StudyEntry {
