@@ -59,8 +59,6 @@ public:
         for (uint32_t k = 0; k < setting_.ticks; ++k) {
             tick(k);
         }
-        result_.query = queries_.cost();
-        result_.turn = turns_.cost();
         result_.lagRms = std::sqrt(lag_ / setting_.ticks);
         result_.spheres = wall_.spheres.size();
         return std::move(result_);
@@ -95,7 +93,7 @@ private:
         pending_.push_back({now_ + setting_.delay, std::make_unique<ContactSet>()});
         const Clocks clocks;
         cull_.query(tool_, proxy_.pose(), setting_.reach, wall_, grid_, *pending_.back().set);
-        queries_.take(clocks);
+        result_.queries.take(clocks);
     }
 
     void tick(uint32_t k) {
@@ -113,7 +111,7 @@ private:
         const Deadline deadline{setting_.deadlineMicros > 0.0 ? &Clock::passed : nullptr, &clock};
         const Clocks clocks;
         const ProxyTurn turn = proxy_.turn({hand, 0.05, &inForce_, deadline});
-        turns_.take(clocks);
+        result_.turns.take(clocks);
         note(k, hand, turn);
     }
 
@@ -143,7 +141,6 @@ private:
     uint32_t now_ = 0;
     double reach_ = 0.0; // [m] from the tool's centre to the wall's points, in touch
     double height_ = 0.0, lag_ = 0.0;
-    CpuSamples queries_, turns_;
     DragResult result_;
 };
 

@@ -24,12 +24,18 @@ struct DragSetting {
 };
 
 struct DragResult {
-    Cost query, turn;      // wall time as `submit`, and CPU time of the thread
+    CpuSamples queries, turns;
     double lagRms = 0.0;   // [m] of the tool behind the hand along the wall, over all ticks
     double deepest = -1.0; // [m] of any leaf in any sphere, over the ticks looked at; < 0 = clear
     uint64_t stalled = 0, solves = 0, rounds = 0, contacts = 0;
     size_t spheres = 0;
     std::vector<Pose> poses; // after each tick
+
+    // Times of another run of the same setting, which did the same.
+    void addTimes(const DragResult& again) {
+        queries.add(again.queries);
+        turns.add(again.turns);
+    }
 };
 
 // The same hand path for equal settings of leaves, speed, press, follow and ticks. Every 64th tick and the

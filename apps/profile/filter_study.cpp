@@ -3,6 +3,7 @@
 // truth on analytic scenes, as scatter between repeats on recordings.
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
+#include "apps/profile/turns.h"
 
 #include <algorithm>
 
@@ -149,14 +150,20 @@ Scene sceneFor(const Settings& settings, const Setting& s) {
     return scene;
 }
 
-StudyRow rowOf(const StudyContext& context, const ShotSource& source, const Setting& s, Window usual) {
-    FrameBench bench(context.device, sceneFor(context.settings, s), source.camera, [&](Plan& plan) {
-        plan.tiled = s.window == Window::Tiles;
-        plan.filterBlock = s.window == Window::Blocks;
-    });
+std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const ShotSource& source, const Setting& s) {
+    return std::make_unique<FrameBench>(context.device, sceneFor(context.settings, s), source.camera,
+                                        [&](Plan& plan) {
+                                            plan.tiled = s.window == Window::Tiles;
+                                            plan.filterBlock = s.window == Window::Blocks;
+                                        });
+}
+
+// All but the times.
+StudyRow errorRow(const StudyContext& context, const ShotSource& source, const std::string& setting,
+                  FrameBench& bench) {
     StudyRow row;
     row.source = source.name;
-    row.setting = nameOf(s, usual);
+    row.setting = setting;
     const bool exact = !source.shots.front().truth.empty();
     const std::vector<uint8_t> edges = exact ? edgesOf(source) : std::vector<uint8_t>{};
     const uint32_t own =
@@ -176,13 +183,32 @@ StudyRow rowOf(const StudyContext& context, const ShotSource& source, const Sett
             errors.add(source, frames.back(), masks, edges);
         }
     }
-    const FrameCost cost = bench.measure(source.shots, context.settings.effort());
     row.error = exact ? errors.rms() : scatterOf(frames);
-    const auto surface = cost.passes.find("surface");
-    row.cost = cost.frame;
-    row.cost.gpu = surface != cost.passes.end() ? surface->second : Spread{};
-    row.more = {errors.edgeP90(), cost.frame.gpu.p50, cost.total.p50};
+    row.more = {errors.edgeP90()};
     return row;
+}
+
+// All settings of one source, in turns.
+void addSource(const StudyContext& context, Study& study, const ShotSource& source) {
+    const Scene scene = studyScene(context.settings);
+    const Window usual = windowOf(makePlan(scene, source.camera, 1, context.device.facts()));
+    std::vector<std::unique_ptr<FrameBench>> benches;
+    std::vector<StudyRow> rows;
+    for (const Setting& s : settingsOf(scene, context.settings.quick, usual)) {
+        benches.push_back(benchOf(context, source, s));
+        rows.push_back(errorRow(context, source, nameOf(s, usual), *benches.back()));
+        rows.back().isDefault = s.radius == scene.filter.radius && s.sigma == scene.filter.sigma &&
+                                s.window == windowFor(s.radius, usual) && !s.everyPatch &&
+                                s.polynomial == (scene.filter.weights == Scene::Filter::Weights::Polynomial);
+    }
+    const std::vector<FrameCost> costs = measureInTurns(benches, source.shots, context.settings.effort());
+    for (size_t i = 0; i < rows.size(); ++i) {
+        const auto surface = costs[i].passes.find("surface");
+        rows[i].cost = costs[i].frame;
+        rows[i].cost.gpu = surface != costs[i].passes.end() ? surface->second : Spread{};
+        rows[i].more.insert(rows[i].more.end(), {costs[i].frame.gpu.p50, costs[i].total.p50});
+        study.rows.push_back(std::move(rows[i]));
+    }
 }
 
 } // namespace
@@ -205,15 +231,7 @@ Study filterStudy(const StudyContext& context) {
         "what their names say";
     const uint32_t frames = context.settings.quick ? 2 : 6;
     for (const ShotSource& source : studySources(context.settings, {"torus", "corner", "tank"}, frames)) {
-        const Scene scene = studyScene(context.settings);
-        const Window usual = windowOf(makePlan(scene, source.camera, 1, context.device.facts()));
-        for (const Setting& s : settingsOf(scene, context.settings.quick, usual)) {
-            StudyRow row = rowOf(context, source, s, usual);
-            row.isDefault = s.radius == scene.filter.radius && s.sigma == scene.filter.sigma &&
-                            s.window == windowFor(s.radius, usual) && !s.everyPatch &&
-                            s.polynomial == (scene.filter.weights == Scene::Filter::Weights::Polynomial);
-            study.rows.push_back(std::move(row));
-        }
+        addSource(context, study, source);
     }
     markFront(study);
     study.panels.push_back(frontPanel(study, study.errorName));

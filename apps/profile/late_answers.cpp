@@ -27,7 +27,7 @@ void addLateAnswers(const StudyContext& context, Study& study) {
             verify(run.deepest <= 1e-9, "query", row.setting,
                    "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
             row.error = run.lagRms * 1e3;
-            row.cost = run.query;
+            row.cost = run.queries.cost();
             row.more = {NAN, static_cast<double>(setting.leaves), static_cast<double>(run.spheres),
                         NAN, static_cast<double>(run.stalled),    reach * 1e3};
             late.rows.push_back(std::move(row));

@@ -6,6 +6,7 @@
 #include "engine/types/pose.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace fathom::profile {
 
@@ -158,33 +159,33 @@ Distances runLocalHalf(const Scene& s) {
 
 } // namespace
 
-std::vector<StudyRow> centreRows(const StudyContext& context) {
+std::vector<PrecisionLoop> centreRows(const StudyContext& context) {
     const size_t spheres = context.settings.quick ? 10000 : 60000, leaves = context.settings.quick ? 32 : 256;
     struct Kind {
         const char* name;
         Distances (*run)(const Scene&);
         double bytes, allowed; // [m]
     };
-    std::vector<StudyRow> rows;
+    std::vector<PrecisionLoop> loops;
     for (double away : {0.8, 8.0}) {
-        const Scene scene(spheres, leaves, away);
-        const Distances truth = runDouble(scene);
+        const auto scene = std::make_shared<const Scene>(spheres, leaves, away);
+        const Distances truth = runDouble(*scene);
         for (const Kind& kind :
              {Kind{"double", runDouble, 24, 0.0}, Kind{"single", runSingle, 12, 4e-6},
               Kind{"half about the patch", runLocalHalf, 6, 2e-5}, Kind{"half", runHalf, 6, away * 1e-3}}) {
-            const Distances found = kind.run(scene);
+            const Distances found = kind.run(*scene);
             double error = 0.0; // [m]
             for (size_t i = 0; i < truth.size(); ++i) {
                 error = std::max(error, std::abs(found[i] - truth[i]));
             }
             verify(error <= kind.allowed, "precision", kind.name, digits(error * 1e3) + " mm");
-            const Cost cost = timeCpu(context.settings.effort(), [&] { kind.run(scene); });
-            rows.push_back(precisionRow("centres " + digits(away) + " m from the origin", kind.name,
-                                        std::string(kind.name) == "single", error * 1e3, cost, kind.bytes,
-                                        static_cast<double>(scene.exact.size()), NAN));
+            loops.push_back({precisionRow("centres " + digits(away) + " m from the origin", kind.name,
+                                          std::string(kind.name) == "single", error * 1e3, kind.bytes,
+                                          static_cast<double>(scene->exact.size()), NAN),
+                             [scene, run = kind.run] { run(*scene); }});
         }
     }
-    return rows;
+    return loops;
 }
 
 } // namespace fathom::profile

@@ -5,6 +5,7 @@
 #include "engine/types/pose.h"
 
 #include <algorithm>
+#include <memory>
 
 namespace fathom::profile {
 
@@ -58,18 +59,25 @@ struct PlainPixel {
 };
 
 template <class Pixel>
-StudyRow depthRow(const StudyContext& context, const Picture& picture, const char* name, double allowed) {
+PrecisionLoop depthLoop(const std::shared_ptr<const Picture>& shared, const char* name, double allowed) {
+    const Picture& picture = *shared;
     using T = typename Pixel::Number;
     std::vector<Pixel> pixels;
     std::transform(picture.raw.begin(), picture.raw.end(), std::back_inserter(pixels), Pixel::of);
-    std::vector<T> x(pixels.size()), y(pixels.size()), z(pixels.size());
+    struct Points {
+        std::vector<T> x, y, z;
+    };
+    const size_t count = pixels.size();
+    const auto points =
+        std::make_shared<Points>(Points{std::vector<T>(count), std::vector<T>(count), std::vector<T>(count)});
     const T inverse = static_cast<T>(1.0 / picture.focal());
-    const int middleU = picture.width / 2, middleV = picture.height / 2;
-    const auto unproject = [&] {
-        for (int v = 0; v < picture.height; ++v) {
+    const auto unproject = [shared, points, pixels, inverse] {
+        const int middleU = shared->width / 2, middleV = shared->height / 2;
+        T *x = points->x.data(), *y = points->y.data(), *z = points->z.data();
+        for (int v = 0; v < shared->height; ++v) {
             const T rayY = (static_cast<T>(v) - static_cast<T>(middleV)) * inverse;
-            const size_t row = static_cast<size_t>(v) * static_cast<size_t>(picture.width);
-            for (int u = 0; u < picture.width; ++u) {
+            const size_t row = static_cast<size_t>(v) * static_cast<size_t>(shared->width);
+            for (int u = 0; u < shared->width; ++u) {
                 const size_t i = row + static_cast<size_t>(u);
                 z[i] = static_cast<T>(pixels[i].metres());
                 x[i] = (static_cast<T>(u) - static_cast<T>(middleU)) * inverse * z[i];
@@ -80,12 +88,12 @@ StudyRow depthRow(const StudyContext& context, const Picture& picture, const cha
     unproject();
     double error = 0.0; // [m]
     for (size_t i = 0; i < pixels.size(); ++i) {
-        error = std::max(error, std::abs(static_cast<double>(z[i]) - picture.exact(i)));
+        error = std::max(error, std::abs(static_cast<double>(points->z[i]) - picture.exact(i)));
     }
     verify(error <= allowed, "precision", name, "a depth is off by " + digits(error * 1e3) + " mm");
-    return precisionRow("frame: depth pixels", name, std::string(name) == "16-bit sensor units", error * 1e3,
-                        timeCpu(context.settings.effort(), unproject), sizeof(Pixel),
-                        static_cast<double>(pixels.size()), NAN);
+    return {precisionRow("frame: depth pixels", name, std::string(name) == "16-bit sensor units", error * 1e3,
+                         sizeof(Pixel), static_cast<double>(count), NAN),
+            unproject};
 }
 
 // The weight as it is kept: as computed, or through half.
@@ -157,60 +165,59 @@ void gapsOf(const Pairs& pairs, std::vector<T>& gaps) {
 
 } // namespace
 
-std::vector<StudyRow> depthRows(const StudyContext& context) {
+std::vector<PrecisionLoop> depthRows(const StudyContext& context) {
     const bool quick = context.settings.quick;
-    const Picture picture(quick ? 160 : 640, quick ? 120 : 480);
-    return {depthRow<PlainPixel<double>>(context, picture, "double", 0.0),
-            depthRow<PlainPixel<float>>(context, picture, "single", 1e-7),
-            depthRow<RawPixel>(context, picture, "16-bit sensor units", 1e-7),
-            depthRow<HalfPixel>(context, picture, "half", 2.5e-4)};
+    const auto picture = std::make_shared<const Picture>(quick ? 160 : 640, quick ? 120 : 480);
+    return {depthLoop<PlainPixel<double>>(picture, "double", 0.0),
+            depthLoop<PlainPixel<float>>(picture, "single", 1e-7),
+            depthLoop<RawPixel>(picture, "16-bit sensor units", 1e-7),
+            depthLoop<HalfPixel>(picture, "half", 2.5e-4)};
 }
 
-std::vector<StudyRow> weightRows(const StudyContext& context) {
+std::vector<PrecisionLoop> weightRows(const StudyContext& context) {
     const bool quick = context.settings.quick;
-    const Picture picture(quick ? 80 : 320, quick ? 60 : 240);
-    const std::vector<double> truth = filter<double, false>(picture);
+    const auto picture = std::make_shared<const Picture>(quick ? 80 : 320, quick ? 60 : 240);
+    const std::vector<double> truth = filter<double, false>(*picture);
     struct Kind {
         const char* name;
         std::vector<double> (*run)(const Picture&);
         double bytes, allowed; // [m]
     };
-    std::vector<StudyRow> rows;
+    std::vector<PrecisionLoop> loops;
     for (const Kind& kind :
          {Kind{"double", filter<double, false>, 8, 0.0}, Kind{"single", filter<float, false>, 4, 1e-6},
           Kind{"half weights", filter<float, true>, 2, 2e-5}}) {
-        const std::vector<double> found = kind.run(picture);
+        const std::vector<double> found = kind.run(*picture);
         double error = 0.0; // [m]
         for (size_t i = 0; i < truth.size(); ++i) {
             error = std::max(error, std::abs(found[i] - truth[i]));
         }
         verify(error <= kind.allowed, "precision", kind.name,
                "filtered depth off by " + digits(error * 1e3) + " mm");
-        rows.push_back(precisionRow("frame: filter weights", kind.name, std::string(kind.name) == "single",
-                                    error * 1e3,
-                                    timeCpu(context.settings.effort(), [&] { kind.run(picture); }),
-                                    kind.bytes, static_cast<double>(truth.size()), NAN));
+        loops.push_back({precisionRow("frame: filter weights", kind.name, std::string(kind.name) == "single",
+                                      error * 1e3, kind.bytes, static_cast<double>(truth.size()), NAN),
+                         [picture, run = kind.run] { run(*picture); }});
     }
-    return rows;
+    return loops;
 }
 
-std::vector<StudyRow> gapRows(const StudyContext& context) {
-    const Pairs pairs(context.settings.quick ? 2000 : 20000);
+std::vector<PrecisionLoop> gapRows(const StudyContext& context) {
+    const auto pairs = std::make_shared<const Pairs>(context.settings.quick ? 2000 : 20000);
     const std::string source = "frame: pair gaps of a turn";
     std::vector<double> truth;
     std::vector<float> single;
-    gapsOf(pairs, truth);
-    gapsOf(pairs, single);
+    gapsOf(*pairs, truth);
+    gapsOf(*pairs, single);
     double error = 0.0; // [m]
     for (size_t i = 0; i < truth.size(); ++i) {
         error = std::max(error, std::abs(static_cast<double>(single[i]) - truth[i]));
     }
     verify(error > 0.0 && error <= 5e-7, "precision", "single gaps", digits(error * 1e3) + " mm");
     const double count = static_cast<double>(truth.size());
-    return {precisionRow(source, "double", true, 0.0,
-                         timeCpu(context.settings.effort(), [&] { gapsOf(pairs, truth); }), 8, count, NAN),
-            precisionRow(source, "single", false, error * 1e3,
-                         timeCpu(context.settings.effort(), [&] { gapsOf(pairs, single); }), 4, count, NAN)};
+    return {{precisionRow(source, "double", true, 0.0, 8, count, NAN),
+             [pairs, truth]() mutable { gapsOf(*pairs, truth); }},
+            {precisionRow(source, "single", false, error * 1e3, 4, count, NAN),
+             [pairs, single]() mutable { gapsOf(*pairs, single); }}};
 }
 
 } // namespace fathom::profile

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 namespace fathom::profile {
 
@@ -156,8 +157,10 @@ double growthOf(const Wall& wall, const std::vector<Node>& nodes, const std::str
 }
 
 template <class Node>
-StudyRow rowOf(const StudyContext& context, const std::string& source, const std::string& name,
-               const Wall& wall, const std::vector<uint8_t>& needed, double allowed) {
+PrecisionLoop loopOf(const std::string& source, const std::string& name,
+                     const std::shared_ptr<const Wall>& shared, const std::vector<uint8_t>& needed,
+                     double allowed) {
+    const Wall& wall = *shared;
     std::vector<Node> nodes;
     for (size_t n = 0; n < wall.nodes.size(); ++n) {
         nodes.push_back(Node::of(wall.nodes[n], wall.anchors[n / kChildren]));
@@ -170,32 +173,33 @@ StudyRow rowOf(const StudyContext& context, const std::string& source, const std
     for (size_t n = 0; n < marks.size() && !needed.empty(); ++n) {
         verify(marks[n] >= needed[n], "precision", name, "the cull loses node " + std::to_string(n));
     }
-    const Cost cost = timeCpu(context.settings.effort(), [&] { cull(wall, leaves, nodes, marks); });
-    return precisionRow(source, name, name == "single", growth * 1e3, cost, sizeof(Node),
-                        static_cast<double>(nodes.size()),
-                        static_cast<double>(std::count(marks.begin(), marks.end(), 1)));
+    StudyRow row = precisionRow(source, name, name == "single", growth * 1e3, sizeof(Node),
+                                static_cast<double>(nodes.size()),
+                                static_cast<double>(std::count(marks.begin(), marks.end(), 1)));
+    return {std::move(row),
+            [shared, leaves, nodes, marks]() mutable { cull(*shared, leaves, nodes, marks); }};
 }
 
 } // namespace
 
-std::vector<StudyRow> nodeRows(const StudyContext& context) {
+std::vector<PrecisionLoop> nodeRows(const StudyContext& context) {
     const size_t patches = context.settings.quick ? 64 : 1200, leaves = context.settings.quick ? 32 : 256;
-    std::vector<StudyRow> rows;
+    std::vector<PrecisionLoop> loops;
     for (double away : {0.8, 8.0}) {
-        const Wall wall(patches, leaves, away);
+        const auto wall = std::make_shared<const Wall>(patches, leaves, away);
         const std::string source = "tree nodes " + digits(away) + " m from the origin";
         std::vector<DoubleNode> exact;
-        for (const Bound& b : wall.nodes) {
+        for (const Bound& b : wall->nodes) {
             exact.push_back(DoubleNode::of(b, {}));
         }
         std::vector<uint8_t> needed;
-        cull(wall, Leaves<double>(wall.leaves), exact, needed);
-        rows.push_back(rowOf<DoubleNode>(context, source, "double", wall, {}, 1e-15));
-        rows.push_back(rowOf<SingleNode>(context, source, "single", wall, needed, 4e-6));
-        rows.push_back(rowOf<HalfNode<true>>(context, source, "half about the patch", wall, needed, 1e-4));
-        rows.push_back(rowOf<HalfNode<false>>(context, source, "half", wall, needed, away * 4e-3));
+        cull(*wall, Leaves<double>(wall->leaves), exact, needed);
+        loops.push_back(loopOf<DoubleNode>(source, "double", wall, {}, 1e-15));
+        loops.push_back(loopOf<SingleNode>(source, "single", wall, needed, 4e-6));
+        loops.push_back(loopOf<HalfNode<true>>(source, "half about the patch", wall, needed, 1e-4));
+        loops.push_back(loopOf<HalfNode<false>>(source, "half", wall, needed, away * 4e-3));
     }
-    return rows;
+    return loops;
 }
 
 } // namespace fathom::profile

@@ -3,22 +3,37 @@
 // gaps.
 #include "apps/profile/precision.h"
 #include "apps/profile/studies.h"
+#include "apps/profile/turns.h"
 
 namespace fathom::profile {
 
 StudyRow precisionRow(const std::string& source, const std::string& setting, bool isDefault, double errorMm,
-                      const Cost& cost, double bytes, double elements, double found) {
+                      double bytes, double elements, double found) {
     StudyRow row;
     row.source = source;
     row.setting = setting;
     row.isDefault = isDefault;
     row.error = errorMm;
-    row.cost = cost;
     row.more = {bytes, elements, found};
     return row;
 }
 
 namespace {
+
+// The formats of one source in turns; loops of a source follow each other.
+void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, Study& study) {
+    for (size_t begin = 0, end = 0; begin < loops.size(); begin = end) {
+        std::vector<std::function<void()>> works;
+        for (; end < loops.size() && loops[end].row.source == loops[begin].row.source; ++end) {
+            works.push_back(loops[end].run);
+        }
+        const std::vector<Cost> costs = timeCpuInTurns(context.settings.effort(), works);
+        for (size_t i = begin; i < end; ++i) {
+            loops[i].row.cost = costs[i - begin];
+            study.rows.push_back(std::move(loops[i].row));
+        }
+    }
+}
 
 // Of the sources that begin so.
 PlotPanel panelOf(const Study& study, const std::string& title, const std::string& source) {
@@ -45,9 +60,7 @@ Study precisionStudy(const StudyContext& context) {
         "what is in half precision errs by more than the error budget allows or costs its "
         "conversion; single keeps every bit that the sensor gives, at half the memory of double";
     for (const auto part : {centreRows, nodeRows, depthRows, weightRows, gapRows}) {
-        for (StudyRow& row : part(context)) {
-            study.rows.push_back(std::move(row));
-        }
+        timeLoops(context, part(context), study);
     }
     markFront(study);
     study.panels.push_back(

@@ -3,6 +3,7 @@
 // rows a solve gets, deadline.
 #include "apps/profile/drag.h"
 #include "apps/profile/studies.h"
+#include "apps/profile/turns.h"
 
 namespace fathom::profile {
 
@@ -126,7 +127,7 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
     const Apart error = apartAll(run, optimum);
     const double ticks = static_cast<double>(run.poses.size());
     row.error = error.rms * 1e3;
-    row.cost = run.turn;
+    row.cost = run.turns.cost();
     row.more = {error.max * 1e3,
                 run.lagRms * 1e3,
                 static_cast<double>(run.solves) / ticks,
@@ -136,21 +137,41 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
     return row;
 }
 
+// Every setting's run in turns. Where no deadline cuts a turn short, each repeats the first pose by pose.
+std::vector<DragResult> dragInTurns(const StudyContext& context, double speed,
+                                    const std::vector<Setting>& settings) {
+    std::vector<DragResult> runs(settings.size());
+    inTurns({}, settings.size(), [&](size_t i, const Effort&) {
+        DragResult run = drag(dragOf(context, speed, settings[i]));
+        if (runs[i].poses.empty()) {
+            runs[i] = std::move(run);
+            return;
+        }
+        verify(settings[i].deadline > 0.0 || apartAll(run, runs[i]).max == 0.0, "solver", nameOf(settings[i]),
+               "the same run again leads elsewhere");
+        runs[i].addTimes(run);
+    });
+    return runs;
+}
+
 void addSpeed(const StudyContext& context, Study& study, double speed) {
     const DragResult optimum = drag(dragOf(context, speed, {64, 0.002}));
     const Apart change = apartAll(optimum, drag(dragOf(context, speed, {128, 0.002})));
     verify(change.max <= kConverged, "solver", "64 solves",
            "not converged: twice as many move the tool by " + digits(change.max * 1e6) + " um");
+    std::vector<Setting> settings = settingsOf(context.settings.quick);
+    const size_t plain = settings.size(); // from here on with rows reduced
+    for (const RowReduction& rows : reductionsOf(context.settings.quick)) {
+        settings.push_back({4, 0.002, 0.0, rows});
+    }
+    const std::vector<DragResult> runs = dragInTurns(context, speed, settings);
     const DragResult usual = drag(dragOf(context, speed, {4, 0.002}));
     const std::string hand = "hand at " + digits(speed) + " m/s";
-    for (const Setting& s : settingsOf(context.settings.quick)) {
-        study.rows.push_back(rowOf(hand, nameOf(s), s, drag(dragOf(context, speed, s)), optimum));
-    }
-    for (const RowReduction& rows : reductionsOf(context.settings.quick)) {
-        const Setting s{4, 0.002, 0.0, rows};
-        const DragResult run = drag(dragOf(context, speed, s));
-        verifyReduction(s, run, usual);
-        study.rows.push_back(rowOf(kReduced + hand, rowsOf(rows), s, run, optimum));
+    for (size_t i = 0; i < settings.size(); ++i) {
+        const Setting& s = settings[i];
+        verifyReduction(s, runs[i], usual);
+        study.rows.push_back(i < plain ? rowOf(hand, nameOf(s), s, runs[i], optimum)
+                                       : rowOf(kReduced + hand, rowsOf(s.rows), s, runs[i], optimum));
     }
 }
 

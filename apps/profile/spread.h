@@ -54,6 +54,10 @@ struct CpuSamples {
         wall.push_back(clocks.wallMs());
         cpu.push_back(clocks.cpuMs());
     }
+    void add(const CpuSamples& more) {
+        wall.insert(wall.end(), more.wall.begin(), more.wall.end());
+        cpu.insert(cpu.end(), more.cpu.begin(), more.cpu.end());
+    }
     Cost cost() const { return {{}, spreadOf(wall), spreadOf(cpu)}; }
 };
 

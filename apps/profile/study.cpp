@@ -84,6 +84,9 @@ void judgeDefault(Study& study, const Ranking& ranking, const StudyRow& chosen) 
 } // namespace
 
 double timeOf(const Study& study, const StudyRow& row) {
+    if (study.rank) {
+        return study.rank(row);
+    }
     switch (study.time) {
     case TimeKind::Gpu:
         return row.cost.gpu ? row.cost.gpu.p50 : row.cost.submit.p50;

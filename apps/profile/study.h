@@ -74,6 +74,8 @@ struct PlotPanel {
     std::vector<PlotSeries> series;
 };
 
+using RowValue = std::function<double(const StudyRow&)>;
+
 struct Study {
     std::string name;     // of its files
     std::string title;    // what it shows, for people
@@ -81,6 +83,7 @@ struct Study {
     std::string served;   // what it measured: a recording or pictures made for it; set by who runs it
     std::string errorName, errorUnit;
     TimeKind time = TimeKind::Submit;
+    RowValue rank;        // [ms] in place of `time`, of a row that has it; empty = by `time`
     std::string timeName; // what the plotted time is
     std::vector<std::string> moreNames;
     std::vector<StudyRow> rows;

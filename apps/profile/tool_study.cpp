@@ -107,8 +107,9 @@ StudyRow rowOf(const StudyContext& context, const std::vector<Solid>& shape, siz
     verify(run.deepest <= 1e-9, "tool", row.setting,
            "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
     row.error = std::max(fit.protrusion, fit.gap) * 1e3;
-    row.cost = run.turn;
-    row.more = {fit.protrusion * 1e3, fit.gap * 1e3, static_cast<double>(tool.leafCount()), run.query.cpu.p50,
+    row.cost = run.turns.cost();
+    row.more = {fit.protrusion * 1e3, fit.gap * 1e3, static_cast<double>(tool.leafCount()),
+                run.queries.cost().cpu.p50,
                 static_cast<double>(run.contacts) / static_cast<double>(run.poses.size())};
     return row;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the studies of a quick run found: figures that hold on any machine, no times.
+#include "apps/profile/shot_source.h"
 #include "tests/profile/quick_run.h"
 #include "tests/support/sanitized.h"
 
@@ -86,6 +87,47 @@ TEST_CASE("The boundary error stays within the budget and fewer spheres are kept
     CHECK(rows.at("1 mm")["error"].get<double>() <= 1.002);
     CHECK(rows.at("1 mm")["error"].get<double>() > 0.05);
     CHECK(rows.at("1 mm")["spheres"].get<double>() < 0.6 * rows.at("0 mm")["spheres"].get<double>());
+}
+
+TEST_CASE("Error budgets are ranked by the time from upload to published, which collecting and the grid are "
+          "part of") {
+    const auto& study = quickRun().study("fixture");
+    CHECK(study["time"] == "upload until published, p50");
+    size_t front = 0;
+    for (const auto& a : study["rows"]) {
+        bool beaten = false;
+        for (const auto& b : study["rows"]) {
+            const double ta = a["upload_to_published_p50_ms"], tb = b["upload_to_published_p50_ms"],
+                         ea = a["error"], eb = b["error"];
+            beaten = beaten || (a["source"] == b["source"] && tb <= ta && eb <= ea && (tb < ta || eb < ea));
+        }
+        CHECK(a["on_front"].get<bool>() == !beaten);
+        front += beaten ? 0 : 1;
+    }
+    CHECK(front >= 2);
+}
+
+TEST_CASE("The spheres and the query of a budget are of the first picture, whichever was measured last") {
+    const gpu::Instance instance;
+    gpu::Device device(instance, "llvmpipe");
+    profile::Settings settings;
+    settings.quick = true;
+    for (const auto& source : profile::studySources(settings, {"torus", "plane"}, 2)) {
+        Scene scene = profile::studyScene(settings);
+        scene.errorBudget = 0.0;
+        scene.holdSeconds = 0.0;
+        profile::FrameBench bench(device, scene, source.camera);
+        bench.run(source.shots.back());
+        const size_t last = bench.set().host.spheres.size();
+        bench.run(source.shots.front());
+        const size_t first = bench.set().host.spheres.size();
+        CHECK(first != last); // else this would show nothing
+        for (const auto& row : quickRun().study("fixture")["rows"]) {
+            if (startsWith(row["source"], source.name) && row["setting"] == "0 mm") {
+                CHECK(row["spheres"].get<size_t>() == first);
+            }
+        }
+    }
 }
 
 TEST_CASE("With late answers a short reach stalls and lags and a long one does not") {

@@ -3,6 +3,7 @@
 #include "apps/profile/plot_labels.h"
 #include "apps/profile/region_boundary.h"
 #include "apps/profile/study_plot.h"
+#include "apps/profile/turns.h"
 #include "engine/types/error.h"
 
 #include <doctest/doctest.h>
@@ -118,6 +119,42 @@ TEST_CASE("A default without an error is not called one on the front") {
     REQUIRE(study.verdicts.size() == 1);
     CHECK(!study.verdicts[0].onFront);
     CHECK(study.verdicts[0].words == "is not judged: it has no error or no time on this source");
+}
+
+TEST_CASE("A study that ranks by a time of its own is judged by it") {
+    Study study;
+    study.rank = [](const StudyRow& r) { return r.more[0]; };
+    study.rows = {row("slow", 2.0, 1.0), row("quick", 2.0, 3.0)};
+    study.rows[0].more = {7.0};
+    study.rows[1].more = {4.0};
+    markFront(study);
+    CHECK(!study.rows[0].onFront);
+    CHECK(study.rows[1].onFront);
+    CHECK(timeOf(study, study.rows[0]) == 7.0);
+}
+
+TEST_CASE("Settings that are measured in turns all have a part in every round, and none is always first") {
+    std::vector<size_t> order;
+    double seconds = 0.0;
+    inTurns({8, 40, 2.0}, 3, [&](size_t i, const Effort& part) {
+        order.push_back(i);
+        seconds += part.seconds;
+        CHECK(part.least == 2);
+        CHECK(part.most == 10);
+    });
+    CHECK(order == std::vector<size_t>{0, 1, 2, 2, 1, 0, 0, 1, 2, 2, 1, 0});
+    CHECK(seconds == doctest::Approx(3 * 2.0));
+}
+
+TEST_CASE("Loops that are timed in turns interleave, and each keeps the samples of all its rounds") {
+    std::vector<char> calls;
+    const std::vector<Cost> costs =
+        timeCpuInTurns({4, 4, 0.0}, {[&] { calls.push_back('a'); }, [&] { calls.push_back('b'); }});
+    REQUIRE(costs.size() == 2);
+    CHECK(costs[0].cpu.count == 4);
+    CHECK(costs[1].submit.count == 4);
+    // Each round warms up with one call and samples one.
+    CHECK(std::string(calls.begin(), calls.end()) == "aabbbbaaaabbbbaa");
 }
 
 TEST_CASE("A power law is found again from its points, and one point or none gives no law") {

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Settings measured in turns, a part of each at a time, so that what drifts on a machine falls on all alike.
+#pragma once
+
+#include "apps/profile/frame_bench.h"
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace fathom::profile {
+
+inline constexpr size_t kTurnRounds = 4;
+
+// work(i, part) of things 0 .. count - 1, all of them a round, every other round backwards: part is the
+// effort of one round.
+template <class Work>
+void inTurns(const Effort& effort, size_t count, Work&& work) {
+    const Effort part{(effort.least + kTurnRounds - 1) / kTurnRounds,
+                      (effort.most + kTurnRounds - 1) / kTurnRounds, effort.seconds / kTurnRounds};
+    for (size_t round = 0; round < kTurnRounds; ++round) {
+        for (size_t k = 0; k < count; ++k) {
+            work(round % 2 == 0 ? k : count - 1 - k, part);
+        }
+    }
+}
+
+// CPU work that waits for nobody: wall and CPU time of each.
+std::vector<Cost> timeCpuInTurns(const Effort& effort, const std::vector<std::function<void()>>& works);
+
+// The same shots through every bench.
+std::vector<FrameCost> measureInTurns(const std::vector<std::unique_ptr<FrameBench>>& benches,
+                                      const std::vector<Shot>& shots, const Effort& effort);
+
+} // namespace fathom::profile
