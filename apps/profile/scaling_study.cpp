@@ -14,6 +14,9 @@ namespace {
 // Patches whose points are compared with the float64 twin: all up to 320x240, so many of a larger picture.
 constexpr size_t kTwinPatches = 300;
 
+// What a row has how many of: it has its own column, and the others do not apply.
+enum class Grows { Pixels, SharePercent, Classes };
+
 struct Measured {
     double x = 0.0;
     FrameCost cost;
@@ -43,8 +46,8 @@ public:
         : context_(context)
         , study_(study) {}
 
-    Measured take(const std::string& source, const std::string& setting, double x, const ShotSource& shots,
-                  uint32_t classes) {
+    Measured take(const std::string& source, const std::string& setting, Grows by, double x,
+                  const ShotSource& shots, uint32_t classes) {
         FrameBench bench(context_.device, sceneWith(context_.settings, classes), shots.camera);
         const uint32_t guided = bench.run(shots.shots.front()).guidanceCount;
         check(bench, setting, shots);
@@ -57,7 +60,9 @@ public:
         row.setting = setting;
         row.isDefault = false;
         row.cost = m.cost.frame;
-        row.more = {x,
+        row.more = {by == Grows::Pixels ? x : NAN,
+                    by == Grows::SharePercent ? x : NAN,
+                    by == Grows::Classes ? x : NAN,
                     m.cost.total.p50,
                     m.cost.collected.p50,
                     m.cost.upload.p50,
@@ -73,18 +78,18 @@ public:
     }
 
     // A line a step of the frame, and the exponent of each.
-    void draw(const Curve& curve, const std::string& title, const std::string& xLabel, bool fit) {
+    void draw(const Curve& curve, const std::string& title, const std::string& xLabel, bool logarithmic) {
         PlotPanel panel;
         panel.title = title;
         panel.xLabel = xLabel;
         panel.yLabel = "time p50 [ms]";
-        panel.logX = fit, panel.logY = fit;
+        panel.logX = logarithmic, panel.logY = logarithmic;
         const auto add = [&](const std::string& name, auto&& value) {
             PlotSeries series{name, {}, true};
             for (const Measured& m : curve) {
                 series.points.push_back({m.x, value(m), "", false, false});
             }
-            const auto law = fit ? fitPower(series.points) : std::nullopt;
+            const auto law = fitPower(series.points);
             if (law) {
                 series.name += " ~ x^" + digits(law->exponent, 2);
                 study_.findings.push_back(title + ": " + name + " grows as x^" + digits(law->exponent, 3));
@@ -129,7 +134,7 @@ Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
         const ShotSource shots = wallShot(w, h, 1.0, noise);
         const char* source = noise == WallNoise::Sensor ? "size, every point forbidden"
                                                         : "size, every point forbidden, noise-free";
-        sizes.push_back(run.take(source, shots.name, w * static_cast<double>(h), shots, 2));
+        sizes.push_back(run.take(source, shots.name, Grows::Pixels, w * static_cast<double>(h), shots, 2));
     }
     return sizes;
 }
@@ -138,7 +143,7 @@ Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve shares;
     for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
         shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
-                                  digits(share * 100.0) + " %", share * 100.0,
+                                  digits(share * 100.0) + " %", Grows::SharePercent, share * 100.0,
                                   wallShot(w, h, share, WallNoise::Sensor), 2));
     }
     return shares;
@@ -147,8 +152,8 @@ Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
 Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve classes;
     for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
-        classes.push_back(run.take("classes, 10 % forbidden", std::to_string(c) + " classes", c,
-                                   wallShot(w, h, 0.1, WallNoise::Sensor), c));
+        classes.push_back(run.take("classes, 10 % forbidden", std::to_string(c) + " classes", Grows::Classes,
+                                   c, wallShot(w, h, 0.1, WallNoise::Sensor), c));
     }
     return Curve(classes.rbegin(), classes.rend()); // the most passes first: they name the lines
 }
@@ -166,7 +171,9 @@ Study scalingStudy(const StudyContext& context) {
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are sizes and scenes, which the camera and the scene file give";
     study.timeName = "upload to published p50";
-    study.moreNames = {"x",
+    study.moreNames = {"pixels",
+                       "forbidden_percent",
+                       "classes",
                        "upload_to_published_p50_ms",
                        "upload_to_collected_p50_ms",
                        "upload_p50_ms",

@@ -162,7 +162,32 @@ TEST_CASE("Larger pictures cost more of every fitted step, and the exponents are
     for (const std::string finding : quickRun().study("scaling")["findings"]) {
         fitted += finding.find(" grows as x^") != std::string::npos ? 1 : 0;
     }
-    CHECK(fitted >= 8);
+    CHECK(fitted >= 20);
+    const auto& findings = quickRun().study("scaling")["findings"];
+    for (const char* of :
+         {"every point forbidden: ", "160x120, forbidden share: ", "160x120, 10 % forbidden, by classes: "}) {
+        CHECK_MESSAGE(std::any_of(findings.begin(), findings.end(),
+                                  [&](const std::string& f) {
+                                      return startsWith(f,
+                                                        std::string(of) + "upload to published grows as x^");
+                                  }),
+                      of);
+    }
+}
+
+TEST_CASE("A row of the scaling study says its size in pixels, per cent or classes, one of the three") {
+    std::map<std::string, size_t> rows;
+    for (const auto& row : quickRun().study("scaling")["rows"]) {
+        size_t said = 0;
+        for (const char* unit : {"pixels", "forbidden_percent", "classes"}) {
+            said += row[unit].is_null() ? 0 : 1;
+            rows[unit] += row[unit].is_null() ? 0 : 1;
+        }
+        CHECK(said == 1);
+    }
+    CHECK(rows.at("pixels") == 3);
+    CHECK(rows.at("forbidden_percent") == 3);
+    CHECK(rows.at("classes") == 2);
 }
 
 TEST_CASE("Sizes are measured with the sensor's noise, and apart without it") {
