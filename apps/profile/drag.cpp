@@ -15,6 +15,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kWall = 0.2, kCircle = 0.08; // [m]
+constexpr int kRises = 180;                   // places where a tool that is no ball is put down
 
 // Height [m] over the wavy wall of a ball's centre that touches it; `radius` with the wall's own spheres.
 double ballOver(double x, double y, double radius) {
@@ -78,14 +79,56 @@ private:
             (oracleSmallestGap(tool_, handAt(0, height_), wall_) < 0.0 ? low : high) = height_;
         }
         height_ = high;
+        findRises();
         proxy_.setPose(handAt(0, height_));
+    }
+
+    // A tool that is no ball: how much higher than at the start it touches, at kRises places of the circle.
+    void findRises() {
+        if (!setting_.follow || setting_.tool == nullptr) {
+            return;
+        }
+        const double across = grid_.maxRadius() + 0.001; // [m] how far a search looks
+        for (int k = 0; k <= kRises; ++k) {
+            const double angle = 2.0 * M_PI * k / kRises;
+            Pose at{dvec3(kCircle * std::cos(angle), kCircle * std::sin(angle), 0.0), dquat(1, 0, 0, 0)};
+            double low = height_ - 0.03, high = height_ + 0.03; // [m] the wall's bulges
+            for (int i = 0; i < 14; ++i) {
+                at.position.z = 0.5 * (low + high);
+                (touches(at, across) ? low : high) = at.position.z;
+            }
+            rises_.push_back(high - height_);
+        }
+    }
+
+    bool touches(const Pose& pose, double across) const {
+        bool any = false;
+        for (const Sphere& leaf : tool_.leaves()) {
+            const dvec3 centre = pose.position + pose.rotation * leaf.centre;
+            grid_.forEachNear(centre, leaf.radius + across, [&](uint32_t i) {
+                const dvec3 sphere(wall_.spheres.x[i], wall_.spheres.y[i], wall_.spheres.z[i]);
+                any = any || glm::length(centre - sphere) < leaf.radius + wall_.spheres.radius[i];
+            });
+            if (any) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    double riseAt(double angle, double x, double y) const {
+        if (rises_.empty()) {
+            return ballOver(x, y, reach_) - ballOver(kCircle, 0.0, reach_);
+        }
+        const double at = std::fmod(angle / (2.0 * M_PI), 1.0) * kRises;
+        const auto k = static_cast<size_t>(at);
+        return rises_[k] + (at - static_cast<double>(k)) * (rises_[k + 1] - rises_[k]);
     }
 
     Pose handAt(uint32_t tick, double height) const {
         const double angle = setting_.speed / kCircle * 0.001 * tick;
         const double x = kCircle * std::cos(angle), y = kCircle * std::sin(angle);
-        const double up =
-            setting_.follow && tick > 0 ? ballOver(x, y, reach_) - ballOver(kCircle, 0.0, reach_) : 0.0;
+        const double up = setting_.follow && tick > 0 ? riseAt(angle, x, y) : 0.0;
         return {dvec3(x, y, height + up), dquat(1, 0, 0, 0)};
     }
 
@@ -141,6 +184,7 @@ private:
     uint32_t now_ = 0;
     double reach_ = 0.0; // [m] from the tool's centre to the wall's points, in touch
     double height_ = 0.0, lag_ = 0.0;
+    std::vector<double> rises_; // [m]
     DragResult result_;
 };
 

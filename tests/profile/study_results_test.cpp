@@ -253,7 +253,10 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
         REQUIRE(of.size() == 2);
         CHECK(of.rbegin()->second["error"].get<double>() < 0.5 * of.begin()->second["error"].get<double>());
         CHECK(of.rbegin()->second["protrusion_mm"].get<double>() > 1.0);
+        CHECK(of.rbegin()->second["share_in_contact"].get<double>() >= 0.9); // else the turn is of free space
     }
+    CHECK(rows.at("covers that fathom spheres makes").rbegin()->second["error"].get<double>() <
+          0.5 * rows.at("covering spheres").rbegin()->second["error"].get<double>());
     CHECK(rows.at("covering spheres").rbegin()->second["gap_mm"].get<double>() <= 1e-6);
     CHECK(rows.at("smaller spheres, with gaps").rbegin()->second["gap_mm"].get<double>() > 0.1);
 }
