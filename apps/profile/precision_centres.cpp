@@ -78,7 +78,7 @@ float nearestHalf(const uint16_t* __restrict x, const uint16_t* __restrict y, co
     return *std::min_element(least, least + 16);
 }
 
-struct Scene {
+struct FarCloud {
     Columns<double> exact;
     Columns<float> single;
     Columns<uint16_t> half, local;
@@ -86,7 +86,7 @@ struct Scene {
     std::vector<dvec3> leaves;
 
     static constexpr size_t kBlock = 256; // as many as a patch has
-    Scene(size_t spheres, size_t leafCount, double away) {
+    FarCloud(size_t spheres, size_t leafCount, double away) {
         const auto side = static_cast<size_t>(std::sqrt(static_cast<double>(spheres) / kBlock));
         for (size_t b = 0; b < side * side; ++b) {
             const size_t row = b / side;
@@ -116,7 +116,7 @@ struct Scene {
 
 using Distances = std::vector<double>; // a leaf [m]
 
-Distances runDouble(const Scene& s) {
+Distances runDouble(const FarCloud& s) {
     Distances out;
     for (const dvec3& c : s.leaves) {
         out.push_back(std::sqrt(nearestSquared(s.exact.x.data(), s.exact.y.data(), s.exact.z.data(),
@@ -124,7 +124,7 @@ Distances runDouble(const Scene& s) {
     }
     return out;
 }
-Distances runSingle(const Scene& s) {
+Distances runSingle(const FarCloud& s) {
     Distances out;
     for (const dvec3& c : s.leaves) {
         const glm::vec3 f(c);
@@ -133,7 +133,7 @@ Distances runSingle(const Scene& s) {
     }
     return out;
 }
-Distances runHalf(const Scene& s) {
+Distances runHalf(const FarCloud& s) {
     Distances out;
     for (const dvec3& c : s.leaves) {
         const glm::vec3 f(c);
@@ -142,15 +142,15 @@ Distances runHalf(const Scene& s) {
     }
     return out;
 }
-Distances runLocalHalf(const Scene& s) {
+Distances runLocalHalf(const FarCloud& s) {
     Distances out;
     for (const dvec3& c : s.leaves) {
         float least = 1e30f;
         for (size_t b = 0; b < s.blocks.size(); ++b) {
             const glm::vec3 f(c - s.blocks[b]);
-            const size_t at = b * Scene::kBlock;
+            const size_t at = b * FarCloud::kBlock;
             least = std::min(least, nearestHalf(s.local.x.data() + at, s.local.y.data() + at,
-                                                s.local.z.data() + at, Scene::kBlock, f.x, f.y, f.z));
+                                                s.local.z.data() + at, FarCloud::kBlock, f.x, f.y, f.z));
         }
         out.push_back(std::sqrt(double{least}));
     }
@@ -163,12 +163,12 @@ std::vector<PrecisionLoop> centreRows(const StudyContext& context) {
     const size_t spheres = context.settings.quick ? 10000 : 60000, leaves = context.settings.quick ? 32 : 256;
     struct Kind {
         const char* name;
-        Distances (*run)(const Scene&);
+        Distances (*run)(const FarCloud&);
         double bytes, allowed; // [m]
     };
     std::vector<PrecisionLoop> loops;
     for (double away : {0.8, 8.0}) {
-        const auto scene = std::make_shared<const Scene>(spheres, leaves, away);
+        const auto scene = std::make_shared<const FarCloud>(spheres, leaves, away);
         const Distances truth = runDouble(*scene);
         for (const Kind& kind :
              {Kind{"double", runDouble, 24, 0.0}, Kind{"single", runSingle, 12, 4e-6},
