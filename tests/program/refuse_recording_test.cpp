@@ -142,7 +142,7 @@ TEST_CASE("an output folder that cannot be written ends with exit code 1 and one
     checkRefusal(stage.command({}, "file"), {(stage / "file").string(), "output folder"}, 1);
     checkRefusal(stage.command({}, "file/deep"), {(stage / "file/deep").string(), "output folder"}, 1);
     fs::create_directories(stage / "out/summary.json/full");
-    checkRefusal(stage.command(), {(stage / "out/summary.json").string(), "cannot write"}, 1);
+    checkRefusal(stage.command(), {(stage / "out/summary.json").string(), "cannot replace"}, 1);
     fs::create_directories(stage / "out2/haptics.csv.partial");
     checkRefusal(stage.command({}, "out2"), {(stage / "out2/haptics.csv").string(), "cannot create"}, 1);
 }
