@@ -3,6 +3,7 @@
 // And what `arm:` refuses.
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <cmath>
@@ -151,7 +152,8 @@ TEST_CASE(
     CHECK(run.at(0.6).residual < 1e-6);
 }
 
-TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and the jaw closes and opens") {
+TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and the jaw closes and opens" *
+          doctest::skip(kSanitized)) {
     const ArmRun run = runShipped("arm_wetmate");
     const auto& target = run.replay.summary.at("guidance").at(0).at("target_m");
     REQUIRE(target.is_array());

@@ -2,6 +2,7 @@
 // The simulated camera draws the arm, moving: with the self-filter no region grows on it, without regions do.
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
+#include "tests/support/sanitized.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -56,7 +57,8 @@ Seen look(const std::string& selfFilter) {
 
 } // namespace
 
-TEST_CASE("An arm in the camera's sight grows regions on itself, and with the self-filter it does not") {
+TEST_CASE("An arm in the camera's sight grows regions on itself, and with the self-filter it does not" *
+          doctest::skip(kSanitized)) {
     auto other = std::async(std::launch::async, [] { return look(""); }); // each draws on one processor
     const Seen filtered = look("  self_filter: 0.01\n"), plain = other.get();
     MESSAGE("points a picture: " << plain.points << " on the arm without the filter, " << filtered.points
