@@ -69,7 +69,8 @@ TEST_CASE("Every library answers every source as float64 does, and stands beside
             CHECK(row["error"].get<double>() == 0.0);
             ++answers[setting.substr(0, setting.find(' '))];
         }
-        if (startsWith(source, "contact ")) {
+        if (startsWith(source, "contact ") &&
+            setting != "Fathom CPU whole answer") { // its sets are the grid's
             CHECK(row["found_mean"].get<double>() > 0.0);
         }
     }
