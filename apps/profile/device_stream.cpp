@@ -32,7 +32,7 @@ gpu::Buffer importedPages(const gpu::Device& device, uint64_t bytes) {
     const size_t page = std::max<size_t>(kPage, device.facts().hostPointerAlignment);
     std::shared_ptr<void> memory(std::aligned_alloc(page, (bytes + page - 1) / page * page), std::free);
     if (!memory) {
-        throw std::bad_alloc();
+        throw Error("the host has no " + std::to_string(bytes) + " bytes for a stream");
     }
     std::fill_n(static_cast<float*>(memory.get()), bytes / sizeof(float), 1.0f);
     return {device, gpu::HostPages{std::move(memory), bytes}, "stream of the host"};

@@ -6,6 +6,7 @@
 #include "apps/profile/studies.h"
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 namespace fathom::profile {
@@ -177,6 +178,15 @@ Pair measureInTurn(const Verified& full, const Verified& less, const Effort& eff
     return {full.bench->costOf(a), less.bench->costOf(b)};
 }
 
+// Not known of frames whose passes nobody timed; all of it of frames without passes.
+double gpuSaved(const Pair& pair) {
+    const Spread &full = pair.full.frame.gpu, &less = pair.less.frame.gpu;
+    if (full.count == 0 || (less.count == 0 && pair.less.frame.submit.count > 0)) {
+        return std::numeric_limits<double>::quiet_NaN();
+    }
+    return less.count == 0 ? full.p50 : full.p50 - less.p50;
+}
+
 StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved, double heapSaved) {
     constexpr double kMiB = 1 << 20;
     StudyRow row;
@@ -184,12 +194,8 @@ StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved, 
     row.setting = setting;
     row.cost = pair.less.frame;
     const double saved = pair.full.total.p50 - pair.less.total.p50;
-    row.more = {pair.less.total.p50,
-                saved,
-                100.0 * saved / pair.full.total.p50,
-                pair.full.frame.gpu.p50 - pair.less.frame.gpu.p50,
-                bytesSaved / kMiB,
-                heapSaved / kMiB};
+    row.more = {pair.less.total.p50, saved,           100.0 * saved / pair.full.total.p50, gpuSaved(pair),
+                bytesSaved / kMiB,   heapSaved / kMiB};
     return row;
 }
 

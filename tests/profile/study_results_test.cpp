@@ -211,6 +211,7 @@ TEST_CASE("What is left out of a scene saves the memory that its buffers took") 
         const bool untimed =
             row["setting"] == "times of passes" || row["setting"] == "pictures that are not new";
         CHECK(row["gpu_p50_ms"].is_null() == untimed);
+        CHECK(row["gpu_saved_ms"].is_null() == (row["setting"] == "times of passes"));
     }
     CHECK(saved.at("nothing left out") == 0.0);
     CHECK(saved.at("hold") > 1.0);
