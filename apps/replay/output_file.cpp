@@ -2,6 +2,7 @@
 #include "apps/replay/output_file.h"
 
 #include "engine/types/error.h"
+#include "engine/types/replaceable.h"
 
 #include <algorithm>
 #include <cctype>
@@ -49,9 +50,7 @@ void removeAll(const std::filesystem::path& folder, bool (*wanted)(const std::fi
 OutputFile::OutputFile(std::filesystem::path path)
     : path_(std::move(path))
     , temporary_(path_) {
-    std::error_code unknown;
-    const std::filesystem::file_status there = std::filesystem::status(path_, unknown);
-    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    if (!isReplaceable(path_)) {
         throw Error(path_.string() + ": cannot replace: a folder, a device or a pipe");
     }
     temporary_ += ".partial";

@@ -2,6 +2,7 @@
 #include "engine/cycle/trace.h"
 
 #include "engine/types/error.h"
+#include "engine/types/replaceable.h"
 
 #include <cmath>
 #include <cstdio>
@@ -52,9 +53,7 @@ std::string arguments(const TraceDetail& detail) {
 
 // What was written takes its place in the end, and nothing but a file may be taken away for it.
 std::filesystem::path replaceable(std::filesystem::path file) {
-    std::error_code unknown;
-    const std::filesystem::file_status there = std::filesystem::status(file, unknown);
-    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+    if (!isReplaceable(file)) {
         throw Error("trace " + file.string() + ": cannot be written: a folder, a device or a pipe");
     }
     return file;
