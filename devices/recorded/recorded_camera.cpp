@@ -39,17 +39,6 @@ std::string words(PngSize size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-// Empty, or which of a line's pictures is elsewhere. Its words are judged by readIndex(); a link may have
-// come with the recording, too.
-std::string outsideOf(const fs::path& folder, const IndexLine& line) {
-    for (const fs::path& picture : {line.depth, line.colour}) {
-        if (!picture.empty() && !liesInside(picture, folder)) {
-            return picture.string() + ": a link that leads out of the recording's folder";
-        }
-    }
-    return "";
-}
-
 } // namespace
 
 RecordedCamera::RecordedCamera(const fs::path& folder)
@@ -82,9 +71,6 @@ void RecordedCamera::checkColourSize() const {
     const PngSize wanted = sizeOf(info().colour);
     std::optional<PngSize> other;
     for (const IndexLine& line : index_) {
-        if (!outsideOf(folder_, line).empty()) {
-            continue;
-        }
         const auto depth = readPngSize(line.depth), colour = readPngSize(line.colour);
         if (colour == wanted) {
             return;
@@ -107,9 +93,6 @@ std::string RecordedCamera::read(const IndexLine& line, FrameSlot& slot) const {
     if (lastStamp_ && line.depthStamp < *lastStamp_) {
         return "depth stamp " + std::to_string(line.depthStamp) + " goes back from " +
                std::to_string(*lastStamp_);
-    }
-    if (std::string outside = outsideOf(folder_, line); !outside.empty()) {
-        return outside;
     }
     const CameraInfo& camera = info();
     std::string fault =
@@ -168,6 +151,27 @@ bool RecordedCamera::seek(uint32_t index) {
     return true;
 }
 
+// Words that lead out are a fault (readIndex); links are used, for whoever has made them wants them, but may
+// have come with the recording.
+void RecordedCamera::tellOfLinks(const IndexLine& line) {
+    for (const fs::path& picture : {line.depth, line.colour}) {
+        if (!toldOfLinks_ && !picture.empty() && leadsOut(picture)) {
+            log::warn("{}: a link leads out of the recording's folder", picture.string());
+            toldOfLinks_ = true;
+        }
+    }
+}
+
+// A folder of pictures is looked at once, where it leads.
+bool RecordedCamera::leadsOut(const fs::path& picture) {
+    std::error_code unknown;
+    if (fs::is_symlink(picture, unknown)) {
+        return !liesInside(picture, folder_);
+    }
+    const fs::path parent = picture.parent_path();
+    return judged_.insert(parent.string()).second && !liesInside(parent, folder_);
+}
+
 std::optional<Frame> RecordedCamera::next() {
     if (cursor_ == index_.size()) {
         return std::nullopt;
@@ -178,6 +182,7 @@ std::optional<Frame> RecordedCamera::next() {
     }
     while (cursor_ < index_.size()) {
         const uint32_t index = cursor_++;
+        tellOfLinks(index_[index]);
         const std::string fault = read(index_[index], *slot);
         if (fault.empty()) {
             lastStamp_ = index_[index].depthStamp;

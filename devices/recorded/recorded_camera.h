@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace fathom {
@@ -38,6 +39,8 @@ private:
     std::string read(const IndexLine& line, FrameSlot& slot) const; // what is wrong; empty = read
     void toDepth(std::span<uint16_t> ranges) const;
     Frame lease(uint32_t index, FrameSlot& slot) const;
+    void tellOfLinks(const IndexLine& line);
+    bool leadsOut(const std::filesystem::path& picture);
     void skip(uint32_t index, const std::string& fault);
     void nameSkipped();
 
@@ -49,9 +52,11 @@ private:
     std::vector<float> axisShare_; // z of a unit step along each ray; empty = pictures hold z
     uint32_t cursor_ = 0;          // next data line
     uint32_t skipped_ = 0;
-    uint32_t named_ = 0;              // lines before this one are counted
-    bool any_ = false;                // a frame was good
-    std::optional<double> lastStamp_; // [s] of the last delivered frame; empty after seek()
+    uint32_t named_ = 0;                     // lines before this one are counted
+    bool any_ = false;                       // a frame was good
+    bool toldOfLinks_ = false;               // that lead out of the folder: once
+    std::unordered_set<std::string> judged_; // folders of pictures
+    std::optional<double> lastStamp_;        // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;
     std::vector<std::string> unnamed_; // skipped frames that the log has not named yet
 };

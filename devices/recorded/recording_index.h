@@ -23,7 +23,7 @@ struct IndexLine {
 // intrinsics.json for the files of depth/ and rgb/ in order of their names, joined alike within pairWithin.
 // A recording without colour: one entry a line of depth.txt. Throws BadInput when there is no index, nothing
 // in it, or stamps and files differ in number. No path leads out of the folder by its words: such a line has
-// a fault, or is left out with a warning. Links are for whoever opens the pictures.
+// a fault, or is left out with a warning. Links are told of by whoever opens the pictures.
 std::vector<IndexLine> readIndex(const std::filesystem::path& folder, const RecordingIntrinsics& intrinsics);
 
 } // namespace fathom

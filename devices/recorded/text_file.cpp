@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view kSpace = " \t\r";
 constexpr uint64_t kMostBytes = 64u << 20;
 constexpr size_t kMostLines = 1'000'000; // nine hours of pictures; a line of two bytes becomes hundreds
-constexpr size_t kMostText = 4u << 20;   // the stamps of an hour of pictures; a byte of it becomes forty
+constexpr size_t kMostText = 16u << 20;  // the stamps of three hours of pictures; a byte of it becomes forty
 
 std::string_view trim(std::string_view text) {
     const size_t begin = text.find_first_not_of(kSpace);

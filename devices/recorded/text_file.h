@@ -38,7 +38,7 @@ private:
 // All of them. Throws BadInput also when they are more than 1 000 000 or 64 MiB.
 std::vector<TextLine> readDataLines(const std::filesystem::path& file);
 
-// Whole file. Throws BadInput when it cannot be read or is longer than 4 MiB.
+// Whole file. Throws BadInput when it cannot be read or is longer than 16 MiB.
 std::string readTextFile(const std::filesystem::path& file);
 
 std::vector<std::string_view> splitWords(std::string_view line);                // at spaces and tabs

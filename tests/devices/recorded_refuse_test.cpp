@@ -153,8 +153,8 @@ TEST_CASE("what a refusal quotes of a JSON text is short and printable, however 
 }
 
 TEST_CASE("a recording whose texts are larger than any real one's is refused with the limit") {
-    CHECK(holds(refusalOf(std::string(5u << 20, ' ')),
-                "intrinsics.json: file: 5242880 bytes (allowed: a readable text file of at most 4 MiB)"));
+    CHECK(holds(refusalOf(std::string(17u << 20, ' ')),
+                "intrinsics.json: file: 17825792 bytes (allowed: a readable text file of at most 16 MiB)"));
     const TemporaryFolder folder;
     writeSmallRecording(folder, 1);
     std::string lines;

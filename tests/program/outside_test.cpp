@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths in a scene that lead out of its folder are used, and told of.
+// Paths in a scene and links in a recording that lead out of their folders are used, and told of.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
 
 using namespace fathom;
 
@@ -41,5 +42,28 @@ TEST_CASE("The intrinsics that a scene names for a live camera are told of, too,
         const bool told =
             run.err.find("'" + path + "' leads out of the scene file's folder") != std::string::npos;
         CHECK(told == (path != "lens.json"));
+    }
+}
+
+TEST_CASE("Pictures behind links that lead out of a recording's folder are used and told of in one line") {
+    namespace fs = std::filesystem;
+    Stage stage;
+    stage.scene(SceneText{});
+    stage.recording({bumpPicture(), bumpPicture(), bumpPicture()});
+    stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.4}}});
+    fs::rename(stage / "rec/rgb", stage / "elsewhere");
+    for (const fs::path& to : {fs::path("pictures"), stage / "elsewhere"}) { // within, and out of it
+        fs::remove_all(stage / "rec/pictures");
+        fs::copy(stage / "elsewhere", stage / "rec/pictures");
+        fs::remove(stage / "rec/rgb");
+        fs::create_directory_symlink(to, stage / "rec/rgb");
+        const ProgramRun run = runFathom(stage.command());
+        CAPTURE(run.err);
+        CHECK(run.exitCode == 0);
+        const bool out = to.is_absolute();
+        REQUIRE(run.errorLines().size() == (out ? 1 : 0));
+        CHECK((!out || run.errorLines().front().find("a link leads out of the recording's folder") !=
+                           std::string::npos));
+        CHECK(nlohmann::json::parse(stage.read("out/summary.json"))["frames"]["count"] == 3);
     }
 }
