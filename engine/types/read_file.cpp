@@ -34,6 +34,9 @@ std::optional<std::string> readFileAtMost(const std::filesystem::path& file, siz
         in.read(text.data() + before, static_cast<std::streamsize>(piece));
         text.resize(before + static_cast<size_t>(in.gcount()));
     }
+    if (in.bad()) { // a disk or a network that failed: what came is not the file
+        return std::nullopt;
+    }
     return text;
 }
 
