@@ -11,6 +11,7 @@
 
 namespace fathom {
 
+// The answer for one leaf.
 struct NearestSphere {
     static constexpr uint32_t kNone = UINT32_MAX;
     uint32_t sphere = kNone;                            // index into what the grid was built from
