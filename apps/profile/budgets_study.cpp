@@ -228,17 +228,26 @@ void addTurn(const StudyContext& context, Study& study) {
            {0.03, 0.08}, share);
 }
 
+// For a bar: the first word of the work, and its sizes.
+std::string shortName(const StudyRow& row) {
+    std::string size = row.setting.substr(0, row.setting.find(" in each"));
+    size = size.substr(0, size.find(", as "));
+    if (const size_t word = size.find(" spheres"); word != std::string::npos) {
+        size.erase(word, 8);
+    }
+    return row.source.substr(0, row.source.find(' ')) + ", " + size;
+}
+
 PlotPanel budgetPanel(const Study& study) {
     PlotPanel panel{
         "p50 and p99 over their budgets", "measured / budget (1 = just kept)", "", false, false, true, {}};
     PlotSeries middle{"p50", {}, false}, late{"p99", {}, false};
     for (const StudyRow& row : study.rows) {
         for (const auto& [series, rank, measured, budget] :
-             {std::tuple{&middle, "p50 of ", row.cost.submit.p50, row.more[0]},
-              std::tuple{&late, "p99 of ", row.cost.submit.p99, row.more[1]}}) {
+             {std::tuple{&middle, "p50, ", row.cost.submit.p50, row.more[0]},
+              std::tuple{&late, "p99, ", row.cost.submit.p99, row.more[1]}}) {
             if (std::isfinite(budget)) {
-                series->points.push_back(
-                    {measured / budget, 0.0, rank + row.source + ", " + row.setting, false, false});
+                series->points.push_back({measured / budget, 0.0, rank + shortName(row), false, false});
             }
         }
     }
@@ -251,7 +260,7 @@ PlotPanel budgetPanel(const Study& study) {
 Study budgetsStudy(const StudyContext& context) {
     Study study;
     study.name = "budgets";
-    study.title = "Budgets: what the CPU is given, at the sizes that the plan names";
+    study.title = "Budgets: what the CPU is given by the plan";
     study.verified =
         "nearest spheres against all in float64; culls equal to brute force; grids hold each "
         "sphere once, in one order; solutions by the conditions of an optimum to 1e-9; no leaf in a "
