@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
-constexpr uint32_t kManyProcessors = 8, kPublishers = 4;
+constexpr uint32_t kManyProcessors = 8, kMostPublishers = 8;
 constexpr uint64_t kSmallestPage = 4096; // of any host: a camera's memory comes in whole pages
 
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
@@ -51,10 +51,12 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
     }
-    // Beside a device of its own those who share it look out for it while the device works, for which CPUs
-    // must be many; a CPU device has done its work by then.
-    if (plan.spheres && (device.kind == DeviceKind::Cpu || device.hostProcessors >= kManyProcessors)) {
-        plan.publishers = std::min(kPublishers, device.hostProcessors);
+    // Beside a device of its own those who share it look out for it while the device works: half of the
+    // processors, where they are many, stay for the other cadences. A CPU device has done its work by then.
+    if (plan.spheres && device.kind == DeviceKind::Cpu) {
+        plan.publishers = std::min(kMostPublishers, device.hostProcessors);
+    } else if (plan.spheres && device.hostProcessors >= kManyProcessors) {
+        plan.publishers = std::min(kMostPublishers, device.hostProcessors / 2);
     }
     plan.rays = plan.cloud && !camera.depth.pinhole();
     plan.fan = plan.cloud && camera.depth.fan;
