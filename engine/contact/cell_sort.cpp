@@ -2,6 +2,8 @@
 #include "engine/contact/cell_sort.h"
 
 #include <algorithm>
+#include <array>
+#include <numeric>
 #include <utility>
 
 namespace fathom {
@@ -10,23 +12,33 @@ namespace {
 
 constexpr size_t kThingsPerBucket = 32; // about, where the cells allow it
 constexpr size_t kMostBuckets = 512;    // whose counts one thread sums up
-constexpr size_t kLeastCells = 2048;    // whose counts one thread sums up
+constexpr size_t kLeastBlocks = 8;      // whose places one thread works out
 
 } // namespace
 
-// Of each part, things in each cell.
-void CellSort::countParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, uint32_t parts,
-                          Crew& crew) {
-    const size_t cells = begins.size();
-    if (next_.size() < parts * cells) {
-        next_.resize(parts * cells);
+// Of each part, things in each cell and in each block of cells. Neighbours among things are neighbours among
+// cells, so that a part has things in few blocks: of the others no counts are cleared, and none are read.
+void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, Crew& crew) {
+    const size_t blocks = blocksOf(cells);
+    if (next_.size() < parts * blocks * kBlock) {
+        next_.resize(parts * blocks * kBlock);
     }
+    inBlock_.assign(parts * blocks, 0);
     crew.run(parts, [&](uint32_t part) {
-        uint32_t* const counts = &next_[part * cells];
-        std::fill_n(counts, cells, 0);
+        uint32_t* const counts = &next_[part * blocks * kBlock];
+        uint32_t* const inBlock = &inBlock_[part * blocks];
         const size_t from = cell.size() * part / parts, to = cell.size() * (part + 1) / parts;
         for (size_t i = from; i < to; ++i) {
+            const uint32_t block = cell[i] / kBlock;
+            if (inBlock[block] == 0) {
+                inBlock[block] = 1; // there are some: how many is summed up below
+                std::fill_n(counts + block * kBlock, kBlock, 0);
+            }
             ++counts[cell[i]];
+        }
+        for (size_t block = 0; block < blocks; ++block) {
+            const uint32_t* const here = counts + block * kBlock;
+            inBlock[block] = inBlock[block] == 0 ? 0 : std::accumulate(here, here + kBlock, 0u);
         }
     });
 }
@@ -34,39 +46,47 @@ void CellSort::countParts(std::span<const uint32_t> cell, std::span<uint32_t> be
 // From those counts each part knows where its first thing of each cell goes: behind those of all cells before
 // and of the parts before in this one.
 void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& crew) {
-    const size_t cells = begins.size(), runs = partsOf(&crew, cells, kLeastCells);
-    const auto firstCell = [&](size_t run) { return cells * run / runs; };
-    first_.assign(runs, 0);
-    if (runs > 1) {
-        crew.run(static_cast<uint32_t>(runs), [&](uint32_t run) {
-            uint32_t sum = 0;
-            for (uint32_t part = 0; part < parts; ++part) {
-                const uint32_t* const counts = &next_[part * cells];
-                for (size_t c = firstCell(run); c < firstCell(run + 1); ++c) {
-                    sum += counts[c];
-                }
-            }
-            first_[run] = sum;
-        });
+    const size_t blocks = blocksOf(begins.size());
+    first_.resize(blocks);
+    uint32_t sum = 0;
+    for (size_t block = 0; block < blocks; ++block) {
+        first_[block] = sum;
+        for (uint32_t part = 0; part < parts; ++part) {
+            sum += inBlock_[part * blocks + block];
+        }
     }
-    uint32_t before = 0;
-    for (uint32_t& first : first_) {
-        before += std::exchange(first, before);
-    }
-    const auto place = [&](uint32_t run) {
-        uint32_t sum = first_[run];
-        for (size_t c = firstCell(run); c < firstCell(run + 1); ++c) {
-            begins[c] = sum;
-            for (uint32_t part = 0; part < parts; ++part) {
-                sum += std::exchange(next_[part * cells + c], sum);
+    inParts(&crew, blocks, kLeastBlocks, [&](size_t begin, size_t end) {
+        for (size_t block = begin; block < end; ++block) {
+            placesInBlock(block, begins, parts);
+        }
+    });
+}
+
+void CellSort::placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t parts) noexcept {
+    const size_t blocks = blocksOf(begins.size()), cells = std::min(begins.size() - block * kBlock, kBlock);
+    std::array<uint32_t, kBlock> here{}; // things of each cell, of the parts so far
+    uint32_t* const next = &next_[block * kBlock];
+    for (uint32_t part = 0; part < parts; ++part) {
+        if (inBlock_[part * blocks + block] != 0) {
+            uint32_t* const counts = next + part * blocks * kBlock;
+            for (size_t c = 0; c < kBlock; ++c) {
+                here[c] += std::exchange(counts[c], here[c]);
             }
         }
-    };
-    if (runs == 1) { // nobody is called for it
-        place(0);
-        return;
     }
-    crew.run(static_cast<uint32_t>(runs), place);
+    uint32_t sum = first_[block];
+    for (size_t c = 0; c < kBlock; ++c) {
+        sum += std::exchange(here[c], sum);
+    }
+    std::copy_n(here.begin(), cells, &begins[block * kBlock]);
+    for (uint32_t part = 0; part < parts; ++part) {
+        if (inBlock_[part * blocks + block] != 0) {
+            uint32_t* const counts = next + part * blocks * kBlock;
+            for (size_t c = 0; c < kBlock; ++c) {
+                counts[c] += here[c];
+            }
+        }
+    }
 }
 
 void CellSort::chooseBuckets(size_t things, uint32_t cells) {

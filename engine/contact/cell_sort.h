@@ -28,6 +28,7 @@ public:
 private:
     static constexpr size_t kLeastPart = 4096;  // things
     static constexpr size_t kLeastBuckets = 16; // of a part
+    static constexpr size_t kBlock = 256;       // cells, whose counts are cleared and summed up together
 
     struct Placed {
         uint32_t cell, thing;
@@ -43,8 +44,10 @@ private:
     template <class Put>
     void sortBucket(uint32_t bucket, std::span<uint32_t> begins, const Put& put) const noexcept;
 
-    void countParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, uint32_t parts, Crew& crew);
+    static size_t blocksOf(size_t cells) noexcept { return (cells + kBlock - 1) / kBlock; }
+    void countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, Crew& crew);
     void placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& crew);
+    void placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t parts) noexcept;
     void chooseBuckets(size_t things, uint32_t cells);
     void toBuckets(std::span<const uint32_t> cell, uint32_t parts, Crew& crew);
     void placesOfBuckets(uint32_t parts);
@@ -52,8 +55,9 @@ private:
     uint32_t shift_ = 0, buckets_ = 0; // bucket = cell >> shift
     std::vector<uint32_t>
         next_; // of each part of the things, a cell or bucket each: where its next thing goes
-    std::vector<uint32_t> first_; // buckets + 1, or runs of cells: place of the first thing
-    std::vector<Placed> placed_;  // by bucket
+    std::vector<uint32_t> first_;   // buckets + 1, or blocks of cells: place of the first thing
+    std::vector<uint32_t> inBlock_; // of each part, things in each block
+    std::vector<Placed> placed_;    // by bucket
 };
 
 template <class Put>
@@ -102,10 +106,10 @@ void CellSort::countCells(uint32_t begin, uint32_t end, const Cell& at, uint32_t
 template <class Put>
 void CellSort::sortParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, const Put& put,
                          uint32_t parts, Crew& crew) {
-    countParts(cell, begins, parts, crew);
+    countParts(cell, begins.size(), parts, crew);
     placesOfParts(begins, parts, crew);
     crew.run(parts, [&](uint32_t part) {
-        uint32_t* const next = &next_[size_t{part} * begins.size()];
+        uint32_t* const next = &next_[part * blocksOf(begins.size()) * kBlock];
         const size_t from = cell.size() * part / parts, to = cell.size() * (part + 1) / parts;
         for (size_t i = from; i < to; ++i) {
             put(static_cast<uint32_t>(i), next[cell[i]]++);
