@@ -221,10 +221,10 @@ Study filterStudy(const StudyContext& context) {
     const bool recorded = !context.settings.source.empty();
     study.errorName = recorded ? "scatter between repeats" : "depth error RMS away from edges";
     study.errorUnit = "mm";
-    study.time = TimeKind::Gpu;
+    study.judgement.time = gpuTime;
     study.timeName = "surface pass, GPU time p50";
     study.moreNames = {"edge_error_p90_mm", "all_passes_p50_ms", "upload_to_published_p50_ms"};
-    study.defaultReason =
+    study.judgement.reason =
         "no setting wins on every scene: narrow windows and sigmas serve thin things, wide ones broad "
         "surfaces "
         "(compare the scenes, and edge_error_p90_mm); rows of one window and sigma do the same work but for "

@@ -108,15 +108,16 @@ Study fixtureStudy(const StudyContext& context) {
     study.verified = "kept spheres cover all spheres, error within the budget, query equal to brute force";
     study.errorName = "largest distance between the boundaries of kept and of all spheres";
     study.errorUnit = "mm";
-    study.rank = [](const StudyRow& row) { return row.more[2]; };
+    study.judgement.time = [](const StudyRow& row) { return row.more[2]; };
     study.timeName = "upload until published, p50";
     study.moreNames = {"error_rms_mm", "publish_p50_ms", "upload_to_published_p50_ms", "query_p50_ms",
                        "spheres"};
-    study.defaultReason = "0.1 mm is a fifth of the sensor noise, so nobody can feel what a smaller budget "
-                          "keeps; where the noise "
-                          "itself lets few points go, leaving them out costs the pass and gains little, "
-                          "elsewhere the query and "
-                          "the publishing gain (query_p50_ms, spheres)";
+    study.judgement.reason =
+        "0.1 mm is a fifth of the sensor noise, so nobody can feel what a smaller budget "
+        "keeps; where the noise "
+        "itself lets few points go, leaving them out costs the pass and gains little, "
+        "elsewhere the query and "
+        "the publishing gain (query_p50_ms, spheres)";
     const bool quick = context.settings.quick;
     const std::vector<double> radii = quick ? std::vector{0.04} : std::vector{0.003, 0.01, 0.04, 0.06};
     const std::vector<double> budgets =

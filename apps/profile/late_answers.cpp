@@ -9,8 +9,9 @@ void addLateAnswers(const StudyContext& context, Study& study) {
     Study late; // fronts are of these rows alone
     late.name = study.name;
     late.errorName = study.errorName, late.errorUnit = study.errorUnit, late.timeName = study.timeName;
-    late.defaultReason = "with answers in time a shorter reach does as well; 10 mm is what still serves when "
-                         "they come 10 ticks late";
+    late.judgement.reason =
+        "with answers in time a shorter reach does as well; 10 mm is what still serves when "
+        "they come 10 ticks late";
     const bool quick = context.settings.quick;
     for (uint32_t delay : quick ? std::vector<uint32_t>{0, 10} : std::vector<uint32_t>{0, 5, 10, 20}) {
         for (double reach :

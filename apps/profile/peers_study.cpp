@@ -36,9 +36,12 @@ std::vector<std::string> sourcesOf(const Study& study) {
 // By the times that the ratios are of; a filter, which nobody's answer is wrong of, by its distance from the
 // exact surface.
 void judgeOurs(Study& study) {
-    markFront(study,
-              {peerTime, [](const StudyRow& row) { return isFilter(row) ? row.more[kFromTruth] : row.error; },
-               [](const StudyRow& row) { return isFilter(row) ? "mm" : "wrong"; }});
+    study.judgement.time = peerTime;
+    study.judgement.error = [](const StudyRow& row) {
+        return isFilter(row) ? row.more[kFromTruth] : row.error;
+    };
+    study.judgement.errorUnit = [](const StudyRow& row) { return isFilter(row) ? "mm" : "wrong"; };
+    markFront(study);
 }
 
 // One sentence a source: our time, and every other as a multiple of it.
@@ -169,7 +172,7 @@ Study peersStudy(const StudyContext& context) {
         "each filter means another average";
     study.errorName = "answers that differ";
     study.errorUnit = "count";
-    study.defaultReason =
+    study.judgement.reason =
         "ours needs no library, gives the same bits on every machine and is the part of a turn "
         "or a frame that the rest goes on from";
     study.timeName = "p50";

@@ -38,7 +38,7 @@ void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, St
 // Of the sources that begin so.
 PlotPanel panelOf(const Study& study, const std::string& title, const std::string& source) {
     return frontPanel(study, title, [&](const StudyRow& row) {
-        return row.source.rfind(source, 0) == 0 ? timeOf(study, row) : NAN;
+        return row.source.rfind(source, 0) == 0 ? study.judgement.time(row) : NAN;
     });
 }
 
@@ -53,10 +53,10 @@ Study precisionStudy(const StudyContext& context) {
         "node, whatever the format; culls find every node that the double nodes find";
     study.errorName = "largest error";
     study.errorUnit = "mm";
-    study.time = TimeKind::Cpu;
+    study.judgement.time = cpuTime;
     study.timeName = "the whole loop, CPU time p50";
     study.moreNames = {"bytes_an_element", "elements", "nodes_found"};
-    study.defaultReason =
+    study.judgement.reason =
         "what is in half precision errs by more than the error budget allows or costs its "
         "conversion; single keeps every bit that the sensor gives, at half the memory of double";
     for (const auto part : {centreRows, nodeRows, depthRows, weightRows, gapRows}) {

@@ -186,20 +186,21 @@ Study solverStudy(const StudyContext& context) {
         "lead where all rows do, tick by tick; no leaf in a sphere in any run";
     study.errorName = "pose error RMS to the converged optimum, a radian as 50 mm";
     study.errorUnit = "mm";
-    study.time = TimeKind::Cpu;
+    study.judgement.time = cpuTime;
     study.timeName = "turn, CPU time p50";
     study.moreNames = {"error_max_mm",        "lag_rms_mm",    "solves_a_turn",
                        "strengthened_a_turn", "stalled_turns", "share_in_contact"};
-    study.defaultReason = "the cap of 2 mm and 4 solves let the hand move at 8 m/s, slower hands need less; "
-                          "rows that are reduced "
-                          "cost and gain within what repeats of the same work differ by, so all rows stay";
+    study.judgement.reason =
+        "the cap of 2 mm and 4 solves let the hand move at 8 m/s, slower hands need less; "
+        "rows that are reduced "
+        "cost and gain within what repeats of the same work differ by, so all rows stay";
     for (double speed : context.settings.quick ? std::vector{2.0} : std::vector{0.3, 2.0, 6.0}) {
         addSpeed(context, study, speed);
     }
     markFront(study);
     const auto timeIf = [&study](bool reduced) {
         return [&study, reduced](const StudyRow& row) {
-            return (row.source.rfind(kReduced, 0) == 0) == reduced ? timeOf(study, row) : NAN;
+            return (row.source.rfind(kReduced, 0) == 0) == reduced ? study.judgement.time(row) : NAN;
         };
     };
     study.panels.push_back(frontPanel(study, "pose error", timeIf(false)));

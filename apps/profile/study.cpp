@@ -25,14 +25,13 @@ std::vector<std::string> sourcesOf(const Study& study) {
 // What rows are compared by.
 class Ranking {
 public:
-    Ranking(const Study& study, const Judgement& by)
-        : study_(study)
-        , by_(by) {}
-    double time(const StudyRow& row) const { return by_.time ? by_.time(row) : timeOf(study_, row); }
-    double error(const StudyRow& row) const { return by_.error ? by_.error(row) : row.error; }
-    std::string unit(const StudyRow& row) const {
-        return by_.errorUnit ? by_.errorUnit(row) : study_.errorUnit;
-    }
+    explicit Ranking(const Study& study)
+        : by_(study.judgement)
+        , studyUnit_(study.errorUnit) {}
+    double time(const StudyRow& row) const { return by_.time(row); }
+    double error(const StudyRow& row) const { return by_.error(row); }
+    std::string unit(const StudyRow& row) const { return by_.errorUnit ? by_.errorUnit(row) : studyUnit_; }
+    std::string reason() const { return by_.reason.empty() ? "" : "; it stays the default: " + by_.reason; }
     bool counts(const StudyRow& row) const { return std::isfinite(error(row)) && time(row) > 0.0; }
     bool dominates(const StudyRow& a, const StudyRow& b, double margin) const {
         return a.source == b.source && counts(a) && time(a) <= time(b) && error(a) <= error(b) &&
@@ -40,8 +39,8 @@ public:
     }
 
 private:
-    const Study& study_;
     const Judgement& by_;
+    const std::string& studyUnit_;
 };
 
 // The front of a cloud of points.
@@ -53,8 +52,7 @@ void markPoints(std::vector<PlotPoint>& points) {
     }
 }
 
-std::string wordsOf(const Study& study, const Ranking& ranking, const StudyRow& chosen,
-                    const StudyRow* best) {
+std::string wordsOf(const Ranking& ranking, const StudyRow& chosen, const StudyRow* best) {
     if (!ranking.counts(chosen)) {
         return "is not judged: it has no error or no time on this source";
     }
@@ -63,8 +61,7 @@ std::string wordsOf(const Study& study, const Ranking& ranking, const StudyRow& 
     }
     return "is off the front: '" + best->setting + "' has " + digits(ranking.error(*best)) + " against " +
            digits(ranking.error(chosen)) + " " + ranking.unit(chosen) + " at " + digits(ranking.time(*best)) +
-           " against " + digits(ranking.time(chosen)) + " ms" +
-           (study.defaultReason.empty() ? "" : "; it stays the default: " + study.defaultReason);
+           " against " + digits(ranking.time(chosen)) + " ms" + ranking.reason();
 }
 
 void judgeDefault(Study& study, const Ranking& ranking, const StudyRow& chosen) {
@@ -76,30 +73,27 @@ void judgeDefault(Study& study, const Ranking& ranking, const StudyRow& chosen) 
         }
     }
     Verdict verdict{chosen.source, chosen.setting, best == nullptr && ranking.counts(chosen),
-                    wordsOf(study, ranking, chosen, best)};
+                    wordsOf(ranking, chosen, best)};
     study.findings.push_back("default '" + verdict.setting + "' on " + verdict.source + " " + verdict.words);
     study.verdicts.push_back(std::move(verdict));
 }
 
 } // namespace
 
-double timeOf(const Study& study, const StudyRow& row) {
-    if (study.rank) {
-        return study.rank(row);
-    }
-    switch (study.time) {
-    case TimeKind::Gpu:
-        return row.cost.gpu ? row.cost.gpu.p50 : row.cost.submit.p50;
-    case TimeKind::Submit:
-        return row.cost.submit.p50;
-    case TimeKind::Cpu:
-        return row.cost.cpu.p50;
-    }
-    return 0.0;
+double gpuTime(const StudyRow& row) {
+    return row.cost.gpu ? row.cost.gpu.p50 : row.cost.submit.p50;
 }
 
-void markFront(Study& study, const Judgement& by) {
-    const Ranking ranking(study, by);
+double submitTime(const StudyRow& row) {
+    return row.cost.submit.p50;
+}
+
+double cpuTime(const StudyRow& row) {
+    return row.cost.cpu.p50;
+}
+
+void markFront(Study& study) {
+    const Ranking ranking(study);
     for (StudyRow& row : study.rows) {
         row.onFront = ranking.counts(row) &&
                       std::none_of(study.rows.begin(), study.rows.end(), [&](const StudyRow& other) {
@@ -114,6 +108,7 @@ void markFront(Study& study, const Judgement& by) {
 }
 
 PlotPanel frontPanel(const Study& study, const std::string& title, const RowValue& x, const RowValue& y) {
+    const Ranking ranking(study);
     PlotPanel panel;
     panel.title = title;
     panel.xLabel = study.timeName + " [ms]";
@@ -122,7 +117,7 @@ PlotPanel frontPanel(const Study& study, const std::string& title, const RowValu
     for (const std::string& source : sourcesOf(study)) {
         PlotSeries series{source, {}, false, colour++};
         for (const StudyRow& row : study.rows) {
-            const double time = x ? x(row) : timeOf(study, row), error = y ? y(row) : row.error;
+            const double time = x ? x(row) : ranking.time(row), error = y ? y(row) : ranking.error(row);
             if (row.source == source && time > 0.0 && std::isfinite(error)) {
                 series.points.push_back({time, error, row.setting, row.isDefault, false});
             }

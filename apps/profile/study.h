@@ -31,9 +31,6 @@ struct StudyContext {
     const Settings& settings;
 };
 
-// The time that a study plots and ranks by.
-enum class TimeKind { Gpu, Submit, Cpu };
-
 // One measured setting. Values that do not apply are not a number.
 struct StudyRow {
     std::string source;  // scene or recording
@@ -42,7 +39,7 @@ struct StudyRow {
     double error = std::numeric_limits<double>::quiet_NaN(); // in Study::errorUnit
     Cost cost;                                               // [ms]
     std::vector<double> more;                                // one a name of Study::moreNames
-    bool onFront = false;                                    // set by finishStudy()
+    bool onFront = false;                                    // set by markFront()
 };
 
 // Whether a default lies on the Pareto front of its source.
@@ -74,7 +71,20 @@ struct PlotPanel {
     std::vector<PlotSeries> series;
 };
 
+// A number of a row.
 using RowValue = std::function<double(const StudyRow&)>;
+// p50 [ms] of one clock of a row; of the device's: from submission to result where it has no timestamps.
+double gpuTime(const StudyRow& row);
+double submitTime(const StudyRow& row);
+double cpuTime(const StudyRow& row);
+
+// What the rows of a study are ranked and plotted by, and what is said for its default.
+struct Judgement {
+    RowValue time = submitTime;                                     // [ms]; lower is better
+    RowValue error = [](const StudyRow& row) { return row.error; }; // lower is better
+    std::function<std::string(const StudyRow&)> errorUnit = {};     // empty = the study's
+    std::string reason = {};                                        // why the default may lie off the front
+};
 
 struct Study {
     std::string name;     // of its files
@@ -82,36 +92,24 @@ struct Study {
     std::string verified; // what was checked before anything was timed
     std::string served;   // what it measured: a recording or pictures made for it; set by who runs it
     std::string errorName, errorUnit;
-    TimeKind time = TimeKind::Submit;
-    RowValue rank;        // [ms] in place of `time`, of a row that has it; empty = by `time`
     std::string timeName; // what the plotted time is
+    Judgement judgement;
     std::vector<std::string> moreNames;
     std::vector<StudyRow> rows;
     std::vector<PlotPanel> panels;
     std::vector<std::string> findings;
-    std::string defaultReason;     // why the default may lie off the front
     std::vector<Verdict> verdicts; // one a default, set by markFront()
     std::string noDefault;         // why there is none to judge; empty when there is one
 };
 
-// p50 of the time that the study ranks by [ms].
-double timeOf(const Study& study, const StudyRow& row);
+// Marks the Pareto front of each source by the study's judgement and says of each default, as a verdict and
+// as a finding, whether it lies on it (within 5 % of time and error, what repeats differ by), which setting
+// beats it, or that it has no error or time to be judged by.
+void markFront(Study& study);
 
-// A number of a row; empty = the study's own time or error.
-using RowValue = std::function<double(const StudyRow&)>;
-// What a study is judged by where its sources differ in it.
-struct Judgement {
-    RowValue time, error;                                       // [ms]; lower is better
-    std::function<std::string(const StudyRow&)> errorUnit = {}; // empty = the study's
-};
-
-// Marks the Pareto front of each source and says of each default, as a verdict and as a finding, whether it
-// lies on it (within 5 % of time and error, what repeats differ by), which setting beats it, or that it has
-// no error or time to be judged by.
-void markFront(Study& study, const Judgement& by = {});
-
-// One panel with a series a source and the front of what it shows. x and y of a row; empty = the study's own
-// time and error. Rows without a finite y or a positive x are left out, and sources without any row.
+// One panel with a series a source and the front of what it shows. x and y of a row; empty = the time
+// and error that the study is judged by. Rows without a finite y or a positive x are left out, and sources
+// without any row.
 PlotPanel frontPanel(const Study& study, const std::string& title, const RowValue& x = {},
                      const RowValue& y = {});
 

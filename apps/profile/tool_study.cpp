@@ -85,7 +85,7 @@ Study toolStudy(const StudyContext& context) {
                      "in any run, in contact in nine of ten turns";
     study.errorName = "protrusion or gap, the larger";
     study.errorUnit = "mm";
-    study.time = TimeKind::Cpu;
+    study.judgement.time = cpuTime;
     study.timeName = "turn in contact, CPU time p50";
     study.moreNames = {"protrusion_mm", "gap_mm", "leaves", "query_p50_ms", "share_in_contact"};
     const std::vector<Solid> shape = gripper();

@@ -77,7 +77,7 @@ TEST_CASE(
     "A default off the front is named with the setting that beats it and the reason; one within 5 % is not") {
     Study study;
     study.errorUnit = "mm";
-    study.defaultReason = "because";
+    study.judgement.reason = "because";
     study.rows = {row("good", 1.0, 2.0), row("mine", 2.0, 3.0, true)};
     markFront(study);
     REQUIRE(study.findings.size() == 1);
@@ -92,13 +92,14 @@ TEST_CASE(
 TEST_CASE("A study whose sources differ in what errs and what is timed is judged by that, in its own unit") {
     Study study;
     study.errorUnit = "count";
-    study.defaultReason = "because";
+    study.judgement.reason = "because";
     study.rows = {row("ours", NAN, 2.0, true), row("theirs", NAN, 1.0)};
     study.rows[0].cost.cpu = {0.5, 0.5, 0.5, 5}, study.rows[1].cost.cpu = {0.4, 0.4, 0.4, 5};
     study.rows[0].more = {3.0}, study.rows[1].more = {2.0};
-    const Judgement by{[](const StudyRow& r) { return r.cost.cpu.p50; },
-                       [](const StudyRow& r) { return r.more[0]; }, [](const StudyRow&) { return "mm"; }};
-    markFront(study, by);
+    study.judgement.time = cpuTime;
+    study.judgement.error = [](const StudyRow& r) { return r.more[0]; };
+    study.judgement.errorUnit = [](const StudyRow&) { return "mm"; };
+    markFront(study);
     REQUIRE(study.verdicts.size() == 1);
     CHECK(
         study.verdicts[0].words ==
@@ -107,7 +108,7 @@ TEST_CASE("A study whose sources differ in what errs and what is timed is judged
     CHECK(study.rows[1].onFront);
     study.verdicts.clear();
     study.rows[1].more = {3.1}; // errs more
-    markFront(study, by);
+    markFront(study);
     CHECK(study.verdicts[0].onFront);
     CHECK(study.verdicts[0].words == "lies on the Pareto front");
 }
@@ -123,14 +124,24 @@ TEST_CASE("A default without an error is not called one on the front") {
 
 TEST_CASE("A study that ranks by a time of its own is judged by it") {
     Study study;
-    study.rank = [](const StudyRow& r) { return r.more[0]; };
+    study.judgement.time = [](const StudyRow& r) { return r.more[0]; };
     study.rows = {row("slow", 2.0, 1.0), row("quick", 2.0, 3.0)};
     study.rows[0].more = {7.0};
     study.rows[1].more = {4.0};
     markFront(study);
     CHECK(!study.rows[0].onFront);
     CHECK(study.rows[1].onFront);
-    CHECK(timeOf(study, study.rows[0]) == 7.0);
+    const PlotPanel panel = frontPanel(study, "drawn by the same");
+    CHECK(panel.series.front().points.front().x == 7.0);
+    CHECK(panel.series.front().points.back().isFront);
+}
+
+TEST_CASE("The device's time of a row without timestamps is that from submission to result") {
+    StudyRow r = row("any", 1.0, 5.0);
+    CHECK(gpuTime(r) == 5.0);
+    r.cost.gpu = {2.0, 2.0, 2.0, 5};
+    CHECK(gpuTime(r) == 2.0);
+    CHECK(submitTime(r) == 5.0);
 }
 
 TEST_CASE("Settings that are measured in turns all have a part in every round, and none is always first") {
