@@ -70,7 +70,7 @@ private:
         for (const PlotSeries& s : panel.series) {
             widest = std::max(widest, picture.textWidth(s.name, 13));
         }
-        return panel.bars ? 0.0 : widest + 34.0;
+        return panel.bars ? 0.0 : widest + 40.0;
     }
 
     Colour colourOf(size_t i) const {
@@ -210,12 +210,12 @@ private:
         for (size_t i = 0; i < panel_.series.size(); ++i, y += 20.0) {
             if (panel_.series[i].dash > 0.0) {
                 setDash(panel_.series[i].dash);
-                line(x1_ + 8.0, y - 4.0, x1_ + 29.0, y - 4.0, colourOf(i), 2.2);
+                line(x1_ + 6.0, y - 4.0, x1_ + 33.0, y - 4.0, colourOf(i), 2.2);
                 setDash(0.0);
             } else {
                 dot(x1_ + 20.0, y - 4.0, 5.0, colourOf(i), true);
             }
-            p_.text(x1_ + 31.0, y, panel_.series[i].name, 13, kInk);
+            p_.text(x1_ + 37.0, y, panel_.series[i].name, 13, kInk);
         }
     }
 
