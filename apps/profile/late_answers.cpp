@@ -2,6 +2,7 @@
 #include "apps/profile/late_answers.h"
 
 #include "apps/profile/drag.h"
+#include "apps/profile/query_rows.h"
 
 namespace fathom::profile {
 
@@ -21,16 +22,17 @@ void addLateAnswers(const StudyContext& context, Study& study) {
             setting.delay = delay;
             setting.ticks = quick ? 300 : 1500;
             const DragResult run = drag(setting);
-            StudyRow row;
-            row.source = "answers " + std::to_string(delay) + " ticks late";
-            row.setting = "reach " + digits(reach * 1e3) + " mm";
+            StudyRow row = queryRow("answers " + std::to_string(delay) + " ticks late",
+                                    "reach " + digits(reach * 1e3) + " mm");
             row.isDefault = reach == 0.01;
             verify(run.deepest <= 1e-9, "query", row.setting,
                    "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
             row.error = run.lagRms * 1e3;
             row.cost = run.queries.cost();
-            row.more = {NAN, static_cast<double>(setting.leaves), static_cast<double>(run.spheres),
-                        NAN, static_cast<double>(run.stalled),    reach * 1e3};
+            row.more[kToolLeaves] = setting.leaves;
+            row.more[kRegionSpheres] = static_cast<double>(run.spheres);
+            row.more[kStalledTurns] = static_cast<double>(run.stalled);
+            row.more[kReachMm] = reach * 1e3;
             late.rows.push_back(std::move(row));
         }
     }

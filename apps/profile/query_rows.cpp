@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/query_rows.h"
+
+#include "apps/profile/brute_force.h"
+#include "apps/profile/shot_source.h"
+
+#include "engine/contact/cull_cpu.h"
+#include "engine/cycle/contact_cycle.h"
+
+#include <algorithm>
+
+namespace fathom::profile {
+
+namespace {
+
+constexpr double kQueryReach = 0.01;    // [m]
+constexpr double kMostBrutePairs = 4e8; // leaf-sphere pairs that brute force is let try
+constexpr float kSingleReach = static_cast<float>(kQueryReach);
+
+// The wall as a set of width x height spheres.
+struct QueryRig {
+    ShotSource source;
+    FrameBench bench;
+
+    QueryRig(gpu::Device& device, uint32_t width, uint32_t height)
+        : source(wallShot(width, height, 1.0))
+        , bench(device, everyPointScene(), source.camera) {
+        bench.run(source.shots.front());
+    }
+    const Fixtures& host() const { return bench.set().host; }
+    std::string name() const {
+        return digits(static_cast<double>(host().spheres.size()) / 1000.0, 4) + " k spheres";
+    }
+};
+
+// One tool where it touches the wall, and what brute force says is in its reach there.
+struct TouchingTool {
+    Tool tool;
+    Pose pose;
+    PosedLeaves leaves;
+    std::vector<uint8_t> marks;
+    std::vector<uint32_t> truth;
+
+    TouchingTool(const QueryRig& rig, uint32_t leafCount, const Pose& touch)
+        : tool(ballTool(leafCount))
+        , pose(touch) {
+        poseLeaves(tool, pose, rig.host().origin, leaves);
+        bruteForceCull(leaves, kSingleReach, rig.host().spheres, marks, truth);
+    }
+    double pairs(const QueryRig& rig) const {
+        return static_cast<double>(tool.leafCount()) * static_cast<double>(rig.host().spheres.size());
+    }
+    StudyRow row(const QueryRig& rig, const char* way) const {
+        return queryRow(rig.name(), std::string(way) + " " + std::to_string(tool.leafCount()) + " leaves");
+    }
+};
+
+// The contact set by whichever way: culled, sorted, all pairs listed, certified.
+struct Way {
+    Plan plan;
+    ContactCycle cycle;
+    Way(gpu::Device& device, const QueryRig& rig, Plan::Query query, const Tool& tool)
+        : plan(planOf(rig, query))
+        , cycle(device, plan, rig.bench.cycle().layout(), rig.bench.cycle().sets(), tool, kQueryReach) {}
+    static Plan planOf(const QueryRig& rig, Plan::Query query) {
+        Plan plan = rig.bench.plan();
+        plan.query = query;
+        return plan;
+    }
+};
+
+void verifyCull(std::vector<uint32_t>& found, const TouchingTool& at, const StudyRow& row) {
+    std::sort(found.begin(), found.end());
+    verify(found == at.truth, "query", row.setting, "the cull differs from brute force");
+}
+
+// Device time and submit-to-result of the cull alone.
+void timeGpuCull(const StudyContext& context, const QueryRig& rig, const TouchingTool& at, StudyRow& row) {
+    cloud::TreeQuery query(context.device, rig.bench.plan(), rig.bench.cycle().layout(),
+                           rig.bench.cycle().sets(), at.tool, 1u << 21);
+    query.askForTime();
+    std::vector<uint32_t> found;
+    const auto cull = [&] { return query.cull(rig.bench.set(), at.leaves, at.pose, kSingleReach, found); };
+    verify(cull(), "query", row.setting, "overflow");
+    verifyCull(found, at, row);
+    std::vector<double> gpu, submit;
+    repeat(context.settings.effort(), cull, [&](const Clocks& c) {
+        submit.push_back(c.wallMs());
+        gpu.push_back(query.gpuMs());
+    });
+    row.cost.gpu = context.device.facts().timestampPeriodNs > 0.0 ? spreadOf(gpu) : Spread{};
+    row.more[kGpuCullSubmit] = spreadOf(submit).p50;
+}
+
+// Both clocks of the cull alone.
+void timeCpuCull(const StudyContext& context, const QueryRig& rig, const TouchingTool& at, StudyRow& row) {
+    CullCpu query;
+    std::vector<uint32_t> found;
+    const auto cull = [&] { query.cull(at.leaves, kSingleReach, rig.bench.set().grid, found); };
+    cull();
+    verifyCull(found, at, row);
+    const Cost cost = timeCpu(context.settings.effort(), cull);
+    row.more[kCpuCullWall] = cost.submit.p50;
+    row.more[kCpuCullCpu] = cost.cpu.p50;
+}
+
+StudyRow bruteRow(const StudyContext& context, const QueryRig& rig, const TouchingTool& at) {
+    StudyRow row = at.row(rig, kBruteWay);
+    if (at.pairs(rig) > kMostBrutePairs) {
+        return row;
+    }
+    std::vector<uint32_t> found;
+    std::vector<uint8_t> marks;
+    row.cost = timeCpu(context.settings.effort(),
+                       [&] { bruteForceCull(at.leaves, kSingleReach, rig.host().spheres, marks, found); });
+    return row;
+}
+
+// CPU, GPU and brute force rows of one tool on one set.
+std::vector<StudyRow> rowsOfTool(const StudyContext& context, const QueryRig& rig, const TouchingTool& at) {
+    Way cpu(context.device, rig, Plan::Query::Cpu, at.tool),
+        gpu(context.device, rig, Plan::Query::Gpu, at.tool);
+    ContactSet a, b;
+    cpu.cycle.query(rig.bench.set(), at.pose, a);
+    gpu.cycle.query(rig.bench.set(), at.pose, b);
+    std::vector<StudyRow> rows{at.row(rig, kCpuWay), at.row(rig, kGpuWay)};
+    verify(a.source == b.source && a.pairSphere == b.pairSphere && a.reach == b.reach, "query",
+           rows[1].setting, "the contact sets of CPU and GPU differ");
+    rows[0].cost = timeCpu(context.settings.effort(), [&] { cpu.cycle.query(rig.bench.set(), at.pose, a); });
+    timeCpuCull(context, rig, at, rows[0]);
+    rows[1].cost = timeCpu(context.settings.effort(), [&] { gpu.cycle.query(rig.bench.set(), at.pose, b); });
+    timeGpuCull(context, rig, at, rows[1]);
+    rows.push_back(bruteRow(context, rig, at));
+    for (StudyRow& row : rows) {
+        row.more[kToolLeaves] = static_cast<double>(at.tool.leafCount());
+        row.more[kRegionSpheres] = static_cast<double>(rig.host().spheres.size());
+        row.more[kFoundSpheres] = static_cast<double>(a.size());
+        row.more[kReachMm] = a.reach * 1e3;
+    }
+    return rows;
+}
+
+} // namespace
+
+std::vector<std::string> queryColumnNames() {
+    return {"gpu_cull_submit_to_result_p50_ms",
+            "leaves",
+            "spheres",
+            "found_spheres",
+            "stalled_turns",
+            "reach_mm",
+            "cpu_cull_wall_p50_ms",
+            "cpu_cull_cpu_p50_ms"};
+}
+
+StudyRow queryRow(std::string source, std::string setting) {
+    StudyRow row;
+    row.source = std::move(source), row.setting = std::move(setting);
+    row.more.assign(kQueryColumns, NAN);
+    return row;
+}
+
+double cullTime(const StudyRow& row) {
+    return isWay(row, kCpuWay)   ? row.more[kCpuCullWall]
+           : isWay(row, kGpuWay) ? row.more[kGpuCullSubmit]
+           : row.cost.submit     ? row.cost.submit.p50
+                                 : NAN;
+}
+
+std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uint32_t height,
+                                const std::vector<uint32_t>& toolLeaves) {
+    const QueryRig rig(context.device, width, height);
+    const Pose touch = touchingPose(ballTool(256), rig.host(), Pose{});
+    std::vector<StudyRow> rows;
+    for (const uint32_t leaves : toolLeaves) {
+        for (StudyRow& row : rowsOfTool(context, rig, TouchingTool(rig, leaves, touch))) {
+            rows.push_back(std::move(row));
+        }
+    }
+    return rows;
+}
+
+} // namespace fathom::profile

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the study of queries found in a quick run: figures that hold on any machine, no times.
+#include "tests/profile/quick_run.h"
+
+#include <map>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+TEST_CASE("With late answers a short reach stalls and lags and a long one does not") {
+    std::map<std::string, nlohmann::json> rows;
+    for (const auto& row : quickRun().study("query")["rows"]) {
+        rows[row["source"].get<std::string>() + ", " + row["setting"].get<std::string>()] = row;
+    }
+    const auto& brief = rows.at("answers 10 ticks late, reach 2 mm");
+    const auto& ample = rows.at("answers 10 ticks late, reach 10 mm");
+    CHECK(brief["stalled_turns"].get<double>() > ample["stalled_turns"].get<double>());
+    CHECK(brief["found_spheres"].is_null());
+    CHECK(brief["error"].get<double>() > ample["error"].get<double>());
+}
+
+TEST_CASE("A row of the query study counts found spheres or stalled turns, never one in the other's place") {
+    std::map<std::string, double> found;
+    for (const auto& row : quickRun().study("query")["rows"]) {
+        const bool late = startsWith(row["source"], "answers ");
+        CHECK(row["found_spheres"].is_null() == late);
+        CHECK(row["stalled_turns"].is_null() != late);
+        CHECK(row["error"].is_null() != late); // lag is a matter of the drag alone
+        if (!late) {
+            found[row["source"].get<std::string>() + " " + row["setting"].get<std::string>()] =
+                row["found_spheres"];
+        }
+    }
+    CHECK(found.at("12.29 k spheres CPU 1000 leaves") > 10.0);
+    CHECK(found.at("12.29 k spheres CPU 1000 leaves") == found.at("12.29 k spheres GPU 1000 leaves"));
+    CHECK(found.at("12.29 k spheres CPU 1000 leaves") >= found.at("12.29 k spheres CPU 1 leaves"));
+}
+
+TEST_CASE(
+    "The cull alone stands beside the whole contact set on rows of the CPU and of the GPU, each by its own "
+    "clocks") {
+    std::map<std::string, size_t> rows;
+    for (const auto& row : quickRun().study("query")["rows"]) {
+        const std::string setting = row["setting"];
+        const bool cpu = startsWith(setting, "CPU "), gpu = startsWith(setting, "GPU ");
+        CAPTURE(setting);
+        CHECK(row["cpu_cull_wall_p50_ms"].is_null() == !cpu);
+        CHECK(row["cpu_cull_cpu_p50_ms"].is_null() == !cpu);
+        CHECK(row["gpu_cull_submit_to_result_p50_ms"].is_null() == !gpu);
+        ++rows[cpu ? "CPU" : gpu ? "GPU" : "neither"];
+        if (cpu) {
+            CHECK(row["cpu_cull_wall_p50_ms"].get<double>() > 0.0);
+            rows["wall is CPU"] += row["cpu_cull_wall_p50_ms"] == row["cpu_cull_cpu_p50_ms"] ? 1 : 0;
+            rows["cull is whole"] += row["cpu_cull_wall_p50_ms"] == row["submit_to_result_p50_ms"] ? 1 : 0;
+        }
+    }
+    CHECK(rows["CPU"] == 6);
+    CHECK(rows["GPU"] == 6);
+    CHECK(rows["neither"] > 6);
+    CHECK(rows["wall is CPU"] < 6); // two clocks may agree once
+    CHECK(rows["cull is whole"] < 6);
+}
