@@ -11,6 +11,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kAscent = 11.0, kDescent = 3.0, kGap = 11.0; // [pixels]
+constexpr double kTouching = 10.0;                            // [pixels] between centres of two dots
 constexpr int kDirections = 24;
 
 LabelPlace placeAt(const LabelWish& wish, double x, double y, bool beside) {
@@ -54,6 +55,21 @@ std::optional<LabelPlace> placeOff(const LabelWish& wish, const PlotBox& room,
 }
 
 } // namespace
+
+std::vector<size_t> distinctLabels(const std::vector<LabelWish>& wishes) {
+    std::vector<size_t> kept;
+    for (size_t i = 0; i < wishes.size(); ++i) {
+        const LabelWish& wish = wishes[i];
+        const bool repeats = std::any_of(kept.begin(), kept.end(), [&](size_t k) {
+            return wishes[k].text == wish.text &&
+                   std::hypot(wishes[k].x - wish.x, wishes[k].y - wish.y) < kTouching;
+        });
+        if (!repeats) {
+            kept.push_back(i);
+        }
+    }
+    return kept;
+}
 
 std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const PlotBox& room,
                                     std::vector<PlotBox> taken) {

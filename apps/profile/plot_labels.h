@@ -3,6 +3,8 @@
 // to it.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace fathom::profile {
@@ -13,7 +15,8 @@ struct PlotBox { // [pixels] y downwards
 };
 
 struct LabelWish {
-    double x, y, width; // [pixels] of the point, of the text
+    double x, y, width;    // [pixels] of the point, of the text
+    std::string text = {}; // by which repeats are known
 };
 
 struct LabelPlace {
@@ -21,6 +24,10 @@ struct LabelPlace {
     bool beside = true; // else a line leads to the point
     PlotBox box;        // that the text fills
 };
+
+// Indices, ascending, of the wishes but those that say of a point what one before them says of another that
+// its dot touches: settings that come out alike are named once.
+std::vector<size_t> distinctLabels(const std::vector<LabelWish>& wishes);
 
 // One place a wish, in their order: the first have the better ones. `taken` are boxes that no label may meet,
 // the points among them. No two labels meet while the room has a free spot; after that one stands beside its

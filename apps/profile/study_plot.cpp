@@ -170,7 +170,7 @@ private:
     // Points of the front and defaults choose first.
     void paintLabels() const {
         std::vector<PlotBox> taken;
-        std::vector<LabelWish> wishes;
+        std::vector<LabelWish> all, wishes;
         std::vector<const PlotPoint*> points;
         for (const PlotSeries& s : panel_.series) {
             for (const PlotPoint& q : s.points) {
@@ -185,11 +185,16 @@ private:
             return std::pair(!a->isDefault, !a->isFront) < std::pair(!b->isDefault, !b->isFront);
         });
         for (const PlotPoint* q : points) {
-            wishes.push_back({x_.at(q->x), y_.at(q->y), p_.textWidth(textOf(*q), 12, q->isDefault)});
+            const std::string text = textOf(*q);
+            all.push_back({x_.at(q->x), y_.at(q->y), p_.textWidth(text, 12, q->isDefault), text});
+        }
+        const std::vector<size_t> distinct = distinctLabels(all);
+        for (const size_t i : distinct) {
+            wishes.push_back(all[i]);
         }
         const auto places = placeLabels(wishes, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
-        for (size_t i = 0; i < points.size(); ++i) {
-            paintLabel(*points[i], wishes[i], places[i]);
+        for (size_t i = 0; i < distinct.size(); ++i) {
+            paintLabel(*points[distinct[i]], wishes[i], places[i]);
         }
     }
 
@@ -202,7 +207,7 @@ private:
                  0.8);
         }
         const Colour colour = q.isFront || q.isDefault ? kInk : kFaint;
-        words(place.x, place.y, textOf(q), colour, q.isDefault);
+        words(place.x, place.y, wish.text, colour, q.isDefault);
     }
 
     void paintLegend() const {

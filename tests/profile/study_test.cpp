@@ -263,6 +263,15 @@ TEST_CASE(
     CHECK(alone.front().beside);
 }
 
+TEST_CASE("A name that several points in one place have is written once, and again where one stands apart") {
+    const std::vector<LabelWish> wishes = {{100.0, 50.0, 90.0, "reach 10 mm"},
+                                           {104.0, 53.0, 90.0, "reach 10 mm"},
+                                           {102.0, 50.0, 90.0, "reach 20 mm"},
+                                           {100.0, 80.0, 90.0, "reach 10 mm"}};
+    CHECK(distinctLabels(wishes) == std::vector<size_t>{0, 2, 3});
+    CHECK(distinctLabels({}).empty());
+}
+
 TEST_CASE("Where no spot is free a label still stands beside its point") {
     const auto places =
         placeLabels({{50.0, 50.0, 90.0}}, {0.0, 0.0, 100.0, 100.0}, {{0.0, 0.0, 100.0, 100.0}});
