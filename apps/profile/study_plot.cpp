@@ -28,13 +28,13 @@ constexpr std::array<Colour, 11> kSeries{{{0.0, 0.45, 0.70},
 // One panel in its rectangle of the picture.
 class PanelPainter {
 public:
-    PanelPainter(const Picture& picture, const PlotPanel& panel, double left)
+    PanelPainter(const Picture& picture, const PlotPanel& panel, double left, double top)
         : p_(picture)
         , panel_(panel)
         , x0_(left + (panel.bars ? 250.0 : 86.0))
         , x1_(left + kPanelWidth - 24.0 - legendRoom(picture, panel))
-        , y0_(kHead + 40.0)
-        , y1_(kHead + kPanelHeight - 62.0) {
+        , y0_(top + 40.0)
+        , y1_(top + kPanelHeight - 62.0) {
         std::vector<double> xs, ys;
         for (const PlotSeries& s : panel.series) {
             for (const PlotPoint& q : s.points) {
@@ -47,7 +47,7 @@ public:
     }
 
     void paint() {
-        p_.text(x0_, kHead + 24.0, panel_.title, 16, kInk, Align::Left, true);
+        p_.text(x0_, y0_ - 16.0, panel_.title, 16, kInk, Align::Left, true);
         if (panel_.bars) {
             paintBars();
             return;
@@ -256,13 +256,22 @@ private:
 
 } // namespace
 
+PanelGrid panelGrid(size_t panels) {
+    constexpr int kMostInOneRow = 3; // more are too small to read where a picture is fitted to a page
+    const int count = std::max(1, static_cast<int>(panels));
+    const int down = count > kMostInOneRow ? 2 : 1;
+    return {(count + down - 1) / down, down};
+}
+
 void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file) {
-    const int panels = std::max<int>(1, static_cast<int>(study.panels.size()));
-    const Picture picture(panels * kPanelWidth + 8, kHead + kPanelHeight, kPaper);
+    const PanelGrid grid = panelGrid(study.panels.size());
+    const Picture picture(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
     picture.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
     picture.text(24.0, 60.0, subtitle, 13, kFaint);
     for (size_t i = 0; i < study.panels.size(); ++i) {
-        PanelPainter(picture, study.panels[i], static_cast<double>(i) * kPanelWidth).paint();
+        const int k = static_cast<int>(i), row = k / grid.across;
+        PanelPainter(picture, study.panels[i], (k % grid.across) * kPanelWidth, kHead + row * kPanelHeight)
+            .paint();
     }
     picture.writePng(file);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a study: its panels side by side, points labelled by their settings, the default ringed, the
-// Pareto front as a line.
+// The picture of a study: its panels in one row or two, points labelled by their settings, the default
+// ringed, the Pareto front as a line.
 #pragma once
 
 #include "apps/profile/study.h"
@@ -10,6 +10,12 @@ namespace fathom::profile {
 
 // subtitle: device and what was verified, one line under the title. Throws Error that names the file.
 void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file);
+
+// How panels stand in a picture: row by row, in one row or in two.
+struct PanelGrid {
+    int across, down;
+};
+PanelGrid panelGrid(size_t panels);
 
 // The axis of a panel: linear or logarithmic; on a logarithmic one values <= 0 stand at the low end.
 struct PanelAxis {

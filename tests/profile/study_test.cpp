@@ -272,6 +272,16 @@ TEST_CASE("A name that several points in one place have is written once, and aga
     CHECK(distinctLabels({}).empty());
 }
 
+TEST_CASE("Panels stand in one row while they can be read there, else in two, each in a place of its own") {
+    for (size_t panels = 0; panels < 9; ++panels) {
+        CAPTURE(panels);
+        const PanelGrid grid = panelGrid(panels);
+        CHECK(static_cast<size_t>(grid.across * grid.down) >= panels);
+        CHECK(grid.down == (panels > 3 ? 2 : 1));
+        CHECK((panels < 2 || static_cast<size_t>((grid.across - 1) * grid.down) < panels)); // none empty
+    }
+}
+
 TEST_CASE("Where no spot is free a label still stands beside its point") {
     const auto places =
         placeLabels({{50.0, 50.0, 90.0}}, {0.0, 0.0, 100.0, 100.0}, {{0.0, 0.0, 100.0, 100.0}});
