@@ -1,11 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the study of queries found in a quick run: figures that hold on any machine, no times.
+#include "apps/profile/late_answers.h"
+#include "apps/profile/query_rows.h"
 #include "tests/profile/quick_run.h"
 
 #include <map>
 
 using namespace fathom;
 using namespace fathom::testing;
+using namespace fathom::profile;
+
+namespace {
+
+StudyRow lateAnswers(const char* source, double reach, double stalled, bool isDefault) {
+    StudyRow row = queryRow(source, "reach " + digits(reach) + " mm");
+    row.more[kReachMm] = reach, row.more[kStalledTurns] = stalled;
+    row.isDefault = isDefault;
+    return row;
+}
+
+} // namespace
 
 TEST_CASE("With late answers a short reach stalls and lags and a long one does not") {
     std::map<std::string, nlohmann::json> rows;
@@ -17,6 +31,33 @@ TEST_CASE("With late answers a short reach stalls and lags and a long one does n
     CHECK(brief["stalled_turns"].get<double>() > ample["stalled_turns"].get<double>());
     CHECK(brief["found_spheres"].is_null());
     CHECK(brief["error"].get<double>() > ample["error"].get<double>());
+}
+
+TEST_CASE(
+    "Stalls are drawn as a share of the drag's turns over the reach, a line a delay, the longest undermost") {
+    const PlotPanel panel = stallPanel({lateAnswers("answers 0 ticks late", 5.0, 0.0, false),
+                                        lateAnswers("answers 0 ticks late", 10.0, 0.0, true),
+                                        lateAnswers("answers 20 ticks late", 5.0, 300.0, false),
+                                        lateAnswers("answers 20 ticks late", 10.0, 75.0, true)},
+                                       300);
+    REQUIRE(panel.series.size() == 2);
+    const PlotSeries &late = panel.series[0],
+                     &early = panel.series[1]; // in the order in which they are drawn
+    CHECK(late.name == "answers 20 ticks late");
+    CHECK(early.name == "answers 0 ticks late");
+    CHECK(late.colour != early.colour);
+    REQUIRE(late.points.size() == 2);
+    CHECK(late.connect);
+    CHECK(late.points[0].x == 5.0);
+    CHECK(late.points[0].y == 100.0);
+    CHECK(late.points[1].x == 10.0);
+    CHECK(late.points[1].y == 25.0);
+    CHECK(late.points[1].isDefault);
+    CHECK(late.points[1].label == "reach 10 mm");
+    CHECK(early.points[1].y == 0.0);
+    CHECK(panel.xLabel == "reach [mm]");
+    CHECK(panel.yLabel == "stalled turns [% of 300]");
+    CHECK(!panel.logY); // 0 is a value like others
 }
 
 TEST_CASE("A row of the query study counts found spheres or stalled turns, never one in the other's place") {
