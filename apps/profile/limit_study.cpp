@@ -194,7 +194,7 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
     PlotPanel panel{source + ": measured over floor",
                     "measured / floor (1 = cannot be faster)",
                     "",
-                    false,
+                    true,
                     false,
                     true,
                     {}};

@@ -67,7 +67,7 @@ struct PlotSeries {
 struct PlotPanel {
     std::string title, xLabel, yLabel; // with units
     bool logX = true, logY = true;     // values <= 0 stand at the low end, marked 0
-    bool bars = false;                 // labels at the left, bars of x to the right; y is not used
+    bool bars = false; // labels at the left, bars of x from 0, on a logarithmic axis from 1; y is not used
     std::vector<PlotSeries> series;
 };
 

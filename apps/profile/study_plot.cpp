@@ -10,6 +10,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr int kPanelWidth = 780, kPanelHeight = 560, kHead = 84;
+constexpr double kBarFoot = 1.0; // where bars on a logarithmic axis begin: a ratio of 1
 constexpr Colour kPaper{0.992, 0.992, 0.988}, kInk{0.13, 0.15, 0.18}, kFaint{0.45, 0.48, 0.52},
     kGrid{0.88, 0.89, 0.9};
 // Distinguishable without red against green (Okabe and Ito).
@@ -41,6 +42,9 @@ public:
                 xs.push_back(q.x);
                 ys.push_back(q.y);
             }
+        }
+        if (panel.bars && panel.logX) {
+            xs.push_back(kBarFoot);
         }
         x_ = panelAxis(xs, panel.logX, x0_, x1_);
         y_ = panelAxis(ys, panel.logY, y1_, y0_);
@@ -224,6 +228,11 @@ private:
         }
     }
 
+    // Whole numbers where three digits would need an exponent.
+    static std::string barFigure(double value) {
+        return value >= 1e3 && value < 1e6 ? digits(std::round(value), 6) : digits(value);
+    }
+
     void paintBars() const {
         paintXAxis();
         size_t count = 0, k = 0;
@@ -233,16 +242,16 @@ private:
         const double step = (y1_ - y0_ - 8.0) / static_cast<double>(std::max<size_t>(1, count));
         for (size_t i = 0; i < panel_.series.size(); ++i) {
             for (const PlotPoint& q : panel_.series[i].points) {
-                const double y = y0_ + 4.0 + step * static_cast<double>(k++), zero = x_.at(0.0),
-                             end = x_.at(q.x);
+                const double y = y0_ + 4.0 + step * static_cast<double>(k++),
+                             foot = x_.at(panel_.logX ? kBarFoot : 0.0), end = x_.at(q.x);
                 p_.setColour(colourOf(i));
-                cairo_rectangle(p_.cr(), std::min(zero, end), y, std::abs(end - zero),
+                cairo_rectangle(p_.cr(), std::min(foot, end), y, std::abs(end - foot),
                                 std::min(0.72 * step, 30.0));
                 cairo_fill(p_.cr());
                 const double base = y + 0.5 * std::min(0.72 * step, 30.0) + 5.0;
                 p_.text(x0_ - 8.0, base, q.label, 13, kInk, Align::Right, q.isDefault);
                 const bool inside = end > x1_ - 60.0;
-                p_.text(inside ? end - 5.0 : std::max(zero, end) + 5.0, base, digits(q.x), 12,
+                p_.text(inside ? end - 5.0 : std::max(foot, end) + 5.0, base, barFigure(q.x), 12,
                         inside ? kPaper : kInk, inside ? Align::Right : Align::Left);
             }
         }
