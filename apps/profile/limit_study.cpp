@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far each step of a frame is from what the machine allows: bytes that must move and operations that must
-// be done, over the measured bandwidth and rate.
+// How far each step of a frame, and the device's contact query, is from what the machine allows: bytes that
+// must move and operations that must be done, over the measured bandwidth and rate.
 #include "apps/profile/ceilings.h"
+#include "apps/profile/query_limit.h"
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
 #include "engine/cloud/frame_params.h"
@@ -24,6 +25,7 @@ struct Need {
 struct Load {
     double pixels, slots, guidedSlots, selected, guided, spheres, tapsPerPixel, cells;
     bool occlusion, hold, colour, inPlace, pack, keepDepth, thin, tree;
+    QueryWork query; // of a query on the device, by its answer; none without one
 };
 
 // Class bits of guidance.
@@ -107,6 +109,7 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0}},
         {"spheres", {sphereBytes(l), 60.0 * l.slots}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0}},
+        {"tree_query", {l.query.bytes, l.query.operations}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
         {"collect", // read as the device packs, written as columns
          {l.spheres * (20.0 + 21.0), 0.0, Need::Where::Crew}},
@@ -210,16 +213,38 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
     return panel;
 }
 
+// Passes of a frame and, where the plan has a tree, the query of that frame's set.
+void addCase(const StudyContext& context, const LimitCase& each, const Ceilings& ceilings, Study& study) {
+    FrameBench bench(context.device, each.scene, each.pictures.camera);
+    const Shot& first = each.pictures.shots.front();
+    const FrameReport report = bench.run(first);
+    const std::string wrong = bench.differsFromTwins(first);
+    verify(wrong.empty(), "limit", each.name, wrong + " differs from the float64 twin");
+    Load load = loadOf(bench, report);
+    const QueryLimit query = load.tree ? measureQuery(context, bench, first.baseTcamera) : QueryLimit{};
+    load.query = query.least;
+    FrameCost cost = bench.measure(each.pictures.shots, context.settings.effort());
+    cost.passes["tree_query"] = query.time;
+    addRows(study, each.name, load, cost, ceilings);
+    if (query.time) {
+        study.findings.push_back(each.name + ", tree_query: " + std::to_string(query.leaves) +
+                                 " leaves in touch, " + std::to_string(query.found) + " of " +
+                                 std::to_string(query.spheres) +
+                                 " spheres within 10 mm; its floor is what leads to these alone");
+    }
+    study.panels.push_back(panelOf(study, each.name));
+}
+
 } // namespace
 
 Study limitStudy(const StudyContext& context) {
     Study study;
     study.name = "limit";
-    study.title = "Limit: each step of a frame against what the machine allows";
+    study.title = "Limit: each step of a frame, and a query, against what the machine allows";
     study.verified = "what the ceilings copied, read and computed, class bits and points of a frame against "
-                     "the float64 twins";
+                     "the float64 twins, the device's query against brute force";
     study.errorName = "error", study.errorUnit = "none";
-    study.noDefault = "its rows are the steps of one frame at the default settings";
+    study.noDefault = "its rows are the steps of one frame, and its query, at the default settings";
     study.timeName = "GPU time p50 of a pass, wall time p50 of a step of the host's";
     study.moreNames = {"MB_that_must_move", "million_operations", "moving_ms",
                        "computing_ms",      "floor_ms",           "ratio"};
@@ -231,13 +256,7 @@ Study limitStudy(const StudyContext& context) {
     const Ceilings c = measureCeilings(context.device, publishers, context.settings.effort());
     sayCeilings(study, c);
     for (const LimitCase& each : limitCases(plain, w, h)) {
-        FrameBench bench(context.device, each.scene, each.pictures.camera);
-        const FrameReport report = bench.run(each.pictures.shots.front());
-        const std::string wrong = bench.differsFromTwins(each.pictures.shots.front());
-        verify(wrong.empty(), "limit", each.name, wrong + " differs from the float64 twin");
-        const Load load = loadOf(bench, report);
-        addRows(study, each.name, load, bench.measure(each.pictures.shots, context.settings.effort()), c);
-        study.panels.push_back(panelOf(study, each.name));
+        addCase(context, each, c, study);
     }
     return study;
 }

@@ -241,7 +241,7 @@ TEST_CASE(
     }
     REQUIRE(steps.size() == 4);
     for (const char* pass : {"upload", "occlusion", "classify", "list", "surface", "thin", "spheres", "tree",
-                             "moments", "collect", "grid"}) {
+                             "tree_query", "moments", "collect", "grid"}) {
         CAPTURE(std::string(pass));
         CHECK(steps.at("two cameras, query on the device").count(pass) == 1);
     }
