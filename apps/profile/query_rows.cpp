@@ -8,6 +8,7 @@
 #include "engine/cycle/contact_cycle.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace fathom::profile {
 
@@ -16,6 +17,17 @@ namespace {
 constexpr double kQueryReach = 0.01;    // [m]
 constexpr double kMostBrutePairs = 4e8; // leaf-sphere pairs that brute force is let try
 constexpr float kSingleReach = static_cast<float>(kQueryReach);
+
+// Spheres that a cull is asked about.
+struct SphereSet {
+    const RegionSpheres& spheres;
+    const RegionGrid& grid;
+    dvec3 origin; // [m] base frame
+
+    std::string name() const {
+        return digits(static_cast<double>(spheres.size()) / 1000.0, 4) + " k spheres";
+    }
+};
 
 // The wall as a set of width x height spheres.
 struct QueryRig {
@@ -28,12 +40,10 @@ struct QueryRig {
         bench.run(source.shots.front());
     }
     const Fixtures& host() const { return bench.set().host; }
-    std::string name() const {
-        return digits(static_cast<double>(host().spheres.size()) / 1000.0, 4) + " k spheres";
-    }
+    SphereSet set() const { return {host().spheres, bench.set().grid, host().origin}; }
 };
 
-// One tool where it touches the wall, and what brute force says is in its reach there.
+// One tool where it touches a set, and what brute force says is in its reach there.
 struct TouchingTool {
     Tool tool;
     Pose pose;
@@ -41,17 +51,23 @@ struct TouchingTool {
     std::vector<uint8_t> marks;
     std::vector<uint32_t> truth;
 
-    TouchingTool(const QueryRig& rig, uint32_t leafCount, const Pose& touch)
+    TouchingTool(const SphereSet& set, uint32_t leafCount, const Pose& touch)
         : tool(ballTool(leafCount))
         , pose(touch) {
-        poseLeaves(tool, pose, rig.host().origin, leaves);
-        bruteForceCull(leaves, kSingleReach, rig.host().spheres, marks, truth);
+        poseLeaves(tool, pose, set.origin, leaves);
+        bruteForceCull(leaves, kSingleReach, set.spheres, marks, truth);
     }
-    double pairs(const QueryRig& rig) const {
-        return static_cast<double>(tool.leafCount()) * static_cast<double>(rig.host().spheres.size());
+    double pairs(const SphereSet& set) const {
+        return static_cast<double>(tool.leafCount()) * static_cast<double>(set.spheres.size());
     }
-    StudyRow row(const QueryRig& rig, const char* way) const {
-        return queryRow(rig.name(), std::string(way) + " " + std::to_string(tool.leafCount()) + " leaves");
+    StudyRow row(const SphereSet& set, const char* way) const {
+        StudyRow row =
+            queryRow(set.name(), std::string(way) + " " + std::to_string(tool.leafCount()) + " leaves");
+        row.more[kToolLeaves] = static_cast<double>(tool.leafCount());
+        row.more[kRegionSpheres] = static_cast<double>(set.spheres.size());
+        row.more[kFoundSpheres] = static_cast<double>(truth.size());
+        row.more[kReachMm] = kQueryReach * 1e3;
+        return row;
     }
 };
 
@@ -99,10 +115,10 @@ void timeGpuCull(const StudyContext& context, const QueryRig& rig, const Touchin
 }
 
 // Both clocks of the cull alone.
-void timeCpuCull(const StudyContext& context, const QueryRig& rig, const TouchingTool& at, StudyRow& row) {
+void timeCpuCull(const StudyContext& context, const SphereSet& set, const TouchingTool& at, StudyRow& row) {
     CullCpu query;
     std::vector<uint32_t> found;
-    const auto cull = [&] { query.cull(at.leaves, kSingleReach, rig.bench.set().grid, found); };
+    const auto cull = [&] { query.cull(at.leaves, kSingleReach, set.grid, found); };
     cull();
     verifyCull(found, at, row);
     const Cost cost = timeCpu(context.settings.effort(), cull);
@@ -110,15 +126,15 @@ void timeCpuCull(const StudyContext& context, const QueryRig& rig, const Touchin
     row.more[kCpuCullCpu] = cost.cpu.p50;
 }
 
-StudyRow bruteRow(const StudyContext& context, const QueryRig& rig, const TouchingTool& at) {
-    StudyRow row = at.row(rig, kBruteWay);
-    if (at.pairs(rig) > kMostBrutePairs) {
+StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const TouchingTool& at) {
+    StudyRow row = at.row(set, kBruteWay);
+    if (at.pairs(set) > kMostBrutePairs) {
         return row;
     }
     std::vector<uint32_t> found;
     std::vector<uint8_t> marks;
     row.cost = timeCpu(context.settings.effort(),
-                       [&] { bruteForceCull(at.leaves, kSingleReach, rig.host().spheres, marks, found); });
+                       [&] { bruteForceCull(at.leaves, kSingleReach, set.spheres, marks, found); });
     return row;
 }
 
@@ -129,21 +145,37 @@ std::vector<StudyRow> rowsOfTool(const StudyContext& context, const QueryRig& ri
     ContactSet a, b;
     cpu.cycle.query(rig.bench.set(), at.pose, a);
     gpu.cycle.query(rig.bench.set(), at.pose, b);
-    std::vector<StudyRow> rows{at.row(rig, kCpuWay), at.row(rig, kGpuWay)};
+    std::vector<StudyRow> rows{at.row(rig.set(), kCpuWay), at.row(rig.set(), kGpuWay)};
     verify(a.source == b.source && a.pairSphere == b.pairSphere && a.reach == b.reach, "query",
            rows[1].setting, "the contact sets of CPU and GPU differ");
     rows[0].cost = timeCpu(context.settings.effort(), [&] { cpu.cycle.query(rig.bench.set(), at.pose, a); });
-    timeCpuCull(context, rig, at, rows[0]);
+    timeCpuCull(context, rig.set(), at, rows[0]);
     rows[1].cost = timeCpu(context.settings.effort(), [&] { gpu.cycle.query(rig.bench.set(), at.pose, b); });
     timeGpuCull(context, rig, at, rows[1]);
-    rows.push_back(bruteRow(context, rig, at));
+    rows.push_back(bruteRow(context, rig.set(), at));
     for (StudyRow& row : rows) {
-        row.more[kToolLeaves] = static_cast<double>(at.tool.leafCount());
-        row.more[kRegionSpheres] = static_cast<double>(rig.host().spheres.size());
         row.more[kFoundSpheres] = static_cast<double>(a.size());
         row.more[kReachMm] = a.reach * 1e3;
     }
     return rows;
+}
+
+// The `count` spheres whose centres are nearest to a point [m] about their origin, in their order.
+RegionSpheres nearestOf(const RegionSpheres& all, const dvec3& to, size_t count) {
+    std::vector<uint32_t> order(all.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto away = [&](uint32_t i) { return glm::distance(dvec3(all.x[i], all.y[i], all.z[i]), to); };
+    std::sort(order.begin(), order.end(), [&](uint32_t a, uint32_t b) { return away(a) < away(b); });
+    order.resize(std::min(count, order.size()));
+    std::sort(order.begin(), order.end());
+    RegionSpheres few;
+    few.resize(order.size());
+    for (size_t k = 0; k < order.size(); ++k) {
+        const uint32_t i = order[k];
+        few.x[k] = all.x[i], few.y[k] = all.y[i], few.z[k] = all.z[i], few.radius[k] = all.radius[i];
+        few.source[k] = all.source[i], few.fixture[k] = all.fixture[i];
+    }
+    return few;
 }
 
 } // namespace
@@ -179,8 +211,27 @@ std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uin
     const Pose touch = touchingPose(ballTool(256), rig.host(), Pose{});
     std::vector<StudyRow> rows;
     for (const uint32_t leaves : toolLeaves) {
-        for (StudyRow& row : rowsOfTool(context, rig, TouchingTool(rig, leaves, touch))) {
+        for (StudyRow& row : rowsOfTool(context, rig, TouchingTool(rig.set(), leaves, touch))) {
             rows.push_back(std::move(row));
+        }
+    }
+    return rows;
+}
+
+std::vector<StudyRow> fewSphereRows(const StudyContext& context) {
+    const QueryRig rig(context.device, 128, 80);
+    const Pose touch = touchingPose(ballTool(256), rig.host(), Pose{});
+    std::vector<StudyRow> rows;
+    for (const size_t count : {16, 64, 256}) {
+        const RegionSpheres spheres =
+            nearestOf(rig.host().spheres, touch.position - rig.host().origin, count);
+        RegionGrid grid;
+        grid.build(spheres);
+        const SphereSet set{spheres, grid, rig.host().origin};
+        for (const uint32_t leaves : {1u, 4u, 16u}) {
+            const TouchingTool at(set, leaves, touch);
+            timeCpuCull(context, set, at, rows.emplace_back(at.row(set, kCpuWay)));
+            rows.push_back(bruteRow(context, set, at));
         }
     }
     return rows;

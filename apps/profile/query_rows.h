@@ -41,4 +41,8 @@ double cullTime(const StudyRow& row);
 std::vector<StudyRow> queryRows(const StudyContext& context, uint32_t width, uint32_t height,
                                 const std::vector<uint32_t>& toolLeaves);
 
+// Culls by the grid and by brute force of small tools in the 16, 64 and 256 spheres of a wall that are
+// nearest to them: where brute force wins. Throws Error as above.
+std::vector<StudyRow> fewSphereRows(const StudyContext& context);
+
 } // namespace fathom::profile

@@ -2,33 +2,14 @@
 // Query time over tool leaves and region spheres: CPU, GPU, brute force; where they cross, which `where:
 // auto` then uses; and what the reach costs when answers come late.
 #include "apps/profile/late_answers.h"
-#include "apps/profile/query_rows.h"
+#include "apps/profile/query_crossings.h"
 #include "apps/profile/studies.h"
 
 #include "engine/gpu/query_crossover.h"
 
-#include <algorithm>
-#include <map>
-
 namespace fathom::profile {
 
 namespace {
-
-// The fewest leaves from which on the GPU is faster at every larger tool of that set.
-uint32_t crossingOf(const std::vector<StudyRow>& rows, const std::string& source) {
-    std::map<double, std::pair<double, double>> byLeaves; // CPU, GPU
-    for (const StudyRow& row : rows) {
-        if (row.source == source && !isWay(row, kBruteWay)) {
-            auto& pair = byLeaves[row.more[kToolLeaves]];
-            (isWay(row, kCpuWay) ? pair.first : pair.second) = row.cost.submit.p50;
-        }
-    }
-    uint32_t crossing = gpu::kNeverOnGpu;
-    for (auto it = byLeaves.rbegin(); it != byLeaves.rend() && it->second.second < it->second.first; ++it) {
-        crossing = static_cast<uint32_t>(it->first);
-    }
-    return crossing;
-}
 
 struct WayLine {
     const char* way;
@@ -69,26 +50,17 @@ void drawTimes(Study& study, const std::vector<std::string>& sources) {
     study.panels = {std::move(whole), std::move(cull)};
 }
 
-void concludeCrossover(const StudyContext& context, Study& study, const std::vector<std::string>& sources) {
-    uint32_t crossover = 0;
-    for (const std::string& source : sources) {
-        const uint32_t crossing = crossingOf(study.rows, source);
-        study.findings.push_back(source + ": " +
-                                 (crossing == gpu::kNeverOnGpu
-                                      ? "the CPU is faster at every tool measured"
-                                      : "the GPU is faster from " + std::to_string(crossing) + " leaves on"));
-        crossover = std::max(crossover, crossing);
+void concludeCrossings(const StudyContext& context, const std::vector<uint32_t>& tools, Study& study) {
+    study.findings = crossingFindings(study.rows);
+    DeviceFacts device = context.device.facts();
+    std::string kept = "a quick run stores no crossover";
+    if (!context.settings.quick) {
+        device.gpuQueryLeaves = leavesForTheDevice(study.rows);
+        kept = gpu::storeQueryCrossover(context.device.physical(), device.gpuQueryLeaves)
+                   ? "stored for later runs on this device"
+                   : "it could not be stored for later runs";
     }
-    if (context.settings.quick) {
-        study.findings.push_back("a quick run stores no crossover; 'where: auto' uses " +
-                                 std::to_string(context.device.facts().gpuQueryLeaves) + " leaves");
-        return;
-    }
-    const bool stored = gpu::storeQueryCrossover(context.device.physical(), crossover);
-    study.findings.push_back(
-        std::string("'where: auto' asks the GPU ") +
-        (crossover == gpu::kNeverOnGpu ? "never" : "from " + std::to_string(crossover) + " leaves on") +
-        " on this device" + (stored ? ": stored for later runs" : ", but it could not be stored"));
+    study.findings.push_back(autoDecision(device, tools) + " (" + kept + ")");
 }
 
 } // namespace
@@ -116,7 +88,10 @@ Study queryStudy(const StudyContext& context) {
         }
         sources.push_back(study.rows.back().source);
     }
-    concludeCrossover(context, study, sources);
+    for (StudyRow& row : fewSphereRows(context)) {
+        study.rows.push_back(std::move(row));
+    }
+    concludeCrossings(context, tools, study);
     drawTimes(study, sources);
     addLateAnswers(context, study);
     return study;

@@ -95,9 +95,9 @@ TEST_CASE(
             rows["cull is whole"] += row["cpu_cull_wall_p50_ms"] == row["submit_to_result_p50_ms"] ? 1 : 0;
         }
     }
-    CHECK(rows["CPU"] == 6);
+    CHECK(rows["CPU"] == 6 + 9); // in sets of a picture, and in few spheres
     CHECK(rows["GPU"] == 6);
-    CHECK(rows["neither"] > 6);
-    CHECK(rows["wall is CPU"] < 6); // two clocks may agree once
+    CHECK(rows["neither"] == 6 + 9 + 4); // brute force, late answers
+    CHECK(rows["wall is CPU"] < 15);     // two clocks may agree once
     CHECK(rows["cull is whole"] < 6);
 }

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/profile/query_crossings.h"
+
+#include "apps/profile/shot_source.h"
+#include "engine/gpu/query_crossover.h"
+#include "engine/scene/plan.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace fathom::profile {
+
+namespace {
+
+// p50 [ms] of all ways with one tool in one set; not a number = not measured.
+struct Measured {
+    std::string source;
+    double spheres = NAN, leaves = NAN;
+    double cpuSet = NAN, gpuSet = NAN;                  // the whole contact set
+    double gridCull = NAN, treeCull = NAN, brute = NAN; // the cull alone
+};
+using MeasuredValue = double Measured::*;
+
+std::vector<Measured> measuredOf(const std::vector<StudyRow>& rows) {
+    std::vector<Measured> all;
+    for (const StudyRow& row : rows) {
+        const bool cpu = isWay(row, kCpuWay), gpu = isWay(row, kGpuWay);
+        if (!cpu && !gpu && !isWay(row, kBruteWay)) {
+            continue;
+        }
+        auto at = std::find_if(all.begin(), all.end(), [&](const Measured& m) {
+            return m.source == row.source && m.leaves == row.more[kToolLeaves];
+        });
+        if (at == all.end()) {
+            at = all.insert(all.end(), {row.source, row.more[kRegionSpheres], row.more[kToolLeaves]});
+        }
+        (cpu ? at->gridCull : gpu ? at->treeCull : at->brute) = cullTime(row);
+        if ((cpu || gpu) && row.cost.submit) {
+            (cpu ? at->cpuSet : at->gpuSet) = row.cost.submit.p50;
+        }
+    }
+    return all;
+}
+
+// Duels of those that `wanted` lets through and that both ways took part in.
+template <class Wanted, class Size>
+std::vector<Duel> duelsOf(const std::vector<Measured>& all, MeasuredValue incumbent, MeasuredValue challenger,
+                          Wanted&& wanted, Size&& size) {
+    std::vector<Duel> duels;
+    for (const Measured& m : all) {
+        if (wanted(m) && std::isfinite(m.*incumbent) && std::isfinite(m.*challenger)) {
+            duels.push_back({size(m), m.*incumbent, m.*challenger});
+        }
+    }
+    return duels;
+}
+
+std::string countOf(double value) {
+    return value < 1e4   ? digits(value, 4)
+           : value < 1e6 ? digits(value * 1e-3, 4) + " k"
+                         : digits(value * 1e-6, 4) + " M";
+}
+
+std::string listOf(const std::vector<double>& values) {
+    std::string list;
+    for (const double value : values) {
+        list += (list.empty() ? "" : ", ") + countOf(value);
+    }
+    return list;
+}
+
+double largestOf(const std::vector<Duel>& duels) {
+    double most = 0.0;
+    for (const Duel& d : duels) {
+        most = std::max(most, d.size);
+    }
+    return most;
+}
+
+// "from 60 k spheres on, and at 1000" or "never here (up to 1.024 M spheres), but at 1000".
+std::string fromWhere(const std::vector<Duel>& duels, const std::string& unit) {
+    const Crossing crossing = crossingOf(duels);
+    const bool never = std::isinf(crossing.from);
+    std::string text = never ? "never here (up to " + countOf(largestOf(duels)) + " " + unit + ")"
+                             : "from " + countOf(crossing.from) + " " + unit + " on";
+    if (!crossing.before.empty()) {
+        text += (never ? ", but at " : ", and at ") + listOf(crossing.before);
+    }
+    return text;
+}
+
+std::vector<Duel> duelsByLeaves(const std::vector<Measured>& all, const std::string& source) {
+    return duelsOf(
+        all, &Measured::cpuSet, &Measured::gpuSet, [&](const Measured& m) { return m.source == source; },
+        [](const Measured& m) { return m.leaves; });
+}
+
+std::vector<Duel> duelsBySpheres(const std::vector<Measured>& all, double leaves) {
+    return duelsOf(
+        all, &Measured::cpuSet, &Measured::gpuSet, [&](const Measured& m) { return m.leaves == leaves; },
+        [](const Measured& m) { return m.spheres; });
+}
+
+std::vector<Duel> duelsByPairs(const std::vector<Measured>& all, MeasuredValue challenger) {
+    return duelsOf(
+        all, &Measured::brute, challenger, [](const Measured&) { return true; },
+        [](const Measured& m) { return m.spheres * m.leaves; });
+}
+
+std::vector<std::string> sourcesIn(const std::vector<Measured>& all) {
+    std::vector<std::string> names;
+    for (const Measured& m : all) {
+        if (std::isfinite(m.gpuSet) && (names.empty() || names.back() != m.source)) {
+            names.push_back(m.source);
+        }
+    }
+    return names;
+}
+
+std::set<double> toolsIn(const std::vector<Measured>& all) {
+    std::set<double> leaves;
+    for (const Measured& m : all) {
+        if (std::isfinite(m.gpuSet)) {
+            leaves.insert(m.leaves);
+        }
+    }
+    return leaves;
+}
+
+} // namespace
+
+Crossing crossingOf(const std::vector<Duel>& duels) {
+    double lastLost = -1.0;
+    std::set<double> lost;
+    for (const Duel& d : duels) {
+        if (!(d.challenger < d.incumbent)) {
+            lost.insert(d.size);
+            lastLost = std::max(lastLost, d.size);
+        }
+    }
+    Crossing crossing;
+    std::set<double> before;
+    for (const Duel& d : duels) {
+        if (d.size > lastLost) {
+            crossing.from = std::min(crossing.from, d.size);
+        } else if (lost.count(d.size) == 0) {
+            before.insert(d.size);
+        }
+    }
+    crossing.before.assign(before.begin(), before.end());
+    return crossing;
+}
+
+uint32_t leavesForTheDevice(const std::vector<StudyRow>& rows) {
+    const std::vector<Measured> all = measuredOf(rows);
+    double most = 0.0;
+    for (const std::string& source : sourcesIn(all)) {
+        most = std::max(most, crossingOf(duelsByLeaves(all, source)).from);
+    }
+    return most > 0.0 && std::isfinite(most) ? static_cast<uint32_t>(most) : gpu::kNeverOnGpu;
+}
+
+std::vector<std::string> crossingFindings(const std::vector<StudyRow>& rows) {
+    const std::vector<Measured> all = measuredOf(rows);
+    std::vector<std::string> findings;
+    for (const std::string& source : sourcesIn(all)) {
+        findings.push_back("contact set in " + source + ", device faster than CPU: " +
+                           fromWhere(duelsByLeaves(all, source), "tool leaves"));
+    }
+    for (const double leaves : toolsIn(all)) {
+        findings.push_back("contact set with " + countOf(leaves) + " leaves, device faster than CPU: " +
+                           fromWhere(duelsBySpheres(all, leaves), "region spheres"));
+    }
+    for (const auto& [name, cull] : {std::pair{"the CPU's grid", &Measured::gridCull},
+                                     std::pair{"the device's tree", &Measured::treeCull}}) {
+        findings.push_back(std::string("cull alone, ") + name + " faster than brute force: " +
+                           fromWhere(duelsByPairs(all, cull), "spheres x leaves"));
+    }
+    return findings;
+}
+
+std::string autoDecision(const DeviceFacts& device, const std::vector<uint32_t>& toolLeaves) {
+    Scene scene = everyPointScene();
+    scene.contact.where = Scene::Contact::Where::Auto;
+    const CameraInfo camera = wallShot(64, 48, 1.0).camera;
+    std::vector<double> asked;
+    for (const uint32_t leaves : toolLeaves) {
+        if (makePlan(scene, camera, leaves, device).query == Plan::Query::Gpu) {
+            asked.push_back(leaves);
+        }
+    }
+    const std::string who =
+        asked.empty() ? "the CPU with every tool measured"
+        : asked.size() == toolLeaves.size()
+            ? "the device with every tool measured"
+            : "the device with tools of " + listOf(asked) + " leaves, the CPU with the others";
+    const std::string why = device.kind == DeviceKind::Cpu ? "this device is a CPU, which it never asks"
+                            : device.gpuQueryLeaves == gpu::kNeverOnGpu
+                                ? "no tool is known with which the device is faster in every set measured"
+                                : "the device is faster in every set measured from " +
+                                      countOf(device.gpuQueryLeaves) + " leaves on";
+    return "'where: auto' decides by the tool's leaves before the first picture, so by the worst set; it "
+           "asks " +
+           who + ": " + why + "; brute force it never chooses";
+}
+
+} // namespace fathom::profile
