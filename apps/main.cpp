@@ -15,6 +15,7 @@
 #include "apps/replay/replay_command.h"
 #include "apps/spheres/spheres_command.h"
 #include "apps/stability/stability_command.h"
+#include "engine/gpu/instance.h"
 #include "engine/gpu/software_threads.h"
 #include "engine/types/error.h"
 #include "engine/types/version.h"
@@ -65,6 +66,8 @@ int run(int argc, char** argv) {
     fathom::GlobalOptions global;
     app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
     app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and turns");
+    app.add_flag("--validate", global.validate,
+                 "Vulkan validation, synchronisation included; a message ends in exit code 1");
     app.add_flag("-v,--verbose", global.verbose, "log more");
     app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
     app.fallthrough();
@@ -75,12 +78,12 @@ int run(int argc, char** argv) {
     fathom::addGuardCommand(app);
     fathom::addArmGuardianCommand(app);
     fathom::addArmSimulatorCommand(app);
-    fathom::addDevicesCommand(app);
+    fathom::addDevicesCommand(app, global);
     fathom::addProfileCommand(app, global);
     int result = 0;
     fathom::addReplayCommand(app, global, result);
     fathom::addSpheresCommand(app);
-    fathom::addOperateCommand(app, global, result);
+    fathom::addOperateCommand(app, global);
     fathom::addStabilityCommand(app, global, result);
     fathom::addRecordCommand(app, global, result);
     fathom::addLatencyCommand(app, global, result);
@@ -96,6 +99,16 @@ int run(int argc, char** argv) {
     return result;
 }
 
+// What the command ended with, unless the validation layer had something against it.
+int judged(int result) {
+    const uint32_t messages = fathom::gpu::validationMessages();
+    if (messages == 0) {
+        return result;
+    }
+    std::cerr << "fathom: " << messages << " messages of Vulkan validation\n";
+    return result == 0 ? 1 : result;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -103,10 +116,10 @@ int main(int argc, char** argv) {
     spdlog::set_default_logger(spdlog::stderr_logger_mt("fathom"));
     spdlog::set_pattern("%l: %v");
     try {
-        return run(argc, argv);
+        return judged(run(argc, argv));
     } catch (const fathom::Error& e) {
         std::cerr << "fathom: " << e.what() << "\n";
-        return e.exitCode();
+        return judged(e.exitCode());
     } catch (const std::exception& e) {
         std::cerr << "fathom: internal error: " << e.what() << "\n";
         return 1;

@@ -13,9 +13,9 @@ namespace fathom {
 namespace {
 
 // Nothing is computed: every physical device that Vulkan names, refused ones with the reason.
-void printComputeDevices(std::ostream& out) {
+void printComputeDevices(std::ostream& out, const GlobalOptions& global) {
     try {
-        const gpu::Instance instance(gpu::Validation{false, false});
+        const gpu::Instance instance(global.validation());
         size_t index = 0;
         for (const std::string& line : gpu::Device::list(instance)) {
             out << "compute " << line << "\n";
@@ -31,13 +31,13 @@ void printComputeDevices(std::ostream& out) {
 
 } // namespace
 
-void addDevicesCommand(CLI::App& app) {
+void addDevicesCommand(CLI::App& app, const GlobalOptions& global) {
     CLI::App* command = app.add_subcommand(
         "devices", "list cameras, haptic devices and compute devices, with what stops them");
-    command->callback([] {
+    command->callback([&global] {
         const char* folder = std::getenv("XDG_RUNTIME_DIR");
         printHandDevices(std::cout, "/", folder != nullptr ? folder : "");
-        printComputeDevices(std::cout);
+        printComputeDevices(std::cout, global);
     });
 }
 

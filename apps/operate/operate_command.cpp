@@ -8,13 +8,12 @@
 #include "engine/types/error.h"
 
 #include <CLI/CLI.hpp>
-#include <iostream>
 #include <memory>
 #include <utility>
 
 namespace fathom {
 
-void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) {
+void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
     auto options = std::make_shared<OperateOptions>();
     CLI::App* command = app.add_subcommand("operate", "the operator's window on a live or recorded camera");
     command
@@ -37,8 +36,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
     command->add_option("--state", options->state,
                         "write what the window shows to this file, a JSON object a line");
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
-    command->add_flag("--validate", options->validate, "Vulkan validation; a message ends in exit code 1");
-    command->callback([options, &global, &result] {
+    command->callback([options, &global] {
         if (std::filesystem::is_directory(options->scene)) {
             options->recording = options->recording.empty() ? options->scene.string() : options->recording;
             options->scene /= "scene.yaml";
@@ -50,11 +48,10 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result) 
                 throw BadInput("operate", name, *value, "nothing beside a recording");
             }
         }
-        const uint32_t messages = options->recording.empty() ? operate::OperatorRun(*options, global).run()
-                                                             : operate::PlaybackRun(*options, global).run();
-        if (messages != 0) {
-            std::cerr << "fathom: " << messages << " validation messages\n";
-            result = 1;
+        if (options->recording.empty()) {
+            operate::OperatorRun(*options, global).run();
+        } else {
+            operate::PlaybackRun(*options, global).run();
         }
     });
 }

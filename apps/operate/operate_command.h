@@ -28,9 +28,8 @@ struct OperateOptions {
     double textScale = 0.0; // 0.75 .. 2; 0 = the scene's
     std::string state;      // file of JSON lines: what the window shows, for who watches it from outside
     std::string shots;      // folder of screenshots (F12), recordings and exports; empty = the working folder
-    bool validate = false;  // Vulkan validation; a message ends in exit code 1
 };
 
-void addOperateCommand(CLI::App& app, const GlobalOptions& global, int& result);
+void addOperateCommand(CLI::App& app, const GlobalOptions& global);
 
 } // namespace fathom

@@ -108,7 +108,7 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
     , arm(openArm(scene))
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
-    , instance(gpu::Validation{options.validate, false}, extensions)
+    , instance(global.validation(), extensions)
     , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), kReaders, drawing},
              [this](const DeviceFacts& facts) { return planToEdit(scene, camera->info(), tool, facts); })
     , passNames(cycles.frames().passNames()) {

@@ -87,7 +87,7 @@ HudInput OperatorRun::hudInput() const {
     return hud;
 }
 
-uint32_t OperatorRun::run() {
+void OperatorRun::run() {
     started_ = lastFrame_ = seconds();
     while (!wantsToEnd()) {
         const double spent = seconds() - lastFrame_;
@@ -106,7 +106,6 @@ uint32_t OperatorRun::run() {
     if (failure_) {
         std::rethrow_exception(failure_);
     }
-    return session_.instance.messages();
 }
 
 void OperatorRun::frame() {

@@ -30,9 +30,8 @@ public:
     OperatorRun(const OperateOptions& options, const GlobalOptions& global);
     ~OperatorRun();
 
-    // Until the window is closed, the time is up, a signal or a failure, which is thrown. Returns the number
-    // of validation messages.
-    uint32_t run();
+    // Until the window is closed, the time is up, a signal or a failure, which is thrown.
+    void run();
 
     // After run(): what there was to see.
     const RunView& view() const { return view_; }

@@ -102,7 +102,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     }
 }
 
-uint32_t PlaybackRun::run() {
+void PlaybackRun::run() {
     double last = started_ = playedSeconds();
     while (!wantsToEnd()) {
         window_.beginFrame(std::clamp(kDrawPeriod - (playedSeconds() - last), 0.0, kDrawPeriod));
@@ -112,7 +112,6 @@ uint32_t PlaybackRun::run() {
         frame(dt);
     }
     state_.write(console_, view_, extras(), true);
-    return session_.instance.messages();
 }
 
 bool PlaybackRun::wantsToEnd() const {

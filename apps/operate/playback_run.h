@@ -23,8 +23,8 @@ public:
     // options.recording names the folder. Throws BadInput, Error, DeviceLost.
     PlaybackRun(const OperateOptions& options, const GlobalOptions& global);
 
-    // Until the window is closed, the time is up or a signal. Returns the number of validation messages.
-    uint32_t run();
+    // Until the window is closed, the time is up or a signal.
+    void run();
 
 private:
     bool wantsToEnd() const;

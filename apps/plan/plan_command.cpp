@@ -23,7 +23,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     const auto arm = openArm(scene);
     const Tool tool = openTool(scene, arm.get());
-    const gpu::Instance instance;
+    const gpu::Instance instance(global.validation());
     const gpu::Device device(instance, global.device);
     const Plan plan =
         makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts());

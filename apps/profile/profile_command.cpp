@@ -84,7 +84,7 @@ void writeStudy(const Study& study, const Facts& facts, const std::filesystem::p
 void runProfile(const Settings& settings, const GlobalOptions& global) {
     checkNames(settings);
     prepareOutputFolder(settings.out, false);
-    const gpu::Instance instance;
+    const gpu::Instance instance(global.validation());
     gpu::Device device(instance, global.device);
     const StudyContext context{device, settings};
     const auto began = std::chrono::steady_clock::now();

@@ -46,6 +46,7 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
     , arm(openArm(scene))
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
+    , instance(global.validation())
     , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), readers},
              [this](const DeviceFacts& facts) {
                  return edits.empty()

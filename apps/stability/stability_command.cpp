@@ -25,8 +25,9 @@ struct StabilityOptions {
 struct ChosenDevice {
     gpu::Instance instance;
     gpu::Device device;
-    explicit ChosenDevice(const std::string& selector)
-        : device(instance, selector) {}
+    explicit ChosenDevice(const GlobalOptions& global)
+        : instance(global.validation())
+        , device(instance, global.device) {}
 };
 
 void print(const stability::CaseResult& r) {
@@ -41,7 +42,7 @@ void print(const stability::CaseResult& r) {
 int runStability(const StabilityOptions& options, const GlobalOptions& global) {
     std::optional<ChosenDevice> chosen;
     const stability::DeviceSource source = [&]() -> gpu::Device& {
-        return (chosen ? *chosen : chosen.emplace(global.device)).device;
+        return (chosen ? *chosen : chosen.emplace(global)).device;
     };
     const auto cases = stability::chosenCases(stability::allCases(source), options.cases);
     prepareOutputFolder(options.out, false);

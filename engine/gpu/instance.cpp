@@ -14,6 +14,7 @@ namespace fathom::gpu {
 namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
+std::atomic<uint32_t> allMessages{0};
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
@@ -26,6 +27,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
         return VK_FALSE;
     }
     static_cast<std::atomic<uint32_t>*>(user)->fetch_add(1);
+    allMessages.fetch_add(1);
     log::error("Vulkan validation: {}", data->pMessage);
     return VK_FALSE;
 }
@@ -118,6 +120,10 @@ Instance::~Instance() {
         destroy(handle_, messenger_, nullptr);
     }
     vkDestroyInstance(handle_, nullptr);
+}
+
+uint32_t validationMessages() {
+    return allMessages.load();
 }
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {

@@ -41,4 +41,8 @@ private:
     std::atomic<uint32_t> messages_{0};
 };
 
+// Messages of all instances of this process so far, of those that are gone, too: what a device says as it is
+// destroyed comes after its owner has looked at Instance::messages() for the last time. Any thread.
+uint32_t validationMessages();
+
 } // namespace fathom::gpu

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/rig/run_fathom.h"
 
+#include "tests/support/validation_wanted.h"
+
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -62,6 +64,9 @@ bool dropPrivileges() {
 [[noreturn]] void becomeFathom(const std::vector<std::string>& arguments, const RunSetting& setting, int out,
                                int err) {
     std::vector<std::string> words{FATHOM_PROGRAM};
+    if (test::validationWanted()) {
+        words.push_back("--validate");
+    }
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> argv;
     for (std::string& word : words) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts the built program as a child and takes what it says: exit code, standard output, standard error.
+// Starts the built program as a child, with the Vulkan layers where they are wanted (validation_wanted.h),
+// and takes what it says: exit code, standard output, standard error.
 #pragma once
 
 #include <filesystem>

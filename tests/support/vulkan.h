@@ -4,9 +4,9 @@
 
 #include "engine/gpu/commands.h"
 #include "engine/gpu/device.h"
+#include "tests/support/validation_wanted.h"
 
 #include <cstdlib>
-#include <cstring>
 #include <vector>
 
 namespace fathom::test {
@@ -14,16 +14,12 @@ namespace fathom::test {
 struct Vulkan {
     gpu::Instance instance;
     gpu::Device device;
-    // FATHOM_TEST_VALIDATION=0 leaves the layers out (thread sanitizer), FATHOM_TEST_DEVICE chooses a device.
+    // FATHOM_TEST_DEVICE chooses a device.
     Vulkan()
         : instance(validation())
         , device(instance, selector()) {}
 
-    static gpu::Validation validation() {
-        const char* set = std::getenv("FATHOM_TEST_VALIDATION");
-        const bool on = set == nullptr || std::strcmp(set, "0") != 0;
-        return {on, set != nullptr && std::strcmp(set, "gpu") == 0};
-    }
+    static gpu::Validation validation() { return {validationWanted(), validationSetting() == "gpu"}; }
     static std::string selector() {
         const char* set = std::getenv("FATHOM_TEST_DEVICE");
         return set != nullptr ? set : "llvmpipe";

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// `--validate`, with which this suite runs the program: what the Vulkan layers have against a run is told and
+// fails it.
+#include "tests/rig/refusal.h"
+#include "tests/support/validation_wanted.h"
+
+#include <cstdlib>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+
+namespace {
+
+// A variable of the environment of the programs that are started while this lives.
+class Variable {
+public:
+    Variable(const char* name, const std::string& value)
+        : name_(name) {
+        ::setenv(name, value.c_str(), 1);
+    }
+    ~Variable() { ::unsetenv(name_); }
+    Variable(const Variable&) = delete;
+    Variable& operator=(const Variable&) = delete;
+
+private:
+    const char* name_;
+};
+
+void prepare(const Stage& stage) {
+    stage.recording(std::vector<Picture>(2, Picture(kWidth, kHeight, 600)));
+    stage.scene({});
+    stage.hand({{0.0, {0, 0, 0}}});
+}
+
+} // namespace
+
+TEST_CASE("A message of the Vulkan layers is told and fails a run that is done otherwise") {
+    if (!test::validationWanted()) {
+        return;
+    }
+    const Stage stage;
+    prepare(stage);
+    const Variable advice("VK_LAYER_ENABLES",
+                          "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"); // of small buffers
+    const ProgramRun run = runFathom(stage.command());
+    CAPTURE(run.err);
+    CHECK(run.exitCode == 1);
+    CHECK(run.errorLines().size() > 1);
+    CHECK(run.err.rfind("error: Vulkan validation: ", 0) == 0);
+    CHECK(run.errorLines().back() ==
+          "fathom: " + std::to_string(run.errorLines().size() - 1) + " messages of Vulkan validation");
+    CHECK(std::filesystem::exists(stage / "out" / "summary.json"));
+}
+
+TEST_CASE("Validation layers that are not installed are told of, never left out") {
+    if (!test::validationWanted()) {
+        return;
+    }
+    const Stage stage;
+    prepare(stage);
+    const Variable nowhere("VK_LAYER_PATH", (stage / "none").string());
+    checkRefusal(stage.command(), {"validation layer", "not installed", "vulkan-validationlayers"}, 1);
+    CHECK(!std::filesystem::exists(stage / "out" / "summary.json"));
+}
