@@ -11,17 +11,15 @@
 namespace fathom::profile {
 
 // What StudyRow::more holds in this study. A column that does not apply to a row is not a number.
-enum QueryColumn : size_t {
-    kGpuCullSubmit, // [ms] the GPU's cull alone, submission to result, wall p50
-    kToolLeaves,
-    kRegionSpheres,
-    kFoundSpheres, // of the answer
-    kStalledTurns, // of the drag's
-    kReachMm,      // [mm] certified by the answer; of the drag: asked for
-    kCpuCullWall,  // [ms] the CPU's cull alone, by the grid, wall p50
-    kCpuCullCpu,   // [ms] the same, CPU time of the calling thread p50
-    kQueryColumns
-};
+inline constexpr size_t kGpuCullSubmit = 0; // [ms] the GPU's cull alone, submission to result, wall p50
+inline constexpr size_t kToolLeaves = 1;
+inline constexpr size_t kRegionSpheres = 2;
+inline constexpr size_t kFoundSpheres = 3; // of the answer
+inline constexpr size_t kStalledTurns = 4; // of the drag's
+inline constexpr size_t kReachMm = 5;      // [mm] certified by the answer; of the drag: asked for
+inline constexpr size_t kCpuCullWall = 6;  // [ms] the CPU's cull alone, by the grid, wall p50
+inline constexpr size_t kCpuCullCpu = 7;   // [ms] the same, CPU time of the calling thread p50
+inline constexpr size_t kQueryColumns = 8;
 std::vector<std::string> queryColumnNames();
 StudyRow queryRow(std::string source, std::string setting);
 
