@@ -8,6 +8,7 @@ namespace fathom::vm {
 namespace {
 
 constexpr uint8_t kZero = 0x41;
+constexpr std::array<int16_t, 3> kStill{};
 constexpr size_t kPacket = 16, kUsbPacket = 64;
 
 bool takeOne(std::atomic<int>& count) {
@@ -48,6 +49,11 @@ std::array<int16_t, 3> FalconDevice::motors() const {
 std::vector<std::array<int16_t, 3>> FalconDevice::history() const {
     const std::lock_guard lock(mutex_);
     return history_;
+}
+
+Clock::time_point FalconDevice::released() const {
+    const std::lock_guard lock(mutex_);
+    return released_;
 }
 
 Bytes FalconDevice::firmware() const {
@@ -107,6 +113,7 @@ void FalconDevice::boot(const Bytes& data) {
 
 void FalconDevice::command(const Bytes& packet) {
     const std::lock_guard lock(mutex_);
+    const std::array<int16_t, 3> before = motors_;
     Bytes reply(kPacket, kZero);
     reply[0] = '<';
     reply[15] = '>';
@@ -121,6 +128,7 @@ void FalconDevice::command(const Bytes& packet) {
     }
     reply[13] = static_cast<uint8_t>(kZero + (homed && ((packet[13] - kZero) & 1) != 0 ? 0x70 : 0));
     history_.push_back(motors_);
+    released_ = motors_ == kStill && before != kStill ? Clock::now() : released_;
     ++commands;
     unasked += asked(1) ? 0 : 1;
     if (statusOnly || takeOne(faults.dropped)) {

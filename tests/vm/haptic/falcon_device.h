@@ -35,6 +35,7 @@ public:
     void setEncoders(const std::array<int16_t, 3>& encoders);
     std::array<int16_t, 3> motors() const;               // newest command
     std::vector<std::array<int16_t, 3>> history() const; // all of them
+    Clock::time_point released() const; // when the newest command came that took a force away
     Bytes firmware() const;
     std::atomic<uint64_t> commands{0}, statusPackets{0};
     std::atomic<uint64_t> unasked{0}; // commands that came while no IN transfer was pending
@@ -56,6 +57,7 @@ private:
     mutable std::mutex mutex_; // of what follows, between test and device
     std::array<int16_t, 3> encoders_{}, motors_{};
     std::vector<std::array<int16_t, 3>> history_;
+    Clock::time_point released_{};
     Bytes firmware_;
 
     bool running_;
