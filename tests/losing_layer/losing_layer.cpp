@@ -44,6 +44,7 @@ struct NextDevice {
 std::mutex mutex;
 std::map<void*, NextDevice> devices; // by the loader's dispatch table, which queues share with their device
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
+PFN_vkDestroySurfaceKHR nextDestroySurface = nullptr;
 long opened = 0, refused = 0; // refused: since the last loss
 
 void* keyOf(void* handle) {
@@ -77,7 +78,12 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info,
     link->u.pLayerInfo = link->u.pLayerInfo->pNext;
     const auto create =
         reinterpret_cast<PFN_vkCreateInstance>(nextInstance(VK_NULL_HANDLE, "vkCreateInstance"));
-    return create(info, memory, instance);
+    const VkResult result = create(info, memory, instance);
+    if (result == VK_SUCCESS) { // asked later, the loader answers with what is on top, which is this layer
+        nextDestroySurface =
+            reinterpret_cast<PFN_vkDestroySurfaceKHR>(nextInstance(*instance, "vkDestroySurfaceKHR"));
+    }
+    return result;
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo* info,
@@ -236,8 +242,7 @@ VKAPI_ATTR void VKAPI_CALL destroySurface(VkInstance instance, VkSurfaceKHR surf
                                           const VkAllocationCallbacks* memory) {
     const std::lock_guard lock(mutex);
     forget(surface);
-    reinterpret_cast<PFN_vkDestroySurfaceKHR>(nextInstance(instance, "vkDestroySurfaceKHR"))(instance,
-                                                                                             surface, memory);
+    nextDestroySurface(instance, surface, memory);
 }
 
 template <class Call>
