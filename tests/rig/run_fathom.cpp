@@ -61,31 +61,40 @@ bool dropPrivileges() {
             (::setgroups(0, nullptr) == 0 && ::setgid(kNobody) == 0 && ::setuid(kNobody) == 0));
 }
 
-[[noreturn]] void becomeFathom(const std::vector<std::string>& arguments, const RunSetting& setting, int out,
-                               int err) {
-    std::vector<std::string> words{FATHOM_PROGRAM};
-    if (test::validationWanted()) {
-        words.push_back("--validate");
+// All that a child needs is made before the fork: another thread may hold the allocator then, and a
+// sanitizer's stays locked in the child.
+class Command {
+public:
+    explicit Command(const std::vector<std::string>& arguments)
+        : words_{FATHOM_PROGRAM} {
+        if (test::validationWanted()) {
+            words_.push_back("--validate");
+        }
+        words_.insert(words_.end(), arguments.begin(), arguments.end());
+        for (std::string& word : words_) {
+            pointers_.push_back(word.data());
+        }
+        pointers_.push_back(nullptr);
+        allowLibraryLeaks();
     }
-    words.insert(words.end(), arguments.begin(), arguments.end());
-    std::vector<char*> argv;
-    for (std::string& word : words) {
-        argv.push_back(word.data());
+    Command(const Command&) = delete;
+    Command& operator=(const Command&) = delete;
+
+    [[noreturn]] void become(const RunSetting& setting, int out, int err) const {
+        const int nothing = ::open("/dev/null", O_RDONLY);
+        const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&
+                           (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0) &&
+                           (!setting.unprivileged || dropPrivileges());
+        if (ready) {
+            ::execv(pointers_[0], pointers_.data());
+        }
+        ::_exit(126);
     }
-    argv.push_back(nullptr);
-    // Of a sanitized program: what libraries keep until the process ends is not ours
-    // (support/sanitizer_options.cpp).
-    const std::string leaks = std::filesystem::absolute("tests/rig/leaks.supp").string();
-    ::setenv("LSAN_OPTIONS", ("print_suppressions=0:suppressions=" + leaks).c_str(), 0);
-    const int nothing = ::open("/dev/null", O_RDONLY);
-    const bool ready = ::dup2(nothing, 0) >= 0 && ::dup2(out, 1) >= 0 && ::dup2(err, 2) >= 0 &&
-                       (setting.folder.empty() || ::chdir(setting.folder.c_str()) == 0) &&
-                       (!setting.unprivileged || dropPrivileges());
-    if (ready) {
-        ::execv(argv[0], argv.data());
-    }
-    ::_exit(126);
-}
+
+private:
+    std::vector<std::string> words_;
+    std::vector<char*> pointers_;
+};
 
 // Reads both channels to their ends. False when the time limit came first.
 bool drain(Channel& out, Channel& err, ProgramRun& run, double limit) {
@@ -129,30 +138,38 @@ std::vector<std::string> ProgramRun::errorLines() const {
     return lines;
 }
 
+void allowLibraryLeaks() {
+    const std::string leaks = std::filesystem::absolute("tests/rig/leaks.supp").string();
+    ::setenv("LSAN_OPTIONS", ("print_suppressions=0:suppressions=" + leaks).c_str(), 0);
+}
+
 pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said) {
     const Descriptor file{
         said.empty() ? -1 : ::open(said.c_str(), O_CREAT | O_WRONLY | O_APPEND | O_CLOEXEC, 0644)};
     if (!said.empty() && file.value < 0) {
         throw std::runtime_error("the test cannot write " + said.string());
     }
+    const Command command(arguments);
+    const RunSetting setting;
     const pid_t child = ::fork();
     if (child < 0) {
         throw std::runtime_error("the test cannot start a child");
     }
     if (child == 0) {
-        becomeFathom(arguments, {}, said.empty() ? 1 : file.value, said.empty() ? 2 : file.value);
+        command.become(setting, said.empty() ? 1 : file.value, said.empty() ? 2 : file.value);
     }
     return child;
 }
 
 ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting) {
     Channel out(false), err(setting.terminal);
+    const Command command(arguments);
     const pid_t child = ::fork();
     if (child < 0) {
         throw std::runtime_error("the test cannot start a child");
     }
     if (child == 0) {
-        becomeFathom(arguments, setting, out.write.value, err.write.value);
+        command.become(setting, out.write.value, err.write.value);
     }
     out.write.reset();
     err.write.reset();

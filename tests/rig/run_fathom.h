@@ -31,4 +31,8 @@ ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting
 // file `said`, or goes where ours does. Throws std::runtime_error when no child can be made.
 pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said = {});
 
+// Of the sanitized programs that are started from now on: what libraries keep until the process ends is not
+// ours (support/sanitizer_options.cpp).
+void allowLibraryLeaks();
+
 } // namespace fathom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/window/window_rig.h"
 
+#include "tests/rig/run_fathom.h"
+#include "tests/support/validation_wanted.h"
 #include "tests/window/iconify.h"
 
 #include <algorithm>
@@ -30,16 +32,21 @@ bool installed(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-[[noreturn]] void become(const std::vector<std::string>& words, int out) {
+// The child takes no memory: another thread may hold the allocator as it is made.
+pid_t start(const std::vector<std::string>& words, int out) {
     std::vector<char*> argv;
     for (const std::string& word : words) {
         argv.push_back(const_cast<char*>(word.c_str()));
     }
     argv.push_back(nullptr);
-    ::dup2(out, 1);
-    ::dup2(out, 2);
-    ::execvp(argv[0], argv.data());
-    ::_exit(127);
+    const pid_t child = ::fork();
+    if (child == 0) {
+        ::dup2(out, 1);
+        ::dup2(out, 2);
+        ::execvp(argv[0], argv.data());
+        ::_exit(127);
+    }
+    return child;
 }
 
 int ended(pid_t child, double seconds) {
@@ -83,13 +90,11 @@ WindowRig::WindowRig(const std::vector<std::string>& extra) {
 void WindowRig::startDisplay() {
     int ends[2];
     REQUIRE(::pipe(ends) == 0);
-    server_ = ::fork();
-    if (server_ == 0) {
-        const int log = ::open((folder_.path() / "xvfb.log").c_str(), O_CREAT | O_WRONLY, 0644);
-        become({"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1920x1080x24", "-nolisten",
-                "tcp"},
-               log);
-    }
+    const int log = ::open((folder_.path() / "xvfb.log").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0644);
+    server_ = start(
+        {"Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1920x1080x24", "-nolisten", "tcp"},
+        log);
+    ::close(log);
     ::close(ends[1]);
     char digit = 0;
     while (::read(ends[0], &digit, 1) == 1 && digit != '\n') {
@@ -108,18 +113,25 @@ void WindowRig::reopen(const std::filesystem::path& scene, const std::vector<std
 }
 
 void WindowRig::startProgram(const std::filesystem::path& scene, const std::vector<std::string>& extra) {
-    std::vector<std::string> words{FATHOM_PROGRAM, "operate",
-                                   scene.string(), "--device",
-                                   "llvmpipe",     "--validate",
-                                   "--state",      (folder_.path() / "state.jsonl").string(),
-                                   "--folder",     folder_.path().string()};
-    words.insert(words.end(), extra.begin(), extra.end());
-    program_ = ::fork();
-    if (program_ == 0) {
-        ::setenv("DISPLAY", display_.c_str(), 1);
-        const int log = ::open((folder_.path() / "program.log").c_str(), O_CREAT | O_WRONLY, 0644);
-        become(words, log);
+    std::vector<std::string> words{"env",
+                                   "DISPLAY=" + display_,
+                                   FATHOM_PROGRAM,
+                                   "operate",
+                                   scene.string(),
+                                   "--device",
+                                   "llvmpipe",
+                                   "--state",
+                                   (folder_.path() / "state.jsonl").string(),
+                                   "--folder",
+                                   folder_.path().string()};
+    if (test::validationWanted()) {
+        words.push_back("--validate");
     }
+    words.insert(words.end(), extra.begin(), extra.end());
+    allowLibraryLeaks();
+    const int log = ::open((folder_.path() / "program.log").c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0644);
+    program_ = start(words, log);
+    ::close(log);
     const bool drawn = await([](const nlohmann::json& s) { return s["window"]["frames"] > 3; }, 90.0);
     REQUIRE_MESSAGE(drawn, output());
     const std::string found =
