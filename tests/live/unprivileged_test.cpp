@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What somebody has who was granted nothing: no real-time priority, hardly any locked memory.
 #include "tests/rig/stage.h"
+#include "tests/support/sanitized.h"
 
 #include <doctest/doctest.h>
 
@@ -24,7 +25,8 @@ TEST_CASE("Without permission for priority and locked memory a live run says so 
     REQUIRE(run.errorLines().size() == 1);
     for (const char* part : {"haptic thread: refused ", "real-time priority (Operation not permitted)",
                              "locked memory (Cannot allocate memory)", "man fathom, PERMISSIONS"}) {
-        CHECK(run.err.find(part) != std::string::npos);
+        const bool silent = kSanitized && std::string(part).rfind("locked", 0) == 0; // it locks nothing
+        CHECK((run.err.find(part) != std::string::npos || silent));
     }
     CHECK(readReplay(stage / "out", run).ticks.size() > 100);
 }
