@@ -15,9 +15,11 @@ TEST_CASE("A tool of so many spheres before so many regions that an answer overf
     scene.contact = "reach: 0.1"; // the whole wall
     scene.more = "error_budget: 0\n";
     std::string spheres; // 100 times 3072 pairs
-    for (int i = 0; i < 100; ++i) {
-        spheres += (i > 0 ? ", [" : "[") + std::to_string(1e-4 * (i % 10)) + ", " +
-                   std::to_string(1e-4 * (i / 10)) + ", 0, 0.01]";
+    for (int row = 0; row < 10; ++row) {
+        for (int column = 0; column < 10; ++column) {
+            spheres += std::string(spheres.empty() ? "[" : ", [") + std::to_string(1e-4 * column) + ", " +
+                       std::to_string(1e-4 * row) + ", 0, 0.01]";
+        }
     }
     scene.tool = "spheres: [" + spheres + "]";
     stage.scene(scene);
