@@ -76,6 +76,7 @@ install_packages() {
 
 start=$(date +%s)
 mkdir -p "$root" "$root.cache"
+chmod 755 "$root" # as any root is: tests that become another user must get in
 debootstrap --cache-dir="$root.cache" --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
 bootstrap=$(megabytes "$root.cache" "$root/var/lib/apt/lists")
 echo "newcomer: empty root in $(since "$start") s, $bootstrap MB downloaded, $(megabytes "$root") MB"
