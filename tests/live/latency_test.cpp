@@ -42,7 +42,7 @@ TEST_CASE("latency measures with and without frames, and tells of every turn") {
     CHECK(report.at("rate_hz") == 1000.0);
     REQUIRE(report.at("parts").size() == 2);
     for (const auto& part : report.at("parts")) {
-        CHECK(part.at("seconds").get<double>() >= 0.69);
+        CHECK(part.at("seconds").get<double>() >= 0.6); // the first turn may wake late
         const auto turns = part.at("turn").at("count").get<uint64_t>();
         CHECK(turns > 5);
         CHECK(part.at("woken_late").at("count") == turns);
@@ -63,7 +63,7 @@ TEST_CASE("latency measures beside a window, which is drawn without a display wh
     REQUIRE(run.exitCode == 0);
     const auto part = onlyPart(stage);
     CHECK(part.at("load") == "window");
-    CHECK(part.at("seconds").get<double>() >= 0.69);
+    CHECK(part.at("seconds").get<double>() >= 0.6); // the first turn may wake late
     CHECK(part.at("turn").at("count").get<uint64_t>() > 5);
     CHECK(part.at("woken_late").at("count") == part["turn"]["count"]);
     CHECK(run.out.find("window turn") != std::string::npos);
