@@ -2,6 +2,7 @@
 #include "apps/operate/shown_state.h"
 
 #include "apps/operate/why_panel.h"
+#include "engine/gpu/instance.h"
 
 #include <imgui.h>
 
@@ -20,7 +21,7 @@ StateExtras extrasOf(const ShownState& s) {
     const VkExtent2D size = s.window.size();
     extras.width = size.width;
     extras.height = size.height;
-    extras.validationMessages = s.session.instance.messages();
+    extras.validationMessages = gpu::validationMessages();
     extras.unknownShare = s.screen.unknownShare();
     extras.alarms = s.alarms.inWords();
     extras.scene = &s.editor.scene();

@@ -5,6 +5,7 @@
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
+#include <atomic>
 #include <cstring>
 #include <dlfcn.h>
 #include <link.h>
@@ -14,11 +15,11 @@ namespace fathom::gpu {
 namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
-std::atomic<uint32_t> allMessages{0};
+std::atomic<uint32_t> messages{0};
 
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
-                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
+                                         const VkDebugUtilsMessengerCallbackDataEXT* data, void* /*user*/) {
     // The GPU-assisted checks announce their own settings as warnings; those say nothing about our use of
     // Vulkan.
     if (data->pMessageIdName != nullptr &&
@@ -26,8 +27,7 @@ VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
         std::strstr(data->pMessage, "Internal Warning") != nullptr) {
         return VK_FALSE;
     }
-    static_cast<std::atomic<uint32_t>*>(user)->fetch_add(1);
-    allMessages.fetch_add(1);
+    messages.fetch_add(1);
     log::error("Vulkan validation: {}", data->pMessage);
     return VK_FALSE;
 }
@@ -61,14 +61,13 @@ void keepDriversLoaded() {
 #endif
 }
 
-VkDebugUtilsMessengerCreateInfoEXT messengerInfo(std::atomic<uint32_t>* counter) {
+VkDebugUtilsMessengerCreateInfoEXT messengerInfo() {
     VkDebugUtilsMessengerCreateInfoEXT info{VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     info.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     info.messageType =
         VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_PERFORMANCE_BIT_EXT;
     info.pfnUserCallback = onMessage;
-    info.pUserData = counter;
     return info;
 }
 
@@ -108,7 +107,7 @@ Instance::Instance(Validation validation, std::span<const char* const> extension
     if (validation.enabled) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
-        const auto messenger = messengerInfo(&messages_);
+        const auto messenger = messengerInfo();
         check(create(handle_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
     }
 }
@@ -123,7 +122,7 @@ Instance::~Instance() {
 }
 
 uint32_t validationMessages() {
-    return allMessages.load();
+    return messages.load();
 }
 
 std::vector<VkPhysicalDevice> Instance::physicalDevices() const {

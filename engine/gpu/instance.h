@@ -2,7 +2,7 @@
 // The Vulkan instance, with the validation layer and synchronisation validation on demand.
 #pragma once
 
-#include <atomic>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -17,7 +17,7 @@ struct Validation {
     bool gpuAssisted = false; // instruments shaders as well: slow
 };
 
-// Any thread may read messages(); the rest is used from the thread that builds the engine.
+// Used from the thread that builds the engine.
 class Instance {
 public:
     // extensions: of the instance, for a window (what its toolkit names); the calls below need none.
@@ -30,19 +30,16 @@ public:
 
     VkInstance handle() const { return handle_; }
     Validation validation() const { return validation_; }
-    // Warnings and errors that the layer has reported so far; each is logged too.
-    uint32_t messages() const { return messages_.load(); }
     std::vector<VkPhysicalDevice> physicalDevices() const;
 
 private:
     VkInstance handle_ = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
     Validation validation_;
-    std::atomic<uint32_t> messages_{0};
 };
 
-// Messages of all instances of this process so far, of those that are gone, too: what a device says as it is
-// destroyed comes after its owner has looked at Instance::messages() for the last time. Any thread.
+// Warnings and errors that the layer has reported in this process so far, of instances that are gone, too:
+// some come as a device is destroyed. Each is logged. Any thread.
 uint32_t validationMessages();
 
 } // namespace fathom::gpu

@@ -23,11 +23,11 @@ int main(int argc, char** argv) {
     fathom::gpu::askForSoftwareThreads();
     doctest::Context context(argc, argv);
     int result = context.run();
-    const uint32_t messages = shared ? shared->instance.messages() : 0;
+    shared.reset(); // which may be what there is a message about
+    const uint32_t messages = fathom::gpu::validationMessages();
     if (messages != 0) {
         std::cout << "validation: " << messages << " messages, none is allowed\n";
         result = result == 0 ? 1 : result;
     }
-    shared.reset();
     return result;
 }
