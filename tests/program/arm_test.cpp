@@ -134,8 +134,8 @@ void refused(const std::string& arm, const std::vector<std::string>& parts, cons
 
 } // namespace
 
-TEST_CASE("First a forbidden region: the arm is held off the valve by every link, and stops where joints do" *
-          doctest::skip(kSanitized)) {
+TEST_CASE(
+    "First a forbidden region: the arm is held off the valve by every link, and stops where joints do") {
     const ArmRun run = runShipped("arm_valve");
     const nlohmann::json& arm = run.summary();
     // Pressed into the region the hand feels it, and the arm stays out.
