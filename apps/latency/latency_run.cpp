@@ -186,7 +186,7 @@ LatencyPart LatencyRun::window() {
     LatencyPart part;
     part.load = "window";
     OperateOptions o = operateOptions(options_);
-    o.seconds = options_.seconds;
+    o.turns = options_.seconds; // not of the window, which may wait long for its first picture
     o.armed = true; // as the other parts are
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     operate::OperatorRun run(o, global_);

@@ -25,6 +25,7 @@ struct OperateOptions {
     std::string arm;        // serial line of the scene's real arm; empty = nothing moves
     std::string pilot;      // one of the scene's pilots; empty = the one that the file says
     double seconds = 0.0;   // ends by itself; 0 = when the window is closed
+    double turns = 0.0;     // [s] of turns after which it ends too, however late they were; 0 = never
     double textScale = 0.0; // 0.75 .. 2; 0 = the scene's
     std::string state;      // file of JSON lines: what the window shows, for who watches it from outside
     std::string shots;      // folder of screenshots (F12), recordings and exports; empty = the working folder

@@ -67,7 +67,8 @@ OperatorRun::~OperatorRun() {
 }
 
 bool OperatorRun::wantsToEnd() const {
-    return window_.closed() || console_.quit || ended_.load() || signals_.asked().load() ||
+    const bool turned = options_.turns > 0.0 && view_.turn().record.t >= options_.turns;
+    return turned || window_.closed() || console_.quit || ended_.load() || signals_.asked().load() ||
            (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
 }
 
