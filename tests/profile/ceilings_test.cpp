@@ -2,6 +2,7 @@
 // What ceilings are measured with: that buffers and passes are what they claim. No test looks at a time.
 #include "apps/profile/ceilings.h"
 #include "apps/profile/device_stream.h"
+#include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
 
@@ -15,7 +16,7 @@ constexpr Effort kFew{2, 2, 0.0};
 } // namespace
 
 TEST_CASE("Every memory that a device reads is read whole, and the best way is said with its size") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     TimedSubmissions submissions(device);
     REQUIRE(device.facts().hostPointerAlignment != 0);
@@ -32,7 +33,7 @@ TEST_CASE("Every memory that a device reads is read whole, and the best way is s
 
 TEST_CASE("Where there is no memory for a stream it takes half, and where there is none it says so by a rate "
           "of 0") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     TimedSubmissions submissions(device);
     const uint64_t most = device.facts().maxStorageBufferBytes;
@@ -45,7 +46,7 @@ TEST_CASE("Where there is no memory for a stream it takes half, and where there 
 }
 
 TEST_CASE("Ceilings hold for the device's memory, both of the host's, arithmetic and the host's copies") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const Ceilings c = measureCeilings(device, 2, kFew);
     for (const double value :

@@ -2,6 +2,7 @@
 // What studies verify before they time: that a wrong frame is found, wherever in the picture it is wrong.
 #include "apps/profile/half_number.h"
 #include "apps/profile/shot_source.h"
+#include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +12,7 @@ using namespace fathom::profile;
 namespace {
 
 struct Rig {
-    gpu::Instance instance;
+    gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     ShotSource source = wallShot(203, 117, 1.0);
     FrameBench bench{device, studyScene({}), source.camera};
@@ -66,7 +67,7 @@ TEST_CASE(
 TEST_CASE(
     "Colour of a second camera is looked up through the occlusion cells, and both are compared with their "
     "twins") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const ShotSource source = twoCameraShots("tank", 160, 120, 1);
     const Shot& shot = source.shots.front();
@@ -85,7 +86,7 @@ TEST_CASE(
 TEST_CASE(
     "The second camera stands 25 mm beside the first, sees the same surfaces there and misses what they "
     "hide") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const ShotSource one = analyticShots("tank", 320, 240, 1), two = twoCameraShots("tank", 320, 240, 1);
     CHECK(glm::length(two.camera.colourTdepth.position) > 0.020);
@@ -113,7 +114,7 @@ TEST_CASE(
 }
 
 TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidance is what its points say") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const ShotSource source = wallShot(160, 120, 0.5);
     Scene scene = studyScene({});
@@ -135,7 +136,7 @@ TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidan
 }
 
 TEST_CASE("A picture that is not new costs nothing of the device and publishes nothing") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const ShotSource source = wallShot(160, 120, 0.5);
     FrameBench bench(device, studyScene({}), source.camera);
@@ -169,7 +170,7 @@ TEST_CASE("The wall's noise is the simulated camera's: its sigma at 0.8 m, no pi
 TEST_CASE(
     "Thinning leaves three quarters of a noisy wall's points at 640x480 and less than a third of a smooth "
     "one's") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const auto left = [&](WallNoise noise) {
         const ShotSource source = wallShot(640, 480, 1.0, noise);

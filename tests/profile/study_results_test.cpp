@@ -3,6 +3,7 @@
 #include "apps/profile/shot_source.h"
 #include "tests/profile/quick_run.h"
 #include "tests/support/sanitized.h"
+#include "tests/support/vulkan.h"
 
 #include <algorithm>
 #include <map>
@@ -108,7 +109,7 @@ TEST_CASE("Error budgets are ranked by the time from upload to published, which 
 }
 
 TEST_CASE("The spheres and the query of a budget are of the first picture, whichever was measured last") {
-    const gpu::Instance instance;
+    const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device(instance, "llvmpipe");
     profile::Settings settings;
     settings.quick = true;
