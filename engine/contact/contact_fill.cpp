@@ -137,7 +137,7 @@ void fillContactSet(const Tool& tool, const Pose& baseTtool, double certified, c
     const dvec3 centre = baseTtool.position - fixtures.origin;
     out.leafAtQuery.resize(tool.leafCount());
     for (size_t i = 0; i < tool.leafCount(); ++i) {
-        out.leafAtQuery[i] = centre + baseTtool.rotation * tool.leaves()[i].centre;
+        out.leafAtQuery.set(i, centre + baseTtool.rotation * tool.leaves()[i].centre);
     }
 }
 

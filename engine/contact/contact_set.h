@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/contact/fixtures.h"
+#include "engine/contact/leaf_centres.h"
 #include "engine/contact/tool.h"
 
 #include <cstdint>
@@ -38,7 +39,7 @@ struct ContactSet {
     std::vector<uint32_t>
         pairSphere; // by band within a leaf; inside a band the order depends on the set alone
     std::vector<uint32_t> pairBandEnd; // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end
-    std::vector<dvec3> leafAtQuery;    // leaf centres at the query pose, about the origin [m]
+    LeafCentres leafAtQuery;           // leaf centres at the query pose, about the origin [m]
     // The spheres once more in pair order, so that a kernel reads them in one run. The same floats.
     std::vector<float> pairX, pairY, pairZ, pairRadius;
 

@@ -27,7 +27,13 @@ NarrowPhase::PairList::PairList(size_t leaves, size_t capacity)
     , z(capacity)
     , radius(capacity)
     , pair(capacity)
+    , leaf(leaves)
     , begin(leaves + 1) {}
+
+void NarrowPhase::PairList::clear() noexcept {
+    count = runs = 0;
+    complete = true;
+}
 
 void NarrowPhase::PairList::add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
                                 const uint32_t* pairs) noexcept {
@@ -44,13 +50,17 @@ void NarrowPhase::PairList::add(const PairArrays& run, std::span<const uint32_t>
     }
 }
 
-void NarrowPhase::PairList::pad(uint32_t leaf) noexcept {
+void NarrowPhase::PairList::endRun(uint32_t ofLeaf) noexcept {
+    if (count == begin[runs]) {
+        return;
+    }
     while (complete && count % kLanes != 0) {
         x[count] = y[count] = z[count] = kNowhere;
         radius[count] = 0.0f;
         pair[count++] = 0;
     }
-    begin[leaf + 1] = count;
+    leaf[runs++] = ofLeaf;
+    begin[runs] = count;
 }
 
 NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone)
@@ -72,22 +82,25 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone)
 
 void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre,
                          double rowLimit, double checkLimit, bool anew) noexcept {
-    for (size_t i = 0; i < leaves.size(); ++i) {
-        leaves_.set(i, leaves[i]);
-        moved_[i] = glm::distance(leaves[i], set.leafAtQuery[i]);
-    }
+    leaves_ = leaves; // of as many: no memory is taken
+    farthest_ = straightWays(set.leafAtQuery, leaves_, moved_);
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
     rowCount_ = 0;
     smallestGap_ = rowLimit;
-    if (anew || !wideStillServes(leaves, rowLimit - checkLimit)) {
+    if (anew || !wideStillServes(rowLimit - checkLimit)) {
         findWide(set, rowLimit);
     }
-    close_.count = 0;
-    close_.complete = true;
-    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        gatherLeaf(set, leaf, rowLimit, checkLimit);
-        close_.pad(leaf);
+    close_.clear();
+    if (wide_.complete) {
+        for (uint32_t run = 0; run < wide_.runs; ++run) {
+            gatherLeaf(set, wide_.leaf[run], wide_.of(run), wide_.pair.data() + wide_.begin[run], rowLimit,
+                       checkLimit);
+        }
+    } else {
+        for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+            gatherLeaf(set, leaf, listedUpTo(set, leaf, rowLimit), nullptr, rowLimit, checkLimit);
+        }
     }
     if (rowCount_ > maxRows_) {
         const auto end = rows_.begin() + static_cast<std::ptrdiff_t>(rowCount_);
@@ -99,24 +112,23 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
 
 // A gap shrinks by no more than the leaf's way: while that is within the slack, no pair within checkLimit is
 // missing.
-bool NarrowPhase::wideStillServes(const LeafCentres& leaves, double slack) const noexcept {
-    if (!wide_.complete) {
-        return false;
-    }
+bool NarrowPhase::wideStillServes(double slack) const noexcept {
     const double most = slack - kPairRounding;
-    bool serves = most > 0.0;
-    for (size_t i = 0; i < leaves.size(); ++i) {
-        const dvec3 way = leaves[i] - wideLeaves_[i];
-        serves = serves && glm::dot(way, way) <= most * most;
-    }
-    return serves;
+    return wide_.complete && most > 0.0 && waysWithin(wideLeaves_, leaves_, most);
+}
+
+// The leaf's listed pairs that may have a gap up to `limit` where it is now, and some more.
+PairArrays NarrowPhase::listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept {
+    return pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding));
 }
 
 void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
-    wide_.count = 0;
-    wide_.complete = true;
+    wide_.clear();
+    wideLeaves_ = leaves_;
     for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
-        wideLeaves_.set(leaf, leaves_[leaf]);
+        if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
+            continue; // as most: their bands need not be read
+        }
         const uint32_t end = set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
         for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
             const PairArrays run = pairsOf(set, begin, std::min<uint32_t>(end, begin + kPairChunk));
@@ -124,7 +136,7 @@ void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
                 wide_.add(run, {chosen_.data(), choose(run.count, limit)}, begin, nullptr);
             }
         }
-        wide_.pad(leaf);
+        wide_.endRun(leaf);
     }
 }
 
@@ -137,16 +149,11 @@ size_t NarrowPhase::choose(size_t count, double limit) noexcept {
     return chosen;
 }
 
-void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLimit,
-                             double checkLimit) noexcept {
+// all: the leaf's pairs that may be within rowLimit; pairs: which they are, null: the first of the leaf's.
+void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all,
+                             const uint32_t* pairs, double rowLimit, double checkLimit) noexcept {
     const dvec3 centre = leaves_[leaf];
     const size_t firstRow = rowCount_;
-    PairArrays all = wide_.of(leaf);
-    const uint32_t* pairs = wide_.pair.data() + wide_.begin[leaf];
-    if (!wide_.complete) {
-        all = pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, rowLimit + moved_[leaf] + kPairRounding));
-        pairs = nullptr;
-    }
     for (size_t begin = 0; begin < all.count; begin += kPairChunk) {
         const PairArrays run = part(all, begin);
         if (pairGaps(run, centre, radius_[leaf], rowLimit, gaps_.data()) == 0) {
@@ -157,6 +164,7 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLim
         close_.add(run, {chosen_.data(), choose(run.count, checkLimit)}, first, runPairs);
         chooseRows(set, leaf, run, first, runPairs, firstRow, rowLimit);
     }
+    close_.endRun(leaf);
     if (rowCount_ == firstRow) {
         return;
     }

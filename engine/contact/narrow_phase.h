@@ -40,6 +40,7 @@ public:
     std::span<const ContactRow> rows() const { return {rows_.data(), rowCount_}; }
     // Distance of each leaf from where it was at the query [m]; of the last gather().
     std::span<const double> moved() const { return moved_; }
+    double farthest() const { return farthest_; } // [m] of moved()
     double smallestGap() const {
         return smallestGap_;
     } // [m] among pairs up to rowLimit; rowLimit when there is none
@@ -62,29 +63,34 @@ public:
     double smallestGapAt(const ContactSet& set, const LeafCentres& leaves) noexcept;
 
 private:
-    // Pairs with their floats in one run a leaf, of fixed capacity. begin[0] is 0.
+    // Pairs with their floats in one run a leaf, of fixed capacity; most leaves of a tool are far from
+    // everything and have no run. begin[0] is 0.
     struct PairList {
         std::vector<float> x, y, z, radius;
         std::vector<uint32_t> pair;
-        std::vector<uint32_t> begin; // leaves + 1
-        uint32_t count = 0;
+        std::vector<uint32_t> leaf;  // of each run, ascending
+        std::vector<uint32_t> begin; // runs + 1
+        uint32_t count = 0, runs = 0;
         bool complete = false; // nothing was left out for lack of room
 
         PairList(size_t leaves, size_t capacity);
-        PairArrays of(uint32_t leaf) const {
-            return {x.data() + begin[leaf], y.data() + begin[leaf], z.data() + begin[leaf],
-                    radius.data() + begin[leaf], begin[leaf + 1] - begin[leaf]};
+        void clear() noexcept;
+        PairArrays of(uint32_t run) const {
+            return {x.data() + begin[run], y.data() + begin[run], z.data() + begin[run],
+                    radius.data() + begin[run], begin[run + 1] - begin[run]};
         }
         // Adds the elements of `run` named by `chosen`; run element k is pair firstPair + k, or pairs[k].
         void add(const PairArrays& run, std::span<const uint32_t> chosen, uint32_t firstPair,
                  const uint32_t* pairs) noexcept;
-        // Ends the run of a leaf: fills it up with spheres that nothing reaches, so that kernels see whole
-        // registers.
-        void pad(uint32_t leaf) noexcept;
+        // What was added since the last run is the run of this leaf, if anything was: filled up with spheres
+        // that nothing reaches, so that kernels see whole registers.
+        void endRun(uint32_t ofLeaf) noexcept;
     };
-    bool wideStillServes(const LeafCentres& leaves, double slack) const noexcept;
+    bool wideStillServes(double slack) const noexcept;
     void findWide(const ContactSet& set, double limit) noexcept;
-    void gatherLeaf(const ContactSet& set, uint32_t leaf, double rowLimit, double checkLimit) noexcept;
+    void gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all, const uint32_t* pairs,
+                    double rowLimit, double checkLimit) noexcept;
+    PairArrays listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept;
     // Element numbers of `run` with gaps_ <= limit, into chosen_; returns how many.
     size_t choose(size_t count, double limit) noexcept;
     void chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
@@ -92,8 +98,8 @@ private:
     void agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept;
     ContactRow rowOf(const ContactSet& set, uint32_t leaf, const dvec3& delta, double gap,
                      uint32_t pair) noexcept;
-    bool checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& next, const dvec3& exempt,
-                   Violation* worst) noexcept;
+    bool checkLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all, const uint32_t* pairs,
+                   const dvec3& next, const dvec3& exempt, Violation* worst) noexcept;
 
     std::vector<double> radius_; // of the leaves
     size_t maxRows_;
@@ -104,6 +110,7 @@ private:
     LeafCentres wideLeaves_;        // where wide_ was found
     std::vector<dvec3> lastNormal_; // of each leaf's deepest row; zero = none yet
     std::vector<double> moved_;
+    double farthest_ = 0.0;
     dvec3 toolCentre_{0.0};
     double smallestGap_ = 0.0;
     double checkLimit_ = 0.0;

@@ -10,23 +10,26 @@ namespace fathom {
 size_t NarrowPhase::check(const ContactSet& set, const LeafCentres& next, std::span<const dvec3> exempt,
                           std::span<Violation> out) noexcept {
     size_t count = 0;
-    for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    const auto checkOne = [&](uint32_t leaf, const PairArrays& all, const uint32_t* pairs) {
         Violation* worst = count < out.size() ? &out[count] : nullptr;
-        count += checkLeaf(set, leaf, next[leaf], exempt[leaf], worst) ? 1 : 0;
+        count += checkLeaf(set, leaf, all, pairs, next[leaf], exempt[leaf], worst) ? 1 : 0;
+    };
+    for (uint32_t run = 0; close_.complete && run < close_.runs; ++run) {
+        checkOne(close_.leaf[run], close_.of(run), close_.pair.data() + close_.begin[run]);
+    }
+    for (uint32_t leaf = 0; !close_.complete && leaf < leaves_.size(); ++leaf) {
+        checkOne(leaf, listedUpTo(set, leaf, checkLimit_), nullptr);
     }
     return count;
 }
 
-bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& next, const dvec3& exempt,
+// all: the leaf's pairs that may come near; pairs: which they are, null: the first of the leaf's.
+bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all,
+                            const uint32_t* pairs, const dvec3& next, const dvec3& exempt,
                             Violation* worst) noexcept {
     const dvec3 from = leaves_[leaf];
     const double r = radius_[leaf];
     const bool exempts = exempt != dvec3(0.0);
-    PairArrays all = close_.of(leaf);
-    if (!close_.complete) {
-        all = pairsOf(set, set.pairBegin[leaf],
-                      set.pairsUpTo(leaf, checkLimit_ + moved_[leaf] + kPairRounding));
-    }
     double deepest = 0.0;
     size_t deepestAt = 0;
     for (size_t begin = 0; begin < all.count; begin += kPairChunk) {
@@ -46,8 +49,8 @@ bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const dvec3& n
         }
     }
     if (deepest > 0.0 && worst != nullptr) {
-        const uint32_t pair = close_.complete ? close_.pair[close_.begin[leaf] + deepestAt]
-                                              : set.pairBegin[leaf] + static_cast<uint32_t>(deepestAt);
+        const uint32_t pair =
+            pairs != nullptr ? pairs[deepestAt] : set.pairBegin[leaf] + static_cast<uint32_t>(deepestAt);
         const dvec3 delta = from - dvec3(set.pairX[pair], set.pairY[pair], set.pairZ[pair]);
         worst->row = rowOf(set, leaf, delta, gapOf(all, deepestAt, from, r), pair);
         worst->depth = deepest;

@@ -134,7 +134,7 @@ void ArmProxy::moveGrasp(const ArmInput& input, ArmTurn& out) noexcept {
     for (int tries = 0; tries < 6 && out.graspHeld; ++tries, change *= 0.5) {
         size_t violating = 0;
         tryPosture(q_, grasp_ + change);
-        if (longestTravel(leaves_, nextLeaves_) <= options_.stepCap && allowed(input.contacts, violating)) {
+        if (farthestWay(leaves_, nextLeaves_) <= options_.stepCap && allowed(input.contacts, violating)) {
             out.graspHeld = tries > 0;
             take();
             return;

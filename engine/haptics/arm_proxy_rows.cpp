@@ -70,7 +70,7 @@ void ArmProxy::gather(const ContactSet& contacts, bool anew) noexcept {
     const double checkLimit = options_.stepCap * (1.0 + 1e-6) + kSkin;
     narrow_.gather(contacts, leaves_, tip().position - contacts.origin, 2.0 * options_.stepCap, checkLimit,
                    anew);
-    trust_.set(contacts, narrow_.moved());
+    trust_.set(contacts, narrow_.moved(), narrow_.farthest());
 }
 
 void ArmProxy::collectRows(const ContactSet* contacts, bool anew, ArmTurn& out) noexcept {

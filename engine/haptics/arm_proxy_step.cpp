@@ -37,7 +37,7 @@ double ArmProxy::shareToCap(const JointVector& dq) noexcept {
     double share = 1.0;
     for (int k = 0; k < 12; ++k) {
         tryStep(dq, share);
-        const double travel = longestTravel(leaves_, nextLeaves_);
+        const double travel = farthestWay(leaves_, nextLeaves_);
         if (travel <= options_.stepCap) {
             return share;
         }
@@ -147,7 +147,7 @@ bool ArmProxy::step(const ArmInput& input, ArmTurn& out) noexcept {
         return false;
     }
     escapeLeft_ *= 1.0 - share;
-    const double travel = longestTravel(leaves_, nextLeaves_);
+    const double travel = farthestWay(leaves_, nextLeaves_);
     take();
     return travel > proxy::kNothing;
 }

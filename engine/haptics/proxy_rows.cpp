@@ -48,7 +48,7 @@ void Proxy::collectRows(const ContactSet* contacts, const Budget& budget) noexce
         const double checkLimit = options_.stepCap * (1.0 + 1e-6) + kSkin;
         narrow_.gather(*contacts, leaves_, pose_.position - contacts->origin,
                        std::max(options_.rows.reach * options_.stepCap, checkLimit), checkLimit, firstSolve_);
-        trust_.set(*contacts, narrow_.moved());
+        trust_.set(*contacts, narrow_.moved(), narrow_.farthest());
         touching_ = narrow_.smallestGap() < -proxy::kNothing;
         proxy::flagBehind(*contacts, leaves_, exempt_, clearance_);
         addPairRows(*contacts, budget);
@@ -58,8 +58,8 @@ void Proxy::collectRows(const ContactSet* contacts, const Budget& budget) noexce
 
 void Proxy::addPairRows(const ContactSet& contacts, const Budget& budget) noexcept {
     constexpr uint32_t kNone = UINT32_MAX;
-    const bool anyBehind =
-        std::any_of(exempt_.begin(), exempt_.end(), [](const dvec3& e) { return e != dvec3(0.0); });
+    const bool anyBehind = std::any_of(contacts.behind.begin(), contacts.behind.end(),
+                                       [&](const auto& flag) { return exempt_[flag.leaf] != dvec3(0.0); });
     for (ContactRow row : narrow_.rows()) {
         if (exempt_[row.leaf] != dvec3(0.0) &&
             glm::dot(row.normal, exempt_[row.leaf]) < NarrowPhase::kCosHolds) {

@@ -37,7 +37,7 @@ double Proxy::shareToCap(const Motion& first, const Motion& rest, double firstBo
     const double cap = options_.stepCap;
     const auto travel = [&](double s) {
         places_.place(moved(pose_, first + s * rest), origin_, next_);
-        return longestTravel(leaves_, next_);
+        return farthestWay(leaves_, next_);
     };
     if (places_.crudeBound(first + rest) <= cap || travel(1.0) <= cap) {
         return 1.0;

@@ -75,26 +75,20 @@ double LeafPlaces::travelBound(const Pose& pose, const Motion& motion) const noe
     return glm::length(motion.a) + std::sqrt(turning);
 }
 
-double longestTravel(const LeafCentres& from, const LeafCentres& to) noexcept {
-    double longest = 0.0;
-    for (size_t i = 0; i < from.size(); ++i) {
-        const dvec3 way = to[i] - from[i];
-        longest = std::max(longest, glm::dot(way, way));
-    }
-    return std::sqrt(longest);
-}
-
-void TrustRegion::set(const ContactSet& contacts, std::span<const double> moved) noexcept {
-    const double limit = contacts.reach - kMargin;
-    double farthest = 0.0;
+void TrustRegion::set(const ContactSet& contacts, std::span<const double> moved, double farthest) noexcept {
+    limit_ = contacts.reach - kMargin;
+    room_ = limit_ - farthest - 1e-9;
+    const double limit = limit_;
+    double* const bound = bound_.data();
     for (size_t i = 0; i < bound_.size(); ++i) {
-        bound_[i] = std::max(limit, moved[i]);
-        farthest = std::max(farthest, moved[i]);
+        bound[i] = moved[i] > limit ? moved[i] : limit;
     }
-    room_ = limit - farthest - 1e-9;
 }
 
 bool TrustRegion::contains(const ContactSet& contacts, const LeafCentres& next) const noexcept {
+    if (waysWithin(contacts.leafAtQuery, next, limit_)) {
+        return true;
+    }
     for (size_t i = 0; i < bound_.size(); ++i) {
         if (!(glm::distance(next[i], contacts.leafAtQuery[i]) <= bound_[i])) {
             return false;
@@ -126,15 +120,7 @@ double TrustRegion::share(const ContactSet& contacts, const LeafCentres& from,
 
 bool TrustRegion::covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept {
     const double limit = contacts.reach - kMargin + 1e-12;
-    if (contacts.leafAtQuery.size() != leaves.size()) {
-        return false;
-    }
-    for (size_t i = 0; i < leaves.size(); ++i) {
-        if (!(glm::distance(leaves[i], contacts.leafAtQuery[i]) <= limit)) {
-            return false;
-        }
-    }
-    return true;
+    return contacts.leafAtQuery.size() == leaves.size() && waysWithin(contacts.leafAtQuery, leaves, limit);
 }
 
 } // namespace fathom

@@ -65,9 +65,6 @@ private:
     double farthest_ = 0.0; // [m] largest distance of a centre from the tool's
 };
 
-// Farthest straight way of any leaf [m].
-double longestTravel(const LeafCentres& from, const LeafCentres& to) noexcept;
-
 // Trust region (design 2): no leaf may end farther from where it was at the query than the certified reach
 // less 10 um, or than it already is.
 class TrustRegion {
@@ -77,8 +74,9 @@ public:
     explicit TrustRegion(size_t leaves)
         : bound_(leaves, 0.0) {}
 
-    // Bounds for a step from where the leaves are. moved: their distances from the query positions [m].
-    void set(const ContactSet& contacts, std::span<const double> moved) noexcept;
+    // Bounds for a step from where the leaves are. moved: their distances from the query positions, farthest:
+    // the largest of them [m].
+    void set(const ContactSet& contacts, std::span<const double> moved, double farthest) noexcept;
 
     bool contains(const ContactSet& contacts, const LeafCentres& next) const noexcept;
     // True only if contains() is sure to hold for any step whose leaves travel at most `travel` [m].
@@ -91,7 +89,8 @@ public:
 
 private:
     std::vector<double> bound_; // [m] a leaf
-    double room_ = 0.0;         // [m] that every leaf may travel whichever way
+    double limit_ = 0.0;        // [m] the bound of every leaf that is not beyond it already
+    double room_ = 0.0;         // [m] that every leaf may travel whichever way; < 0: some leaf is beyond
 };
 
 } // namespace fathom

@@ -143,7 +143,7 @@ Figures run(ProxyRig& rig, Hand& hand, int turns, uint32_t slowest, double loss,
         places.place(rig.proxy().pose(), rig.fixtures().origin, before);
         const ProxyTurn turn = rig.turn(hand.next(), delay, lost(random));
         places.place(turn.pose, rig.fixtures().origin, after);
-        const double travel = longestTravel(before, after);
+        const double travel = farthestWay(before, after);
         f.longest = std::max(f.longest, travel);
         f.path += travel;
         f.worst = std::max(f.worst, rig.depth());

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/contact/leaf_centres.h"
+
+#include <algorithm>
+#include <cmath>
+#include <doctest/doctest.h>
+#include <limits>
+#include <random>
+
+using namespace fathom;
+
+namespace {
+
+LeafCentres scattered(size_t count, uint32_t seed) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> at(-1.0, 1.0);
+    LeafCentres centres(count);
+    for (size_t i = 0; i < count; ++i) {
+        centres.set(i, dvec3(at(random), at(random), at(random)));
+    }
+    return centres;
+}
+
+} // namespace
+
+TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest among them and all within it") {
+    for (const size_t count : {1, 2, 7, 8, 9, 15, 16, 17, 100, 479}) {
+        CAPTURE(count);
+        const LeafCentres from = scattered(count, 1), to = scattered(count, 2);
+        std::vector<double> ways(count), own(count);
+        const double farthest = straightWays(from, to, ways);
+        for (size_t i = 0; i < count; ++i) {
+            own[i] = glm::distance(from[i], to[i]);
+        }
+        CHECK(ways == own); // to the last bit
+        const double most = *std::max_element(own.begin(), own.end());
+        CHECK(farthest == most);
+        CHECK(farthestWay(from, to) == most);
+        CHECK(waysWithin(from, to, most));
+        CHECK(!waysWithin(from, to, std::nextafter(most, 0.0)));
+    }
+}
+
+TEST_CASE("Of no leaf the farthest way is none and every limit holds") {
+    const LeafCentres none;
+    CHECK(straightWays(none, none, {}) == 0.0);
+    CHECK(farthestWay(none, none) == 0.0);
+    CHECK(waysWithin(none, none, -1.0));
+}
+
+TEST_CASE("A way that is no number is within no limit, wherever it is, and not the farthest") {
+    const size_t count = 19;
+    for (size_t bad = 0; bad < count; ++bad) {
+        CAPTURE(bad);
+        const LeafCentres from = scattered(count, 3);
+        LeafCentres to = scattered(count, 4);
+        to.z[bad] = std::numeric_limits<double>::quiet_NaN();
+        std::vector<double> ways(count);
+        const double farthest = straightWays(from, to, ways);
+        CHECK(std::isnan(ways[bad]));
+        CHECK(std::isfinite(farthest));
+        CHECK(farthestWay(from, to) == farthest);
+        CHECK(!waysWithin(from, to, std::numeric_limits<double>::infinity()));
+    }
+}
