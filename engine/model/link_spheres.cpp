@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/model/link_spheres.h"
 
-#include "engine/model/mesh_file.h"
 #include "engine/model/sphere_cover.h"
 #include "engine/types/inside.h"
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace fathom {
 
@@ -86,19 +86,26 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeS
 
 } // namespace
 
-ShapeSpheres linkSpheres(const urdf::Geometry& shape, const ShapeSource& source) {
-    ShapeSpheres made;
-    std::vector<Sphere>& spheres = made.spheres;
+LinkShape readLinkShape(const urdf::Geometry& shape, const ShapeSource& source) {
+    LinkShape out;
     if (const auto* ball = dynamic_cast<const urdf::Sphere*>(&shape)) {
-        spheres.push_back({dvec3(0.0), ball->radius});
+        out.made.spheres.push_back({dvec3(0.0), ball->radius});
     } else {
-        const LoadedMesh loaded = meshOf(shape, source, made);
-        CoverOptions cover;
-        cover.leaves = source.leaves;
-        cover.effort = 0;
-        spheres = coverMesh(loaded.mesh, MeshDistance(loaded.mesh, loaded.facts.closed()), cover).spheres;
+        out.surface = meshOf(shape, source, out.made);
     }
-    for (const Sphere& s : spheres) {
+    return out;
+}
+
+ShapeSpheres linkSpheres(LinkShape shape, uint32_t leaves) {
+    ShapeSpheres made = std::move(shape.made);
+    if (shape.surface) {
+        CoverOptions cover;
+        cover.leaves = leaves;
+        cover.effort = 0;
+        const TriangleMesh& mesh = shape.surface->mesh;
+        made.spheres = coverMesh(mesh, MeshDistance(mesh, shape.surface->facts.closed()), cover).spheres;
+    }
+    for (const Sphere& s : made.spheres) {
         if (!isFinite(s.centre) || !(s.radius > 0.0)) {
             throw ShapeRefused{"a sphere without radius", "radii above 0"};
         }

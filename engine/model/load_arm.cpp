@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // URDF to ArmModel.
 #include "engine/model/arm_model.h"
-#include "engine/model/link_spheres.h"
+#include "engine/model/cover_links.h"
 #include "engine/model/urdf_file.h"
 #include "engine/types/error.h"
-#include "engine/types/processors.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <set>
-#include <thread>
 
 namespace fathom {
 
@@ -208,39 +204,18 @@ private:
         uint32_t index; // of the link among those with shapes
     };
 
-    // All processors make spheres; the first refusal in the file's order is told.
     void coverShapes() {
-        std::atomic<size_t> next{0};
-        std::vector<std::promise<ShapeSpheres>> made(shapes_.size());
-        const auto work = [&] {
-            for (size_t i = next++; i < shapes_.size(); i = next++) {
-                try {
-                    made[i].set_value(coverOf(shapes_[i]));
-                } catch (...) {
-                    made[i].set_exception(std::current_exception());
-                }
-            }
-        };
-        {
-            const size_t processors = usableProcessors();
-            std::vector<std::jthread> others(std::min(processors, std::max<size_t>(1, shapes_.size())) - 1);
-            std::generate(others.begin(), others.end(), [&] { return std::jthread(work); });
-            work();
+        std::vector<LinkGeometry> all;
+        for (const Shape& shape : shapes_) {
+            all.push_back({shape.link->name, shape.collision->geometry});
         }
+        const auto made = spheresOf(all, {file_, options_.meshes}, options_.leavesPerShape);
         for (size_t i = 0; i < shapes_.size(); ++i) {
-            addSpheres(shapes_[i], made[i].get_future().get());
+            addSpheres(shapes_[i], made[i]);
         }
         if (!outside_.empty()) {
             model_.notes.push_back("meshes outside of the folder that they are looked for in: " +
                                    std::to_string(outside_.size()) + ", the first " + *outside_.begin());
-        }
-    }
-
-    ShapeSpheres coverOf(const Shape& shape) const {
-        try {
-            return linkSpheres(*shape.collision->geometry, {file_, options_.meshes, options_.leavesPerShape});
-        } catch (const ShapeRefused& e) {
-            refuse("link " + shape.link->name, e.value, e.allowed);
         }
     }
 
@@ -265,6 +240,7 @@ private:
     ArmModel model_;
     std::vector<std::string> moving_;
     std::vector<Shape> shapes_;
+    size_t covered_ = 0;            // of them
     std::set<std::string> outside_; // files
 };
 

@@ -37,10 +37,12 @@ public:
     LibraryAtWork& operator=(const LibraryAtWork&) = delete;
 };
 
-// A child is forked, so that no thread is needed; it has at most a minute of CPU time and five minutes in
-// all, and so much memory (no bound under a sanitizer, whose own memory is none). Returns the signal that
-// ended it (0: none), and whether take() was served. Throws Error, naming the file, when no child can be
-// made; std::logic_error, which is no refusal, when a sanitizer ended the child in code of ours.
+// A child is forked, so that no thread is needed. It takes memory and uses a library, and a lock that another
+// thread of this process holds at that moment stays held in it: call this while no other thread works. It has
+// at most a minute of CPU time and five minutes in all, and so much memory (no bound under a sanitizer, whose
+// own memory is none). Returns the signal that ended it (0: none), and whether take() was served. Throws
+// Error, naming the file, when no child can be made; std::logic_error, which is no refusal, when a sanitizer
+// ended the child in code of ours.
 struct ReaderEnd {
     bool whole = false;
     int signal = 0;

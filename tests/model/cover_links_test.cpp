@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/model/cover_links.h"
+
+#include "engine/types/error.h"
+#include "tests/model/meshes.h"
+
+#include <algorithm>
+#include <atomic>
+#include <doctest/doctest.h>
+#include <iterator>
+#include <pthread.h>
+
+using namespace fathom;
+
+namespace {
+
+// Most threads that this process had at a fork since the last look.
+std::atomic<size_t> threadsAtFork{0};
+
+size_t threadsNow() {
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    return static_cast<size_t>(std::distance(begin(tasks), end(tasks)));
+}
+
+LinkGeometry meshLink(const std::string& link, const std::filesystem::path& file) {
+    const auto mesh = std::make_shared<urdf::Mesh>();
+    mesh->filename = file.string();
+    mesh->scale = urdf::Vector3(1.0, 1.0, 1.0);
+    return {link, mesh};
+}
+
+LinkGeometry ballLink(const std::string& link, double radius) {
+    const auto ball = std::make_shared<urdf::Sphere>();
+    ball->radius = radius;
+    return {link, ball};
+}
+
+std::string refusalOf(const std::vector<LinkGeometry>& shapes) {
+    try {
+        spheresOf(shapes, {"arm.urdf", {}}, 8);
+    } catch (const BadInput& e) {
+        return e.what();
+    }
+    return "";
+}
+
+} // namespace
+
+TEST_CASE("Meshes are read before there is another thread, whose locks a child would find held") {
+    const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    const std::vector<LinkGeometry> shapes(6, meshLink("a", one.path()));
+    static const int watched = ::pthread_atfork(
+        [] { threadsAtFork = std::max(threadsAtFork.load(), threadsNow()); }, nullptr, nullptr);
+    REQUIRE(watched == 0);
+    threadsAtFork = 0;
+    const size_t before = threadsNow();
+    const std::vector<ShapeSpheres> made = spheresOf(shapes, {"arm.urdf", {}}, 8);
+    CHECK(threadsAtFork == before);
+    REQUIRE(made.size() == 6);
+    for (const ShapeSpheres& each : made) {
+        CHECK(each.spheres.size() == made[0].spheres.size());
+        CHECK(each.spheres.size() > 1);
+        CHECK(each.spheres.size() <= 8);
+    }
+}
+
+TEST_CASE("Shapes come in their order, and of several refusals the first is told, whether of a file or of a "
+          "size") {
+    const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
+    const auto made = spheresOf(
+        std::vector{ballLink("a", 0.1), meshLink("b", one.path()), ballLink("c", 0.3)}, {"arm.urdf", {}}, 8);
+    REQUIRE(made.size() == 3);
+    CHECK(made[0].spheres[0].radius == 0.1);
+    CHECK(made[1].spheres.size() > 1);
+    CHECK(made[2].spheres[0].radius == 0.3);
+    CHECK(spheresOf({}, {"arm.urdf", {}}, 8).empty());
+
+    const LinkGeometry noFile = meshLink("none", "/nowhere/none.obj"), noSize = ballLink("flat", 0.0);
+    CHECK(refusalOf({ballLink("a", 0.1), noSize, noFile}).find("arm.urdf: link flat: ") == 0);
+    CHECK(refusalOf({ballLink("a", 0.1), noFile, noSize}).find("/nowhere/none.obj: ") == 0);
+}
