@@ -192,8 +192,9 @@ Study solverStudy(const StudyContext& context) {
                        "strengthened_a_turn", "stalled_turns", "share_in_contact"};
     study.judgement.reason =
         "the cap of 2 mm and 4 solves let the hand move at 8 m/s, slower hands need less; "
-        "rows that are reduced "
-        "cost and gain within what repeats of the same work differ by, so all rows stay";
+        "rows up to 1 cap take less time and lead to the same poses along this wall, but elsewhere between "
+        "walls (suite haptics); other rows that are reduced cost and gain within what repeats of the same "
+        "work differ by, so all rows up to 2 caps stay";
     for (double speed : context.settings.quick ? std::vector{2.0} : std::vector{0.3, 2.0, 6.0}) {
         addSpeed(context, study, speed);
     }

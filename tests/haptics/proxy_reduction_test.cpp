@@ -157,3 +157,17 @@ TEST_CASE(
     }
     CHECK(farthest > 1e-6); // else the test above would prove nothing
 }
+
+TEST_CASE("Rows up to one step cap alone let nothing in either, and lead elsewhere between walls: why there "
+          "are rows up to two") {
+    for (const Walls& world : {wallCorner(), wallGroove(), wallRubble()}) {
+        if (kSanitized && world.name != "rubble") {
+            continue;
+        }
+        CAPTURE(world.name);
+        const Against found = compare(world, {{1.0, NarrowPhase::kCone}}).front();
+        CHECK(found.deepest <= 0.0);
+        CHECK(found.apart > 1e-4); // [m] in one turn, of a step cap of 2 mm
+        MESSAGE(world.name << ": up to " << found.apart * 1e3 << " mm a turn elsewhere");
+    }
+}
