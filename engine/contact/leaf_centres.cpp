@@ -3,16 +3,16 @@
 
 #include "engine/contact/clones.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 
 namespace fathom {
 
 namespace {
 
 constexpr size_t kWayLanes = 8; // of the widest register; each has a largest of its own
+using WayLanes = double __attribute__((vector_size(8 * kWayLanes)));
 
 FATHOM_CLONES
 void waysKernel(const double* __restrict fx, const double* __restrict fy, const double* __restrict fz,
@@ -27,49 +27,58 @@ void waysKernel(const double* __restrict fx, const double* __restrict fy, const 
 FATHOM_CLONES
 int64_t withinKernel(const double* __restrict fx, const double* __restrict fy, const double* __restrict fz,
                      const double* __restrict tx, const double* __restrict ty, const double* __restrict tz,
-                     size_t count, double limit) noexcept {
+                     size_t count, double limit2) noexcept {
     int64_t within = 0;
     for (size_t i = 0; i < count; ++i) {
         const double dx = tx[i] - fx[i], dy = ty[i] - fy[i], dz = tz[i] - fz[i];
-        within += std::sqrt(dx * dx + dy * dy + dz * dz) <= limit ? 1 : 0;
+        within += dx * dx + dy * dy + dz * dz <= limit2 ? 1 : 0;
     }
     return within;
 }
 
-// The farthest, squared.
+// The farthest, squared. No function takes or gives a register: each clone has its own idea of them.
 FATHOM_CLONES
 double farthestKernel(const double* __restrict fx, const double* __restrict fy, const double* __restrict fz,
                       const double* __restrict tx, const double* __restrict ty, const double* __restrict tz,
                       size_t count) noexcept {
-    std::array<double, kWayLanes> most{};
-    for (size_t i = 0; i < count / kWayLanes * kWayLanes; i += kWayLanes) {
-        for (size_t l = i; l < i + kWayLanes; ++l) {
-            const double dx = tx[l] - fx[l], dy = ty[l] - fy[l], dz = tz[l] - fz[l];
-            const double square = dx * dx + dy * dy + dz * dz;
-            most[l - i] = square > most[l - i] ? square : most[l - i];
-        }
+    WayLanes most{}, ax, ay, az, bx, by, bz;
+    size_t i = 0;
+    for (; i + kWayLanes <= count; i += kWayLanes) {
+        std::memcpy(&ax, fx + i, sizeof ax), std::memcpy(&bx, tx + i, sizeof bx);
+        std::memcpy(&ay, fy + i, sizeof ay), std::memcpy(&by, ty + i, sizeof by);
+        std::memcpy(&az, fz + i, sizeof az), std::memcpy(&bz, tz + i, sizeof bz);
+        const WayLanes dx = bx - ax, dy = by - ay, dz = bz - az;
+        const WayLanes square = dx * dx + dy * dy + dz * dz;
+        most = square > most ? square : most;
     }
-    for (size_t i = count / kWayLanes * kWayLanes; i < count; ++i) {
+    double farthest = 0.0;
+    for (size_t l = 0; l < kWayLanes; ++l) {
+        farthest = most[l] > farthest ? most[l] : farthest;
+    }
+    for (; i < count; ++i) {
         const double dx = tx[i] - fx[i], dy = ty[i] - fy[i], dz = tz[i] - fz[i];
         const double square = dx * dx + dy * dy + dz * dz;
-        most[0] = square > most[0] ? square : most[0];
+        farthest = square > farthest ? square : farthest;
     }
-    return *std::max_element(most.begin(), most.end());
+    return farthest;
 }
 
 FATHOM_CLONES
 double largestKernel(const double* __restrict values, size_t count) noexcept {
-    std::array<double, kWayLanes> most{};
+    WayLanes most{}, some;
     size_t i = 0;
     for (; i + kWayLanes <= count; i += kWayLanes) {
-        for (size_t l = 0; l < kWayLanes; ++l) {
-            most[l] = values[i + l] > most[l] ? values[i + l] : most[l];
-        }
+        std::memcpy(&some, values + i, sizeof some);
+        most = some > most ? some : most;
+    }
+    double largest = 0.0;
+    for (size_t l = 0; l < kWayLanes; ++l) {
+        largest = most[l] > largest ? most[l] : largest;
     }
     for (; i < count; ++i) {
-        most[0] = values[i] > most[0] ? values[i] : most[0];
+        largest = values[i] > largest ? values[i] : largest;
     }
-    return *std::max_element(most.begin(), most.end());
+    return largest;
 }
 
 } // namespace
@@ -87,8 +96,8 @@ double farthestWay(const LeafCentres& from, const LeafCentres& to) noexcept {
 
 bool waysWithin(const LeafCentres& from, const LeafCentres& to, double limit) noexcept {
     const int64_t within = withinKernel(from.x.data(), from.y.data(), from.z.data(), to.x.data(), to.y.data(),
-                                        to.z.data(), from.size(), limit);
-    return static_cast<size_t>(within) == from.size();
+                                        to.z.data(), from.size(), limit * limit);
+    return static_cast<size_t>(within) == from.size() && (limit >= 0.0 || from.size() == 0);
 }
 
 } // namespace fathom

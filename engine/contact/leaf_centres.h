@@ -34,7 +34,8 @@ double straightWays(const LeafCentres& from, const LeafCentres& to, std::span<do
 // Farthest of those ways [m].
 double farthestWay(const LeafCentres& from, const LeafCentres& to) noexcept;
 
-// Whether every one of those ways is at most `limit` [m]; one that is no number is not.
+// Whether every one of those ways is at most `limit` [m], but for the rounding of their squares; one that is
+// no number is not.
 bool waysWithin(const LeafCentres& from, const LeafCentres& to, double limit) noexcept;
 
 } // namespace fathom

@@ -36,8 +36,9 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
         const double most = *std::max_element(own.begin(), own.end());
         CHECK(farthest == most);
         CHECK(farthestWay(from, to) == most);
-        CHECK(waysWithin(from, to, most));
-        CHECK(!waysWithin(from, to, std::nextafter(most, 0.0)));
+        CHECK(waysWithin(from, to, most * (1.0 + 1e-15)));
+        CHECK(!waysWithin(from, to, most * (1.0 - 1e-15)));
+        CHECK(!waysWithin(from, to, -most));
     }
 }
 
