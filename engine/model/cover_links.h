@@ -11,6 +11,7 @@
 
 namespace fathom {
 
+// A shape, and whose it is.
 struct LinkGeometry {
     std::string link; // name
     std::shared_ptr<const urdf::Geometry> shape;
