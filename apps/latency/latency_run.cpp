@@ -187,7 +187,7 @@ LatencyPart LatencyRun::window() {
     part.load = "window";
     OperateOptions o = operateOptions(options_);
     o.turns = options_.seconds; // not of the window, which may wait long for its first picture
-    o.armed = true; // as the other parts are
+    o.armed = true;             // as the other parts are
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     operate::OperatorRun run(o, global_);
     run.run();
