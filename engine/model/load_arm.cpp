@@ -240,7 +240,6 @@ private:
     ArmModel model_;
     std::vector<std::string> moving_;
     std::vector<Shape> shapes_;
-    size_t covered_ = 0;            // of them
     std::set<std::string> outside_; // files
 };
 
