@@ -49,8 +49,8 @@ std::string refusalOf(const std::vector<LinkGeometry>& shapes) {
 TEST_CASE("Meshes are read before there is another thread, whose locks a child would find held") {
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const std::vector<LinkGeometry> shapes(6, meshLink("a", one.path()));
-    static const int watched = ::pthread_atfork(
-        [] { threadsAtFork = std::max(threadsAtFork.load(), threadsNow()); }, nullptr, nullptr);
+    const int watched = ::pthread_atfork([] { threadsAtFork = std::max(threadsAtFork.load(), threadsNow()); },
+                                         nullptr, nullptr);
     REQUIRE(watched == 0);
     threadsAtFork = 0;
     const size_t before = threadsNow();
