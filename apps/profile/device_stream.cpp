@@ -170,7 +170,7 @@ TimedSubmissions::TimedSubmissions(gpu::Device& device)
 
 double TimedSubmissions::once(const std::function<void(gpu::Commands&)>& record) {
     commands_.begin();
-    watch_.resetIn(commands_.handle());
+    watch_.reset();
     watch_.mark(commands_.handle());
     record(commands_);
     commands_.barrier();

@@ -75,7 +75,7 @@ void TreeQuery::poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const
 void TreeQuery::record(size_t setIndex) {
     commands_.begin();
     if (timed_) {
-        watch_.resetIn(commands_.handle());
+        watch_.reset();
         watch_.mark(commands_.handle());
     }
     commands_.fill(count_, 0);

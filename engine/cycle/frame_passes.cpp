@@ -40,7 +40,9 @@ void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
 
 const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
     std::unique_ptr<gpu::Commands>& commands = commands_[upload][set];
-    if (!commands) {
+    if (commands) {
+        watches_[upload]->again();
+    } else {
         commands = std::make_unique<gpu::Commands>(device_);
         record(*commands, *watches_[upload], upload, set);
     }
@@ -55,9 +57,7 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
         }
     };
     commands.begin(gpu::Submissions::Many);
-    if (timed_) {
-        watch.resetIn(commands.handle());
-    }
+    watch.reset();
     mark();
     const auto run = [&](const auto& pass, auto... arguments) {
         if (pass) {
@@ -70,14 +70,15 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
     run(classify_, upload);
     run(list_, upload);
     run(surface_, upload);
-    if (thin_) {
-        thin_->record(commands, upload);
-        if (!moments_) { // which neither read what thinning writes nor the reverse: they overlap
-            commands.barrier();
+    run(thin_, upload);
+    if (moments_ && spheres_) { // neither reads what the other writes: they overlap
+        moments_->record(commands, upload, set);
+        if (timed_) {
+            watch.markReached(commands.handle());
         }
-        mark();
+    } else {
+        run(moments_, upload, set);
     }
-    run(moments_, upload, set);
     run(spheres_, upload, set);
     run(tree_, set);
     recordCopies(commands, set);

@@ -61,6 +61,7 @@ void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
 
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     v12.timelineSemaphore = VK_TRUE;
+    v12.hostQueryReset = VK_TRUE; // every device of Vulkan 1.2 has both
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.pNext = &v12;
     // GPU-assisted validation writes its findings from every stage; nothing of ours needs these.

@@ -21,17 +21,29 @@ Stopwatch::~Stopwatch() {
     vkDestroyQueryPool(device_.handle(), pool_, nullptr);
 }
 
-void Stopwatch::resetIn(VkCommandBuffer commands) {
+void Stopwatch::reset() {
     used_ = 0;
+    again();
+}
+
+void Stopwatch::again() const {
     if (works()) {
-        vkCmdResetQueryPool(commands, pool_, 0, capacity_);
+        vkResetQueryPool(device_.handle(), pool_, 0, capacity_);
     }
 }
 
 void Stopwatch::mark(VkCommandBuffer commands) {
+    markAt(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT);
+}
+
+void Stopwatch::markReached(VkCommandBuffer commands) {
+    markAt(commands, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT);
+}
+
+void Stopwatch::markAt(VkCommandBuffer commands, VkPipelineStageFlagBits stage) {
     if (used_ < capacity_) {
         if (works()) {
-            vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool_, used_);
+            vkCmdWriteTimestamp(commands, stage, pool_, used_);
         }
         ++used_;
     }

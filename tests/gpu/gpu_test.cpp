@@ -90,7 +90,7 @@ TEST_CASE("the stopwatch gives one interval less than it has marks and none is n
     gpu::Commands commands(device);
     const gpu::Timeline timeline(device);
     commands.begin();
-    watch.resetIn(commands.handle());
+    watch.reset();
     for (int i = 0; i < 5; ++i) { // two more than there is room for
         watch.mark(commands.handle());
     }
