@@ -9,7 +9,7 @@
 #include "shaders/shared/frame_params.h"
 
 layout(local_size_x_id = 0) in; // divides 256
-layout(constant_id = 1) const uint kThin = 1;       // 1: the error budget leaves points out
+layout(constant_id = 1) const uint kThin = 1;       // 1: the error budget leaves points out, as thin.comp decided or (kByPixel) as is decided here
 layout(constant_id = 2) const uint kHold = 1;       // unseen points stay for a while: 1 in patches that hold nothing yet, 2 in those that do,
                                                     // 3 (with kByPixel) in all
 layout(constant_id = 3) const uint kByPixel = 0;    // 1: a group a patch; the group size divides 256
@@ -26,7 +26,7 @@ layout(binding = 2) uniform usamplerBuffer masks; // a byte a slot: class bits
 layout(binding = 3) uniform samplerBuffer points; // a slot: base point about the origin, w = z [m]; 0 = none
 layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 5) readonly buffer List { uint list[]; }; // its parts: frame_params.h
-layout(binding = 6) uniform samplerBuffer growth; // a sub-patch: what thin.comp decided
+layout(binding = 6) uniform samplerBuffer growth; // a sub-patch, without kByPixel: what thin.comp decided
 layout(std430, binding = 7) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 8) writeonly buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
 layout(std430, binding = 9) writeonly buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
@@ -43,6 +43,7 @@ layout(std430, binding = 22) writeonly buffer Tags { uint tags[]; };  // (layer 
 layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; }; // listed patch -> place of its first packed sphere, and how many
 layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
 layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
+layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it
 // Seen, kept and when, to read: an invocation reads a slot before it writes it, and no other does either.
 layout(binding = 18) uniform samplerBuffer seenBefore;
 layout(binding = 19) uniform samplerBuffer keptBefore;
@@ -59,6 +60,8 @@ const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/leaks.glsl"
 #include "shaders/lib/thinning.glsl"
+#include "shaders/lib/thin_cell.glsl"
+#include "shaders/lib/seen_sphere.glsl"
 
 const uint kLayers = kHold != 0 ? 2u : 1u;
 // By pixel, a group shares the thinning of the patch's 4x4 cells and of those left of and above it, 5 a row; spheres of the
@@ -66,6 +69,7 @@ const uint kLayers = kHold != 0 ? 2u : 1u;
 shared vec4 cells[kByPixel != 0 && kThin != 0 ? 25 : 1];
 shared vec4 all[kByPixel != 0 ? 256 * kLayers : 1];
 shared uint notesOfPatch[kByPixel != 0 ? 256 : 1];
+shared uint rememberedOfPatch; // as in `live`
 #include "shaders/lib/packing.glsl"
 
 CellsAround cellsOfGroup(uint sub) {
@@ -75,20 +79,6 @@ CellsAround cellsOfGroup(uint sub) {
 
 CellsAround cellsOfSub(ivec2 at) {
     return CellsAround(cellAt(at), cellAt(at - ivec2(4, 0)), cellAt(at - ivec2(0, 4)), cellAt(at - ivec2(4, 4)));
-}
-
-// Three sigma of a point, by its range from the camera [m].
-float grownBySigma(vec3 point) {
-    vec3 camera = vec3(params.baseTcamera[0].w, params.baseTcamera[1].w, params.baseTcamera[2].w);
-    return kBeam != 0 ? 3.0 * beamSigma(distance(point, camera)) : 0.0;
-}
-
-// The sphere of the point seen now in pixel p of a sub-patch; R < 0 when there is none or the budget leaves it out. more: for its
-// sigma [m].
-vec4 seenSphere(vec4 point, const uint p, uint c, float more, CellsAround around) {
-    float grown = kThin != 0 ? keptGrowth(p, around) : 0.0;
-    float radius = radiusOf(c) + grown + more;
-    return vec4(point.xyz, any(bvec2(c == kNone, grown < 0.0)) ? -1.0 : radius);
 }
 
 struct PixelResult {
@@ -148,7 +138,11 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
         atomicAdd(counters.nodes, 1u);
     }
     if (kHold != 0 && notes.remembered != 0) {
-        atomicAdd(live[sub >> 4], notes.remembered);
+        if (kByPixel != 0) {
+            atomicAdd(rememberedOfPatch, notes.remembered);
+        } else {
+            atomicAdd(live[sub >> 4], notes.remembered); // zeroed before this pass
+        }
     }
 }
 
@@ -227,16 +221,22 @@ void boundOfGroup(uint patchIndex, uint s) {
     putBound(patchIndex * 16u + s, centre, radius, count, notes);
 }
 
-void prepareGroup(ivec2 patchAt) {
-    if (kThin != 0) {
-        for (uint i = gl_LocalInvocationID.x; i < 25u; i += gl_WorkGroupSize.x) {
-            cells[i] = cellAt(patchAt + 4 * ivec2(int(i % 5u) - 1, int(i / 5u) - 1));
+void prepareGroup(uint patchIndex, ivec2 patchAt) {
+    for (uint i = gl_LocalInvocationID.x; kThin != 0 && i < 25u; i += gl_WorkGroupSize.x) {
+        uvec2 cell = uvec2(i % 5u, i / 5u);
+        ivec2 at = patchAt + 4 * (ivec2(cell) - 1);
+        cells[i] = decidedAt(at);
+        if (min(cell.x, cell.y) > 0u) { // the patch's own
+            decided[patchIndex * 16u + (cell.y - 1u) * 4u + cell.x - 1u] = cells[i];
         }
     }
     if (kPack != 0) {
         for (uint w = gl_LocalInvocationID.x; w < 16u; w += gl_WorkGroupSize.x) {
             present[w] = 0;
         }
+    }
+    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
+        rememberedOfPatch = 0; // added to behind the barrier that follows the pixels
     }
     if (kThin != 0 || kPack != 0) {
         barrier();
@@ -246,7 +246,7 @@ void prepareGroup(ivec2 patchAt) {
 void wholePatch(uint patchIndex) {
     uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
     bool holding = (listed[patchIndex] & kPatchHolding) != 0;
-    prepareGroup(ivec2(patchAt));
+    prepareGroup(patchIndex, ivec2(patchAt));
     for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
         CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
         if (kThin != 0) {
@@ -269,9 +269,15 @@ void wholePatch(uint patchIndex) {
     for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
         boundOfGroup(patchIndex, s);
     }
-    if (kPack != 0) {
+    if (kPack != 0 || kHold != 0) {
         barrier();
+    }
+    if (kPack != 0) {
         packPatch();
+    }
+    // Patches that are not listed remember nothing, before and after: all of them are written.
+    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
+        live[patchIndex] = rememberedOfPatch;
     }
 }
 

@@ -24,7 +24,7 @@ struct Need {
 // What a frame selects.
 struct Load {
     double pixels, slots, guidedSlots, selected, guided, spheres, tapsPerPixel, cells;
-    bool occlusion, hold, colour, inPlace, pack, keepDepth, thin, tree;
+    bool occlusion, hold, colour, inPlace, pack, keepDepth, thin, thinsWithin, tree;
     QueryWork query; // of a query on the device, by its answer; none without one
 };
 
@@ -67,6 +67,7 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.keepDepth = bench.plan().keepDepth;
     load.pack = bench.plan().pack;
     load.thin = bench.plan().thin;
+    load.thinsWithin = load.thin && !bench.plan().thins();
     load.tree = bench.plan().tree;
     return load;
 }
@@ -96,6 +97,10 @@ Need occlusionNeed(const Load& l) {
     return need;
 }
 
+double thinOperations(const Load& l) {
+    return l.slots / 16.0 * 25.0 * 45.0;
+}
+
 // Each buffer counted once, however often a pass reads it: what a perfect cache would move.
 std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     return {
@@ -106,8 +111,8 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"classify", classifyNeed(l)},
         {"list", {l.pixels / 256.0 * (l.hold ? 8.0 : 4.0) + l.slots / 256.0 * (l.hold ? 8.0 : 4.0), 0.0}},
         {"surface", {l.slots * (1.0 + 2.0 + 16.0), l.selected * (70.0 + 20.0 * l.tapsPerPixel)}},
-        {"thin", {l.slots * (1.0 + 16.0 + 1.0), l.slots / 16.0 * 25.0 * 45.0}},
-        {"spheres", {sphereBytes(l), 60.0 * l.slots}},
+        {"thin", {l.slots * (1.0 + 16.0 + 1.0), thinOperations(l)}},
+        {"spheres", {sphereBytes(l), 60.0 * l.slots + (l.thinsWithin ? thinOperations(l) : 0.0)}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0}},
         {"tree_query", {l.query.bytes, l.query.operations}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},

@@ -11,7 +11,7 @@ namespace fathom::cloud {
 SpheresPass::Variant::Variant(const CloudContext& c, uint32_t hold)
     : pipeline(c.device, {"spheres",
                           spheres_spv,
-                          26,
+                          27,
                           true,
                           0,
                           std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup,
@@ -47,15 +47,15 @@ void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
                 &w.growth,   &w.counters,     &w.seen,     &w.kept,    &w.keptTime, &w.live,
                 &s->spheres, &s->held,        &w.classes,  &s->bits,   &s->nodes,   &s->nodeCounts,
                 &w.seen,     &w.kept,         &w.keptTime, &s->packed, &s->tags,    &s->runs,
-                &w.radii,    &w.heldRadii},
+                &w.radii,    &w.heldRadii,    &w.growth},
             w.unused);
     }
 }
 
 void SpheresPass::record(gpu::Commands& commands, uint32_t upload, uint32_t set) const {
     const WorkBuffers& w = context_.work;
-    if (context_.plan.hold) {
-        commands.fill(w.live, 0); // classify has read it; counted anew below
+    if (context_.plan.hold && !context_.plan.byPixel) { // else a patch's group knows all of it
+        commands.fill(w.live, 0);                       // classify has read it; counted anew below
         commands.barrier();
     }
     const auto dispatch = [&](const gpu::Pipeline& pipeline, size_t groups) {

@@ -20,7 +20,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.cloud, classify_, "classify");
     add(c.plan.lists(), list_, "list");
     add(c.plan.cloud, surface_, "surface");
-    add(c.plan.thin, thin_, "thin");
+    add(c.plan.thins(), thin_, "thin");
     add(c.plan.moments, moments_, "moments");
     add(c.plan.spheres, spheres_, "spheres");
     add(c.plan.tree, tree_, "tree");

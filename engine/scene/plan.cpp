@@ -79,6 +79,17 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     return plan;
 }
 
+std::string budgetSentence(const Plan& plan, const Scene& scene) {
+    return "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm" +
+           (plan.byPixel ? ", within the pass spheres" : "");
+}
+
+const char* noBudgetSentence(const Plan& plan) {
+    return plan.beam      ? "each point's sphere has a size of its own"
+           : plan.spheres ? "error budget 0 keeps every point"
+                          : "no forbidden class of points";
+}
+
 void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     const auto pass = [&](const char* name, bool in, std::string yes, std::string no) {
         plan.items.push_back({"pass", name, in, in ? std::move(yes) : std::move(no), 0});
@@ -101,10 +112,7 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                                       (plan.polynomialWeights ? ", polynomial weights" : "")
                                 : "no filter: points as measured",
          "the scene has no class of points");
-    pass("thin", plan.thin, "error budget " + std::to_string(scene.errorBudget * 1e3) + " mm",
-         plan.beam      ? "each point's sphere has a size of its own"
-         : plan.spheres ? "error budget 0 keeps every point"
-                        : "no forbidden class of points");
+    pass("thin", plan.thin, budgetSentence(plan, scene), noBudgetSentence(plan));
     pass("spheres", plan.spheres,
          std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
              (plan.hold ? ", unseen points held" : "") +
@@ -194,7 +202,7 @@ bool Plan::has(const std::string& name) const {
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
     // them in one group
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (lists() ? 1u : 0u) + (thin ? 1u : 0u) +
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (lists() ? 1u : 0u) + (thins() ? 1u : 0u) +
            (spheres ? (hold && lists() ? 2u : 1u) : 0u) + (tree ? 2u : 0u) + (moments ? 1u : 0u);
 }
 
