@@ -26,7 +26,7 @@ public:
               Crew* crew);
 
 private:
-    static constexpr size_t kLeastPart = 4096;  // things
+    static constexpr size_t kLeastPart = 2048;  // things
     static constexpr size_t kLeastBuckets = 16; // of a part
     static constexpr size_t kBlock = 256;       // cells, whose counts are cleared and summed up together
 

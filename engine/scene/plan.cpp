@@ -11,7 +11,8 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
-constexpr uint32_t kManyProcessors = 8, kMostPublishers = 8;
+constexpr uint32_t kManyProcessors = 8, kMostPublishers = 12;
+constexpr uint32_t kOtherThreads = 4;    // haptics, contact, writer or window, and one for the system
 constexpr uint64_t kSmallestPage = 4096; // of any host: a camera's memory comes in whole pages
 
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
@@ -51,12 +52,12 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
     }
-    // Beside a device of its own those who share it look out for it while the device works: half of the
-    // processors, where they are many, stay for the other cadences. A CPU device has done its work by then.
+    // Beside a device of its own those who share it look out for it while the device works, so that the other
+    // cadences keep processors of their own; a CPU device has done its work by then.
     if (plan.spheres && device.kind == DeviceKind::Cpu) {
         plan.publishers = std::min(kMostPublishers, device.hostProcessors);
     } else if (plan.spheres && device.hostProcessors >= kManyProcessors) {
-        plan.publishers = std::min(kMostPublishers, device.hostProcessors / 2);
+        plan.publishers = std::min(kMostPublishers, device.hostProcessors - kOtherThreads);
     }
     plan.rays = plan.cloud && !camera.depth.pinhole();
     plan.fan = plan.cloud && camera.depth.fan;

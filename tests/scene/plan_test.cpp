@@ -191,12 +191,13 @@ TEST_CASE(
     CHECK(plan(DeviceKind::Discrete, 2, 64).inPlace);
     CHECK_FALSE(plan(DeviceKind::Discrete, 2, 0).inPlace);
     CHECK_FALSE(plan(DeviceKind::Discrete, 2, 65536).inPlace); // a camera's blocks are whole pages only
-    CHECK(plan(DeviceKind::Discrete, 64, 0).publishers == 8);
-    CHECK(plan(DeviceKind::Discrete, 16, 0).publishers == 8);
+    CHECK(plan(DeviceKind::Discrete, 64, 0).publishers == 12);
+    CHECK(plan(DeviceKind::Discrete, 16, 0).publishers == 12);
+    CHECK(plan(DeviceKind::Discrete, 12, 0).publishers == 8);
     CHECK(plan(DeviceKind::Discrete, 8, 0).publishers == 4);
     CHECK(plan(DeviceKind::Discrete, 7, 0).publishers == 1);
     CHECK(plan(DeviceKind::Discrete, 4, 0).publishers == 1);
-    CHECK(plan(DeviceKind::Cpu, 16, 0).publishers == 8); // which its passes need no more
+    CHECK(plan(DeviceKind::Cpu, 16, 0).publishers == 12); // which its passes need no more
     CHECK(plan(DeviceKind::Cpu, 2, 0).publishers == 2);
     CHECK(plan(DeviceKind::Cpu, 1, 0).publishers == 1);
     CHECK_FALSE(planOf(sceneOf({}), cameraOf(640, 480)).inPlace);
