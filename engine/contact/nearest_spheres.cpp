@@ -17,8 +17,28 @@ struct Minima {
     alignas(64) std::array<uint32_t, kMinima> slot;
 };
 
+// Whether some centre of a run is within `far` [m]: less work than mayReach(), and most runs have none within
+// what the largest sphere reaches.
+FATHOM_CLONES
+uint32_t anyWithin(const float* __restrict x, const float* __restrict y, const float* __restrict z,
+                   uint32_t count, float cx, float cy, float cz, float far) noexcept {
+    uint32_t any = 0;
+    for (uint32_t k = 0; k < count; ++k) {
+        const float dx = cx - x[k], dy = cy - y[k], dz = cz - z[k];
+        any |= dx * dx + dy * dy + dz * dz <= far * far ? 1u : 0u;
+    }
+    return any;
+}
+
+// How far from a leaf of radius r a sphere of that radius may lie that has a gap up to `limit`; the slack is
+// more than all that the exact gap rounds.
+inline float reachOf(float limit, float r, float radius) noexcept {
+    const float wide = (limit + (r + radius)) * 1.00001f + 1e-6f;
+    return wide > 0.0f ? wide : 0.0f;
+}
+
 // Whether some sphere of a run may have a gap up to `limit`: no root is taken for runs that have none, which
-// are most. Never misses one: the slack is more than all that the exact gap rounds.
+// are most. Never misses one.
 FATHOM_CLONES
 uint32_t mayReach(const float* __restrict x, const float* __restrict y, const float* __restrict z,
                   const float* __restrict radius, uint32_t count, float cx, float cy, float cz, float r,
@@ -26,8 +46,7 @@ uint32_t mayReach(const float* __restrict x, const float* __restrict y, const fl
     uint32_t any = 0;
     for (uint32_t k = 0; k < count; ++k) {
         const float dx = cx - x[k], dy = cy - y[k], dz = cz - z[k];
-        const float wide = (limit + (r + radius[k])) * 1.00001f + 1e-6f;
-        const float far = wide > 0.0f ? wide : 0.0f;
+        const float far = reachOf(limit, r, radius[k]);
         any |= dx * dx + dy * dy + dz * dz <= far * far ? 1u : 0u;
     }
     return any;
@@ -95,8 +114,10 @@ void nearestSpheres(const PosedLeaves& leaves, float limit, const RegionGrid& gr
             const uint32_t whole = steps * kMinima;
             const float *x = grid.x().data() + begin, *y = grid.y().data() + begin,
                         *z = grid.z().data() + begin, *radius = grid.radius().data() + begin;
-            if (mayReach(x, y, z, radius, std::max(whole, end - begin), leaves.x[i], leaves.y[i], leaves.z[i],
-                         r, least) == 0) {
+            const uint32_t count = std::max(whole, end - begin);
+            if (anyWithin(x, y, z, count, leaves.x[i], leaves.y[i], leaves.z[i],
+                          reachOf(least, r, static_cast<float>(grid.maxRadius()))) == 0 ||
+                mayReach(x, y, z, radius, count, leaves.x[i], leaves.y[i], leaves.z[i], r, least) == 0) {
                 return;
             }
             if (!any) {
