@@ -43,7 +43,7 @@ layout(std430, binding = 22) writeonly buffer Tags { uint tags[]; };  // (layer 
 layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; }; // listed patch -> place of its first packed sphere, and how many
 layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
 layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
-layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it
+layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it, for those who verify
 // Seen, kept and when, to read: an invocation reads a slot before it writes it, and no other does either.
 layout(binding = 18) uniform samplerBuffer seenBefore;
 layout(binding = 19) uniform samplerBuffer keptBefore;

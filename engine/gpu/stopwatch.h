@@ -6,7 +6,7 @@
 
 namespace fathom::gpu {
 
-// One submission's worth of marks. Reset on the host: on the device it costs a frame 3 us.
+// One submission's worth of marks. Reset on the host: the device would do it within the frame that it times.
 class Stopwatch {
 public:
     Stopwatch(const Device& device, uint32_t marks);
