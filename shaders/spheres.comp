@@ -60,22 +60,10 @@ const vec2 rays[1] = vec2[1](vec2(0.0));
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/leaks.glsl"
 #include "shaders/lib/thinning.glsl"
-#include "shaders/lib/thin_cell.glsl"
+#include "shaders/lib/thin_point.glsl"
 #include "shaders/lib/seen_sphere.glsl"
 
 const uint kLayers = kHold != 0 ? 2u : 1u;
-// By pixel, a group shares the thinning of the patch's 4x4 cells and of those left of and above it, 5 a row; spheres of the
-// patch, then held ones; and notes as in PixelResult.
-shared vec4 cells[kByPixel != 0 && kThin != 0 ? 25 : 1];
-shared vec4 all[kByPixel != 0 ? 256 * kLayers : 1];
-shared uint notesOfPatch[kByPixel != 0 ? 256 : 1];
-shared uint rememberedOfPatch; // as in `live`
-#include "shaders/lib/packing.glsl"
-
-CellsAround cellsOfGroup(uint sub) {
-    uint at = (sub >> 2) * 5u + (sub & 3u); // of the corner cell
-    return CellsAround(cells[at + 6u], cells[at + 5u], cells[at + 1u], cells[at]);
-}
 
 CellsAround cellsOfSub(ivec2 at) {
     return CellsAround(cellAt(at), cellAt(at - ivec2(4, 0)), cellAt(at - ivec2(0, 4)), cellAt(at - ivec2(4, 4)));
@@ -134,16 +122,6 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
         nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
         nodeCounts[sub] = count;
     }
-    if (count != 0) {
-        atomicAdd(counters.nodes, 1u);
-    }
-    if (kHold != 0 && notes.remembered != 0) {
-        if (kByPixel != 0) {
-            atomicAdd(rememberedOfPatch, notes.remembered);
-        } else {
-            atomicAdd(live[sub >> 4], notes.remembered); // zeroed before this pass
-        }
-    }
 }
 
 // Of row k of a sub-patch: seen points and held ones.
@@ -192,94 +170,15 @@ void wholeSub(uint sub) {
         radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
     }
     putBound(sub, centre, radius, count, notes);
-}
-
-// The same from what the group shares.
-void boundOfGroup(uint patchIndex, uint s) {
-    vec3 sum = vec3(0.0);
-    uint count = 0;
-    for (uint k = 0; k < 16u * kLayers; ++k) {
-        vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
-        sum += sphere.w >= 0.0 ? sphere.xyz : vec3(0.0);
-        count += sphere.w >= 0.0 ? 1u : 0u;
+    if (count != 0) {
+        atomicAdd(counters.nodes, 1u);
     }
-    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
-    float radius = -1.0;
-    for (uint k = 0; k < 16u * kLayers; ++k) {
-        vec4 sphere = all[(k >> 4) * 256u + s * 16u + (k & 15u)];
-        radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
-    }
-    for (uint k = 0; k < 4u; ++k) {
-        uint a = s * 16u + 4u * k, b = 256u * (kLayers - 1u) + a;
-        putRadii(patchIndex * 16u + s, k, vec4(all[a].w, all[a + 1u].w, all[a + 2u].w, all[a + 3u].w),
-                 vec4(all[b].w, all[b + 1u].w, all[b + 2u].w, all[b + 3u].w));
-    }
-    Notes notes = Notes(0, 0, uvec4(0));
-    [[unroll]] for (uint p = 0; p < 16u; ++p) {
-        notes = noted(notes, p, notesOfPatch[s * 16u + p]);
-    }
-    putBound(patchIndex * 16u + s, centre, radius, count, notes);
-}
-
-void prepareGroup(uint patchIndex, ivec2 patchAt) {
-    for (uint i = gl_LocalInvocationID.x; kThin != 0 && i < 25u; i += gl_WorkGroupSize.x) {
-        uvec2 cell = uvec2(i % 5u, i / 5u);
-        ivec2 at = patchAt + 4 * (ivec2(cell) - 1);
-        cells[i] = decidedAt(at);
-        if (min(cell.x, cell.y) > 0u) { // the patch's own
-            decided[patchIndex * 16u + (cell.y - 1u) * 4u + cell.x - 1u] = cells[i];
-        }
-    }
-    if (kPack != 0) {
-        for (uint w = gl_LocalInvocationID.x; w < 16u; w += gl_WorkGroupSize.x) {
-            present[w] = 0;
-        }
-    }
-    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
-        rememberedOfPatch = 0; // added to behind the barrier that follows the pixels
-    }
-    if (kThin != 0 || kPack != 0) {
-        barrier();
+    if (kHold != 0 && notes.remembered != 0) {
+        atomicAdd(live[sub >> 4], notes.remembered); // zeroed before this pass
     }
 }
 
-void wholePatch(uint patchIndex) {
-    uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
-    bool holding = (listed[patchIndex] & kPatchHolding) != 0;
-    prepareGroup(patchIndex, ivec2(patchAt));
-    for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
-        CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
-        if (kThin != 0) {
-            around = cellsOfGroup(i >> 4);
-        }
-        uint sub = patchIndex * 16u + (i >> 4);
-        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around, holding);
-        all[i] = r.sphere;
-        markPresent(i, r.sphere.w);
-        if (kHold != 0) {
-            all[256u * (kLayers - 1u) + i] = r.held;
-            markPresent(256u * (kLayers - 1u) + i, r.held.w);
-        }
-        notesOfPatch[i] = r.note;
-    }
-    barrier();
-    if (kPack != 0 && gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) {
-        placeRun(patchIndex);
-    }
-    for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
-        boundOfGroup(patchIndex, s);
-    }
-    if (kPack != 0 || kHold != 0) {
-        barrier();
-    }
-    if (kPack != 0) {
-        packPatch();
-    }
-    // Patches that are not listed remember nothing, before and after: all of them are written.
-    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
-        live[patchIndex] = rememberedOfPatch;
-    }
-}
+#include "shaders/lib/patch_group.glsl"
 
 // The listed patches that this dispatch is for.
 uint patchesOfPart() {

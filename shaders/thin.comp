@@ -20,7 +20,65 @@ layout(std430, binding = 6) writeonly buffer Cells { vec4 growth[]; }; // sub-pa
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/forbidden.glsl"
 #include "shaders/lib/slots.glsl"
-#include "shaders/lib/thin_cell.glsl"
+#include "shaders/lib/thin_point.glsl"
+
+const uint kEdge = 5u; // points of a 4x4 cell with the corners of the next ones: 5 x 5, y * 5 + x
+vec3 point[kEdge * kEdge];
+uint kind[kEdge * kEdge]; // forbidden class, kNone
+
+// The four sub-patches that the points lie in: own, right, below, across; their class bits, none outside the picture and in
+// patches without work.
+struct Quarter {
+    uint slot; // of its first pixel
+    uvec4 rows;
+};
+
+Quarter quarterAt(uvec2 at) {
+    bool inside = all(lessThan(at, params.size.xy));
+    uint slot = slotOfPixel(inside ? at : uvec2(0), params.size.z);
+    uint used = listed[slot >> 8];
+    uvec4 rows = rowsOfMasks(slot >> 4) & params.depthBand.w * 0x01010101u;
+    return Quarter(slot, all(bvec2(inside, used != 0)) ? rows : uvec4(0));
+}
+
+// Everything is read before anything is looked at: one delay of the memory, not 25.
+void readPoints(uvec2 at) {
+    Quarter quarters[4] = Quarter[4](quarterAt(at), quarterAt(at + uvec2(4, 0)), quarterAt(at + uvec2(0, 4)), quarterAt(at + uvec2(4, 4)));
+    float ranges[kEdge * kEdge];
+    [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
+        const uint x = i % kEdge, y = i / kEdge;
+        vec4 here = texelFetch(points, int(quarters[y / 4u * 2u + x / 4u].slot + (y & 3u) * 4u + (x & 3u)));
+        point[i] = here.xyz, ranges[i] = here.w;
+    }
+    [[unroll]] for (uint i = 0; i < kEdge * kEdge; ++i) {
+        const uint x = i % kEdge, y = i / kEdge;
+        uint mark = maskInRow(quarters[y / 4u * 2u + x / 4u].rows[y & 3u], x & 3u);
+        kind[i] = forbiddenClass(ranges[i] != 0.0 ? mark : 0u);
+    }
+}
+
+// Growth within the budget that lets the k x k cell whose own corner is point `first` drop all but that corner; -1 = it is kept
+// whole: not full of one class, or the budget does not allow it. Unrolled, and without a branch.
+float thinned(const uint first, const uint k) {
+    const uint c = kind[first];
+    float radius = radiusOf(c), most = 0.0;
+    Corners corners = cornersOf(point[first], point[first + k], point[first + k * kEdge], point[first + k * (kEdge + 1u)]);
+    uint others = c == kNone ? 1u : 0u;
+    [[unroll]] for (uint i = 0; i < (k + 1u) * (k + 1u); ++i) {
+        const uint x = i % (k + 1u), y = i / (k + 1u), at = first + y * kEdge + x;
+        others |= kind[at] ^ c;
+        most = max(most, askedBy(point[at], corners, float(x) / float(k), float(y) / float(k), radius));
+    }
+    return others == 0u ? growthOf(most, radius) : -1.0;
+}
+
+// Growth of the corners of the four 2x2 cells of the 4x4 cell at a pixel; x = -growth when it is thinned as one; 0 = kept whole.
+vec4 decidedCell(uvec2 at) {
+    readPoints(at);
+    float whole = thinned(0u, 4u);
+    vec4 quarters = max(vec4(0.0), vec4(thinned(0u, 2u), thinned(2u, 2u), thinned(2u * kEdge, 2u), thinned(2u * kEdge + 2u, 2u)));
+    return whole >= 0.0 ? vec4(-whole, 0.0, 0.0, 0.0) : quarters;
+}
 
 void main() {
     uint index = gl_GlobalInvocationID.x;

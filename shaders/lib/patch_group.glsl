@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// A patch by a group: an invocation a pixel, then one a sub-patch. Part of spheres.comp, as what it includes.
+
+const uint kWithin = kByPixel != 0 ? kThin : 0u; // 1: thinning is decided here
+// Spheres of the patch, then held ones; before them the points that thinning is decided about.
+shared vec4 ofPatch[kByPixel == 0 ? 1u : (kThin != 0 && kHold == 0 ? 441u : 256u * kLayers)];
+shared uint notesOfPatch[kByPixel != 0 ? 256 : 1]; // as in PixelResult
+shared uint rememberedOfPatch;                     // as in `live`
+#include "shaders/lib/thin_patch.glsl"
+#include "shaders/lib/packing.glsl"
+
+void boundOfGroup(uint patchIndex, uint s) {
+    vec3 sum = vec3(0.0);
+    uint count = 0;
+    for (uint k = 0; k < 16u * kLayers; ++k) {
+        vec4 sphere = ofPatch[(k >> 4) * 256u + s * 16u + (k & 15u)];
+        sum += sphere.w >= 0.0 ? sphere.xyz : vec3(0.0);
+        count += sphere.w >= 0.0 ? 1u : 0u;
+    }
+    vec3 centre = count != 0 ? sum / float(count) : vec3(0.0);
+    float radius = -1.0;
+    for (uint k = 0; k < 16u * kLayers; ++k) {
+        vec4 sphere = ofPatch[(k >> 4) * 256u + s * 16u + (k & 15u)];
+        radius = sphere.w >= 0.0 ? max(radius, distance(sphere.xyz, centre) + sphere.w) : radius;
+    }
+    for (uint k = 0; k < 4u; ++k) {
+        uint a = s * 16u + 4u * k, b = 256u * (kLayers - 1u) + a;
+        putRadii(patchIndex * 16u + s, k, vec4(ofPatch[a].w, ofPatch[a + 1u].w, ofPatch[a + 2u].w, ofPatch[a + 3u].w),
+                 vec4(ofPatch[b].w, ofPatch[b + 1u].w, ofPatch[b + 2u].w, ofPatch[b + 3u].w));
+    }
+    Notes notes = Notes(0, 0, uvec4(0));
+    [[unroll]] for (uint p = 0; p < 16u; ++p) {
+        notes = noted(notes, p, notesOfPatch[s * 16u + p]);
+    }
+    putBound(patchIndex * 16u + s, centre, radius, count, notes);
+    if (kHold != 0 && notes.remembered != 0) {
+        atomicAdd(rememberedOfPatch, notes.remembered);
+    }
+}
+
+void prepareGroup(uint patchIndex, ivec2 patchAt) {
+    for (uint w = gl_LocalInvocationID.x; w < 16u; w += gl_WorkGroupSize.x) {
+        present[w] = 0;
+    }
+    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
+        rememberedOfPatch = 0;
+    }
+    if (kThin != 0) {
+        decideCells(patchIndex, patchAt); // ends in a barrier
+    } else {
+        barrier();
+    }
+}
+
+void wholePatch(uint patchIndex) {
+    uvec2 patchAt = uvec2(patchIndex % params.size.z, patchIndex / params.size.z) * 16u;
+    bool holding = (listed[patchIndex] & kPatchHolding) != 0;
+    prepareGroup(patchIndex, ivec2(patchAt));
+    for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
+        CellsAround around = CellsAround(vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));
+        if (kThin != 0) {
+            around = cellsOfGroup(i >> 4);
+        }
+        uint sub = patchIndex * 16u + (i >> 4);
+        PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around, holding);
+        ofPatch[i] = r.sphere;
+        markPresent(i, r.sphere.w);
+        if (kHold != 0) {
+            ofPatch[256u * (kLayers - 1u) + i] = r.held;
+            markPresent(256u * (kLayers - 1u) + i, r.held.w);
+        }
+        notesOfPatch[i] = r.note;
+    }
+    barrier();
+    if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) {
+        countSubs();
+        placeRun(patchIndex);
+    }
+    for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
+        boundOfGroup(patchIndex, s);
+    }
+    if (kPack != 0 || kHold != 0) {
+        barrier();
+    }
+    packPatch();
+    // Patches that are not listed remember nothing, before and after: all of them are written.
+    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
+        live[patchIndex] = rememberedOfPatch;
+    }
+}

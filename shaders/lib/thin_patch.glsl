@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which points of a patch the error budget can do without, by its group: each quarter of each cell is asked by one invocation, for
+// itself and by another for the whole cell. Needs params, masks, points, listed, decided, masks.glsl, forbidden.glsl, slots.glsl,
+// thin_point.glsl, thinning.glsl, kWithin, and `ofPatch`, which the points lie in until the cells are decided.
+
+const uint kSide = 21u; // points of the patch's 4x4 cells and of those left of and above it, with the corners of the next ones
+const uint kCells = 25u, kQuarters = 4u * kCells;
+shared float asked[kWithin != 0 ? 2u * kQuarters : 1u]; // a quarter: R'^2 - R^2 of its cell, then its own growth; -1 = it is kept
+shared vec4 cells[kWithin != 0 ? kCells : 1u];          // as `growth`, 5 a row
+
+// Points of a square of pixels into `ofPatch`, w = forbidden class; kNone outside the picture and in patches without work.
+void readAround(ivec2 from) {
+    for (uint i = gl_LocalInvocationID.x; i < kSide * kSide; i += gl_WorkGroupSize.x) {
+        ivec2 at = from + ivec2(i % kSide, i / kSide);
+        bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
+        uint slot = slotOfPixel(inside ? uvec2(at) : uvec2(0), params.size.z);
+        vec4 point = texelFetch(points, int(slot));
+        uint mask = maskAt(slot) & params.depthBand.w, used = listed[slot >> 8];
+        uint kind = forbiddenClass(all(bvec3(inside, used != 0, point.w != 0.0)) ? mask : 0u);
+        ofPatch[i] = vec4(point.xyz, float(kind));
+    }
+}
+
+uint cornerOf(uint cell) {
+    return (cell / 5u * kSide + cell % 5u) * 4u;
+}
+
+// Of the nine points of a quarter: what they ask of the whole cell's corners, or the growth of the quarter's own.
+float askedOf(uint cell, uint quarter, bool whole) {
+    uvec2 corner = uvec2(quarter & 1u, quarter >> 1) * 2u;
+    uint from = cornerOf(cell) + corner.y * kSide + corner.x;
+    uint first = whole ? cornerOf(cell) : from, k = whole ? 4u : 2u;
+    vec4 own = ofPatch[first];
+    uint c = uint(own.w);
+    float radius = radiusOf(c), most = 0.0, share = whole ? 0.25 : 0.5;
+    Corners corners = cornersOf(own.xyz, ofPatch[first + k].xyz, ofPatch[first + k * kSide].xyz, ofPatch[first + k * (kSide + 1u)].xyz);
+    vec2 offset = whole ? vec2(corner) : vec2(0.0);
+    bool full = c != kNone;
+    [[unroll]] for (uint i = 0; i < 9u; ++i) {
+        vec4 q = ofPatch[from + i / 3u * kSide + i % 3u];
+        vec2 t = (offset + vec2(i % 3u, i / 3u)) * share;
+        most = max(most, askedBy(q.xyz, corners, t.x, t.y, radius));
+        full = all(bvec2(full, q.w == own.w));
+    }
+    return full ? (whole ? most : growthOf(most, radius)) : -1.0;
+}
+
+vec4 decidedOf(uint cell) {
+    uint a = cell * 4u;
+    vec4 ofWhole = vec4(asked[a], asked[a + 1u], asked[a + 2u], asked[a + 3u]);
+    a += kQuarters;
+    vec4 quarters = max(vec4(0.0), vec4(asked[a], asked[a + 1u], asked[a + 2u], asked[a + 3u]));
+    float least = min(min(ofWhole.x, ofWhole.y), min(ofWhole.z, ofWhole.w)), most = max(max(ofWhole.x, ofWhole.y), max(ofWhole.z, ofWhole.w));
+    float whole = growthOf(max(most, 0.0), radiusOf(uint(ofPatch[cornerOf(cell)].w)));
+    return min(least, whole) >= 0.0 ? vec4(-whole, 0.0, 0.0, 0.0) : quarters;
+}
+
+// All of the group call it; at the end `cells` are decided and `ofPatch` is free.
+void decideCells(uint patchIndex, ivec2 patchAt) {
+    readAround(patchAt - 4);
+    barrier();
+    for (uint i = gl_LocalInvocationID.x; i < 2u * kQuarters; i += gl_WorkGroupSize.x) {
+        uint quarter = i < kQuarters ? i : i - kQuarters;
+        asked[i] = askedOf(quarter >> 2, quarter & 3u, i < kQuarters);
+    }
+    barrier();
+    for (uint i = gl_LocalInvocationID.x; i < kCells; i += gl_WorkGroupSize.x) {
+        uvec2 cell = uvec2(i % 5u, i / 5u);
+        cells[i] = decidedOf(i);
+        if (min(cell.x, cell.y) > 0u) { // the patch's own
+            decided[patchIndex * 16u + (cell.y - 1u) * 4u + cell.x - 1u] = cells[i];
+        }
+    }
+    barrier();
+}
+
+CellsAround cellsOfGroup(uint sub) {
+    uint at = (sub >> 2) * 5u + (sub & 3u); // of the corner cell
+    return CellsAround(cells[at + 6u], cells[at + 5u], cells[at + 1u], cells[at]);
+}
