@@ -66,9 +66,18 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
             mark();
         }
     };
+    const auto runListing = [&](const auto& pass) { // what comes next is dispatched over its lists
+        pass->record(commands, upload);
+        commands.barrierBeforeIndirect();
+        mark();
+    };
     run(occlusion_, upload);
-    run(classify_, upload);
-    run(list_, upload);
+    if (list_) {
+        run(classify_, upload);
+        runListing(list_);
+    } else {
+        runListing(classify_);
+    }
     run(surface_, upload);
     run(thin_, upload);
     if (moments_ && spheres_) { // neither reads what the other writes: they overlap

@@ -8,6 +8,9 @@ namespace fathom::gpu {
 namespace {
 
 constexpr VkPipelineStageFlags kWork = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkAccessFlags kAccess = VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                                  VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                                  VK_ACCESS_TRANSFER_WRITE_BIT;
 
 } // namespace
 
@@ -81,18 +84,20 @@ void Commands::copy(const Buffer& from, const Buffer& to, uint64_t bytes) {
 }
 
 void Commands::barrier() {
-    barrier(kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT,
-            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
-                VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT);
+    barrier(kWork, kAccess);
+}
+
+void Commands::barrierBeforeIndirect() {
+    barrier(kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, kAccess | VK_ACCESS_INDIRECT_COMMAND_READ_BIT);
 }
 
 void Commands::barrier(VkPipelineStageFlags to, VkAccessFlags access) {
     VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     all.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     all.dstAccessMask = access;
-    // What only read before is waited for, too: its buffers may be written after.
-    vkCmdPipelineBarrier(handle_, kWork | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, to, 0, 1, &all, 0, nullptr, 0,
-                         nullptr);
+    // What only read before is waited for, too: its buffers may be written after. Arguments are read before the
+    // shaders that they start.
+    vkCmdPipelineBarrier(handle_, kWork, to, 0, 1, &all, 0, nullptr, 0, nullptr);
 }
 
 } // namespace fathom::gpu

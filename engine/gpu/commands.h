@@ -41,9 +41,10 @@ public:
     void fill(const Buffer& buffer, uint32_t value);                                      // the whole buffer
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
-    // Everything before is visible to everything after, indirect arguments included; the host is at the end()
-    // alone, for that costs a device with caches of its own.
+    // Everything before is visible to everything after but the host, which sees it at end(), and what reads
+    // indirect arguments: each of these two costs a GPU as much as the rest.
     void barrier();
+    void barrierBeforeIndirect(); // the same, and arguments that a pass wrote are there for dispatchIndirect()
 
 private:
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);
