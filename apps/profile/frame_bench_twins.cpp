@@ -27,7 +27,7 @@ std::vector<uint32_t> FrameBench::masks() const {
 }
 
 reference::PointPicture FrameBench::points() const {
-    return verify::pointsOf(device_, *cycle_, camera_, lease_->host.origin);
+    return verify::pointsOf(device_, *cycle_, *lease_, camera_);
 }
 
 namespace {

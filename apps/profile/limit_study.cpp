@@ -115,6 +115,7 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"spheres", {sphereBytes(l), 60.0 * l.slots + (l.thinsWithin ? thinOperations(l) : 0.0)}},
         {"tree", {l.slots / 16.0 * 20.0 * 17.0 / 16.0, l.slots / 16.0 * 30.0}},
         {"tree_query", {l.query.bytes, l.query.operations}},
+        {"deliver", {3.0 * (sizeof(shared::FrameCounters) + 4.0 * l.pixels / 256.0), 0.0}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
         {"collect", // read as the device packs, written as columns
          {l.spheres * (20.0 + 21.0), 0.0, Need::Where::Crew}},

@@ -33,16 +33,16 @@ reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle) {
     return out;
 }
 
-reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera,
-                                 const dvec3& origin) {
+reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
+                                 const CameraInfo& camera) {
     const auto slots = readBack<glm::vec4>(device, cycle.work().points);
-    const auto listed = readBack<uint32_t>(device, cycle.work().listed);
+    const auto listed = set.device.listed.as<uint32_t>();
     reference::PointPicture out;
     for (uint32_t v = 0; v < camera.depth.height; ++v) {
         for (uint32_t u = 0; u < camera.depth.width; ++u) {
             const uint32_t slot = slotOfPixel(u, v, cycle.layout().across);
             const glm::vec4 p = listed[slot / 256] != 0 ? slots[slot] : glm::vec4(0.0f);
-            out.at.push_back(p.w != 0.0f ? dvec3(p) + origin : dvec3(0.0));
+            out.at.push_back(p.w != 0.0f ? dvec3(p) + set.host.origin : dvec3(0.0));
             out.z.push_back(p.w);
         }
     }
@@ -82,7 +82,8 @@ reference::FrameView PassRig::view() const {
 }
 
 std::vector<uint32_t> PassRig::listed() const {
-    return readBack<uint32_t>(device_, cycle_->work().listed);
+    const auto listed = set().device.listed.as<uint32_t>();
+    return {listed.begin(), listed.end()};
 }
 
 std::vector<uint32_t> PassRig::masks() const {
@@ -90,7 +91,7 @@ std::vector<uint32_t> PassRig::masks() const {
 }
 
 reference::PointPicture PassRig::points() const {
-    return pointsOf(device_, *cycle_, camera_, origin());
+    return pointsOf(device_, *cycle_, set(), camera_);
 }
 
 std::vector<int> PassRig::forbidden() const {
@@ -184,7 +185,7 @@ std::vector<std::vector<reference::Bound>> PassRig::tree() const {
 }
 
 shared::FrameCounters PassRig::counters() const {
-    return readBack<shared::FrameCounters>(device_, cycle_->work().counters)[0];
+    return set().device.counters.as<shared::FrameCounters>()[0];
 }
 
 reference::CellPicture PassRig::cells() const {

@@ -21,11 +21,11 @@ struct Picture {
     std::vector<uint32_t> colour;
 };
 
-// What the passes left of the last frame: class bits a pixel, and points about `origin` in the base frame,
-// none in patches that are not listed.
+// What the passes left of the last frame: class bits a pixel, and points in the base frame, none in patches that are not
+// listed. set: that frame's.
 std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera);
-reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera,
-                                 const dvec3& origin);
+reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
+                                 const CameraInfo& camera);
 // Depths of the occlusion cells [m]; needs Plan::occlusion.
 reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle);
 

@@ -48,7 +48,6 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
                       uint32_t{c.plan.moments}, uint32_t{!c.plan.lists()}},
            {{1, inFours(c) != 0 ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels},
             {3, inFours(c) == 2 ? VK_FORMAT_R32G32B32A32_UINT : kColourTexels}}})
-    , work_(c.work)
     , groups_{c.plan.byPixel ? (c.layout.across + 3) / 4 : c.layout.across, c.layout.down,
               invocationsOf(c.plan) / classifyGroup(c.plan)} {}
 
@@ -61,13 +60,6 @@ void ClassifyPass::bind(uint32_t upload, const UploadBuffers& up) {
 }
 
 void ClassifyPass::record(gpu::Commands& commands, uint32_t upload) const {
-    shared::FrameCounters zero{};
-    zero.patchGroups = {0, 1, 1, 0};
-    zero.subGroups = {0, 1, 1, 0};
-    zero.guidedGroups = zero.quietGroups = zero.holdingGroups = {0, 1, 1, 0};
-    commands.update(work_.counters, 0, sizeof(zero), &zero);
-    commands.fill(work_.listed, 0);
-    commands.barrier();
     commands.dispatch(pipeline_, bindings_[upload], groups_);
 }
 

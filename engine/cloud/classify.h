@@ -17,7 +17,6 @@ private:
     CloudContext context_;
     gpu::Pipeline pipeline_;
     PerUpload<gpu::Bindings> bindings_;
-    const WorkBuffers& work_;
     std::array<uint32_t, 3> groups_; // patches across, down; groups a patch
 };
 

@@ -84,6 +84,9 @@ void FrameCycle::placeOrigin(const dvec3& origin) {
 void FrameCycle::clearMemory() {
     gpu::Commands commands(device_);
     commands.begin();
+    if (plan_.cloud) {
+        cloud::DeliverPass::clear(commands, work_); // as any frame leaves them
+    }
     for (const gpu::Buffer* buffer : {&work_.seen, &work_.kept, &work_.keptTime, &work_.live}) {
         if (*buffer) {
             commands.fill(*buffer, 0);

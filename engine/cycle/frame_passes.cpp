@@ -24,6 +24,7 @@ FramePasses::FramePasses(const cloud::CloudContext& c)
     add(c.plan.moments, moments_, "moments");
     add(c.plan.spheres, spheres_, "spheres");
     add(c.plan.tree, tree_, "tree");
+    add(c.plan.cloud, deliver_, "deliver");
 }
 
 void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
@@ -90,7 +91,9 @@ void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_
     }
     run(spheres_, upload, set);
     run(tree_, set);
-    recordCopies(commands, set);
+    recordCopies(commands, set); // beside what comes last
+    deliver_->record(commands, set);
+    mark();
     commands.end();
 }
 
@@ -101,8 +104,6 @@ void FramePasses::recordCopies(gpu::Commands& commands, uint32_t set) const {
             commands.copy(from, to, to.bytes());
         }
     };
-    copy(work_.counters, s.counters);
-    copy(work_.listed, s.listed);
     copy(work_.points, s.points);
     copy(work_.masks, s.masks);
 }

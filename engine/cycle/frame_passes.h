@@ -3,6 +3,7 @@
 #pragma once
 
 #include "engine/cloud/classify.h"
+#include "engine/cloud/deliver.h"
 #include "engine/cloud/list.h"
 #include "engine/cloud/moments.h"
 #include "engine/cloud/occlusion.h"
@@ -28,7 +29,7 @@ public:
     // new. No submission of that upload may be in flight.
     void bind(uint32_t upload, const cloud::UploadBuffers& buffers);
 
-    // One frame, ready to submit: passes, then the copies that the host reads. Nothing in it changes from
+    // One frame, ready to submit. Nothing in it changes from
     // frame to frame but what buffers hold, so it is recorded at the pair's first use only. No submission of
     // the same upload may be in flight.
     const gpu::Commands& frame(uint32_t upload, uint32_t set);
@@ -50,6 +51,7 @@ private:
     std::optional<cloud::SpheresPass> spheres_;
     std::optional<cloud::TreePass> tree_;
     std::optional<cloud::MomentsPass> moments_;
+    std::optional<cloud::DeliverPass> deliver_;
     std::vector<std::string> names_;
     const gpu::Device& device_;
     bool timed_;

@@ -123,6 +123,8 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("tree", plan.tree, "bounds up to one root for the query",
          plan.spheres ? "the CPU's query asks a grid" : "no forbidden class of points");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
+    pass("deliver", plan.cloud, "counters and marks of patches, to the host and cleared for the next frame",
+         "the scene has no class of points");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
          plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "nothing to collide with");
     (void)camera;
@@ -203,7 +205,7 @@ bool Plan::has(const std::string& name) const {
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
     // them in one group
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (lists() ? 1u : 0u) + (thins() ? 1u : 0u) +
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) + (thins() ? 1u : 0u) +
            (spheres ? (hold && lists() ? 2u : 1u) : 0u) + (tree ? 2u : 0u) + (moments ? 1u : 0u);
 }
 

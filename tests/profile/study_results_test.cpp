@@ -242,7 +242,7 @@ TEST_CASE(
     }
     REQUIRE(steps.size() == 4);
     for (const char* pass : {"upload", "occlusion", "classify", "list", "surface", "thin", "spheres", "tree",
-                             "tree_query", "moments", "collect", "grid"}) {
+                             "tree_query", "moments", "deliver", "collect", "grid"}) {
         CAPTURE(std::string(pass));
         CHECK(steps.at("two cameras, query on the device").count(pass) == 1);
     }

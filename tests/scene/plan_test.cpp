@@ -85,7 +85,7 @@ TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come i
     CHECK(plan.query == Plan::Query::Cpu);
     CHECK(plan.dispatchesPerFrame() == 6); // spheres of patches that hold points and of others
     const Plan behindBus = planOf(scene, cameraOf(640, 480), DeviceKind::Discrete);
-    CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 3));
+    CHECK((behindBus.pack && !plan.pack && behindBus.dispatchesPerFrame() == 4));
     CHECK((behindBus.keepDepth && !plan.keepDepth && !behindBus.tree));
     CHECK(plan.filterRadius == 2);
     CHECK(plan.edge);

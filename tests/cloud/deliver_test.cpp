@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a frame leaves on the device of its counters and marks, and what of them the host gets: against the class bits of its
+// pixels, counted here.
+#include "apps/verify/read_back.h"
+#include "tests/support/cloud_rig.h"
+
+#include <algorithm>
+#include <doctest/doctest.h>
+
+using namespace fathom;
+using namespace fathom::test;
+
+namespace {
+
+// A frame finds nothing counted: indirect arguments of no groups by one by one, and zeros.
+void checkCleared(const CloudRig& rig) {
+    const cloud::WorkBuffers& work = rig.cycle().work();
+    const auto words = verify::readBack<uint32_t>(vulkan().device, work.counters);
+    for (size_t i = 0; i < words.size(); ++i) {
+        CAPTURE(i);
+        CHECK(words[i] == (i < 20 && (i % 4 == 1 || i % 4 == 2) ? 1 : 0));
+    }
+    const auto listed = verify::readBack<uint32_t>(vulkan().device, work.listed);
+    CHECK(std::ranges::count(listed, 0u) == static_cast<std::ptrdiff_t>(listed.size()));
+}
+
+void checkDelivered(const CloudRig& rig) {
+    uint32_t pixels = 0;
+    std::vector<uint32_t> expected(rig.layout().patches(), 0);
+    const std::vector<uint32_t> masks = rig.masks();
+    for (size_t i = 0; i < masks.size(); ++i) {
+        const size_t u = i % rig.camera().depth.width, v = i / rig.camera().depth.width;
+        expected[v / 16 * rig.layout().across + u / 16] |= masks[i] != 0;
+        pixels += masks[i] != 0;
+    }
+    CHECK(rig.counters().classPixels[0] == pixels);
+    CHECK(rig.counters().patchGroups.x == static_cast<uint32_t>(std::ranges::count(expected, 1u)));
+    const std::vector<uint32_t> listed = rig.listed();
+    for (size_t patch = 0; patch < expected.size(); ++patch) {
+        CAPTURE(patch);
+        CHECK((listed[patch] != 0) == (expected[patch] != 0));
+    }
+}
+
+} // namespace
+
+TEST_CASE("The host gets each frame's own counters and marks, and the device keeps none of them") {
+    for (const bool byPixel : {false, true}) {
+        for (const auto& size : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {640u, 333u}}) {
+            const uint32_t width = size.first, height = size.second; // CAPTURE takes no structured binding
+            CAPTURE(byPixel);
+            CAPTURE(width);
+            const CameraInfo camera = pinholeCamera(width, height);
+            CloudRig rig(plainScene(), camera, [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; });
+            checkCleared(rig); // before the first frame
+            for (const double share : {1.0, 0.3, 0.0, 0.6}) { // full, some, empty
+                const auto depth = [&](int u, int) { return u < share * width ? 1.0 : 0.0; };
+                rig.run(drawnPicture(camera, depth));
+                checkDelivered(rig);
+                checkCleared(rig);
+            }
+            rig.cycle().forget();
+            checkCleared(rig);
+        }
+    }
+}
