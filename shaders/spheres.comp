@@ -39,8 +39,8 @@ layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 21) writeonly buffer Packed { vec4 packedSpheres[]; };
-layout(std430, binding = 22) writeonly buffer Tags { uint tags[]; };  // (layer * 256 + slot in the patch) * 8 + class
-layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; }; // listed patch -> place of its first packed sphere, and how many
+layout(std430, binding = 22) writeonly buffer Places { uint places[]; }; // 16 words a listed patch: bit (layer * 256 + slot in the patch) = packed
+layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> place of its first packed sphere; how many + 65536 x bits of their classes
 layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
 layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
 layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it, for those who verify
@@ -115,9 +115,6 @@ Notes noted(Notes n, const uint p, uint note) {
 // Paper eq. 3: centre = mean, radius = max(|s_k - centre| + r_k), rounded outward. Sums in fixed order.
 void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     bits[sub] = notes.marks;
-    if (kPack == 0) {
-        classes[sub] = notes.classes;
-    }
     if (kTree != 0) {
         nodes[sub] = vec4(centre, radius >= 0.0 ? radius * 1.000001 + 1e-7 : -1.0);
         nodeCounts[sub] = count;
@@ -170,6 +167,7 @@ void wholeSub(uint sub) {
         radius = mine[k].w >= 0.0 ? max(radius, reach) : radius;
     }
     putBound(sub, centre, radius, count, notes);
+    classes[sub] = notes.classes;
     if (count != 0) {
         atomicAdd(counters.nodes, 1u);
     }

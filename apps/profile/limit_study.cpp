@@ -81,7 +81,7 @@ double sphereBytes(const Load& l) {
     const double radii = l.pack ? 0.0 : 4.0 * layers + 1.0;
     const double whole = l.tree ? 16.0 * layers + 20.0 / 16.0 : 0.0;
     return l.slots * (16.0 + 1.0 + (l.thin ? 1.0 : 0.0) + 0.25 + hold + radii + whole) +
-           (l.pack ? 20.0 * l.spheres : 0.0);
+           (l.pack ? 16.0 * l.spheres + 72.0 / 256.0 * l.slots : 0.0);
 }
 
 // The pictures are read where the camera left them, or where they were uploaded to; where a pass before has
@@ -117,8 +117,8 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"tree_query", {l.query.bytes, l.query.operations}},
         {"deliver", {3.0 * (sizeof(shared::FrameCounters) + 4.0 * l.pixels / 256.0), 0.0}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
-        {"collect", // read as the device packs, written as columns
-         {l.spheres * (20.0 + 21.0), 0.0, Need::Where::Crew}},
+        {"collect", // read as the device packs or leaves them, written as columns
+         {l.spheres * ((l.pack ? 16.0 : 20.0) + 21.0), 0.0, Need::Where::Crew}},
         {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::Crew}},
     };
 }

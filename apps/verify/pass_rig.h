@@ -21,8 +21,8 @@ struct Picture {
     std::vector<uint32_t> colour;
 };
 
-// What the passes left of the last frame: class bits a pixel, and points in the base frame, none in patches that are not
-// listed. set: that frame's.
+// What the passes left of the last frame: class bits a pixel, and points in the base frame, none in patches
+// that are not listed. set: that frame's.
 std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera);
 reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
                                  const CameraInfo& camera);

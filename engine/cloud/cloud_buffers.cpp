@@ -49,8 +49,10 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     if (plan.thin) {
         growth = Buffer(device, subs * 16, MemoryKind::Device, "growth");
     }
-    if (plan.spheres && !plan.pack) {
+    if (plan.spheres && (!plan.pack || plan.classes > 1)) {
         classes = Buffer(device, slots, MemoryKind::Readback, "classes");
+    }
+    if (plan.spheres && !plan.pack) {
         radii = Buffer(device, slots * 4, MemoryKind::Readback, "radii");
         heldRadii = plan.hold ? Buffer(device, slots * 4, MemoryKind::Readback, "held radii") : Buffer();
     }
@@ -117,7 +119,7 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
     if (plan.pack) {
         const uint64_t most = slots * (plan.hold ? 2 : 1);
         packed = Buffer(device, most * 16, MemoryKind::Readback, "packed");
-        tags = Buffer(device, most * 4, MemoryKind::Readback, "tags");
+        places = Buffer(device, patches * 64, MemoryKind::Readback, "places");
         runs = Buffer(device, patches * 8, MemoryKind::Readback, "runs");
     }
     if (plan.moments) {

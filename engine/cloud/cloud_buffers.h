@@ -30,9 +30,11 @@ struct WorkBuffers {
     gpu::Buffer rays;                 // vec2 a pixel, row-major
     gpu::Buffer radii, heldRadii;     // float a slot: R of the sphere about its point, and about the point in
                                       // `kept`; < 0 = none. Empty with pack
-    gpu::Buffer classes; // uint8 a slot: class of the sphere | class of the held one << 4; empty with pack
+    gpu::Buffer classes; // uint8 a slot: class of the sphere | class of the held one << 4; with pack of
+                         // patches with several
     gpu::Buffer depth;   // uint16 a pixel, row-major: what classify read; empty unless kept
-    // points, kept, both radii and classes are what the CPU reads when the plan packs nothing.
+    // points, kept, both radii and classes are what the CPU reads when the plan packs nothing; else classes
+    // alone.
     gpu::Buffer unused; // stands in for what the plan leaves out
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
@@ -64,10 +66,11 @@ struct SetBuffers {
 
     gpu::Buffer
         packed; // vec4 a sphere, without gaps: a patch after the other, in any order; empty without pack
-    gpu::Buffer tags;          // uint a sphere: (layer * 256 + slot in the patch) * 8 + class
-    gpu::Buffer runs;          // uvec2 a listed patch: place of its first packed sphere, how many it has
-    gpu::Buffer bits;          // uint a sub-patch of a listed patch: pixels of a forbidden class
-    gpu::Buffer nodes;         // vec4 a node; empty without a tree
+    gpu::Buffer places; // 16 uint a listed patch: bit (layer * 256 + slot in the patch) = it has a sphere
+    gpu::Buffer runs;   // uvec2 a listed patch: place of its first packed sphere; how many it has + 65536 x
+                        // bits of their classes
+    gpu::Buffer bits;   // uint a sub-patch of a listed patch: pixels of a forbidden class
+    gpu::Buffer nodes;  // vec4 a node; empty without a tree
     gpu::Buffer nodeCounts;    // uint a node
     gpu::Buffer spheres, held; // vec4 a slot, R < 0 = none: what the GPU query reads; empty without one
     gpu::Buffer moments;       // PatchMoments, kMaxClasses a patch

@@ -5,6 +5,7 @@
 #include "engine/types/crew.h"
 
 #include <algorithm>
+#include <bit>
 #include <utility>
 
 namespace fathom::cloud {
@@ -14,98 +15,6 @@ namespace {
 constexpr uint32_t kLeastPart = 4096; // spheres
 constexpr size_t kLeastPatches = 64;  // that are counted in one go
 
-// Tags as spheres.comp packs them: (layer * 256 + slot in the patch) * 8 + class of points.
-constexpr uint32_t kClassMask = 7, kClassBits = 3;
-static_assert(shared::kMaxClasses <= kClassMask + 1);
-
-uint32_t tagOf(uint32_t place, uint32_t pointClass) {
-    return place << kClassBits | (pointClass & kClassMask);
-}
-
-FATHOM_CLONES void toColumns(const glm::vec4* spheres, size_t n, float* __restrict x, float* __restrict y,
-                             float* __restrict z, float* __restrict radius) noexcept {
-    for (size_t i = 0; i < n; ++i) {
-        x[i] = spheres[i].x, y[i] = spheres[i].y, z[i] = spheres[i].z, radius[i] = spheres[i].w;
-    }
-}
-
-// Pixels, row-major in the picture, of a patch whose first is `corner`; held points count on from the last
-// pixel. The order in which spheres are collected is by pixel.
-FATHOM_CLONES void toSources(const uint32_t* tags, size_t n, uint32_t corner, uint32_t width, uint32_t pixels,
-                             uint32_t* __restrict source) noexcept {
-    for (size_t i = 0; i < n; ++i) {
-        const uint32_t place = tags[i] >> kClassBits;
-        const uint32_t row = (place >> 6 & 3) * 4 + (place >> 2 & 3);
-        const uint32_t column = (place >> 4 & 3) * 4 + (place & 3);
-        source[i] = corner + row * width + column + (place >> 8) * pixels;
-    }
-}
-
-FATHOM_CLONES uint32_t countClass(const uint32_t* tags, size_t n, uint32_t pointClass) noexcept {
-    uint32_t count = 0;
-    for (size_t i = 0; i < n; ++i) {
-        count += static_cast<uint32_t>((tags[i] & kClassMask) == pointClass);
-    }
-    return count;
-}
-
-} // namespace
-
-// Writes the host's columns, which are large enough already, in order of patches.
-class SphereColumns {
-public:
-    SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout)
-        : set_(set)
-        , across_(layout.across)
-        , width_(set.host.camera.depth.width)
-        , pixels_(static_cast<uint32_t>(set.host.camera.depth.pixels())) {
-        std::ranges::transform(rows, rows_.begin(), [](uint32_t row) { return static_cast<uint8_t>(row); });
-    }
-
-    // All n > 0 spheres of a patch, from the columns' place `first` on.
-    void put(uint32_t patch, size_t first, uint32_t n, const glm::vec4* spheres, const uint32_t* tags) {
-        RegionSpheres& out = set_.host.spheres;
-        toColumns(spheres, n, &out.x[first], &out.y[first], &out.z[first], &out.radius[first]);
-        const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
-        toSources(tags, n, corner, width_, pixels_, &out.source[first]);
-        putClasses(&out.fixture[first], n, tags);
-        for (uint32_t i = 0; i < n && !set_.keys.empty(); ++i) {
-            set_.keys[first + i] = patch * 512 + (tags[i] >> kClassBits);
-        }
-    }
-
-    const SphereCounts& counts() const { return counts_; }
-
-private:
-    void putClasses(uint8_t* fixture, uint32_t n, const uint32_t* tags) {
-        counts_.all += n;
-        ++counts_.patches;
-        uint32_t classes = 0, left = n;
-        for (uint32_t c = 0; left > 0 && c < shared::kMaxClasses; ++c) {
-            const uint32_t here = countClass(tags, n, c);
-            counts_.ofClass[c] += here;
-            counts_.patchesOfClass[c] += here != 0;
-            classes += here != 0;
-            left -= here;
-        }
-        if (classes == 1) { // as in most patches
-            std::fill_n(fixture, n, rows_[tags[0] & kClassMask]);
-            return;
-        }
-        const std::array rows = rows_; // a byte that is written might be any of the members otherwise
-        for (uint32_t i = 0; i < n; ++i) {
-            fixture[i] = rows[tags[i] & kClassMask];
-        }
-    }
-
-    FixtureSet& set_;
-    SphereCounts counts_;
-    uint32_t across_, width_, pixels_;
-    std::array<uint8_t, shared::kMaxClasses> rows_{}; // of the scene's fixtures, for each class
-};
-
-namespace {
-
 // The device has just written them, patches in any order: none of a run's lines is near, and the processor
 // cannot guess where the next run begins.
 template <class T>
@@ -114,6 +23,15 @@ void bringNear(std::span<T> run) noexcept {
     for (size_t i = 0; i < run.size(); i += kLine / sizeof(T)) {
         __builtin_prefetch(&run[i]);
     }
+}
+
+// Of 32 slots, < 0 = none.
+FATHOM_CLONES uint32_t bitsOfSpheres(const float* radii) noexcept {
+    uint32_t bits = 0;
+    for (uint32_t k = 0; k < 32; ++k) {
+        bits |= static_cast<uint32_t>(radii[k] >= 0.0f) << k;
+    }
+    return bits;
 }
 
 void add(SphereCounts& to, const SphereCounts& more) {
@@ -160,13 +78,13 @@ uint32_t SphereCollector::spheresOf(uint32_t patch) const noexcept {
         return 0;
     }
     if (plan_.pack) {
-        return set_.device.runs.as<glm::uvec2>()[patch].y;
+        return set_.device.runs.as<glm::uvec2>()[patch].y & 0xffff;
     }
     uint32_t n = 0;
     for (const gpu::Buffer* radii : {&work_.radii, &work_.heldRadii}) {
         const float* const r = *radii ? &radii->as<float>()[size_t{patch} * 256] : nullptr;
-        for (uint32_t slot = 0; r != nullptr && slot < 256; ++slot) {
-            n += r[slot] >= 0.0f ? 1u : 0u;
+        for (uint32_t slot = 0; r != nullptr && slot < 256; slot += 32) {
+            n += static_cast<uint32_t>(std::popcount(bitsOfSpheres(r + slot)));
         }
     }
     return n;
@@ -178,7 +96,7 @@ void SphereCollector::take(uint32_t part) noexcept {
         const uint64_t sphere = begins_.back() * share / parts();
         return static_cast<uint32_t>(std::ranges::lower_bound(begins_, sphere) - begins_.begin());
     };
-    SphereColumns columns(set_, rows_, layout_);
+    SphereColumns columns(set_, rows_, layout_, plan_.hold);
     if (plan_.pack) {
         takePacked(patchAt(part), patchAt(part + 1), columns);
     } else {
@@ -198,13 +116,14 @@ SphereCounts SphereCollector::counts() const {
 // Of patches [first, end).
 void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
     const auto packed = set_.device.packed.as<glm::vec4>();
-    const auto tags = set_.device.tags.as<uint32_t>();
+    const auto places = set_.device.places.as<uint32_t>();
     const auto runs = set_.device.runs.as<glm::uvec2>();
+    const uint8_t* const classes = work_.classes ? work_.classes.as<uint8_t>().data() : nullptr;
     const auto bring = [&](uint32_t patch) {
         const uint32_t n = patch < end ? begins_[patch + 1] - begins_[patch] : 0;
         if (n > 0) {
             bringNear(packed.subspan(runs[patch].x, n));
-            bringNear(tags.subspan(runs[patch].x, n));
+            bringNear(places.subspan(size_t{patch} * 16, 8));
         }
     };
     bring(first);
@@ -212,7 +131,9 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
         bring(patch + 1);
         const uint32_t n = begins_[patch + 1] - begins_[patch];
         if (n > 0) {
-            columns.put(patch, begins_[patch], n, &packed[runs[patch].x], &tags[runs[patch].x]);
+            columns.put(patch, begins_[patch],
+                        {n, &packed[runs[patch].x], &places[size_t{patch} * 16], runs[patch].y >> 16,
+                         classes != nullptr ? classes + size_t{patch} * 256 : nullptr});
         }
     }
 }
@@ -223,22 +144,24 @@ void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& col
                                                            work_.kept.as<glm::vec4>()};
     const std::array<std::span<const float>, 2> radii{work_.radii.as<float>(), work_.heldRadii.as<float>()};
     const auto classes = work_.classes.as<uint8_t>();
-    std::array<glm::vec4, 513> spheres; // of a patch, and a place that is written beyond them
-    std::array<uint32_t, 513> tags;
+    std::array<glm::vec4, 512> spheres; // of a patch
+    std::array<uint32_t, 16> places;
     for (uint32_t patch = first; patch < end; ++patch) {
-        uint32_t n = 0;
+        uint32_t n = 0, of = 0;
         const uint32_t layers = begins_[patch + 1] == begins_[patch] ? 0 : (plan_.hold ? 2 : 1);
-        for (uint32_t layer = 0; layer < layers; ++layer) {
-            for (uint32_t slot = 0; slot < 256; ++slot) {
-                const size_t at = size_t{patch} * 256 + slot;
-                const float radius = radii[layer][at];
-                spheres[n] = glm::vec4(glm::vec3(points[layer][at]), radius);
-                tags[n] = tagOf(layer * 256 + slot, classes[at] >> (4 * layer) & 15u);
-                n += radius >= 0.0f ? 1u : 0u;
+        for (uint32_t word = 0; word < 8 * layers; ++word) {
+            const uint32_t layer = word / 8;
+            const size_t at = size_t{patch} * 256 + word % 8 * 32;
+            places[word] = bitsOfSpheres(&radii[layer][at]);
+            for (uint32_t bits = places[word]; bits != 0; bits &= bits - 1) {
+                const size_t slot = at + static_cast<size_t>(std::countr_zero(bits));
+                spheres[n++] = glm::vec4(glm::vec3(points[layer][slot]), radii[layer][slot]);
+                of |= 1u << (classes[slot] >> 4 * layer & 7u);
             }
         }
         if (n > 0) {
-            columns.put(patch, begins_[patch], n, spheres.data(), tags.data());
+            columns.put(patch, begins_[patch],
+                        {n, spheres.data(), places.data(), of, &classes[size_t{patch} * 256]});
         }
     }
 }

@@ -3,24 +3,13 @@
 // then slot.
 #pragma once
 
-#include "engine/cloud/fixture_set.h"
-#include "shaders/shared/frame_params.h"
-
-#include <array>
+#include "engine/cloud/sphere_columns.h"
 
 namespace fathom {
 class Crew;
 }
 
 namespace fathom::cloud {
-
-// How many spheres there are, and in how many patches.
-struct SphereCounts {
-    uint32_t all = 0, patches = 0;                                         // patches with at least one sphere
-    std::array<uint32_t, shared::kMaxClasses> ofClass{}, patchesOfClass{}; // a class of points
-};
-
-class SphereColumns; // where they go
 
 // Fills set.host.spheres and, for a GPU query, set.keys, in parts that several threads may share. rows: row
 // of Scene::fixtures of each class of points. Allocates when it is made; taking does not.

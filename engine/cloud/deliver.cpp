@@ -13,7 +13,8 @@ DeliverPass::DeliverPass(const CloudContext& c)
     if (!c.plan.delivers()) {
         return;
     }
-    pipeline_.emplace(c.device, gpu::PipelineInfo{"deliver", deliver_spv, 4, false, 0, std::array{c.plan.subGroup}});
+    pipeline_.emplace(c.device,
+                      gpu::PipelineInfo{"deliver", deliver_spv, 4, false, 0, std::array{c.plan.subGroup}});
     for (const SetBuffers* s : c.sets) {
         bindings_.emplace_back(c.device, *pipeline_,
                                std::initializer_list<const gpu::Buffer*>{&c.work.counters, &c.work.listed,

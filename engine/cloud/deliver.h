@@ -9,8 +9,8 @@
 
 namespace fathom::cloud {
 
-// The pass shaders/deliver.comp on a GPU, where each copy and each fill takes as long as a dispatch; copies and fills where the
-// device is the CPU, which does these at once and starts its threads for a dispatch.
+// The pass shaders/deliver.comp on a GPU, where each copy and each fill takes as long as a dispatch; copies
+// and fills where the device is the CPU, which does these at once and starts its threads for a dispatch.
 class DeliverPass {
 public:
     explicit DeliverPass(const CloudContext& context);

@@ -46,7 +46,7 @@ void SpheresPass::bind(uint32_t upload, const UploadBuffers& up) {
                 &up.params,  &depthOf(w, up), &w.masks,    &w.points,  &w.listed,   &w.list,
                 &w.growth,   &w.counters,     &w.seen,     &w.kept,    &w.keptTime, &w.live,
                 &s->spheres, &s->held,        &w.classes,  &s->bits,   &s->nodes,   &s->nodeCounts,
-                &w.seen,     &w.kept,         &w.keptTime, &s->packed, &s->tags,    &s->runs,
+                &w.seen,     &w.kept,         &w.keptTime, &s->packed, &s->places,  &s->runs,
                 &w.radii,    &w.heldRadii,    &w.growth},
             w.unused);
     }

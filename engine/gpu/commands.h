@@ -44,7 +44,8 @@ public:
     // Everything before is visible to everything after but the host, which sees it at end(), and what reads
     // indirect arguments: each of these two costs a GPU as much as the rest.
     void barrier();
-    void barrierBeforeIndirect(); // the same, and arguments that a pass wrote are there for dispatchIndirect()
+    void
+    barrierBeforeIndirect(); // the same, and arguments that a pass wrote are there for dispatchIndirect()
 
 private:
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);

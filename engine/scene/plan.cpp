@@ -153,11 +153,17 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
     buffer("sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
            plan.tree ? "of one fixture set: the GPU query reads them" : "no query asks the device");
-    buffer("radii and classes", plan.spheres && !plan.pack, slots * (plan.hold ? 9u : 5u),
+    buffer("radii", plan.spheres && !plan.pack, slots * (plan.hold ? 8u : 4u),
            !plan.spheres ? "no forbidden class of points"
            : plan.pack   ? "the host reads packed spheres"
                          : "the host reads them beside the points");
-    buffer("packed spheres", plan.pack, slots * (plan.hold ? 40u : 20u) + 8ull * layout.patches(),
+    const bool packedClasses = plan.pack && plan.classes > 1;
+    buffer("classes of spheres", plan.spheres && (!plan.pack || packedClasses), slots,
+           !plan.spheres   ? "no forbidden class of points"
+           : packedClasses ? "of patches with spheres of several"
+           : plan.pack     ? "there is one"
+                           : "the host reads them beside the points");
+    buffer("packed spheres", plan.pack, slots * (plan.hold ? 32u : 16u) + 72ull * layout.patches(),
            !plan.spheres ? "no forbidden class of points"
            : plan.pack   ? "of one fixture set"
                          : "the host reads radii beside the points");
@@ -205,8 +211,9 @@ bool Plan::has(const std::string& name) const {
 uint32_t Plan::dispatchesPerFrame() const {
     // classify and surface; patches that hold nothing, then those that do; the tree's patches, then all above
     // them in one group
-    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) + (thins() ? 1u : 0u) +
-           (spheres ? (hold && lists() ? 2u : 1u) : 0u) + (tree ? 2u : 0u) + (moments ? 1u : 0u);
+    return (occlusion ? 1u : 0u) + (cloud ? 2u : 0u) + (delivers() ? 1u : 0u) + (lists() ? 1u : 0u) +
+           (thins() ? 1u : 0u) + (spheres ? (hold && lists() ? 2u : 1u) : 0u) + (tree ? 2u : 0u) +
+           (moments ? 1u : 0u);
 }
 
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {

@@ -1,13 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // A group's patch into the row that the host reads, by layer (seen, held), then slot. Needs counters, kPack, kLayers, ofPatch,
-// notesOfPatch and packedSpheres, tags, runs.
+// notesOfPatch, kClasses and packedSpheres, places, runs.
 
 shared uint present[16]; // bit a place: spheres of the patch, then held ones
 shared uint packedFrom;
+shared uint classesOfPatch; // bit a class that a sphere is of
 
 void markPresent(uint place, float radius) {
     if (radius >= 0.0) {
         atomicOr(present[place >> 5], 1u << (place & 31u));
+    }
+}
+
+// Most patches have one class: after the first nobody has to wait for its bit.
+void markClass(uint bit, float radius) {
+    if (radius >= 0.0 && (classesOfPatch & bit) == 0) {
+        atomicOr(classesOfPatch, bit);
     }
 }
 
@@ -40,17 +48,18 @@ void placeRun(uint patchIndex) {
             count += bitCount(present[w]);
         }
         packedFrom = count != 0 ? atomicAdd(counters.spheres, count) : 0u;
-        runs[patchIndex] = uvec2(packedFrom, count);
+        runs[patchIndex] = uvec2(packedFrom, count | classesOfPatch << 16);
     }
 }
 
-void packPatch() {
+// Slots are not said one by one: the bits of those that are there are less to send.
+void packPatch(uint patchIndex) {
+    for (uint w = gl_LocalInvocationID.x; kPack != 0 && w < 8u * kLayers; w += gl_WorkGroupSize.x) {
+        places[patchIndex * 16u + w] = present[w];
+    }
     for (uint place = gl_LocalInvocationID.x; kPack != 0 && place < 256u * kLayers; place += gl_WorkGroupSize.x) {
         if ((present[place >> 5] >> (place & 31u) & 1u) != 0) {
-            uint to = packedFrom + rankOf(place);
-            uint both = notesOfPatch[place & 255u] >> 8;
-            packedSpheres[to] = ofPatch[place];
-            tags[to] = place * 8u + ((place >= 256u ? both >> 4 : both) & 7u);
+            packedSpheres[packedFrom + rankOf(place)] = ofPatch[place];
         }
     }
 }

@@ -33,6 +33,9 @@ void boundOfGroup(uint patchIndex, uint s) {
         notes = noted(notes, p, notesOfPatch[s * 16u + p]);
     }
     putBound(patchIndex * 16u + s, centre, radius, count, notes);
+    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch) > 1)) { // else the run says it
+        classes[patchIndex * 16u + s] = notes.classes;
+    }
     if (kHold != 0 && notes.remembered != 0) {
         atomicAdd(rememberedOfPatch, notes.remembered);
     }
@@ -42,8 +45,8 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
     for (uint w = gl_LocalInvocationID.x; w < 16u; w += gl_WorkGroupSize.x) {
         present[w] = 0;
     }
-    if (kHold != 0 && gl_LocalInvocationID.x == 0) {
-        rememberedOfPatch = 0;
+    if (gl_LocalInvocationID.x == 0) {
+        rememberedOfPatch = 0, classesOfPatch = 0;
     }
     if (kThin != 0) {
         decideCells(patchIndex, patchAt); // ends in a barrier
@@ -65,9 +68,11 @@ void wholePatch(uint patchIndex) {
         PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around, holding);
         ofPatch[i] = r.sphere;
         markPresent(i, r.sphere.w);
+        markClass(1u << (r.note >> 8 & 15u), r.sphere.w);
         if (kHold != 0) {
             ofPatch[256u * (kLayers - 1u) + i] = r.held;
             markPresent(256u * (kLayers - 1u) + i, r.held.w);
+            markClass(1u << (r.note >> 12 & 15u), r.held.w);
         }
         notesOfPatch[i] = r.note;
     }
@@ -82,7 +87,7 @@ void wholePatch(uint patchIndex) {
     if (kPack != 0 || kHold != 0) {
         barrier();
     }
-    packPatch();
+    packPatch(patchIndex);
     // Patches that are not listed remember nothing, before and after: all of them are written.
     if (kHold != 0 && gl_LocalInvocationID.x == 0) {
         live[patchIndex] = rememberedOfPatch;

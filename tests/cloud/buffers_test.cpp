@@ -28,13 +28,14 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
         CHECK(built(*b) == plan.cloud);
     }
     CHECK(built(s.bits) == plan.spheres);
-    CHECK((built(w.radii) && built(w.classes)) == (plan.spheres && !plan.pack));
+    CHECK(built(w.radii) == (plan.spheres && !plan.pack));
+    CHECK(built(w.classes) == (plan.spheres && (!plan.pack || plan.classes > 1)));
     for (const gpu::Buffer* b : {&s.nodes, &s.nodeCounts, &s.spheres}) {
         CHECK(built(*b) == plan.tree);
     }
     CHECK(built(s.held) == (plan.tree && plan.hold));
     CHECK(built(w.depth) == plan.keepDepth);
-    for (const gpu::Buffer* b : {&s.packed, &s.tags, &s.runs}) {
+    for (const gpu::Buffer* b : {&s.packed, &s.places, &s.runs}) {
         CHECK(built(*b) == plan.pack);
     }
     CHECK(built(s.moments) == plan.moments);
@@ -54,8 +55,9 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
     sizeOf("depth on the device", w.depth.bytes());
     sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
     sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes());
-    sizeOf("radii and classes", w.radii.bytes() + w.heldRadii.bytes() + w.classes.bytes());
-    sizeOf("packed spheres", s.packed.bytes() + s.tags.bytes() + s.runs.bytes());
+    sizeOf("radii", w.radii.bytes() + w.heldRadii.bytes());
+    sizeOf("classes of spheres", w.classes.bytes());
+    sizeOf("packed spheres", s.packed.bytes() + s.places.bytes() + s.runs.bytes());
     sizeOf("tree nodes", s.nodes.bytes() + s.nodeCounts.bytes());
     sizeOf("moments", s.moments.bytes());
 }

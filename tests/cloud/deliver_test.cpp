@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame leaves on the device of its counters and marks, and what of them the host gets: against the class bits of its
-// pixels, counted here.
+// What a frame leaves on the device of its counters and marks, and what of them the host gets: against the
+// class bits of its pixels, counted here.
 #include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
 
@@ -52,7 +52,7 @@ TEST_CASE("The host gets each frame's own counters and marks, and the device kee
             CAPTURE(width);
             const CameraInfo camera = pinholeCamera(width, height);
             CloudRig rig(plainScene(), camera, [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; });
-            checkCleared(rig); // before the first frame
+            checkCleared(rig);                                // before the first frame
             for (const double share : {1.0, 0.3, 0.0, 0.6}) { // full, some, empty
                 const auto depth = [&](int u, int) { return u < share * width ? 1.0 : 0.0; };
                 rig.run(drawnPicture(camera, depth));

@@ -3,6 +3,8 @@
 #include "tests/support/cloud_rig.h"
 
 #include <doctest/doctest.h>
+#include <map>
+#include <set>
 
 using namespace fathom;
 using namespace fathom::test;
@@ -159,4 +161,37 @@ TEST_CASE("Slots that a GPU query keeps for itself are packed the same") {
     checkPacked(rig);
     CHECK(rig.set().keys.size() == rig.host().spheres.size());
     CHECK(std::is_sorted(rig.set().keys.begin(), rig.set().keys.end()));
+}
+
+TEST_CASE("Packed spheres have the class that they have in their slots, in patches of one class and of "
+          "several, seen and held") {
+    const CameraInfo camera = pinholeCamera(150, 70);
+    for (const uint32_t classes : {1u, 3u, 8u}) {
+        CAPTURE(classes);
+        Scene scene = classesScene(classes);
+        scene.holdSeconds = 1.0;
+        CloudRig packed(scene, camera, packing(true)), slots(scene, camera, packing(false));
+        std::map<uint32_t, std::set<uint8_t>> ofPatch;
+        bool held = false;
+        for (const uint64_t seed : {3, 4, 5}) {
+            Picture picture = stressPicture(camera, 3);
+            for (size_t p = 0; seed > 3 && p < picture.depth.size(); p += seed) { // held ones, too
+                picture.depth[p] = 0;
+            }
+            packed.run(picture), slots.run(picture);
+            const RegionSpheres &a = packed.host().spheres, &b = slots.host().spheres;
+            REQUIRE(a.source == b.source);
+            CHECK(a.fixture == b.fixture);
+            for (size_t i = 0; i < a.size(); ++i) {
+                const uint32_t pixel = a.source[i] % (150 * 70);
+                held = held || a.source[i] != pixel;
+                ofPatch[pixel / 150 / 16 * 16 + pixel % 150 / 16].insert(a.fixture[i]);
+            }
+        }
+        const auto several =
+            std::ranges::count_if(ofPatch, [](const auto& patch) { return patch.second.size() > 1; });
+        CHECK(held);
+        CHECK((several > 0) == (classes > 1));
+        CHECK((classes == 8 || several < static_cast<std::ptrdiff_t>(ofPatch.size())));
+    }
 }

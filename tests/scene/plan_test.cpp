@@ -223,7 +223,7 @@ TEST_CASE("Every item says why, what is left out takes no memory, what is in tak
                    item.kind == "arm"));
             CHECK((item.bytes > 0) == (item.kind == "buffer" && item.in));
             // An arm changes the query, the host reads spheres in one way only, and a GPU lists as it marks.
-            CHECK((plan == &nothing || item.in || item.kind == "arm" || item.name == "radii and classes" ||
+            CHECK((plan == &nothing || item.in || item.kind == "arm" || item.name == "radii" ||
                    item.name == "list"));
             CHECK((plan == &everything || item.kind == "thread" || !item.in));
             CHECK((plan == &nothing || names.insert(item.kind + item.name).second));
