@@ -30,7 +30,9 @@ layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot 
 
 const uint kHalo = kRadius > 1u ? kRadius : 1u;
 const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
-shared float tile[kTileEdge * kTileEdge];
+// Points of the camera frame, each worked out once: a ray is two divisions, and a point is asked for by up to 25 pixels, and by
+// its neighbours again. Column by column, so that neighbours lie in banks of their own.
+shared float tileX[kTileEdge * kTileEdge], tileY[kTileEdge * kTileEdge], tileZ[kTileEdge * kTileEdge];
 
 bool outside(ivec2 at) { // no && and no ||, which branch
     return any(greaterThanEqual(uvec2(at), params.size.xy)); // below zero is beyond the end
@@ -42,33 +44,42 @@ float depthOfPixel(ivec2 at) {
     return beyond ? 0.0 : z;
 }
 
+// Rounded here, wherever it is taken apart from another one: from shared memory, from registers or at once.
+vec3 pointAt(ivec2 at, float z) {
+    precise vec2 beside = rayOf(uvec2(at)) * z;
+    return vec3(beside, z);
+}
+
 void fillTile(ivec2 patchOrigin) {
     for (uint i = gl_LocalInvocationID.x; i < kTileEdge * kTileEdge; i += gl_WorkGroupSize.x) {
-        tile[i] = depthOfPixel(patchOrigin - int(kHalo) + ivec2(i % kTileEdge, i / kTileEdge));
+        ivec2 at = patchOrigin - int(kHalo) + ivec2(i % kTileEdge, i / kTileEdge);
+        vec3 p = pointAt(at, depthOfPixel(at));
+        tileX[i] = p.x, tileY[i] = p.y, tileZ[i] = p.z;
     }
     barrier();
 }
 
-// Depth at a pixel of the window; within the tile when there is one.
-float windowDepth(ivec2 at, ivec2 patchOrigin) {
+// Point at a pixel of the window, z = 0 where there is no depth; within the tile when there is one.
+vec3 windowPoint(ivec2 at, ivec2 patchOrigin) {
     if (kTiled != 0) {
         ivec2 t = at - patchOrigin + int(kHalo);
-        return tile[t.y * int(kTileEdge) + t.x];
+        int i = t.y * int(kTileEdge) + t.x;
+        return vec3(tileX[i], tileY[i], tileZ[i]);
     }
-    return depthOfPixel(at);
+    return pointAt(at, depthOfPixel(at));
 }
 
-vec3 pointAt(ivec2 at, float z) {
-    return vec3(rayOf(uvec2(at)) * z, z);
-}
-
-// The pixel and its eight neighbours, row by row; 0 = no depth there.
-float[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
-    float around[9];
-    for (int k = 0; k < 9; ++k) {
-        around[k] = windowDepth(at + ivec2(k % 3 - 1, k / 3 - 1), patchOrigin);
+// The pixel and its eight neighbours, row by row.
+vec3[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
+    vec3 around[9];
+    [[unroll]] for (int k = 0; k < 9; ++k) {
+        around[k] = windowPoint(at + ivec2(k % 3 - 1, k / 3 - 1), patchOrigin);
     }
     return around;
+}
+
+float[9] depthsOf(vec3 p[9]) {
+    return float[9](p[0].z, p[1].z, p[2].z, p[3].z, p[4].z, p[5].z, p[6].z, p[7].z, p[8].z);
 }
 
 // Three neighbours on one side. -1: all valid ones are nearer than z by more than the edge; +1: all farther; 0: neither.
@@ -89,15 +100,13 @@ bool isFlying(float n[9]) {
 }
 
 // Fewer than 2 of the 8 neighbours within the isolation distance: marine snow, a speck of noise.
-bool isIsolated(ivec2 at, float n[9]) {
-    float limit = max(params.filterParams.z, params.filterParams.w * n[4]);
-    vec3 p = pointAt(at, n[4]);
-    int near = 0;
-    for (int k = 0; k < 9; ++k) {
-        ivec2 q = at + ivec2(k % 3 - 1, k / 3 - 1);
-        near += k != 4 && n[k] != 0.0 && distance(pointAt(q, n[k]), p) <= limit ? 1 : 0;
+bool isIsolated(vec3 n[9]) {
+    float limit = max(params.filterParams.z, params.filterParams.w * n[4].z);
+    uint near = 0;
+    [[unroll]] for (int k = 0; k < 9; ++k) {
+        near += k != 4 ? uint(n[k].z != 0.0) * uint(distance(n[k], n[4]) <= limit) : 0u;
     }
-    return near < 2;
+    return near < 2u;
 }
 
 // Paper eq. 2 of t = distance^2 / (2 sigma^2). The power touches exp(-t) at 0 and is at most 0.008 off anywhere.
@@ -117,15 +126,12 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
     float sum = 0.0, weights = 0.0;
     for (int dy = -int(kRadius); dy <= int(kRadius); ++dy) {
         for (int dx = -int(kRadius); dx <= int(kRadius); ++dx) {
-            ivec2 q = at + ivec2(dx, dy);
-            float d = windowDepth(q, patchOrigin);
-            if (d != 0.0) {
-                vec3 apart = pointAt(q, d) - p;
-                float weight = weightOf(dot(apart, apart) * params.filterParams.x);
-                // Summed as differences from the centre: the mean keeps all digits of a distant surface.
-                sum += (d - p.z) * weight;
-                weights += weight;
-            }
+            vec3 q = windowPoint(at + ivec2(dx, dy), patchOrigin), apart = q - p;
+            float weight = weightOf(dot(apart, apart) * params.filterParams.x);
+            weight = q.z != 0.0 ? weight : 0.0;
+            // Summed as differences from the centre: the mean keeps all digits of a distant surface.
+            sum += (q.z - p.z) * weight;
+            weights += weight;
         }
     }
     return p.z + sum / weights; // weights >= 1: the centre itself
@@ -219,9 +225,9 @@ void main() {
         vec4 result = vec4(0.0);
         if (maskAt(slot) != 0) {
             ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
-            float around[9] = aroundOf(at, patchOrigin);
-            if (!(kEdge != 0 && isFlying(around)) && !isIsolated(at, around)) {
-                vec3 p = pointAt(at, around[4]);
+            vec3 around[9] = aroundOf(at, patchOrigin);
+            if (!(kEdge != 0 && isFlying(depthsOf(around))) && !isIsolated(around)) {
+                vec3 p = around[4];
                 float z = kRadius != 0 ? filtered(at, p, patchOrigin) : p.z;
                 result = vec4(transformPoint(params.baseTcamera, pointAt(at, z)), z);
             }

@@ -22,6 +22,12 @@ bool mayLeak(const Scene& scene, const Intrinsics& lens) {
     });
 }
 
+// Of surface.comp: points of a patch and of the window about it.
+uint64_t bytesOfTile(uint32_t radius) {
+    const uint64_t edge = 16 + 2 * radius;
+    return 3 * sizeof(float) * edge * edge;
+}
+
 // Decides the switches; the items that explain them follow from these alone.
 Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     Plan plan;
@@ -65,7 +71,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.edge = scene.filter.edge > 0.0;
     plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
-    plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2;
+    plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2 &&
+                 bytesOfTile(scene.filter.radius) <= device.maxSharedBytes;
     // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
     plan.groupCounts = device.kind != DeviceKind::Cpu; // there a barrier costs more than the counts
     plan.byPixel = device.kind != DeviceKind::Cpu;     // there shared memory made it twice as slow

@@ -148,6 +148,13 @@ TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter an
     small.maxInvocations = 128;
     CHECK(makePlan(scene, camera, 1, small).pixelGroup == 128);
     CHECK(planOf(scene, camera).pixelGroup == 256);
+    scene.filter.radius = 10;
+    small.maxSharedBytes = 16384; // what every device has
+    CHECK(makePlan(scene, camera, 1, small).tiled);
+    scene.filter.radius = 11; // 38 x 38 points of 12 bytes
+    CHECK_FALSE(makePlan(scene, camera, 1, small).tiled);
+    small.maxSharedBytes = 17328;
+    CHECK(makePlan(scene, camera, 1, small).tiled);
 }
 
 TEST_CASE("Holes between points are looked for only where neighbours can be a radius apart") {
