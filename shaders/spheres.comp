@@ -3,7 +3,7 @@
 // Region spheres of the listed patches and the bounds of their 4x4 sub-patches (paper IV.B.1, eq. 3). One invocation
 // a sub-patch, or (kByPixel) one group a patch: one invocation a pixel, then one a sub-patch. With hold, points of earlier frames that
 // the new picture does not contradict stay as a second layer. A group that has a patch can pack its spheres (kPack) into a row for the
-// host, by layer (seen, held), then slot: what crosses the bus to a device of its own is as much as there are spheres, in whole lines.
+// host, by layer (seen, held), then slot, and say by bits which places these are: what crosses the bus is little more than the spheres.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"

@@ -33,8 +33,8 @@ struct WorkBuffers {
     gpu::Buffer classes; // uint8 a slot: class of the sphere | class of the held one << 4; with pack of
                          // patches with several
     gpu::Buffer depth;   // uint16 a pixel, row-major: what classify read; empty unless kept
-    // points, kept, both radii and classes are what the CPU reads when the plan packs nothing; else classes
-    // alone.
+    // points, kept, both radii and classes are what the CPU reads when the plan packs nothing; else classes,
+    // where there are several. listed and counters are clear between frames: a set has what they were.
     gpu::Buffer unused; // stands in for what the plan leaves out
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
@@ -66,7 +66,7 @@ struct SetBuffers {
 
     gpu::Buffer
         packed; // vec4 a sphere, without gaps: a patch after the other, in any order; empty without pack
-    gpu::Buffer places; // 16 uint a listed patch: bit (layer * 256 + slot in the patch) = it has a sphere
+    gpu::Buffer places; // 16 uint a listed patch, 8 a layer: bit (layer * 256 + slot) = there is a sphere
     gpu::Buffer runs;   // uvec2 a listed patch: place of its first packed sphere; how many it has + 65536 x
                         // bits of their classes
     gpu::Buffer bits;   // uint a sub-patch of a listed patch: pixels of a forbidden class

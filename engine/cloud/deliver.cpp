@@ -5,8 +5,11 @@
 #include "shaders/shared/frame_params.h"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace fathom::cloud {
+
+static_assert(offsetof(shared::FrameCounters, nodes) == shared::kArgumentWords * sizeof(uint32_t));
 
 DeliverPass::DeliverPass(const CloudContext& c)
     : context_(c) {

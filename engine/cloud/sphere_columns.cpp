@@ -11,6 +11,8 @@ namespace fathom::cloud {
 namespace {
 
 constexpr size_t kPlaces = 512; // of a patch
+constexpr uint32_t kEveryClass = (1u << shared::kMaxClasses) - 1;
+static_assert(shared::kMaxClasses <= 8); // three bits of `classOf` a layer, a byte of a run
 
 // The places of the bits of a byte, from the lowest on; what is beyond them does not matter.
 constexpr std::array<std::array<uint8_t, 8>, 256> bitsOfBytes() {
@@ -94,7 +96,7 @@ void SphereColumns::putSources(uint32_t patch, size_t first, const PatchSpheres&
 void SphereColumns::putClasses(uint8_t* fixture, const PatchSpheres& spheres) noexcept {
     counts_.all += spheres.n;
     ++counts_.patches;
-    for (uint32_t bits = spheres.classes; bits != 0; bits &= bits - 1) {
+    for (uint32_t bits = spheres.classes & kEveryClass; bits != 0; bits &= bits - 1) {
         ++counts_.patchesOfClass[static_cast<size_t>(std::countr_zero(bits))];
     }
     if (std::has_single_bit(spheres.classes)) { // as in most patches

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A group's patch into the row that the host reads, by layer (seen, held), then slot. Needs counters, kPack, kLayers, ofPatch,
-// notesOfPatch, kClasses and packedSpheres, places, runs.
+// Which places of a group's patch have spheres, by layer (seen, held), then slot; and (kPack) these into the row that the host
+// reads. Needs counters, kPack, kLayers, ofPatch and packedSpheres, places, runs.
 
 shared uint present[16]; // bit a place: spheres of the patch, then held ones
 shared uint packedFrom;

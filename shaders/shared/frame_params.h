@@ -48,10 +48,11 @@ FATHOM_CONST kPatchListed = 1;  // it has work
 FATHOM_CONST kPatchGuided = 2;  // a pixel of it is in a guidance class
 FATHOM_CONST kPatchHolding = 4; // listed, and its memory holds points; where classify makes the lists
 
-// Nothing is counted when a frame begins: deliver.comp ends the one before so. Integer counters only: their sums do not depend on the order. The list of
+// Nothing is counted when a frame begins: the one before ends so (DeliverPass). Integer counters only: their
+// sums do not depend on the order. The list of
 // patches has three parts of as many entries as there are patches: listed ones; guided ones; those of the
 // listed ones that hold nothing, and from its end on those that hold.
-FATHOM_CONST kArgumentWords = 20; // the first of it: x, y, z groups of five indirect dispatches, and a count each
+FATHOM_CONST kArgumentWords = 20; // its first: x, y, z groups of five indirect dispatches, and a count each
 struct FrameCounters {
     uvec4 patchGroups;   // indirect arguments: one group a listed patch (x = listed patches, 1, 1)
     uvec4 subGroups;     // indirect arguments: one invocation a sub-patch of a listed patch

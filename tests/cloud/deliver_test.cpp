@@ -33,12 +33,18 @@ void checkDelivered(const CloudRig& rig) {
         expected[v / 16 * rig.layout().across + u / 16] |= masks[i] != 0;
         pixels += masks[i] != 0;
     }
-    CHECK(rig.counters().classPixels[0] == pixels);
-    CHECK(rig.counters().patchGroups.x == static_cast<uint32_t>(std::ranges::count(expected, 1u)));
+    const shared::FrameCounters& counters = rig.counters();
     const std::vector<uint32_t> listed = rig.listed();
+    const auto patches = static_cast<uint32_t>(std::ranges::count(expected, 1u));
+    CHECK(counters.classPixels[0] == pixels);
+    CHECK(counters.classPixels[1] == pixels);
+    CHECK(counters.guidedGroups.w == patches); // both classes take every point
+    CHECK(counters.patchGroups.x >= patches);  // and patches whose points are remembered
+    CHECK(counters.patchGroups.x == listed.size() - static_cast<size_t>(std::ranges::count(listed, 0u)));
     for (size_t patch = 0; patch < expected.size(); ++patch) {
         CAPTURE(patch);
-        CHECK((listed[patch] != 0) == (expected[patch] != 0));
+        CHECK(((listed[patch] & shared::kPatchGuided) != 0) == (expected[patch] != 0));
+        CHECK(((listed[patch] & shared::kPatchListed) != 0 || expected[patch] == 0));
     }
 }
 
@@ -51,7 +57,10 @@ TEST_CASE("The host gets each frame's own counters and marks, and the device kee
             CAPTURE(byPixel);
             CAPTURE(width);
             const CameraInfo camera = pinholeCamera(width, height);
-            CloudRig rig(plainScene(), camera, [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; });
+            Scene scene = plainScene();
+            scene.holdSeconds = 0.05; // a frame or two
+            scene.fixtures.push_back(guidanceClass("g"));
+            CloudRig rig(scene, camera, [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; });
             checkCleared(rig);                                // before the first frame
             for (const double share : {1.0, 0.3, 0.0, 0.6}) { // full, some, empty
                 const auto depth = [&](int u, int) { return u < share * width ? 1.0 : 0.0; };

@@ -151,16 +151,33 @@ TEST_CASE("A set that several threads lay out is the one that a single thread la
     }
 }
 
-TEST_CASE("Slots that a GPU query keeps for itself are packed the same") {
+TEST_CASE("Slots that a GPU query keeps for itself are packed the same, and each sphere knows its own") {
     const CameraInfo camera = pinholeCamera(90, 40);
-    CloudRig rig(plainScene(), camera, [](Plan& plan) {
+    Scene scene = plainScene();
+    scene.holdSeconds = 1.0;
+    CloudRig rig(scene, camera, [](Plan& plan) {
         plan.query = Plan::Query::Gpu;
         plan.pack = plan.byPixel = plan.tree = true;
     });
-    rig.run(stressPicture(camera, 5));
+    Picture picture = stressPicture(camera, 5);
+    rig.run(picture);
     checkPacked(rig);
-    CHECK(rig.set().keys.size() == rig.host().spheres.size());
-    CHECK(std::is_sorted(rig.set().keys.begin(), rig.set().keys.end()));
+    for (size_t p = 0; p < picture.depth.size(); p += 3) { // held from now on
+        picture.depth[p] = 0;
+    }
+    rig.run(picture);
+    checkPacked(rig);
+    const RegionSpheres& host = rig.host().spheres;
+    REQUIRE(rig.set().keys.size() == host.size());
+    size_t wrong = 0, held = 0;
+    for (size_t i = 0; i < host.size(); ++i) {
+        const uint32_t pixel = host.source[i] % (90 * 40), layer = host.source[i] / (90 * 40);
+        const uint32_t slot = slotOfPixel(pixel % 90, pixel / 90, rig.layout().across);
+        wrong += rig.set().keys[i] != slot / 256 * 512 + layer * 256 + slot % 256;
+        held += layer;
+    }
+    CHECK(wrong == 0);
+    CHECK(held > 0);
 }
 
 TEST_CASE("Packed spheres have the class that they have in their slots, in patches of one class and of "
@@ -178,7 +195,9 @@ TEST_CASE("Packed spheres have the class that they have in their slots, in patch
             for (size_t p = 0; seed > 3 && p < picture.depth.size(); p += seed) { // held ones, too
                 picture.depth[p] = 0;
             }
-            packed.run(picture), slots.run(picture);
+            const FrameReport one = packed.run(picture), other = slots.run(picture);
+            CHECK(one.counts.classSpheres == other.counts.classSpheres);
+            CHECK(one.counts.classPatches == other.counts.classPatches);
             const RegionSpheres &a = packed.host().spheres, &b = slots.host().spheres;
             REQUIRE(a.source == b.source);
             CHECK(a.fixture == b.fixture);

@@ -96,7 +96,10 @@ TEST_CASE("Thinning decides as the twin does and asks for the same growth, for e
         const bool within = i % 2 == 1;
         CAPTURE(c.name);
         CAPTURE(within);
-        CloudRig rig(c.scene, c.camera, [&](Plan& plan) { plan.byPixel = plan.pack = within; });
+        CloudRig rig(c.scene, c.camera, [&](Plan& plan) {
+            plan.byPixel = plan.pack = within;
+            plan.pixelGroup = i % 4 == 1 ? 256 : 64;
+        });
         CHECK(rig.plan().thins() != within);
         rig.run(c.picture);
         const ThinAgreement a = compareCells(rig);
