@@ -44,8 +44,7 @@ public:
     // Everything before is visible to everything after but the host, which sees it at end(), and what reads
     // indirect arguments: each of these two costs a GPU as much as the rest.
     void barrier();
-    void
-    barrierBeforeIndirect(); // the same, and arguments that a pass wrote are there for dispatchIndirect()
+    void barrierBeforeIndirect(); // the same, and dispatchIndirect() finds the arguments that a pass wrote
 
 private:
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);

@@ -68,10 +68,10 @@ struct Plan {
     // Lists of patches are a pass of their own, after classify: where invocations run in step on a CPU, every
     // pixel pays for what classify might do about a patch.
     bool lists() const { return cloud && !byPixel; }
-    bool delivers() const { return cloud && byPixel; } // by a dispatch, not by copies
     // So is thinning, except where the group that makes a patch's spheres can share it.
     bool thins() const { return thin && !byPixel; }
-    uint32_t dispatchesPerFrame() const; // of the frame path, query excluded
+    bool delivers() const { return cloud && byPixel; } // by a dispatch; a CPU device copies
+    uint32_t dispatchesPerFrame() const;               // of the frame path, query excluded
 };
 
 // Range [m] below which neighbouring points of one surface (|dz| <= 0.7 of their distance) are nearer to each
