@@ -19,6 +19,8 @@ layout(constant_id = 6) const uint kFan = 0;        // 1: pixels are beams at eq
 layout(constant_id = 7) const uint kBeam = 0;       // 1: spheres grow by 3 sigma of their points
 layout(constant_id = 8) const uint kTree = 1;       // 1: a query asks for bounds and slots
 layout(constant_id = 9) const uint kPack = 0;       // 1 (with kByPixel): the host reads a row; 0: it reads radii beside points
+layout(constant_id = 10) const uint kTexels = 1;    // 1: memory of points is read as texels. A compiler may take these for memory that
+                                                    // nobody writes and fetch late: an H100 then read what it had just written
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
@@ -28,9 +30,9 @@ layout(std430, binding = 4) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 5) readonly buffer List { uint list[]; }; // its parts: frame_params.h
 layout(binding = 6) uniform samplerBuffer growth; // a sub-patch, without kByPixel: what thin.comp decided
 layout(std430, binding = 7) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 8) writeonly buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
-layout(std430, binding = 9) writeonly buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
-layout(std430, binding = 10) writeonly buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
+layout(std430, binding = 8) buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
+layout(std430, binding = 9) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
+layout(std430, binding = 10) buffer KeptTime { uint keptTime[]; }; // slot -> when it was seen last [us]
 layout(std430, binding = 11) buffer Live { uint live[]; };         // patch -> points in memory + 65536 x held ones among them
 layout(std430, binding = 12) writeonly buffer Spheres { vec4 spheres[]; };      // slot -> centre, R; R < 0 = none
 layout(std430, binding = 13) writeonly buffer Held { vec4 held[]; };            // the same for held points
@@ -44,7 +46,7 @@ layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; };    // list
 layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
 layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
 layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it, for those who verify
-// Seen, kept and when, to read: an invocation reads a slot before it writes it, and no other does either.
+// Seen, kept and when, to read (kTexels): an invocation reads a slot before it writes it, and no other does either.
 layout(binding = 18) uniform samplerBuffer seenBefore;
 layout(binding = 19) uniform samplerBuffer keptBefore;
 layout(binding = 20) uniform usamplerBuffer keptTimeBefore;

@@ -44,6 +44,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.beam = plan.spheres && camera.beam.has_value();
     plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof wants one radius a class
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
+    plan.memoryTexels = plan.hold && device.kind == DeviceKind::Cpu;
     plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
     plan.pack =
         plan.spheres && device.kind != DeviceKind::Cpu; // there nothing crosses a bus, and it takes 2 ms

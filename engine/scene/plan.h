@@ -53,6 +53,8 @@ struct Plan {
     // and a patch
     bool byPixel = false;
     bool pack = false; // with byPixel: spheres in a row for the host, for the device has memory of its own
+    bool memoryTexels = false; // memory of points is read as texels: faster on a CPU device, but elsewhere a
+                               // fetch may come after what is written to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
