@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Region spheres of the listed patches and the bounds of their 4x4 sub-patches (paper IV.B.1, eq. 3). One invocation
 // a sub-patch, or (kByPixel) one group a patch: one invocation a pixel, then one a sub-patch. With hold, points of earlier frames that
-// the new picture does not contradict stay as a second layer. A group that has a patch can pack its spheres (kPack) into a row for the
+// the new picture does not contradict stay as a second layer. A group that has a patch can pack its spheres (kPack) into a run for the
 // host, by layer (seen, held), then slot, and say by bits which places these are: what crosses the bus is little more than the spheres.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -18,7 +18,7 @@ layout(constant_id = 5) const uint kClasses = 1;    // classes of points
 layout(constant_id = 6) const uint kFan = 0;        // 1: pixels are beams at equal angles
 layout(constant_id = 7) const uint kBeam = 0;       // 1: spheres grow by 3 sigma of their points
 layout(constant_id = 8) const uint kTree = 1;       // 1: a query asks for bounds and slots
-layout(constant_id = 9) const uint kPack = 0;       // 1 (with kByPixel): the host reads a row; 0: it reads radii beside points
+layout(constant_id = 9) const uint kPack = 0;       // 1 (with kByPixel): the host reads runs; 0: it reads radii beside points
 layout(constant_id = 10) const uint kTexels = 1;    // 1: memory of points is read as texels. A compiler may take these for memory that
                                                     // nobody writes and fetch late: an H100 then read what it had just written
 
@@ -40,9 +40,9 @@ layout(std430, binding = 14) writeonly buffer Classes { uvec4 classes[]; };     
 layout(std430, binding = 15) writeonly buffer Bits { uint bits[]; };            // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
-layout(std430, binding = 21) writeonly buffer Packed { vec4 packedSpheres[]; };
+layout(std430, binding = 21) writeonly buffer Packed { uint packedWords[]; }; // runs: packing.glsl
 layout(std430, binding = 22) writeonly buffer Places { uint places[]; }; // 16 words a listed patch: bit (layer * 256 + slot in the patch) = packed
-layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> place of its first packed sphere; how many + 65536 x bits of their classes
+layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> its first word; how many spheres + 65536 x bits of their classes, kRunGrown
 layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
 layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
 layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it, for those who verify
@@ -73,7 +73,9 @@ CellsAround cellsOfSub(ivec2 at) {
 
 struct PixelResult {
     vec4 sphere, held; // R < 0 = none
-    uint note;         // 1 = a forbidden class; 2 = it is remembered; 4 = the held one is; 256 x class of the sphere; 4096 x class of the held one
+    float z;           // of the point that is seen [m]
+    uint note;         // 1 = a forbidden class; 2 = it is remembered; 4 = the held one is; 256 x class of the sphere; 4096 x class of the held one;
+                       // 65536 x steps that the sphere grows by
 };
 
 // Pixel p (0..15) of the sub-patch `sub`, whose corner lies at `corner`. holding: its patch holds points (kHold = 3).
@@ -82,7 +84,8 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
     vec4 point = texelFetch(points, int(slot));
     uint c = forbiddenClass(point.w != 0.0 ? mask : 0u);
     float more = grownBySigma(point.xyz);
-    vec4 sphere = seenSphere(point, p, c, more, around), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
+    float grown = kThin != 0 ? keptGrowth(p, around) : 0.0;
+    vec4 sphere = seenSphere(point, c, grown, more), heldSphere = vec4(0.0, 0.0, 0.0, -1.0);
     if (kLeaks != 0 && c != kNone) {
         uvec2 at = corner + uvec2(p & 3u, p >> 2);
         noteLeak(at + uvec2(1, 0), point, c);
@@ -98,7 +101,7 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
         }
     }
     uint classBits = (c == kNone ? 0u : c) | heldClass << 4;
-    return PixelResult(sphere, heldSphere, (mask != 0u ? 1u : 0u) | remembered << 1 | classBits << 8);
+    return PixelResult(sphere, heldSphere, point.w, (mask != 0u ? 1u : 0u) | remembered << 1 | classBits << 8 | stepsOf(grown) << 16);
 }
 
 // What the pixels of a sub-patch say together.
@@ -110,7 +113,7 @@ struct Notes {
 Notes noted(Notes n, const uint p, uint note) {
     n.marks |= (note & 1u) << p;
     n.remembered += (note >> 1 & 1u) + (note >> 2 & 1u) * 65537u;
-    n.classes[p >> 2] |= note >> 8 << ((p & 3u) * 8u);
+    n.classes[p >> 2] |= (note >> 8 & 255u) << ((p & 3u) * 8u);
     return n;
 }
 

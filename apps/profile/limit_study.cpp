@@ -23,7 +23,8 @@ struct Need {
 
 // What a frame selects.
 struct Load {
-    double pixels, slots, guidedSlots, selected, guided, spheres, tapsPerPixel, cells;
+    double pixels, slots, guidedSlots, selected, guided, spheres, packed, tapsPerPixel,
+        cells; // packed: bytes
     bool occlusion, hold, colour, inPlace, pack, keepDepth, thin, thinsWithin, tree;
     QueryWork query; // of a query on the device, by its answer; none without one
 };
@@ -66,6 +67,7 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     load.inPlace = report.inPlace;
     load.keepDepth = bench.plan().keepDepth;
     load.pack = bench.plan().pack;
+    load.packed = 4.0 * bench.set().device.counters.as<shared::FrameCounters>()[0].packedWords;
     load.thin = bench.plan().thin;
     load.thinsWithin = load.thin && !bench.plan().thins();
     load.tree = bench.plan().tree;
@@ -81,7 +83,7 @@ double sphereBytes(const Load& l) {
     const double radii = l.pack ? 0.0 : 4.0 * layers + 1.0;
     const double whole = l.tree ? 16.0 * layers + 20.0 / 16.0 : 0.0;
     return l.slots * (16.0 + 1.0 + (l.thin ? 1.0 : 0.0) + 0.25 + hold + radii + whole) +
-           (l.pack ? 16.0 * l.spheres + 72.0 / 256.0 * l.slots : 0.0);
+           (l.pack ? l.packed + 72.0 / 256.0 * l.slots : 0.0);
 }
 
 // The pictures are read where the camera left them, or where they were uploaded to; where a pass before has
@@ -118,7 +120,7 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"deliver", {3.0 * (sizeof(shared::FrameCounters) + 4.0 * l.pixels / 256.0), 0.0}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
         {"collect", // read as the device packs or leaves them, written as columns
-         {l.spheres * ((l.pack ? 16.0 : 20.0) + 21.0), 0.0, Need::Where::Crew}},
+         {(l.pack ? l.packed : 20.0 * l.spheres) + 21.0 * l.spheres, 0.0, Need::Where::Crew}},
         {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::Crew}},
     };
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/cloud_buffers.h"
 
+#include "engine/cloud/seen_points.h"
 #include "engine/cloud/self_filter.h"
 
 #include "shaders/shared/frame_params.h"
@@ -18,15 +19,6 @@ using gpu::MemoryKind;
 // Of what the host reads when nothing is packed.
 MemoryKind slotMemory(const Plan& plan) {
     return plan.spheres && !plan.pack ? MemoryKind::Readback : MemoryKind::Device;
-}
-
-void fillRays(const Buffer& rays, const Intrinsics& lens) {
-    const auto out = rays.as<glm::vec2>();
-    for (uint32_t v = 0; v < lens.height; ++v) {
-        for (uint32_t u = 0; u < lens.width; ++u) {
-            out[v * lens.width + u] = glm::vec2(lens.ray(u, v));
-        }
-    }
 }
 
 } // namespace
@@ -74,7 +66,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     }
     if (plan.rays) {
         rays = Buffer(device, 8ull * camera.depth.pixels(), MemoryKind::Upload, "rays");
-        fillRays(rays, camera.depth);
+        std::ranges::copy(raysOf(camera.depth), rays.as<glm::vec2>().begin());
     }
 }
 
@@ -117,8 +109,7 @@ SetBuffers::SetBuffers(const gpu::Device& device, const Plan& plan, const PatchL
         nodeCounts = Buffer(device, layout.nodes() * 4ull, MemoryKind::Device, "nodeCounts");
     }
     if (plan.pack) {
-        const uint64_t most = slots * (plan.hold ? 2 : 1);
-        packed = Buffer(device, most * 16, MemoryKind::Readback, "packed");
+        packed = Buffer(device, slots * plan.packedBytes(), MemoryKind::Readback, "packed");
         places = Buffer(device, patches * 64, MemoryKind::Readback, "places");
         runs = Buffer(device, patches * 8, MemoryKind::Readback, "runs");
     }

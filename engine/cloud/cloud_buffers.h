@@ -64,11 +64,11 @@ struct SetBuffers {
     SetBuffers() = default; // none
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
-    gpu::Buffer
-        packed; // vec4 a sphere, without gaps: a patch after the other, in any order; empty without pack
+    gpu::Buffer packed; // words: runs of a patch's spheres (shaders/lib/packing.glsl), one after the other in
+                        // any order; empty without pack
     gpu::Buffer places; // 16 uint a listed patch, 8 a layer: bit (layer * 256 + slot) = there is a sphere
-    gpu::Buffer runs;   // uvec2 a listed patch: place of its first packed sphere; how many it has + 65536 x
-                        // bits of their classes
+    gpu::Buffer runs;   // uvec2 a listed patch: first word of its run; how many spheres + 65536 x bits of
+                        // their classes, kRunGrown
     gpu::Buffer bits;   // uint a sub-patch of a listed patch: pixels of a forbidden class
     gpu::Buffer nodes;  // vec4 a node; empty without a tree
     gpu::Buffer nodeCounts;    // uint a node

@@ -133,11 +133,11 @@ FrameCounts countsOf(const shared::FrameCounters& c, size_t classes) {
 }
 
 // All that a forbidden class needs, and the guidance, shared: guidance first, for it may take longest.
-void collectSpheres(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
-                    const std::vector<uint32_t>& rows, const PatchLayout& layout, Crew& crew,
-                    FrameCounts& counts) {
+void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
+                    const Plan& plan, const std::vector<uint32_t>& rows, const PatchLayout& layout,
+                    Crew& crew, FrameCounts& counts) {
     set.host.forbiddenBits.assign((set.host.camera.depth.pixels() + 31) / 32, 0);
-    SphereCollector spheres(set, work, plan, rows, layout, crew);
+    SphereCollector spheres(set, work, seen, plan, rows, layout, crew);
     const uint32_t guidance = plan.moments ? 1 : 0, pairs = (layout.down + 1) / 2, runs = (pairs + 3) / 4;
     std::atomic<uint32_t> forbidden{0};
     std::exception_ptr failed; // of the one part that takes memory: a job must not throw
@@ -171,8 +171,8 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const Scene& scene
 
 } // namespace
 
-FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
-                    const PatchLayout& layout, Crew& crew) {
+FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
+                    const Plan& plan, const PatchLayout& layout, Crew& crew) {
     const std::vector<uint32_t> rows = classRows(scene);
     set.host.guidance.clear();
     set.host.forbiddenBits.clear();
@@ -186,7 +186,7 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene
     FrameCounts counts = countsOf(c, rows.size());
     counts.nodes = c.nodes;
     if (plan.spheres) {
-        collectSpheres(set, work, scene, plan, rows, layout, crew, counts);
+        collectSpheres(set, work, seen, scene, plan, rows, layout, crew, counts);
     } else {
         takeGuidance(set, scene, rows, layout);
     }

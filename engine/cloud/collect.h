@@ -4,6 +4,7 @@
 #pragma once
 
 #include "engine/cloud/fixture_set.h"
+#include "engine/cloud/seen_points.h"
 #include "engine/scene/scene.h"
 #include "shaders/shared/frame_params.h"
 
@@ -22,10 +23,11 @@ struct FrameCounts {
 // 300 000 invocations share costs the device milliseconds. crew: who shares it; null: the caller alone.
 uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew* crew);
 
-// work: where radii and points are read when the plan packs nothing. Fills set.host.spheres, forbiddenBits
+// work: where radii and points are read when the plan packs nothing. seen: of the picture's frame, where it
+// packs depths; else null. Fills set.host.spheres, forbiddenBits
 // and guidance from the device side; the caller has set camera, pose, origin and frame, and counts the valid
 // pixels. crew shares the work. Allocates much only when a frame is larger than any before.
-FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const Scene& scene, const Plan& plan,
-                    const PatchLayout& layout, Crew& crew);
+FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
+                    const Plan& plan, const PatchLayout& layout, Crew& crew);
 
 } // namespace fathom::cloud

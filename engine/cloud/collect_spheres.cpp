@@ -34,6 +34,24 @@ FATHOM_CLONES uint32_t bitsOfSpheres(const float* radii) noexcept {
     return bits;
 }
 
+// Parts of a run (shaders/lib/packing.glsl) of n spheres; the classes are for the caller to say.
+PatchSpheres runOf(const float* run, const uint32_t* places, uint32_t n, bool grown, bool depths) noexcept {
+    PatchSpheres s;
+    for (uint32_t word = 0; word < 8; ++word) {
+        s.seen += static_cast<uint32_t>(std::popcount(places[word]));
+    }
+    s.held = n - s.seen;
+    s.places = places;
+    const float* whole = run;
+    if (depths) {
+        s.depths = run;
+        s.steps = grown ? reinterpret_cast<const uint16_t*>(run + s.seen) : nullptr;
+        whole += s.seen + (grown ? (s.seen + 1) / 2 : 0);
+    }
+    s.whole = reinterpret_cast<const glm::vec4*>(whole);
+    return s;
+}
+
 void add(SphereCounts& to, const SphereCounts& more) {
     to.all += more.all;
     to.patches += more.patches;
@@ -45,10 +63,12 @@ void add(SphereCounts& to, const SphereCounts& more) {
 
 } // namespace
 
-SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
-                                 const std::vector<uint32_t>& rows, const PatchLayout& layout, Crew& crew)
+SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen,
+                                 const Plan& plan, const std::vector<uint32_t>& rows,
+                                 const PatchLayout& layout, Crew& crew)
     : set_(set)
     , work_(work)
+    , seen_(seen)
     , plan_(plan)
     , rows_(rows)
     , layout_(layout)
@@ -96,7 +116,7 @@ void SphereCollector::take(uint32_t part) noexcept {
         const uint64_t sphere = begins_.back() * share / parts();
         return static_cast<uint32_t>(std::ranges::lower_bound(begins_, sphere) - begins_.begin());
     };
-    SphereColumns columns(set_, rows_, layout_, plan_.hold);
+    SphereColumns columns(set_, rows_, layout_, seen_, plan_.hold);
     if (plan_.pack) {
         takePacked(patchAt(part), patchAt(part + 1), columns);
     } else {
@@ -115,14 +135,14 @@ SphereCounts SphereCollector::counts() const {
 
 // Of patches [first, end).
 void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
-    const auto packed = set_.device.packed.as<glm::vec4>();
+    const auto packed = set_.device.packed.as<float>();
     const auto places = set_.device.places.as<uint32_t>();
     const auto runs = set_.device.runs.as<glm::uvec2>();
     const uint8_t* const classes = work_.classes ? work_.classes.as<uint8_t>().data() : nullptr;
     const auto bring = [&](uint32_t patch) {
         const uint32_t n = patch < end ? begins_[patch + 1] - begins_[patch] : 0;
         if (n > 0) {
-            bringNear(packed.subspan(runs[patch].x, n));
+            bringNear(packed.subspan(runs[patch].x, n)); // of the longest of its parts
             bringNear(places.subspan(size_t{patch} * 16, 8));
         }
     };
@@ -131,9 +151,11 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
         bring(patch + 1);
         const uint32_t n = begins_[patch + 1] - begins_[patch];
         if (n > 0) {
-            columns.put(patch, begins_[patch],
-                        {n, &packed[runs[patch].x], &places[size_t{patch} * 16], runs[patch].y >> 16,
-                         classes != nullptr ? classes + size_t{patch} * 256 : nullptr});
+            PatchSpheres spheres = runOf(&packed[runs[patch].x], &places[size_t{patch} * 16], n,
+                                         (runs[patch].y & shared::kRunGrown) != 0, plan_.packsDepths());
+            spheres.classes = runs[patch].y >> 16 & 0xff;
+            spheres.classOf = classes != nullptr ? classes + size_t{patch} * 256 : nullptr;
+            columns.put(patch, begins_[patch], spheres);
         }
     }
 }
@@ -147,7 +169,8 @@ void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& col
     std::array<glm::vec4, 512> spheres; // of a patch
     std::array<uint32_t, 16> places;
     for (uint32_t patch = first; patch < end; ++patch) {
-        uint32_t n = 0, of = 0;
+        PatchSpheres s;
+        uint32_t n = 0;
         const uint32_t layers = begins_[patch + 1] == begins_[patch] ? 0 : (plan_.hold ? 2 : 1);
         for (uint32_t word = 0; word < 8 * layers; ++word) {
             const uint32_t layer = word / 8;
@@ -155,13 +178,16 @@ void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& col
             places[word] = bitsOfSpheres(&radii[layer][at]);
             for (uint32_t bits = places[word]; bits != 0; bits &= bits - 1) {
                 const size_t slot = at + static_cast<size_t>(std::countr_zero(bits));
+                s.seen += layer == 0 ? 1 : 0;
                 spheres[n++] = glm::vec4(glm::vec3(points[layer][slot]), radii[layer][slot]);
-                of |= 1u << (classes[slot] >> 4 * layer & 7u);
+                s.classes |= 1u << (classes[slot] >> 4 * layer & 7u);
             }
         }
         if (n > 0) {
-            columns.put(patch, begins_[patch],
-                        {n, spheres.data(), places.data(), of, &classes[size_t{patch} * 256]});
+            s.held = n - s.seen;
+            s.places = places.data(), s.whole = spheres.data();
+            s.classOf = &classes[size_t{patch} * 256];
+            columns.put(patch, begins_[patch], s);
         }
     }
 }

@@ -15,7 +15,8 @@ namespace fathom::cloud {
 // of Scene::fixtures of each class of points. Allocates when it is made; taking does not.
 class SphereCollector {
 public:
-    SphereCollector(FixtureSet& set, const WorkBuffers& work, const Plan& plan,
+    // seen: of the picture's frame; null where the plan packs no depths.
+    SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Plan& plan,
                     const std::vector<uint32_t>& rows, const PatchLayout& layout, Crew& crew);
 
     uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
@@ -32,6 +33,7 @@ private:
 
     FixtureSet& set_;
     const WorkBuffers& work_;
+    const SeenPoints* seen_;
     const Plan& plan_;
     const std::vector<uint32_t>& rows_;
     const PatchLayout& layout_;

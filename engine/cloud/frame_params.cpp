@@ -134,6 +134,8 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
         p.water = vec4(glm::vec3(*scene.attenuation / kGamma), 0.0f);
     }
     setRows(p.colourTdepth, camera.colourTdepth);
+    const double step = scene.errorBudget / shared::kGrowthSteps;
+    p.steps = {1.0 / camera.depth.fx, 1.0 / camera.depth.fy, step, step > 0.0 ? 1.0 / step : 0.0};
     return p;
 }
 

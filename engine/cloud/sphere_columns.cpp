@@ -10,7 +10,6 @@ namespace fathom::cloud {
 
 namespace {
 
-constexpr size_t kPlaces = 512; // of a patch
 constexpr uint32_t kEveryClass = (1u << shared::kMaxClasses) - 1;
 static_assert(shared::kMaxClasses <= 8); // three bits of `classOf` a layer, a byte of a run
 
@@ -35,39 +34,51 @@ FATHOM_CLONES void toColumns(const glm::vec4* spheres, size_t n, float* __restri
     }
 }
 
-// Pixels, row-major in the picture, of a patch whose first is `corner`; held points count on from the last
-// pixel. The order in which spheres are collected is by pixel. Eight places at a time, two rows of four
-// pixels, whatever is there; `source` has room for eight beyond the last.
-FATHOM_CLONES void toSources(const uint32_t* places, uint32_t words, uint32_t corner, uint32_t width,
-                             uint32_t pixels, uint32_t* __restrict source) noexcept {
+// Eight bits at a time, whatever is there: `places` has room for eight beyond the last.
+FATHOM_CLONES void toPlaces(const uint32_t* bits, uint32_t words, uint16_t* __restrict places) noexcept {
     for (uint32_t word = 0; word < words; ++word) {
-        const uint32_t first = corner + (word >> 3) * pixels + (word >> 1 & 3) * 4 * width + (word & 1) * 8;
-        for (uint32_t k = 0; places[word] != 0 && k < 4; ++k) {
-            const uint32_t byte = places[word] >> 8 * k & 255;
-            const uint32_t base = first + (k >> 1) * 4 + (k & 1) * 2 * width;
-            const std::array<uint8_t, 8>& bits = kBitsOfBytes[byte];
+        for (uint32_t k = 0; bits[word] != 0 && k < 4; ++k) {
+            const uint32_t byte = bits[word] >> 8 * k & 255;
+            const std::array<uint8_t, 8>& set = kBitsOfBytes[byte];
+            const auto first = static_cast<uint16_t>(word * 32 + k * 8);
             for (size_t j = 0; j < 8; ++j) {
-                source[j] = base + (bits[j] & 3) + (bits[j] >> 2) * width;
+                places[j] = static_cast<uint16_t>(first + set[j]);
             }
-            source += std::popcount(byte);
+            places += std::popcount(byte);
         }
     }
 }
 
-template <class Take> // (place)
-void eachPlace(const uint32_t* places, uint32_t words, Take&& take) noexcept {
-    for (uint32_t word = 0; word < words; ++word) {
-        for (uint32_t bits = places[word]; bits != 0; bits &= bits - 1) {
-            take(word * 32 + static_cast<uint32_t>(std::countr_zero(bits)));
-        }
+// Pixels, row-major in the picture, of a patch whose first is `corner`; held points count on from the last
+// pixel.
+FATHOM_CLONES void toSources(const uint16_t* places, size_t n, uint32_t corner, uint32_t width,
+                             uint32_t pixels, uint32_t* __restrict source) noexcept {
+    for (size_t i = 0; i < n; ++i) {
+        const uint32_t p = places[i];
+        const uint32_t across = (p >> 2 & 12) + (p & 3), down = (p >> 4 & 12) + (p >> 2 & 3);
+        source[i] = corner + down * width + across + (p >> 8) * pixels;
+    }
+}
+
+FATHOM_CLONES void toKeys(const uint16_t* places, size_t n, uint32_t patch,
+                          uint32_t* __restrict keys) noexcept {
+    for (size_t i = 0; i < n; ++i) {
+        keys[i] = patch * 512 + places[i];
+    }
+}
+
+FATHOM_CLONES void grow(float* __restrict radius, size_t n, const uint16_t* steps, float step) noexcept {
+    for (size_t i = 0; i < n; ++i) {
+        radius[i] += static_cast<float>(steps[i]) * step;
     }
 }
 
 } // namespace
 
 SphereColumns::SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows, const PatchLayout& layout,
-                             bool hold)
+                             const SeenPoints* seen, bool hold)
     : set_(set)
+    , seen_(seen)
     , words_(hold ? 16 : 8)
     , across_(layout.across)
     , width_(set.host.camera.depth.width)
@@ -76,41 +87,60 @@ SphereColumns::SphereColumns(FixtureSet& set, const std::vector<uint32_t>& rows,
 }
 
 void SphereColumns::put(uint32_t patch, size_t first, const PatchSpheres& spheres) noexcept {
-    RegionSpheres& out = set_.host.spheres;
-    toColumns(spheres.spheres, spheres.n, &out.x[first], &out.y[first], &out.z[first], &out.radius[first]);
-    putSources(patch, first, spheres);
-    putClasses(&out.fixture[first], spheres);
+    Places places;
+    toPlaces(spheres.places, words_, places.data());
+    const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
+    toSources(places.data(), spheres.n(), corner, width_, pixels_, &set_.host.spheres.source[first]);
     if (!set_.keys.empty()) {
-        eachPlace(spheres.places, words_, [&](uint32_t place) { set_.keys[first++] = patch * 512 + place; });
+        toKeys(places.data(), spheres.n(), patch, &set_.keys[first]);
+    }
+    putCentres(patch, first, spheres, places);
+    putClasses(first, spheres, places);
+    if (spheres.steps != nullptr) {
+        grow(&set_.host.spheres.radius[first], spheres.seen, spheres.steps, seen_->step());
     }
 }
 
-// By way of memory of its own: what is written beyond the last is another thread's.
-void SphereColumns::putSources(uint32_t patch, size_t first, const PatchSpheres& spheres) noexcept {
-    std::array<uint32_t, kPlaces + 8> sources;
-    const uint32_t corner = (patch / across_ * width_ + patch % across_) * 16;
-    toSources(spheres.places, words_, corner, width_, pixels_, sources.data());
-    std::copy_n(sources.data(), spheres.n, &set_.host.spheres.source[first]);
+void SphereColumns::putCentres(uint32_t patch, size_t first, const PatchSpheres& spheres,
+                               const Places& places) noexcept {
+    RegionSpheres& out = set_.host.spheres;
+    const size_t depths = spheres.depths != nullptr ? spheres.seen : 0, whole = first + depths;
+    if (depths > 0) {
+        seen_->put(patch, {places.data(), depths}, spheres.depths, &out.x[first], &out.y[first],
+                   &out.z[first]);
+    }
+    if (spheres.n() > depths) {
+        toColumns(spheres.whole, spheres.n() - depths, &out.x[whole], &out.y[whole], &out.z[whole],
+                  &out.radius[whole]);
+    }
 }
 
-void SphereColumns::putClasses(uint8_t* fixture, const PatchSpheres& spheres) noexcept {
-    counts_.all += spheres.n;
+// And the radii of classes where spheres come as depths.
+void SphereColumns::putClasses(size_t first, const PatchSpheres& spheres, const Places& places) noexcept {
+    uint8_t* const fixture = &set_.host.spheres.fixture[first];
+    float* const radius = &set_.host.spheres.radius[first];
+    const uint32_t depths = spheres.depths != nullptr ? spheres.seen : 0;
+    counts_.all += spheres.n();
     ++counts_.patches;
     for (uint32_t bits = spheres.classes & kEveryClass; bits != 0; bits &= bits - 1) {
         ++counts_.patchesOfClass[static_cast<size_t>(std::countr_zero(bits))];
     }
     if (std::has_single_bit(spheres.classes)) { // as in most patches
         const auto only = static_cast<size_t>(std::countr_zero(spheres.classes));
-        counts_.ofClass[only] += spheres.n;
-        std::fill_n(fixture, spheres.n, rows_[only]);
+        counts_.ofClass[only] += spheres.n();
+        std::fill_n(fixture, spheres.n(), rows_[only]);
+        std::fill_n(radius, depths, depths > 0 ? seen_->radiusOf(only) : 0.0f);
         return;
     }
     const std::array rows = rows_; // a byte that is written might be any of the members otherwise
-    eachPlace(spheres.places, words_, [&](uint32_t place) {
-        const size_t pointClass = spheres.classOf[place & 255] >> (place >> 8) * 4 & 7u;
+    for (uint32_t i = 0; i < spheres.n(); ++i) {
+        const size_t pointClass = spheres.classOf[places[i] & 255] >> (places[i] >> 8) * 4 & 7u;
         ++counts_.ofClass[pointClass];
-        *fixture++ = rows[pointClass];
-    });
+        fixture[i] = rows[pointClass];
+        if (i < depths) {
+            radius[i] = seen_->radiusOf(pointClass);
+        }
+    }
 }
 
 } // namespace fathom::cloud

@@ -52,6 +52,9 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         passes_.bind(slot, uploads_[slot]);
     }
+    if (plan.packsDepths()) {
+        seenPoints_.emplace(camera.depth, layout_);
+    }
     warmUp();
 }
 
@@ -169,6 +172,7 @@ void FrameCycle::upload(Frame frame) {
         cloud::setFrame(params_, f.pose, *origin_, frame->captureTime,
                         lastCapture_.value_or(frame->captureTime));
         cloud::uploadFrame(uploads_[f.slot], frame, params_);
+        f.params = params_;
         uploadArm(f.slot, *origin_);
     }
     lastSource_ = frame->sourceNumber;
@@ -228,6 +232,9 @@ FrameReport FrameCycle::finish() {
             crew_.call();
         }
         fillHost(f); // while the device works
+        if (seenPoints_) {
+            seenPoints_->setFrame(f.params);
+        }
         const uint32_t valid = cloud::copyDepth(pool_.back().host, f.frame->depth, scene_, meanwhile);
         if (plan_.cloud) {
             report.inPlace = uploads_[f.slot].depth.imported();
@@ -235,7 +242,8 @@ FrameReport FrameCycle::finish() {
         }
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
-        lastCounts_ = cloud::collect(set, work_, scene_, plan_, layout_, crew_);
+        lastCounts_ =
+            cloud::collect(set, work_, seenPoints_ ? &*seenPoints_ : nullptr, scene_, plan_, layout_, crew_);
         lastCounts_.valid = valid;
         if (plan_.query != Plan::Query::Gpu) {
             frozen_.apply(set.host, scene_);

@@ -92,6 +92,7 @@ private:
         double uploadMs = 0.0;
         FrameReport::Times times;
         Pose pose;
+        shared::FrameParams params{}; // as the passes read them
     };
 
     void placeOrigin(const dvec3& origin);
@@ -111,6 +112,7 @@ private:
     cloud::WorkBuffers work_;
     cloud::UploadSlots uploads_;
     cloud::FixturePool pool_;
+    std::optional<cloud::SeenPoints> seenPoints_; // where the plan packs depths
     std::vector<cloud::SetBuffers*> setBuffers_;
     FramePasses passes_;
     gpu::Timeline timeline_;

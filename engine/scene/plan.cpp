@@ -126,7 +126,7 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
          std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
              (plan.hold ? ", unseen points held" : "") +
              (plan.leaks ? ", holes between points looked for" : ", too near for holes between points") +
-             (plan.pack ? ", in a row for the host, who reads it across a bus" : ""),
+             (plan.pack ? ", in runs for the host, who reads them across a bus" : ""),
          "no forbidden class of points");
     pass("tree", plan.tree, "bounds up to one root for the query",
          plan.spheres ? "the CPU's query asks a grid" : "no forbidden class of points");
@@ -171,10 +171,11 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
            : packedClasses ? "of patches with spheres of several"
            : plan.pack     ? "there is one"
                            : "the host reads them beside the points");
-    buffer("packed spheres", plan.pack, slots * (plan.hold ? 32u : 16u) + 72ull * layout.patches(),
-           !plan.spheres ? "no forbidden class of points"
-           : plan.pack   ? "of one fixture set"
-                         : "the host reads radii beside the points");
+    buffer("packed spheres", plan.pack, slots * plan.packedBytes() + 72ull * layout.patches(),
+           !plan.spheres        ? "no forbidden class of points"
+           : plan.packsDepths() ? "of one fixture set; a depth a seen sphere"
+           : plan.pack          ? "of one fixture set"
+                                : "the host reads radii beside the points");
     buffer("tree nodes", plan.tree, 20ull * layout.nodes(),
            plan.tree ? "of one fixture set" : "no query walks a tree");
     buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");

@@ -52,7 +52,7 @@ struct Plan {
     // spheres an invocation a pixel, moments one a sub-patch, the rest from shared memory; else a sub-patch
     // and a patch
     bool byPixel = false;
-    bool pack = false; // with byPixel: spheres in a row for the host, for the device has memory of its own
+    bool pack = false; // with byPixel: spheres in runs for the host, for the device has memory of its own
     bool memoryTexels = false; // memory of points is read as texels: faster on a CPU device, but elsewhere a
                                // fetch may come after what is written to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
@@ -72,6 +72,11 @@ struct Plan {
     bool lists() const { return cloud && !byPixel; }
     // So is thinning, except where the group that makes a patch's spheres can share it.
     bool thins() const { return thin && !byPixel; }
+    // A seen sphere is packed as its depth, which its pixel's ray makes a point; with beams whole.
+    bool packsDepths() const { return pack && !beam; }
+    uint64_t packedBytes() const { // a slot, at most
+        return packsDepths() ? 4u + (thin ? 2u : 0u) + (hold ? 16u : 0u) : (hold ? 32u : 16u);
+    }
     bool delivers() const { return cloud && byPixel; } // by a dispatch; a CPU device copies
     uint32_t dispatchesPerFrame() const;               // of the frame path, query excluded
 };

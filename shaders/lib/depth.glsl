@@ -14,10 +14,12 @@ float depthAt(uint pixel) {
     return metresOf(rawDepth(pixel));
 }
 
-// (x / z, y / z) of the ray through a pixel's centre; of a pixel outside of the picture, where nothing is measured, any.
+// (x / z, y / z) of the ray through a pixel's centre; of a pixel outside of the picture, where nothing is measured, any. No division:
+// the host works out the same points (engine/cloud/seen_points.h), and a division may be rounded in any way here.
 vec2 rayOf(uvec2 pixel) {
     if (kRays != 0) {
         return rays[min(pixel.y * params.size.x + pixel.x, params.size.x * params.size.y - 1u)];
     }
-    return (vec2(pixel) - params.lens.zw) / params.lens.xy;
+    precise vec2 ray = (vec2(pixel) - params.lens.zw) * params.steps.xy;
+    return ray;
 }

@@ -5,6 +5,8 @@ const uint kWithin = kByPixel != 0 ? kThin : 0u; // 1: thinning is decided here
 // Spheres of the patch, then held ones; before them the points that thinning is decided about.
 shared vec4 ofPatch[kByPixel == 0 ? 1u : (kThin != 0 && kHold == 0 ? 441u : 256u * kLayers)];
 shared uint notesOfPatch[kByPixel != 0 ? 256 : 1]; // as in PixelResult
+const bool kByDepth = kPack != 0 && kBeam == 0;     // a seen sphere is packed as its depth
+shared float zOfPatch[kByDepth ? 256 : 1];
 shared uint rememberedOfPatch;                     // as in `live`
 #include "shaders/lib/thin_patch.glsl"
 #include "shaders/lib/packing.glsl"
@@ -33,7 +35,7 @@ void boundOfGroup(uint patchIndex, uint s) {
         notes = noted(notes, p, notesOfPatch[s * 16u + p]);
     }
     putBound(patchIndex * 16u + s, centre, radius, count, notes);
-    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch) > 1)) { // else the run says it
+    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) { // else the run says it
         classes[patchIndex * 16u + s] = notes.classes;
     }
     if (kHold != 0 && notes.remembered != 0) {
@@ -67,8 +69,11 @@ void wholePatch(uint patchIndex) {
         uint sub = patchIndex * 16u + (i >> 4);
         PixelResult r = handlePixel(sub, i & 15u, patchAt + pixelInPatch(i & 240u), maskAt(sub * 16u + (i & 15u)) & params.depthBand.w, around, holding);
         ofPatch[i] = r.sphere;
+        if (kByDepth) {
+            zOfPatch[i] = r.z;
+        }
         markPresent(i, r.sphere.w);
-        markClass(1u << (r.note >> 8 & 15u), r.sphere.w);
+        markClass(1u << (r.note >> 8 & 15u) | (r.note >> 16 != 0 ? kGrownHere : 0u), r.sphere.w);
         if (kHold != 0) {
             ofPatch[256u * (kLayers - 1u) + i] = r.held;
             markPresent(256u * (kLayers - 1u) + i, r.held.w);
@@ -87,7 +92,9 @@ void wholePatch(uint patchIndex) {
     if (kPack != 0 || kHold != 0) {
         barrier();
     }
-    packPatch(patchIndex);
+    if (kPack != 0) {
+        packPatch(patchIndex);
+    }
     // Patches that are not listed remember nothing, before and after: all of them are written.
     if (kHold != 0 && gl_LocalInvocationID.x == 0) {
         live[patchIndex] = rememberedOfPatch;

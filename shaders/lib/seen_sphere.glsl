@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The region sphere of a point that the picture shows. Needs params, kBeam, kThin, beam.glsl, forbidden.glsl, thinning.glsl.
+// The region sphere of a point that the picture shows. Needs params, kBeam, kThin, beam.glsl, forbidden.glsl.
 
 // Three sigma of a point, by its range from the camera [m].
 float grownBySigma(vec3 point) {
@@ -7,10 +7,13 @@ float grownBySigma(vec3 point) {
     return kBeam != 0 ? 3.0 * beamSigma(distance(point, camera)) : 0.0;
 }
 
-// The sphere of the point seen now in pixel p of a sub-patch; R < 0 when there is none or the budget leaves it out. more: for its
-// sigma [m].
-vec4 seenSphere(vec4 point, const uint p, uint c, float more, CellsAround around) {
-    float grown = kThin != 0 ? keptGrowth(p, around) : 0.0;
-    float radius = radiusOf(c) + grown + more;
+// The sphere of a point seen now; R < 0 when there is none or the budget leaves it out (grown < 0). more: for its sigma [m].
+vec4 seenSphere(vec4 point, uint c, float grown, float more) {
+    precise float radius = radiusOf(c) + grown + more;
     return vec4(point.xyz, any(bvec2(c == kNone, grown < 0.0)) ? -1.0 : radius);
+}
+
+// Whole steps of a growth that thinning decided; 0 without it.
+uint stepsOf(float grown) {
+    return kThin != 0 ? uint(max(grown, 0.0) * params.steps.w + 0.5) : 0u;
 }

@@ -28,8 +28,10 @@ float askedBy(vec3 q, Corners c, float tx, float ty, float radius) {
     return off * (2.0 * radius + off) + max(spread, 0.0);
 }
 
-// R' - R without the cancellation of two nearly equal radii, outward and never 0; -1 = not within the budget.
+// R' - R without the cancellation of two nearly equal radii, outward to a whole step and never 0; -1 = not within the budget. What
+// the steps are rounded by is less than the 1e-4 that are added.
 float growthOf(float most, float radius) {
     float growth = most / (sqrt(radius * radius + most) + radius) * 1.0001 + 1e-8;
-    return growth <= params.filterParams.y ? growth : -1.0;
+    precise float stepped = min(ceil(growth * params.steps.w), float(kGrowthSteps)) * params.steps.z;
+    return growth <= params.filterParams.y ? stepped : -1.0;
 }

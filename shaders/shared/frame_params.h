@@ -40,8 +40,15 @@ struct FrameParams {
     vec4 beam;      // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
     vec4 ranges[8]; // a class: least and largest range [m]; 1 = asks for it; -
     vec4 water;     // red, green, blue of stored bytes: logarithm of what a metre takes of them [1/m]; -
+    vec4 steps; // of a ray from pixel to pixel: 1 / depth fx, 1 / depth fy; of what a sphere grows by [m]; 1
+                // / that
 };
-FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 160);
+FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 176);
+
+// Steps of growth that the whole error budget has: what a packed sphere grows by takes 16 bits.
+FATHOM_CONST kGrowthSteps = 65535;
+// Of a packed run: steps follow the depths of its seen spheres.
+FATHOM_CONST kRunGrown = 0x80000000;
 
 // What is known of a patch, bits of a word.
 FATHOM_CONST kPatchListed = 1;  // it has work
@@ -60,7 +67,7 @@ struct FrameCounters {
     uvec4 quietGroups;   // as subGroups, of listed patches that hold nothing; w = how many these are
     uvec4 holdingGroups; // the same of those that hold
     uint nodes;          // used nodes of the tree
-    uint spheres;        // that are packed, held ones too
+    uint packedWords;    // of all runs (packing.glsl)
     uint pad[2];
     uint classPixels[8]; // pixels that classify marks, a class
     uint leakSpacing[8]; // bits of the largest spacing between neighbours that is >= R, a class; 0 = none

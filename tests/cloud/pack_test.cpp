@@ -51,7 +51,7 @@ void checkPacked(const CloudRig& rig) {
     const RegionSpheres& host = rig.host().spheres;
     CHECK((rig.plan().query == Plan::Query::Gpu || rig.set().keys.empty()));
     REQUIRE(host.size() == all.spheres.size());
-    CHECK(rig.counters().spheres == (rig.plan().pack ? all.spheres.size() : 0));
+    CHECK((rig.counters().packedWords > 0) == (rig.plan().pack && !all.spheres.empty()));
     size_t wrong = 0;
     for (size_t i = 0; i < all.spheres.size(); ++i) {
         const reference::RegionSphere& s = all.spheres[i];
@@ -212,5 +212,71 @@ TEST_CASE("Packed spheres have the class that they have in their slots, in patch
         CHECK(held);
         CHECK((several > 0) == (classes > 1));
         CHECK((classes == 8 || several < static_cast<std::ptrdiff_t>(ofPatch.size())));
+    }
+}
+
+TEST_CASE("From depths and whole steps of growth the host makes the very spheres that the device has: lenses, "
+          "fans, poses, classes, thinned and held") {
+    uint32_t grown = 0, held = 0, distorted = 0;
+    bool holds = false;
+    for (CloudCase& c : cloudCases()) {
+        CAPTURE(c.name);
+        holds = !holds;
+        c.scene.holdSeconds = holds ? 1.0 : 0.0;
+        CloudRig rig(c.scene, c.camera, packing(true));
+        if (!rig.plan().spheres) {
+            continue;
+        }
+        for (int frame = 0; frame < 2; ++frame) {
+            const Pose pose{{0.1 * frame, 0.02, -0.3}, rotationExp({0.1, 0.2 * frame, -0.1})};
+            rig.run(frame == 0 ? c.picture : stressPicture(c.camera, 7), -1.0, pose);
+            checkPacked(rig);
+            const RegionSpheres& s = rig.host().spheres;
+            for (size_t i = 0; i < s.size(); ++i) {
+                const FixtureClass& f = c.scene.fixtures[s.fixture[i]];
+                const bool seen = s.source[i] < c.camera.depth.pixels();
+                grown += seen && s.radius[i] > f.radius + 3.0 * c.scene.registrationSigma + 1e-6;
+                held += !seen;
+                distorted += seen && rig.plan().rays;
+            }
+        }
+    }
+    CHECK(grown > 100);
+    CHECK(held > 100);
+    CHECK(distorted > 100);
+}
+
+TEST_CASE("A picture in flight keeps the radii and the pose that its passes read") {
+    const CameraInfo camera = pinholeCamera(50, 34);
+    for (const bool pack : {false, true}) {
+        CAPTURE(pack);
+        CloudRig rig(plainScene(), camera, packing(pack));
+        FrameCycle& cycle = rig.cycle();
+        const Picture picture = drawnPicture(camera, [](int, int) { return 0.8; });
+        const auto frame = [&](uint32_t index) {
+            Frame::Content content;
+            content.index = index, content.sourceNumber = index, content.captureTime = index / 30.0;
+            content.depth = picture.depth, content.colour = picture.colour;
+            content.baseTcamera = Pose{{0.1 * index, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
+            return Frame(content, nullptr);
+        };
+        cycle.upload(frame(1));
+        cycle.submit();
+        Scene wider = rig.scene();
+        wider.fixtures[0].radius = 0.09;
+        cycle.setScene(wider);
+        cycle.upload(frame(2));
+        const auto spheresOf = [&] {
+            cycle.finish();
+            const RegionSpheres& s = cycle.sets().newest()->host.spheres;
+            REQUIRE(s.size() == 50 * 34);
+            return std::pair(s.x[0], s.radius[0]);
+        };
+        const auto first = spheresOf();
+        cycle.submit();
+        const auto second = spheresOf();
+        CHECK(first.second == 0.04f);
+        CHECK(second.second == 0.09f);
+        CHECK(second.first - first.first == doctest::Approx(0.1).epsilon(1e-5));
     }
 }
