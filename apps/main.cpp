@@ -2,6 +2,7 @@
 // fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not
 // hold or an internal error, 2 bad input, 3 device lost.
 #include "apps/arm_simulator/arm_simulator_command.h"
+#include "apps/clock/keep_clock_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
 #include "apps/guard/arm_guardian_command.h"
@@ -68,6 +69,8 @@ int run(int argc, char** argv) {
     app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and turns");
     app.add_flag("--validate", global.validate,
                  "Vulkan validation, synchronisation included; a message ends in exit code 1");
+    app.add_flag("--hold-clock", global.holdClock,
+                 "keep an NVIDIA GPU at its full clock while it waits for pictures; takes power");
     app.add_flag("-v,--verbose", global.verbose, "log more");
     app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
     app.fallthrough();
@@ -78,6 +81,7 @@ int run(int argc, char** argv) {
     fathom::addGuardCommand(app);
     fathom::addArmGuardianCommand(app);
     fathom::addArmSimulatorCommand(app);
+    fathom::addKeepClockCommand(app);
     fathom::addDevicesCommand(app, global);
     fathom::addProfileCommand(app, global);
     int result = 0;

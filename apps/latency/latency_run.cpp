@@ -189,7 +189,9 @@ LatencyPart LatencyRun::window() {
     o.turns = options_.seconds; // not of the window, which may wait long for its first picture
     o.armed = true;             // as the other parts are
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
-    operate::OperatorRun run(o, global_);
+    GlobalOptions global = global_;
+    global.holdClock = false; // the session here holds it
+    operate::OperatorRun run(o, global);
     run.run();
     const operate::RunView& seen = run.view();
     for (size_t i = 0; i < seen.turnMicros().size(); ++i) {

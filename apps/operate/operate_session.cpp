@@ -112,6 +112,7 @@ OperateSession::OperateSession(const OperateOptions& options, const GlobalOption
     , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), kReaders, drawing},
              [this](const DeviceFacts& facts) { return planToEdit(scene, camera->info(), tool, facts); })
     , passNames(cycles.frames().passNames()) {
+    clock = std::make_unique<ClockKeeper>(global, cycles.facts());
     edits.takeUncertainty(*camera);
 }
 

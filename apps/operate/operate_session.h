@@ -5,6 +5,7 @@
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/device_handover.h"
 #include "apps/binding/scene_edits.h"
+#include "apps/clock/clock_keeper.h"
 #include "apps/operate/operate_command.h"
 #include "devices/camera.h"
 #include "devices/live_hand.h"
@@ -32,6 +33,7 @@ struct OperateSession {
 
     Scene scene;                        // with spare classes
     SceneEdits edits;                   // of a recording that is looked at
+    std::unique_ptr<ClockKeeper> clock; // once there is a device
     std::unique_ptr<LiveHand> liveHand; // null = mouse and keyboard, or a path
     std::unique_ptr<Camera> camera;
     std::unique_ptr<ArmRig> arm;        // null = the tool moves freely

@@ -13,7 +13,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
+constexpr double kCircle = 6.283185307179586;
 
 void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool ghost) {
     Silhouette silhouette(input.port.view);
@@ -86,8 +86,8 @@ void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& g
         const dvec3 a = glm::normalize(glm::cross(std::abs(n.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), n));
         const dvec3 b = glm::cross(n, a);
         for (int i = 0; i < 48; ++i) {
-            const auto p = input.port.of(
-                guidance.position + 0.025 * (std::cos(kTurn * i / 48) * a + std::sin(kTurn * i / 48) * b));
+            const auto p = input.port.of(guidance.position + 0.025 * (std::cos(kCircle * i / 48) * a +
+                                                                      std::sin(kCircle * i / 48) * b));
             if (p) {
                 list.PathLineTo(*p);
             }

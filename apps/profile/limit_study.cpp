@@ -119,7 +119,8 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"tree_query", {l.query.bytes, l.query.operations}},
         {"deliver", {3.0 * (sizeof(shared::FrameCounters) + 4.0 * l.pixels / 256.0), 0.0}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
-        {"collect", // read as the device packs or leaves them, written as columns
+        {"collect", // read as the device packs or leaves them, written as columns; what points take of depths
+                    // is not counted
          {(l.pack ? l.packed : 20.0 * l.spheres) + 21.0 * l.spheres, 0.0, Need::Where::Crew}},
         {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::Crew}},
     };

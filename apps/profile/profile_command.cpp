@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/profile_command.h"
 
+#include "apps/clock/clock_keeper.h"
 #include "apps/profile/profile_trace.h"
 #include "apps/profile/report.h"
 #include "apps/profile/studies.h"
@@ -51,6 +52,7 @@ bool wanted(const Settings& settings, const std::string& name) {
 std::string commandOf(const Settings& settings, const GlobalOptions& global) {
     std::string command = "fathom";
     command += global.device.empty() ? "" : " --device " + global.device;
+    command += global.holdClock ? " --hold-clock" : "";
     command += " profile";
     for (const std::string& name : settings.studies) {
         command += " " + name;
@@ -86,9 +88,11 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
     prepareOutputFolder(settings.out, false);
     const gpu::Instance instance(global.validation());
     gpu::Device device(instance, global.device);
+    ClockKeeper clock(global, device.facts());
+    const bool held = clock.held();
     const StudyContext context{device, settings};
     const auto began = std::chrono::steady_clock::now();
-    const Facts facts = runFacts(device, settings, commandOf(settings, global));
+    Facts facts = runFacts(device, settings, commandOf(settings, global));
     std::vector<Study> studies;
     for (const StudyEntry& entry : allStudies()) {
         if (wanted(settings, entry.name)) {
@@ -102,6 +106,11 @@ void runProfile(const Settings& settings, const GlobalOptions& global) {
     }
     const RunTime time{std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count(),
                        static_cast<double>(std::clock()) / CLOCKS_PER_SEC};
+    if (global.holdClock) {
+        facts.emplace_back("clock", !held          ? "as the driver sees fit"
+                                    : clock.held() ? "held"
+                                                   : "held at first");
+    }
     writeProfileJson(facts, studies, time, settings.out / "profile.json");
     writeReportHtml(facts, studies, settings.out);
     std::cout << "took " << digits(time.wall) << " s; written to " << settings.out.string() << "\n";

@@ -53,6 +53,7 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
                             ? makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts)
                             : planToEdit(scene, camera->info(), tool, facts);
              }) {
+    clock = std::make_unique<ClockKeeper>(global, cycles.facts());
     edits.takeUncertainty(*camera);
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/binding/arm_thread.h"
 #include "apps/binding/scene_edits.h"
+#include "apps/clock/clock_keeper.h"
 #include "apps/replay/replay_command.h"
 #include "devices/camera.h"
 #include "devices/haptic_device.h"
@@ -22,6 +23,7 @@ struct ReplaySession {
 
     Scene scene;
     SceneEdits edits;                   // of a recording of the window
+    std::unique_ptr<ClockKeeper> clock; // once there is a device
     std::unique_ptr<LiveHand> liveHand; // null = scripted or simulated
     std::unique_ptr<Camera> camera;
     std::unique_ptr<ArmRig> arm;        // null = the tool moves freely

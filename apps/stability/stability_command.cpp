@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/stability_command.h"
 
+#include "apps/clock/clock_keeper.h"
 #include "apps/replay/output_file.h"
 #include "apps/stability/stability_plots.h"
 #include "apps/stability/stability_report.h"
@@ -25,9 +26,11 @@ struct StabilityOptions {
 struct ChosenDevice {
     gpu::Instance instance;
     gpu::Device device;
+    ClockKeeper clock;
     explicit ChosenDevice(const GlobalOptions& global)
         : instance(global.validation())
-        , device(instance, global.device) {}
+        , device(instance, global.device)
+        , clock(global, device.facts()) {}
 };
 
 void print(const stability::CaseResult& r) {

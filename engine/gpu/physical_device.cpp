@@ -84,17 +84,20 @@ DeviceFacts readFacts(VkPhysicalDevice device) {
         VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_EXTERNAL_MEMORY_HOST_PROPERTIES_EXT};
     VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
     VkPhysicalDeviceDriverProperties driver{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES};
+    VkPhysicalDeviceIDProperties id{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES};
     subgroup.pNext = &driver;
+    id.pNext = &subgroup;
     const bool canImport = hasExtension(device, VK_EXT_EXTERNAL_MEMORY_HOST_EXTENSION_NAME);
     driver.pNext = canImport ? &host : nullptr;
     VkPhysicalDeviceProperties2 properties{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
-    properties.pNext = &subgroup;
+    properties.pNext = &id;
     vkGetPhysicalDeviceProperties2(device, &properties);
     const VkPhysicalDeviceLimits& limits = properties.properties.limits;
 
     DeviceFacts facts;
     facts.name = properties.properties.deviceName;
     facts.driver = std::string(driver.driverName) + " " + driver.driverInfo;
+    std::copy_n(id.deviceUUID, facts.uuid.size(), facts.uuid.begin());
     facts.kind = kindOf(properties.properties.deviceType);
     facts.subgroupSize = subgroup.subgroupSize;
     facts.maxInvocations = limits.maxComputeWorkGroupInvocations;

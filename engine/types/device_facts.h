@@ -2,6 +2,7 @@
 // What was discovered of the compute device, in plain numbers, so that the plan needs no Vulkan.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 
@@ -13,6 +14,8 @@ enum class DeviceKind { Discrete, Integrated, Cpu, Other };
 struct DeviceFacts {
     std::string name;
     std::string driver;
+    std::array<uint8_t, 16>
+        uuid{}; // VkPhysicalDeviceIDProperties::deviceUUID: the same in other interfaces of a driver
     DeviceKind kind = DeviceKind::Cpu;
     uint32_t subgroupSize = 1;
     uint32_t maxInvocations = 128;   // of one work group

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// A CUDA driver library of one device that says of itself what the environment tells: FAKE_CUDA_ID, the
+// device's id; FAKE_CUDA_FAULT, what making a context returns; FAKE_CUDA_LOG, a file that is told when one is
+// made and when the process ends.
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+
+namespace {
+
+const char* setting(const char* name) {
+    const char* const value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+void tell(const char* what) {
+    if (std::FILE* const file = std::fopen(setting("FAKE_CUDA_LOG"), "a")) {
+        std::fprintf(file, "%s\n", what);
+        std::fclose(file);
+    }
+}
+
+unsigned nibble(char c) {
+    return static_cast<unsigned>(c <= '9' ? c - '0' : c - 'a' + 10);
+}
+
+} // namespace
+
+extern "C" {
+
+int cuInit(unsigned) {
+    return 0;
+}
+int cuDeviceGetCount(int* count) {
+    *count = std::getenv("CUDA_VISIBLE_DEVICES") == nullptr ? 2 : 0;
+    return 0;
+}
+int cuDeviceGet(int* device, int index) {
+    *device = index;
+    return 0;
+}
+int cuDeviceGetUuid(void* bytes, int device) { // the second is the one
+    const char* const id = setting("FAKE_CUDA_ID");
+    auto* const out = static_cast<unsigned char*>(bytes);
+    for (size_t i = 0; i < 16; ++i) {
+        const bool told = device == 1 && std::strlen(id) == 32;
+        out[i] = told ? static_cast<unsigned char>(nibble(id[2 * i]) << 4 | nibble(id[2 * i + 1])) : 0xee;
+    }
+    return 0;
+}
+int cuDevicePrimaryCtxRetain(void** context, int device) {
+    static int made = 0;
+    *context = &made;
+    const int fault = std::atoi(setting("FAKE_CUDA_FAULT"));
+    if (fault == 0) {
+        tell(device == 1 ? "made" : "made on another device");
+        std::atexit([] { tell("ended"); });
+    }
+    return fault;
+}
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// --hold-clock: the process beside the program that occupies the chosen device, with a driver library that
+// the tests play, and what becomes of a run where it cannot.
+#include "tests/rig/run_fathom.h"
+#include "tests/rig/stage.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <doctest/doctest.h>
+#include <fstream>
+#include <functional>
+#include <optional>
+#include <string>
+#include <sys/wait.h>
+#include <thread>
+
+using namespace fathom;
+
+namespace {
+
+// Environment of the programs that are started while it lives.
+class Environment {
+public:
+    using Values = std::vector<std::pair<std::string, std::string>>;
+    explicit Environment(Values values)
+        : values_(std::move(values)) {
+        for (const auto& [name, value] : values_) {
+            const char* const before = std::getenv(name.c_str());
+            before_.push_back(before != nullptr ? std::optional<std::string>(before) : std::nullopt);
+            ::setenv(name.c_str(), value.c_str(), 1);
+        }
+    }
+    ~Environment() {
+        for (size_t i = 0; i < values_.size(); ++i) {
+            if (before_[i]) {
+                ::setenv(values_[i].first.c_str(), before_[i]->c_str(), 1);
+            } else {
+                ::unsetenv(values_[i].first.c_str());
+            }
+        }
+    }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+
+private:
+    Values values_;
+    std::vector<std::optional<std::string>> before_;
+};
+
+std::string textOf(const std::filesystem::path& file) {
+    std::ifstream in(file);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// A stage with two pictures.
+struct Short : Stage {
+    Short() {
+        recording({bumpPicture(), bumpPicture()});
+        scene({});
+        hand({{0.0, {0.0, 0.0, 0.4}}});
+    }
+    std::vector<std::string> holding() const {
+        std::vector<std::string> words = command();
+        words.insert(words.begin(), "--hold-clock");
+        return words;
+    }
+};
+
+// As the program says it in its warning.
+std::string idOfDevice(const Short& stage) {
+    const Environment library(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA}});
+    const std::string said = runFathom(stage.holding()).err;
+    const size_t at = said.find("no CUDA device has its id ");
+    REQUIRE_MESSAGE(at != std::string::npos, said);
+    return said.substr(at + 26, 32);
+}
+
+bool soon(const std::function<bool()>& holds) {
+    for (int i = 0; i < 1000 && !holds(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return holds();
+}
+
+} // namespace
+
+TEST_CASE("The chosen device, and no other, is occupied while the program runs, and free when it has ended") {
+    const Short stage;
+    const Environment driver(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA},
+                                                 {"FAKE_CUDA_ID", idOfDevice(stage)},
+                                                 {"CUDA_VISIBLE_DEVICES", "7"},
+                                                 {"FAKE_CUDA_LOG", (stage / "log").string()}});
+    const ProgramRun run = runFathom(stage.holding());
+    CHECK(run.exitCode == 0);
+    CHECK(run.err == "");
+    CHECK(textOf(stage / "log") == "made\nended\n");
+}
+
+TEST_CASE("It is free, too, when the program was killed") {
+    const Short stage;
+    const Environment driver(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA},
+                                                 {"FAKE_CUDA_ID", idOfDevice(stage)},
+                                                 {"FAKE_CUDA_LOG", (stage / "log").string()}});
+    const std::vector<std::string> endless{"--hold-clock",
+                                           "latency",
+                                           (stage / "scene.yaml").string(),
+                                           "--source",
+                                           (stage / "rec").string(),
+                                           "--load",
+                                           "idle",
+                                           "--seconds",
+                                           "600"};
+    const pid_t program = startFathom(endless, stage / "said");
+    CHECK(soon([&] { return textOf(stage / "log") == "made\n"; }));
+    ::kill(program, SIGKILL);
+    ::waitpid(program, nullptr, 0);
+    CHECK(soon([&] { return textOf(stage / "log") == "made\nended\n"; }));
+}
+
+TEST_CASE("Where the clock cannot be held one line says why, and the run is as without it") {
+    const Short stage;
+    const std::string digest = [&] {
+        const ProgramRun run = runFathom(stage.command());
+        REQUIRE(run.exitCode == 0);
+        return run.out.substr(run.out.find("digest"), 45);
+    }();
+    const auto check = [&](const std::string& why) {
+        const ProgramRun run = runFathom(stage.holding());
+        CHECK(run.exitCode == 0);
+        REQUIRE(run.errorLines().size() == 1);
+        CHECK(run.err.find("warning: --hold-clock: the clock of '") == 0);
+        CHECK_MESSAGE(run.err.find(why) != std::string::npos, run.err);
+        CHECK(run.out.find(digest) != std::string::npos);
+    };
+    SUBCASE("no such driver") {
+        stage.write("libcuda.so.1", ""); // nor any that this machine has
+        const Environment library(Environment::Values{{"LD_LIBRARY_PATH", stage.path().string()}});
+        check("libcuda.so.1");
+    }
+    SUBCASE("a driver that does not know the device") {
+        const Environment library(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA}});
+        check("no CUDA device has its id");
+    }
+    SUBCASE("a driver that refuses") {
+        const Environment library(
+            {{"LD_LIBRARY_PATH", FAKE_CUDA}, {"FAKE_CUDA_ID", idOfDevice(stage)}, {"FAKE_CUDA_FAULT", "2"}});
+        check("cuDevicePrimaryCtxRetain says 2");
+    }
+}
