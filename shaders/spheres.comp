@@ -42,7 +42,7 @@ layout(std430, binding = 16) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 17) writeonly buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 21) writeonly buffer Packed { uint packedWords[]; }; // runs: packing.glsl
 layout(std430, binding = 22) writeonly buffer Places { uint places[]; }; // 16 words a listed patch: bit (layer * 256 + slot in the patch) = packed
-layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> its first word; how many spheres + 65536 x bits of their classes, kRunGrown
+layout(std430, binding = 23) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> its first word; how many spheres + 65536 x bits of their classes, kRunGrown, kRunWide
 layout(std430, binding = 24) writeonly buffer Radii { vec4 radii[]; };          // a row of a sub-patch: R of its four points, < 0 = none
 layout(std430, binding = 25) writeonly buffer HeldRadii { vec4 heldRadii[]; };  // the same for held points, which lie in `kept`
 layout(std430, binding = 26) writeonly buffer Decided { vec4 decided[]; };      // a sub-patch, with kByPixel: `growth` as thin.comp writes it, for those who verify

@@ -30,7 +30,7 @@ layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot 
 
 const uint kHalo = kRadius > 1u ? kRadius : 1u;
 const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
-// Points of the camera frame, each worked out once: a ray is two divisions, and a point is asked for by up to 25 pixels, and by
+// Points of the camera frame, each worked out once: a point is asked for by up to 25 pixels, and by
 // its neighbours again. Column by column, so that neighbours lie in banks of their own.
 shared float tileX[kTileEdge * kTileEdge], tileY[kTileEdge * kTileEdge], tileZ[kTileEdge * kTileEdge];
 

@@ -49,6 +49,7 @@ PassError surfaceError(const PrecisionRig& rig, double range) {
 PassError thinError(const PrecisionRig& rig, double range) {
     const auto twin = reference::thin(rig.scene(), rig.width(), rig.height(), rig.forbidden(), rig.points());
     const auto cells = rig.thinning();
+    const double step = rig.scene().errorBudget / shared::kGrowthSteps; // outward to a whole one
     PassError e;
     e.wrong += cells.size() != twin.size();
     for (size_t i = 0; i < std::min(cells.size(), twin.size()); ++i) {
@@ -57,7 +58,7 @@ PassError thinError(const PrecisionRig& rig, double range) {
             e.wrong += different && !twin[i].unsure;
             e.unsure += different && twin[i].unsure;
             if (here >= 0.0 && there >= 0.0) {
-                e.add(std::abs(here - there) / range);
+                e.add(std::max({0.0, there - here, here - there - step}) / range);
             }
         };
         compare(cells[i].whole, twin[i].whole);

@@ -104,7 +104,7 @@ Outcome occlusion(const DeviceSource& device, Effort effort) {
 
 Outcome thin(const DeviceSource& device, Effort effort) {
     return rangeOutcome(overRanges(device, effort, {0.0, 0.0002}, thinError), kShare, "1",
-                        "Thin: growth of the kept spheres over the range.");
+                        "Thin: growth of the kept spheres, but for a step outward, over the range.");
 }
 
 Outcome spheres(const DeviceSource& device, Effort effort) {

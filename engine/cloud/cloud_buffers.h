@@ -68,7 +68,7 @@ struct SetBuffers {
                         // any order; empty without pack
     gpu::Buffer places; // 16 uint a listed patch, 8 a layer: bit (layer * 256 + slot) = there is a sphere
     gpu::Buffer runs;   // uvec2 a listed patch: first word of its run; how many spheres + 65536 x bits of
-                        // their classes, kRunGrown
+                        // their classes, kRunGrown, kRunWide
     gpu::Buffer bits;   // uint a sub-patch of a listed patch: pixels of a forbidden class
     gpu::Buffer nodes;  // vec4 a node; empty without a tree
     gpu::Buffer nodeCounts;    // uint a node

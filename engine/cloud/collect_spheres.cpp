@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/collect_spheres.h"
 
+#include "engine/cloud/sphere_run.h"
 #include "engine/contact/clones.h"
 #include "engine/types/crew.h"
 
@@ -32,24 +33,6 @@ FATHOM_CLONES uint32_t bitsOfSpheres(const float* radii) noexcept {
         bits |= static_cast<uint32_t>(radii[k] >= 0.0f) << k;
     }
     return bits;
-}
-
-// Parts of a run (shaders/lib/packing.glsl) of n spheres; the classes are for the caller to say.
-PatchSpheres runOf(const float* run, const uint32_t* places, uint32_t n, bool grown, bool depths) noexcept {
-    PatchSpheres s;
-    for (uint32_t word = 0; word < 8; ++word) {
-        s.seen += static_cast<uint32_t>(std::popcount(places[word]));
-    }
-    s.held = n - s.seen;
-    s.places = places;
-    const float* whole = run;
-    if (depths) {
-        s.depths = run;
-        s.steps = grown ? reinterpret_cast<const uint16_t*>(run + s.seen) : nullptr;
-        whole += s.seen + (grown ? (s.seen + 1) / 2 : 0);
-    }
-    s.whole = reinterpret_cast<const glm::vec4*>(whole);
-    return s;
 }
 
 void add(SphereCounts& to, const SphereCounts& more) {
@@ -135,32 +118,33 @@ SphereCounts SphereCollector::counts() const {
 
 // Of patches [first, end).
 void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
-    const auto packed = set_.device.packed.as<float>();
+    const auto packed = set_.device.packed.as<uint32_t>();
     const auto places = set_.device.places.as<uint32_t>();
     const auto runs = set_.device.runs.as<glm::uvec2>();
     const uint8_t* const classes = work_.classes ? work_.classes.as<uint8_t>().data() : nullptr;
     const auto bring = [&](uint32_t patch) {
         const uint32_t n = patch < end ? begins_[patch + 1] - begins_[patch] : 0;
         if (n > 0) {
-            bringNear(packed.subspan(runs[patch].x, n)); // of the longest of its parts
+            const size_t words = plan_.packsDepths() ? n : 4 * n; // held ones are few
+            bringNear(packed.subspan(runs[patch].x, words));
             bringNear(places.subspan(size_t{patch} * 16, 8));
         }
     };
+    SphereRun run(plan_.packsDepths());
     bring(first);
     for (uint32_t patch = first; patch < end; ++patch) {
         bring(patch + 1);
         const uint32_t n = begins_[patch + 1] - begins_[patch];
         if (n > 0) {
-            PatchSpheres spheres = runOf(&packed[runs[patch].x], &places[size_t{patch} * 16], n,
-                                         (runs[patch].y & shared::kRunGrown) != 0, plan_.packsDepths());
-            spheres.classes = runs[patch].y >> 16 & 0xff;
+            PatchSpheres spheres =
+                run.take(&packed[runs[patch].x], n, runs[patch].y >> 16, &places[size_t{patch} * 16]);
             spheres.classOf = classes != nullptr ? classes + size_t{patch} * 256 : nullptr;
             columns.put(patch, begins_[patch], spheres);
         }
     }
 }
 
-// Of patches [first, end): what a device of its own would have packed.
+// Of patches [first, end), where nothing is packed.
 void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
     const std::array<std::span<const glm::vec4>, 2> points{work_.points.as<glm::vec4>(),
                                                            work_.kept.as<glm::vec4>()};

@@ -67,7 +67,7 @@ FATHOM_CLONES void toKeys(const uint16_t* places, size_t n, uint32_t patch,
     }
 }
 
-FATHOM_CLONES void grow(float* __restrict radius, size_t n, const uint16_t* steps, float step) noexcept {
+FATHOM_CLONES void grow(float* __restrict radius, size_t n, const uint8_t* steps, float step) noexcept {
     for (size_t i = 0; i < n; ++i) {
         radius[i] += static_cast<float>(steps[i]) * step;
     }

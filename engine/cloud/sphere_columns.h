@@ -24,7 +24,7 @@ struct PatchSpheres {
     // A slot: class of the sphere | class of the held one << 4; not read if there is one class.
     const uint8_t* classOf = nullptr;
     const float* depths = nullptr;    // of the seen ones [m]; null: they are whole
-    const uint16_t* steps = nullptr;  // that these have grown by; null: by none
+    const uint8_t* steps = nullptr;   // that these have grown by; null: by none
     const glm::vec4* whole = nullptr; // centre about the origin, R [m]: of the seen ones without depths, then
                                       // of the held ones
     uint32_t n() const { return seen + held; }

@@ -75,7 +75,7 @@ struct Plan {
     // A seen sphere is packed as its depth, which its pixel's ray makes a point; with beams whole.
     bool packsDepths() const { return pack && !beam; }
     uint64_t packedBytes() const { // a slot, at most
-        return packsDepths() ? 4u + (thin ? 2u : 0u) + (hold ? 16u : 0u) : (hold ? 32u : 16u);
+        return packsDepths() ? 4u + (thin ? 1u : 0u) + (hold ? 16u : 0u) : (hold ? 32u : 16u);
     }
     bool delivers() const { return cloud && byPixel; } // by a dispatch; a CPU device copies
     uint32_t dispatchesPerFrame() const;               // of the frame path, query excluded

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Memory of points that a new frame does not contradict (design 4, hold). Two places a slot: the point the slot showed last
-// frame, and the point that it holds. Needs params, forbidden.glsl, seen, kept, keptTime (written) and seenBefore, keptBefore,
+// frame, and the point that it holds. Needs params, forbidden.glsl, seen, kept, keptTime (written; without kTexels read, too) and seenBefore, keptBefore,
 // keptTimeBefore (read), kTexels, kHold, kFan, kBeam, depth.glsl, lens.glsl, beam.glsl.
 
 // What is remembered of a point beside its place: class + 1, 0 = nothing; with beams, above these four bits, what its sphere

@@ -2,17 +2,23 @@
 // Which places of a group's patch have spheres, by layer (seen, held), then slot; and (kPack) these into the run that the host
 // reads. Needs counters, kPack, kThin, kByDepth, kLayers, ofPatch, zOfPatch, notesOfPatch and packedWords, places, runs.
 //
-// A run is of words: the depths z of the seen spheres, for the host knows the ray of each pixel; if one of them has grown, 16 bits
-// each, of how many steps; then centre and R of the held ones, whose rays were of earlier poses. With beams (kByDepth false) the
-// seen ones are whole, too: their radii come by a root, which no two processors need to round alike.
+// A run is of words. First the seen spheres, each by its depth z, for the host knows the ray of each pixel:
+// - none has grown: the bits of z, a word each;
+// - else a word, the bits of half the first one's z, then a word each: 24 bits that count on from there, 8 bits of how many steps it
+//   has grown by;
+// - or, where 24 bits do not reach (a z below half of the first one's, or twice it and more), the bits of z, then bytes of steps.
+// Then the held ones, centre and R, for their rays were of earlier poses. With beams (kByDepth false) the seen ones are whole, too:
+// their radii come by a root, which no two processors need to round alike.
 
-const uint kGrownHere = kRunGrown >> 16; // of classesOfPatch: a seen sphere has grown
-const uint kRunAlign = 32u;        // words: no two groups write to one sector of memory
-shared uint present[16];           // bit a place: spheres of the patch, then held ones
-shared uint packedFrom, packedSeen;
-shared uint classesOfPatch;        // bit a class that a sphere is of; kGrownHere
-shared uint ofRank[kByDepth ? 256 : 1];                    // a seen sphere, as packed: its depth
-shared uint stepsOfRank[kByDepth && kThin != 0 ? 257 : 1]; // and what it has grown by
+const uint kGrownHere = kRunGrown >> 16, kWideHere = kRunWide >> 16; // of the upper half of `runs`
+const uint kRunAlign = 32u; // words: no two groups write to the same 128 bytes of the host's memory
+const uint kReach = 0x800000u; // half of what 24 bits count
+shared uint present[16];    // bit a place: spheres of the patch, then held ones
+shared uint packedFrom, packedSeen, packedBase;
+shared uint classesOfPatch; // bit a class that a sphere is of; kGrownHere
+shared uint wideOfPatch;    // kWideHere, or 0
+shared uint ofRank[kByDepth ? 256 : 1];                    // a seen sphere, as packed: bits of its depth
+shared uint stepsOfRank[kByDepth && kThin != 0 ? 260 : 1]; // and what it has grown by
 
 void markPresent(uint place, float radius) {
     if (radius >= 0.0) {
@@ -60,18 +66,36 @@ bool grownHere() {
     return kThin != 0 && (classesOfPatch & kGrownHere) != 0;
 }
 
-uint wordsOfSeen() {
-    return kByDepth ? packedSeen + (grownHere() ? (packedSeen + 1u) / 2u : 0u) : 4u * packedSeen;
+bool wideHere() {
+    return kThin != 0 && wideOfPatch != 0;
 }
 
-// Where the patch's spheres go. Patches come in any order: the host puts them in theirs.
-void placeRun(uint patchIndex) {
+uint wordsOfSteps() {
+    return wideHere() ? (packedSeen + 3u) / 4u : (grownHere() ? 1u : 0u);
+}
+
+uint wordsOfSeen() {
+    return kByDepth ? packedSeen + wordsOfSteps() : 4u * packedSeen;
+}
+
+// Bits of the depth of the patch's first seen sphere; there is one.
+uint firstDepth() {
+    uint w = 0;
+    while (w < 7u && present[w] == 0) {
+        ++w;
+    }
+    return floatBitsToUint(zOfPatch[kByDepth ? w * 32u + uint(findLSB(present[w])) : 0u]);
+}
+
+// Room for the patch's spheres, whichever way they are packed. Patches come in any order: the host puts them in theirs.
+void placeRun() {
     if (kPack != 0) {
         packedSeen = countOf(0);
-        uint held = kLayers > 1u ? countOf(1) : 0u;
-        uint words = (wordsOfSeen() + 4u * held + kRunAlign - 1u) / kRunAlign * kRunAlign;
+        uint held = kLayers > 1u ? countOf(1) : 0u, steps = grownHere() ? (packedSeen + 3u) / 4u : 0u;
+        uint words = (kByDepth ? packedSeen + steps : 4u * packedSeen) + 4u * held;
+        words = (words + kRunAlign - 1u) / kRunAlign * kRunAlign;
         packedFrom = words != 0 ? atomicAdd(counters.packedWords, words) : 0u;
-        runs[patchIndex] = uvec2(packedFrom, packedSeen + held | classesOfPatch << 16);
+        packedBase = kByDepth && packedSeen != 0 ? firstDepth() - kReach : 0u;
     }
 }
 
@@ -85,23 +109,37 @@ void packWhole(uint at, vec4 sphere) {
     }
 }
 
+// Word w of the seen spheres.
+uint seenWord(uint w) {
+    if (!grownHere() || (wideHere() && w < packedSeen)) {
+        return ofRank[w];
+    }
+    if (wideHere()) {
+        uint four = kThin != 0 ? 4u * (w - packedSeen) : 0u; // beyond the last one: of nobody
+        return stepsOfRank[four] | (stepsOfRank[four + 1u] & 255u) << 8 | (stepsOfRank[four + 2u] & 255u) << 16 | stepsOfRank[four + 3u] << 24;
+    }
+    return w == 0 ? packedBase : (ofRank[w - 1u] - packedBase) << 8 | stepsOfRank[w - 1u];
+}
+
 // All of the group call it. By way of shared memory: what crosses the bus are whole sectors, and not the few words of each that
 // neighbours happen to have.
 void packByDepth() {
     for (uint slot = gl_LocalInvocationID.x; slot < 256u; slot += gl_WorkGroupSize.x) {
         if (isPresent(slot)) {
-            uint rank = rankOf(slot);
-            ofRank[rank] = floatBitsToUint(zOfPatch[slot]);
+            uint rank = rankOf(slot), bits = floatBitsToUint(zOfPatch[slot]);
+            ofRank[rank] = bits;
             if (kThin != 0) {
                 stepsOfRank[rank] = notesOfPatch[slot] >> 16;
+            }
+            if (grownHere() && bits - packedBase >= 2u * kReach) {
+                atomicOr(wideOfPatch, kWideHere);
             }
         }
     }
     barrier();
     uint words = wordsOfSeen();
     for (uint w = gl_LocalInvocationID.x; w < words; w += gl_WorkGroupSize.x) {
-        uint pair = w < packedSeen || kThin == 0 ? 0u : 2u * (w - packedSeen); // of the last odd one the second is nobody's
-        packedWords[packedFrom + w] = w < packedSeen ? ofRank[w] : stepsOfRank[pair] | stepsOfRank[kThin != 0 ? pair + 1u : 0u] << 16;
+        packedWords[packedFrom + w] = seenWord(w);
     }
 }
 
@@ -117,5 +155,9 @@ void packPatch(uint patchIndex) {
         if (isPresent(place)) {
             packWhole(packedFrom + (place >= 256u ? wordsOfSeen() : 0u) + 4u * rankOf(place), ofPatch[place]);
         }
+    }
+    if (gl_LocalInvocationID.x == 0) {
+        uint held = kLayers > 1u ? countOf(1) : 0u;
+        runs[patchIndex] = uvec2(packedFrom, packedSeen + held | (classesOfPatch | wideOfPatch) << 16);
     }
 }

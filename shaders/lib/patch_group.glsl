@@ -48,7 +48,7 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
         present[w] = 0;
     }
     if (gl_LocalInvocationID.x == 0) {
-        rememberedOfPatch = 0, classesOfPatch = 0;
+        rememberedOfPatch = 0, classesOfPatch = 0, wideOfPatch = 0;
     }
     if (kThin != 0) {
         decideCells(patchIndex, patchAt); // ends in a barrier
@@ -84,7 +84,7 @@ void wholePatch(uint patchIndex) {
     barrier();
     if (gl_LocalInvocationID.x == gl_WorkGroupSize.x - 1u) {
         countSubs();
-        placeRun(patchIndex);
+        placeRun();
     }
     for (uint s = gl_LocalInvocationID.x; s < 16u; s += gl_WorkGroupSize.x) {
         boundOfGroup(patchIndex, s);

@@ -45,10 +45,12 @@ struct FrameParams {
 };
 FATHOM_SIZE(FrameParams, 64 + 112 + 144 + 640 + 176);
 
-// Steps of growth that the whole error budget has: what a packed sphere grows by takes 16 bits.
-FATHOM_CONST kGrowthSteps = 65535;
-// Of a packed run: steps follow the depths of its seen spheres.
+// Steps of growth that the whole error budget has: what a packed sphere grows by takes 8 bits.
+FATHOM_CONST kGrowthSteps = 255;
+// Of a packed run (packing.glsl): of its seen spheres some have grown; their depths differ by more than 24
+// bits.
 FATHOM_CONST kRunGrown = 0x80000000;
+FATHOM_CONST kRunWide = 0x40000000;
 
 // What is known of a patch, bits of a word.
 FATHOM_CONST kPatchListed = 1;  // it has work

@@ -18,6 +18,7 @@ void forCpu(Plan& plan) {
 
 void forGpu(Plan& plan) {
     plan.byPixel = plan.groupCounts = plan.tiled = plan.pack = true;
+    plan.memoryTexels = false;
     plan.filterBlock = false;
 }
 

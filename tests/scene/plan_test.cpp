@@ -124,6 +124,18 @@ TEST_CASE("Occlusion, colour and rays follow the camera") {
     CHECK(planOf(scene, camera).rays);
 }
 
+TEST_CASE("Only a CPU device fetches the memory of points as texels, and only where there is one") {
+    Scene scene = sceneOf({points(Role::Forbidden)});
+    scene.holdSeconds = 0.5;
+    const CameraInfo camera = cameraOf(640, 480);
+    CHECK(planOf(scene, camera, DeviceKind::Cpu).memoryTexels);
+    for (const DeviceKind kind : {DeviceKind::Discrete, DeviceKind::Integrated, DeviceKind::Other}) {
+        CHECK_FALSE(planOf(scene, camera, kind).memoryTexels);
+    }
+    scene.holdSeconds = 0.0;
+    CHECK_FALSE(planOf(scene, camera, DeviceKind::Cpu).memoryTexels);
+}
+
 TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter and by tool size, unless the "
           "scene says") {
     Scene scene = sceneOf({points(Role::Forbidden)});
