@@ -156,6 +156,10 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
            plan.fan    ? "beams at equal angles"
            : plan.rays ? "distorted lens"
                        : "no lens distortion: computed from the pixel");
+    buffer("rays on the host", plan.rays && plan.packsDepths(), 8 * pixels,
+           !plan.packsDepths() ? "the host is sent no depths to make points of"
+           : plan.rays         ? "it makes points of depths"
+                               : "no lens distortion: computed from the pixel");
     buffer("masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
     buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
     buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");

@@ -15,7 +15,8 @@ bool built(const gpu::Buffer& buffer) {
 }
 
 // Each buffer exists exactly when the plan has it, and is as large as the plan says.
-void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::SetBuffers& s) {
+void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::SetBuffers& s,
+                  uint64_t pixels) {
     CHECK(built(w.growth) == plan.thin);
     CHECK(built(w.nearest) == plan.occlusion);
     CHECK(built(w.rays) == plan.rays);
@@ -52,6 +53,7 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
     sizeOf("masks and points", w.masks.bytes() + w.points.bytes());
     sizeOf("thinning cells", w.growth.bytes());
     sizeOf("rays", w.rays.bytes());
+    sizeOf("rays on the host", plan.rays && plan.pack && !plan.beam ? (8 * pixels + 15) / 16 * 16 : 0);
     sizeOf("depth on the device", w.depth.bytes());
     sizeOf("memory of points", w.seen.bytes() + w.kept.bytes() + w.keptTime.bytes());
     sizeOf("sphere slots", s.spheres.bytes() + s.held.bytes());
@@ -79,7 +81,7 @@ TEST_CASE(
                 const Plan plan = makePlan(scene, c.camera, 1, facts);
                 const PatchLayout layout = patchLayout(c.camera.depth.width, c.camera.depth.height);
                 checkBuffers(plan, cloud::WorkBuffers(vulkan().device, plan, layout, c.camera),
-                             cloud::SetBuffers(vulkan().device, plan, layout));
+                             cloud::SetBuffers(vulkan().device, plan, layout), c.camera.depth.pixels());
             }
         }
     }
