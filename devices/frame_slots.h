@@ -39,7 +39,7 @@ public:
         if (content.depth.data() == depth_.get()) {
             content.depthMemory = depth_;
         }
-        if (content.colour.data() == colour_.get()) {
+        if (content.colours(!content.yuyv.empty()).data() == colour_.get()) {
             content.colourMemory = colour_;
         }
     }

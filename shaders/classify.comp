@@ -24,11 +24,12 @@ layout(constant_id = 13) const uint kWide = 0;      // 1: a group has four patch
 layout(constant_id = 14) const uint kKeep = 0;      // 1 (with kFour): later passes find the depth on the device
 layout(constant_id = 15) const uint kGuidance = 0;  // 1: patches with pixels of a guidance class are marked
 layout(constant_id = 16) const uint kLists = 0;     // 1: marked patches go on the lists here and now; 0: list.comp does that, and marks those with points in memory
+layout(constant_id = 17) const uint kYuyv = 0;      // 1: colours are words of two pixels
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel; kFour = 2: a word a pixel, four a texel
+layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel; kYuyv: Y0, U, Y1, V two; kFour = 2: their words, four pixels a texel
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // a byte a slot: class bits
 layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> kPatch bits
@@ -45,6 +46,15 @@ layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // u
 #include "shaders/lib/lens.glsl"
 #include "shaders/lib/lists.glsl"
 #include "shaders/lib/slots.glsl"
+#include "shaders/lib/yuyv.glsl"
+
+vec3 colourAt(uint pixel) {
+    if (kYuyv != 0) {
+        uvec4 pair = texelFetch(colours, int(pixel >> 1));
+        return rgbOfYuv((pixel & 1u) == 0 ? pair.x : pair.z, pair.y, pair.w);
+    }
+    return vec3(texelFetch(colours, int(pixel)).xyz);
+}
 
 // The colour of a point, looked up; false when the colour camera does not see the point.
 bool colourOf(vec3 p, out vec3 rgb) {
@@ -62,7 +72,7 @@ bool colourOf(vec3 p, out vec3 rgb) {
     if (q.z > front * 1.02 + 0.005) {
         return false; // something nearer hides it from the colour camera
     }
-    rgb = vec3(texelFetch(colours, at.y * int(params.colourSize.x) + at.x).xyz);
+    rgb = colourAt(uint(at.y) * params.colourSize.x + uint(at.x));
     return true;
 }
 
@@ -154,14 +164,20 @@ vec3[4] coloursAt(uvec2 at) {
     vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     bool inside = all(lessThan(at, params.size.xy));
     uint pixel = inside ? at.y * params.size.x + at.x : 0u;
-    if (kColour == 1 && kFour == 2) {
+    if (kColour == 1 && kFour == 2 && kYuyv != 0) {
+        uvec4 word = texelFetch(colours, int(pixel >> 2));
+        [[unroll]] for (uint k = 0; k < 4u; ++k) {
+            uint pair = word[k / 2u];
+            rgb[k] = rgbOfYuv(pair >> (16u * (k & 1u)) & 255u, pair >> 8 & 255u, pair >> 24);
+        }
+    } else if (kColour == 1 && kFour == 2) {
         uvec4 word = texelFetch(colours, int(pixel >> 2));
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
             rgb[k] = vec3(word[k] & 255u, word[k] >> 8 & 255u, word[k] >> 16 & 255u);
         }
     } else if (kColour == 1) {
         [[unroll]] for (uint k = 0; k < 4u; ++k) {
-            rgb[k] = vec3(texelFetch(colours, int(at.x + k < params.size.x ? pixel + k : 0u)).xyz);
+            rgb[k] = colourAt(at.x + k < params.size.x ? pixel + k : 0u);
         }
     }
     return rgb;

@@ -43,6 +43,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     SimulatedCameraOptions options;
     options.baseTscene = scene.baseTcamera;
     options.frames = scene.source.pictures > 0 ? scene.source.pictures : options.frames;
+    options.yuyv = scene.source.yuyv;
     return std::make_unique<SimulatedCamera>(*solids, options);
 }
 

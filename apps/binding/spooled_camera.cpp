@@ -36,8 +36,8 @@ SpooledCamera::SpooledCamera(std::unique_ptr<Camera> source, const std::filesyst
         throw;
     }
     skipped_ = source->skipped();
-    const auto pixels = std::max(info_.depth.pixels(), static_cast<uint32_t>(colourPixels_));
-    slots_ = std::make_unique<FrameSlots>(pixels, colourPixels_ > 0, kFramesInFlight + 1);
+    const auto pixels = std::max(info_.depth.pixels(), static_cast<uint32_t>(colourWords_));
+    slots_ = std::make_unique<FrameSlots>(pixels, colourWords_ > 0, kFramesInFlight + 1);
 }
 
 SpooledCamera::~SpooledCamera() {
@@ -49,12 +49,13 @@ void SpooledCamera::fail(const char* what) const {
 }
 
 void SpooledCamera::store(const Frame& frame) {
-    colourPixels_ = frame->colour.size();
+    const std::span<const uint32_t> colours = frame->colours(info_.yuyv);
+    colourWords_ = colours.size();
     writeAll(frame->depth.data(), frame->depth.size_bytes());
-    writeAll(frame->colour.data(), frame->colour.size_bytes());
+    writeAll(colours.data(), colours.size_bytes());
     contents_.push_back(*frame);
     contents_.back().depth = {};
-    contents_.back().colour = {};
+    contents_.back().colour = contents_.back().yuyv = {};
     contents_.back().depthMemory = contents_.back().colourMemory = nullptr;
 }
 
@@ -93,10 +94,11 @@ std::optional<Frame> SpooledCamera::next() {
     }
     Frame::Content content = contents_[next_++];
     content.depth = slot->depth().first(info_.depth.pixels());
-    content.colour = slot->colour().first(colourPixels_);
+    const std::span<uint32_t> colours = slot->colour().first(colourWords_);
+    (info_.yuyv ? content.yuyv : content.colour) = colours;
     Frame frame = slot->lend(content);
     readAll(slot->depth().data(), content.depth.size_bytes());
-    readAll(slot->colour().data(), content.colour.size_bytes());
+    readAll(colours.data(), colours.size_bytes());
     return frame;
 }
 

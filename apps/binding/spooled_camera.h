@@ -39,7 +39,7 @@ private:
     std::string description_, folder_;
     uint32_t skipped_ = 0;
     int descriptor_ = -1;
-    size_t colourPixels_ = 0;              // of a frame
+    size_t colourWords_ = 0;               // of a frame
     std::vector<Frame::Content> contents_; // without their pixels
     size_t next_ = 0;
     int64_t written_ = 0, read_ = 0; // [bytes]

@@ -75,7 +75,7 @@ void LiveFeed::renew(const std::atomic<bool>& stop) {
 void LiveFeed::publish(double t, PublishedFrame& out) {
     const bool begins = std::exchange(begins_, false);
     next_->retime(t);
-    colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
+    colours_.take(**next_);
     out.report = {};
     out.report.index = (*next_)->index;
     out.edit = inForce_;
@@ -90,7 +90,7 @@ void LiveFeed::publish(double t, PublishedFrame& out) {
         }
     }
     next_.reset();
-    out.colour.swap(colour_);
+    colours_.giveTo(out.colour);
 }
 
 void LiveFeed::publishNew(PublishedFrame& out) {

@@ -5,6 +5,7 @@
 #include "apps/binding/contact_loop.h"
 #include "apps/binding/frame_loop.h"
 #include "apps/operate/operate_session.h"
+#include "engine/types/colour_copy.h"
 
 #include <atomic>
 #include <mutex>
@@ -43,7 +44,7 @@ private:
     OperateSession& session_;
     std::optional<Frame> next_;
     double taken_ = 0.0; // [s] on a live camera's clock
-    std::vector<uint32_t> colour_;
+    ColourCopy colours_;
     std::atomic<bool> busy_{false}, frozen_{false}, edited_{false};
     std::mutex sceneMutex_; // of pending_; never taken by the haptic thread
     Scene pending_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/past_scene.h"
 
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -42,7 +43,7 @@ bool PastScene::process(uint32_t index, PublishedFrame& out) {
     out.t = (*frame)->index * kPeriod;
     takeEdit((*frame)->index);
     frame->retime(out.t);
-    out.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
+    readColours(**frame, out.colour);
     out.report = session_.cycles.frames().process(std::move(*frame));
     out.changed = true;
     return true;

@@ -47,8 +47,9 @@ ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const
             break;
         }
         const Frame::Content& c = **frame;
+        const std::span<const uint32_t> colours = c.colours(info_.yuyv);
         pictures_.push_back(
-            {{c.depth.begin(), c.depth.end()}, {c.colour.begin(), c.colour.end()}, c.baseTcamera});
+            {{c.depth.begin(), c.depth.end()}, {colours.begin(), colours.end()}, c.baseTcamera});
         progress(pictures_.size());
     }
     if (pictures_.empty()) {
@@ -66,13 +67,14 @@ std::optional<Frame> ShuttleCamera::next() {
     const size_t place = shown_ % turns;
     const Picture& picture = pictures_[place < pictures_.size() ? place : turns - place];
     std::copy(picture.depth.begin(), picture.depth.end(), slot->depth().begin());
-    std::copy_n(picture.colour.begin(), std::min(picture.colour.size(), slot->colour().size()),
-                slot->colour().begin());
+    const std::span<uint32_t> colours =
+        slot->colour().first(std::min(picture.colours.size(), slot->colour().size()));
+    std::copy_n(picture.colours.begin(), colours.size(), colours.begin());
     Frame::Content content;
     content.index = shown_;
     content.sourceNumber = shown_++;
     content.depth = slot->depth();
-    content.colour = slot->colour();
+    (info_.yuyv ? content.yuyv : content.colour) = colours;
     content.baseTcamera = picture.baseTcamera;
     return slot->lend(content);
 }

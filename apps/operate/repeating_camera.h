@@ -52,7 +52,7 @@ public:
 private:
     struct Picture {
         std::vector<uint16_t> depth;
-        std::vector<uint32_t> colour;
+        std::vector<uint32_t> colours; // as the source sent them
         std::optional<Pose> baseTcamera;
     };
     CameraInfo info_;

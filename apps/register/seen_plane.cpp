@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/register/seen_plane.h"
 
+#include "engine/types/colour_copy.h"
+
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -69,9 +71,11 @@ std::vector<dvec3> depthInside(const Frame& frame, const CameraInfo& camera,
 } // namespace
 
 void greyOf(const Frame& frame, std::vector<uint8_t>& grey) {
-    grey.resize(frame->colour.size());
+    std::vector<uint32_t> rgba;
+    readColours(*frame, rgba);
+    grey.resize(rgba.size());
     for (size_t i = 0; i < grey.size(); ++i) {
-        const uint32_t c = frame->colour[i];
+        const uint32_t c = rgba[i];
         grey[i] = static_cast<uint8_t>((77 * (c & 255) + 150 * (c >> 8 & 255) + 29 * (c >> 16 & 255)) >> 8);
     }
 }

@@ -3,6 +3,7 @@
 
 #include "apps/replay/progress.h"
 #include "apps/replay/turn_to_tick.h"
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ void LockstepReplay::takeEdit(uint32_t picture) {
 
 void LockstepReplay::processNext() {
     takeEdit((*next_)->index);
-    lastColour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
+    readColours(**next_, lastColour_);
     if (session_.cycles.plan()
             .selfFilter) { // the arm as the picture shows it, or as it is when the picture is due
         const bool now = cycle_ && !session_.scene.source.showsArm;

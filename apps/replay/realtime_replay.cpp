@@ -6,6 +6,7 @@
 #include "apps/binding/spooled_camera.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/turn_to_tick.h"
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -61,7 +62,7 @@ public:
 
     void publish(double t, PublishedFrame& out) override {
         next_->retime(t);
-        colour_.assign((*next_)->colour.begin(), (*next_)->colour.end());
+        colours_.take(**next_);
         if (const SceneEdit* edit = session_.newEdit((*next_)->index)) {
             session_.cycles.frames().setScene(edit->scene);
             edited_(shapesOf(edit->scene));
@@ -80,7 +81,7 @@ public:
             const auto set = session_.cycles.frames().sets().newest();
             out.fixtures = set->host;
             out.grid = set->grid;
-            out.colour.swap(colour_);
+            colours_.giveTo(out.colour);
         }
     }
 
@@ -94,7 +95,7 @@ private:
     std::function<void(const std::vector<Shape>&)> edited_;
     double taken_ = 0.0; // [s] on the camera's clock
     std::optional<Frame> next_;
-    std::vector<uint32_t> colour_;
+    ColourCopy colours_;
     bool any_ = false; // a set is in force
 };
 

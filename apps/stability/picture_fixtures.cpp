@@ -4,6 +4,7 @@
 #include "engine/reference/classify.h"
 #include "engine/reference/surface.h"
 #include "engine/reference/thin.h"
+#include "engine/types/colour_copy.h"
 
 namespace fathom::stability {
 
@@ -29,7 +30,9 @@ void add(const std::vector<reference::RegionSphere>& spheres, uint32_t firstSour
 
 Fixtures PictureFixtures::make(const Frame::Content& frame) {
     const Pose baseTcamera = frame.baseTcamera.value_or(scene_.baseTcamera);
-    const reference::FrameView view(scene_, camera_, baseTcamera, frame.depth, frame.colour);
+    std::vector<uint32_t> rgba;
+    readColours(frame, rgba);
+    const reference::FrameView view(scene_, camera_, baseTcamera, frame.depth, rgba);
     std::optional<reference::CellBounds> cells;
     if (scene_.usesColour() && camera_.hasColour && !camera_.registered) {
         cells = reference::occlusion(view, 1e-3);

@@ -3,6 +3,7 @@
 
 #include "apps/verify/read_back.h"
 #include "engine/cloud/frame_params.h"
+#include "engine/types/yuyv.h"
 
 #include <algorithm>
 #include <bit>
@@ -70,7 +71,12 @@ FrameReport PassRig::run(Picture picture, double captureTime, const std::optiona
     content.captureTime = captureTime < 0.0 ? frames_ / 30.0 : captureTime;
     content.sourceNumber = frames_++;
     content.depth = picture_.depth;
-    content.colour = picture_.colour;
+    if (camera_.yuyv) {
+        yuyv_.resize(picture_.colour.size() / 2);
+        packYuyv(picture_.colour, yuyv_);
+        unpackYuyv(yuyv_, picture_.colour);
+    }
+    (camera_.yuyv ? content.yuyv : content.colour) = camera_.yuyv ? yuyv_ : picture_.colour;
     content.baseTcamera = pose;
     FrameReport report = cycle_->process(Frame(content, nullptr));
     lease_ = cycle_->sets().newest();

@@ -18,7 +18,7 @@ namespace fathom::verify {
 // Row-major, as a Frame holds them.
 struct Picture {
     std::vector<uint16_t> depth;
-    std::vector<uint32_t> colour;
+    std::vector<uint32_t> colour; // 0xAABBGGRR
 };
 
 // What the passes left of the last frame: class bits a pixel, and points in the base frame, none in patches
@@ -39,7 +39,8 @@ public:
     PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
             uint32_t readers = 1);
 
-    // captureTime < 0: 1/30 s after the one before. No pose: the scene's.
+    // captureTime < 0: 1/30 s after the one before. No pose: the scene's. The colours are packed for a camera
+    // that sends YUYV; view() then has what they unpack to.
     FrameReport run(Picture picture, double captureTime = -1.0, const std::optional<Pose>& pose = {});
 
     const Scene& scene() const { return scene_; }
@@ -82,6 +83,7 @@ private:
     std::unique_ptr<FrameCycle> cycle_;
     cloud::FixturePool::Lease lease_;
     Picture picture_;
+    std::vector<uint32_t> yuyv_;
     Pose pose_;
     uint32_t frames_ = 0;
 };

@@ -3,6 +3,7 @@
 
 #include "devices/recorded/intrinsics_output.h"
 #include "devices/recorded/png_output.h"
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
 #include <chrono>
@@ -59,10 +60,9 @@ RecordingWriter::~RecordingWriter() {
 }
 
 void RecordingWriter::add(const Frame& frame) {
-    add({frame->captureTime,
-         {frame->depth.begin(), frame->depth.end()},
-         {frame->colour.begin(), frame->colour.end()},
-         frame->baseTcamera});
+    Picture picture{frame->captureTime, {frame->depth.begin(), frame->depth.end()}, {}, frame->baseTcamera};
+    readColours(*frame, picture.colour);
+    add(std::move(picture));
 }
 
 void RecordingWriter::add(Picture picture) {

@@ -2,6 +2,7 @@
 #include "devices/simulated/simulated_camera.h"
 
 #include "engine/types/error.h"
+#include "engine/types/yuyv.h"
 
 #include <algorithm>
 #include <atomic>
@@ -45,6 +46,9 @@ SimulatedCameraOptions checked(SimulatedCameraOptions options) {
         !(options.metresPerUnit > 0.0) || !(options.dropShare >= 0.0 && options.dropShare <= 1.0)) {
         throw Error("simulated camera: threads 1..16, focal >= 0, metres per unit > 0, drop share 0..1");
     }
+    if (options.yuyv && options.width % 2 != 0) {
+        throw Error("simulated camera: YUYV needs an even width");
+    }
     options.focal = options.focal > 0.0 ? options.focal : options.width * 570.0 / 640.0;
     return options;
 }
@@ -56,6 +60,7 @@ CameraInfo infoOf(const SimulatedCameraOptions& options) {
     info.depth.cx = 0.5 * (options.width - 1.0), info.depth.cy = 0.5 * (options.height - 1.0);
     info.colour = info.depth;
     info.metresPerUnit = options.metresPerUnit;
+    info.yuyv = options.yuyv;
     return info;
 }
 
@@ -128,6 +133,11 @@ std::optional<Frame> SimulatedCamera::next() {
     content.captureTime = frame / kFrameRate;
     content.depth = slot->depth();
     content.colour = slot->colour();
+    if (options_.yuyv) { // in place: a word comes no later than its two pixels
+        const std::span<uint32_t> words = slot->colour().first(info_.depth.pixels() / 2);
+        packYuyv(content.colour, words);
+        content.yuyv = words, content.colour = {};
+    }
     content.baseTcamera = poseAt(frame);
     return slot->lend(content);
 }

@@ -22,6 +22,7 @@ struct SimulatedCameraOptions {
     bool noise = true;                  // depth noise, dropouts, flying pixels, colour noise
     bool water = true;                  // attenuation, backscatter, snow; only in scenes that are underwater
     bool motion = true;                 // the slow sway
+    bool yuyv = false;                  // colour as a USB camera sends it; an even width
     double dropShare = 0.01;            // of the pixels without a reading, with noise
     uint64_t seed = 1;
     uint32_t threads = 2; // 1..16 that render a frame

@@ -2,6 +2,7 @@
 #include "devices/v4l2/pixel_format.h"
 
 #include "devices/v4l2/jpeg_image.h"
+#include "engine/types/yuyv.h"
 
 #include <algorithm>
 #include <array>
@@ -19,30 +20,23 @@ constexpr uint32_t kZ16 = fourccOf("Z16 "), kInzi = fourccOf("INZI"), kY16 = fou
 constexpr std::array kDeclared{kZ16, kInzi};
 constexpr std::array kColour{kRgb3, kBgr3, kYuyv, kUyvy, kMjpg, kJpeg};
 
-uint32_t rgba(int r, int g, int b) {
-    const auto byte = [](int v) { return static_cast<uint32_t>(std::clamp(v, 0, 255)); };
-    return byte(r) | byte(g) << 8 | byte(b) << 16 | 0xff000000u;
+uint32_t rgba(uint32_t r, uint32_t g, uint32_t b) {
+    return r | g << 8 | b << 16 | 0xff000000u;
 }
 
-// BT.601, limited range, in 1/256.
-void yuvPair(int y0, int y1, int u, int v, uint32_t* out) {
-    const int d = u - 128, e = v - 128;
-    const int red = 409 * e + 128, green = -100 * d - 208 * e + 128, blue = 516 * d + 128;
-    for (const int y : {y0, y1}) {
-        const int c = 298 * (y - 16);
-        *out++ = rgba((c + red) >> 8, (c + green) >> 8, (c + blue) >> 8);
-    }
+uint32_t yuyvWord(const uint8_t* in, bool lumaFirst) {
+    uint32_t word;
+    std::memcpy(&word, in, sizeof word);
+    return lumaFirst ? word : (word >> 8 & 0x00ff00ffu) | (word & 0x00ff00ffu) << 8;
 }
 
 void yuvRow(const uint8_t* in, uint32_t width, bool lumaFirst, uint32_t* out) {
-    const int y = lumaFirst ? 0 : 1, u = lumaFirst ? 1 : 0;
-    for (uint32_t x = 0; x + 1 < width; x += 2, in += 4, out += 2) {
-        yuvPair(in[y], in[y + 2], in[u], in[u + 2], out);
-    }
-    if (width % 2 == 1) { // the last pair's second half lies outside
-        uint32_t pair[2];
-        yuvPair(in[y], in[y], in[u], in[u + 2], pair);
-        *out = pair[0];
+    for (uint32_t x = 0; x < width; x += 2, in += 4) {
+        const auto pair = rgbaOfYuyv(yuyvWord(in, lumaFirst));
+        out[x] = pair[0];
+        if (x + 1 < width) { // the last pair's second half may lie outside
+            out[x + 1] = pair[1];
+        }
     }
 }
 
@@ -95,6 +89,10 @@ std::span<const uint32_t> colourFormats() {
     return kColour;
 }
 
+bool isYuyv(uint32_t fourcc) {
+    return fourcc == kYuyv || fourcc == kUyvy;
+}
+
 size_t pictureBytes(uint32_t fourcc, VideoSize size, uint32_t stride) {
     const size_t row = leastStride(fourcc, size.width);
     if (row == 0 || size.height == 0) {
@@ -124,18 +122,28 @@ void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std
     }
 }
 
+namespace {
+
+// What is wrong with it; empty when it is whole.
+std::string shortColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes) {
+    const size_t wanted = pictureBytes(fourcc, size, stride);
+    if (wanted == 0 || depthLayout(fourcc)) {
+        return "no colour format: " + fourccName(fourcc);
+    }
+    return bytes.size() >= wanted ? ""
+                                  : "a colour picture of " + std::to_string(bytes.size()) + " bytes, " +
+                                        std::to_string(wanted) + " make one";
+}
+
+} // namespace
+
 std::string unpackColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
                          std::span<uint32_t> out) {
     if (fourcc == kMjpg || fourcc == kJpeg) {
         return readJpeg(bytes, size, out);
     }
-    const size_t wanted = pictureBytes(fourcc, size, stride);
-    if (wanted == 0 || depthLayout(fourcc)) {
-        return "no colour format: " + fourccName(fourcc);
-    }
-    if (bytes.size() < wanted) {
-        return "a colour picture of " + std::to_string(bytes.size()) + " bytes, " + std::to_string(wanted) +
-               " make one";
+    if (const std::string fault = shortColour(fourcc, size, stride, bytes); !fault.empty()) {
+        return fault;
     }
     const size_t row = std::max(stride, leastStride(fourcc, size.width));
     for (uint32_t y = 0; y < size.height; ++y) {
@@ -145,6 +153,22 @@ std::string unpackColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::
             rgbRow(in, size.width, fourcc == kRgb3, to);
         } else {
             yuvRow(in, size.width, fourcc == kYuyv, to);
+        }
+    }
+    return "";
+}
+
+std::string copyYuyv(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
+                     std::span<uint32_t> out) {
+    if (const std::string fault = shortColour(fourcc, size, stride, bytes); !fault.empty()) {
+        return fault;
+    }
+    const size_t row = std::max(stride, leastStride(fourcc, size.width)), words = size.width / 2;
+    for (uint32_t y = 0; y < size.height; ++y) {
+        const auto* in = reinterpret_cast<const uint8_t*>(bytes.data()) + row * y;
+        uint32_t* to = out.data() + y * words;
+        for (size_t i = 0; i < words; ++i) {
+            to[i] = yuyvWord(in + 4 * i, fourcc == kYuyv);
         }
     }
     return "";

@@ -42,4 +42,10 @@ void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std
 std::string unpackColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
                          std::span<uint32_t> out);
 
+bool isYuyv(uint32_t fourcc); // YUYV or UYVY
+// The same picture left packed, as words of YUYV (yuyv.h), rows without gaps. Of YUYV and UYVY of an even
+// width. Returns as unpackColour().
+std::string copyYuyv(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
+                     std::span<uint32_t> out);
+
 } // namespace fathom

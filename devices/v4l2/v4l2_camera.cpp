@@ -17,7 +17,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr uint32_t kDriverKeeps = 2; // buffers; a lease that would leave fewer is a copy
 constexpr int kPollMs = 50;
 constexpr double kFirstPicture = 5.0; // [s] that a camera may take to start
 
@@ -40,6 +39,7 @@ V4l2Camera::V4l2Camera(const CameraRequest& request)
         "camera " + nodes.depth.card() + " (" + nodes.depth.file().string() + ", " + calibration.origin + ")";
     depthRequest_ = {nodes.depthFormat, {info_.depth.width, info_.depth.height}, request.rate};
     colourRequest_ = {nodes.colourFormat, {info_.colour.width, info_.colour.height}, request.rateOfColour()};
+    info_.yuyv = info_.hasColour && isYuyv(nodes.colourFormat) && info_.colour.width % 2 == 0;
     known_ = KnownCamera{nodes.depth.identity(), nodes.colour ? nodes.colour->identity() : ""};
     slots_ = std::make_unique<FrameSlots>(std::max(info_.depth.pixels(), info_.colour.pixels()),
                                           info_.hasColour, kFramesInFlight + 1);
@@ -255,46 +255,6 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
         streams->depth.giveBack(buffer);
         --streams->leased; // last: the streams may go now
     });
-}
-
-std::string V4l2Camera::fill(const FramePairing::Pair& pair, FrameSlot& slot, Frame::Content& content) {
-    if (pair.depth.damaged) {
-        return "the driver marks it as damaged";
-    }
-    if (pair.depth.stamp < lastStamp_) {
-        return "its time stamp goes back";
-    }
-    if (!fillDepth(pair.depth, slot, content)) {
-        return "short: " + std::to_string(pair.depth.bytes.size()) + " bytes";
-    }
-    if (pair.colour && info_.hasColour) {
-        if (pair.colour->damaged) {
-            return "the driver marks its colour picture as damaged";
-        }
-        content.colour = slot.colour().first(info_.colour.pixels());
-        return unpackColour(colourRequest_.fourcc, colourRequest_.size, streams_->colour->stride(),
-                            pair.colour->bytes, slot.colour());
-    }
-    return "";
-}
-
-// False when bytes are missing.
-bool V4l2Camera::fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::Content& content) {
-    const uint32_t stride = streams_->depth.stride();
-    if (depth.bytes.size() < pictureBytes(depthRequest_.fourcc, depthRequest_.size, stride)) {
-        return false;
-    }
-    const DepthLayout layout = *depthLayout(depthRequest_.fourcc);
-    const uint32_t width = info_.depth.width;
-    if (!layout.packed && layout.mask == 0xffff && layout.rowBytes(width, stride) == 2 * width &&
-        streams_->depth.queued() >= kDriverKeeps) {
-        const auto* first = reinterpret_cast<const uint16_t*>(depth.bytes.data());
-        content.depth = {first + size_t{layout.planesBefore} * info_.depth.pixels(), info_.depth.pixels()};
-        return true;
-    }
-    unpackDepth(layout, depthRequest_.size, stride, depth.bytes, slot.depth());
-    content.depth = slot.depth().first(info_.depth.pixels());
-    return true;
 }
 
 } // namespace fathom

@@ -19,6 +19,13 @@ uint32_t inFours(const CloudContext& c) {
     return c.camera.depth.width % 4 != 0 ? 0u : (colourMode(c.plan) == 1 ? 2u : 1u);
 }
 
+VkFormat colourTexels(const CloudContext& c) {
+    if (inFours(c) == 2) {
+        return c.plan.yuyv ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
+    }
+    return kColourTexels; // a pixel, or Y0, U, Y1, V
+}
+
 // Four pixels of one row an invocation, or of four: 64 or 16 do a patch, 256 of a wide group four patches.
 uint32_t rowsOf(const Plan& plan) {
     return plan.byPixel ? 1u : 4u;
@@ -45,9 +52,8 @@ ClassifyPass::ClassifyPass(const CloudContext& c)
                       c.plan.subGroup, c.plan.classes, uint32_t{c.plan.box}, uint32_t{c.plan.groupCounts},
                       inFours(c), uint32_t{c.plan.range}, uint32_t{c.plan.selfFilter}, uint32_t{c.plan.water},
                       rowsOf(c.plan), uint32_t{c.plan.byPixel}, uint32_t{c.plan.keepDepth},
-                      uint32_t{c.plan.moments}, uint32_t{!c.plan.lists()}},
-           {{1, inFours(c) != 0 ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels},
-            {3, inFours(c) == 2 ? VK_FORMAT_R32G32B32A32_UINT : kColourTexels}}})
+                      uint32_t{c.plan.moments}, uint32_t{!c.plan.lists()}, uint32_t{c.plan.yuyv}},
+           {{1, inFours(c) != 0 ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, colourTexels(c)}}})
     , groups_{c.plan.byPixel ? (c.layout.across + 3) / 4 : c.layout.across, c.layout.down,
               invocationsOf(c.plan) / classifyGroup(c.plan)} {}
 

@@ -83,7 +83,8 @@ UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const 
     params = Buffer(device, sizeof(shared::FrameParams), MemoryKind::Upload, "params");
     depth = picture(depthMemory, 2ull * camera.depth.pixels(), "depth");
     if (plan.colour) {
-        colour = picture(colourMemory, 4ull * camera.colour.pixels(), "colour");
+        colour = picture(colourMemory, camera.colourBytes(), "colour");
+        yuyv = plan.yuyv;
     }
     if (plan.selfFilter) {
         arm = Buffer(device, LinkSpheres::kMostEntries * 16ull, MemoryKind::Upload, "arm");

@@ -55,7 +55,8 @@ struct UploadBuffers {
 
     gpu::Buffer params; // FrameParams
     gpu::Buffer depth;  // uint16 a pixel, row-major
-    gpu::Buffer colour; // uint a pixel, row-major; empty when no class asks
+    gpu::Buffer colour; // uint a pixel, or (Plan::yuyv) two pixels, row-major; empty when no class asks
+    bool yuyv = false;
     gpu::Buffer arm; // vec4: links and spheres of the arm, as classify.comp says; empty without self-filter
 };
 

@@ -26,7 +26,8 @@ void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::Fr
     const uint64_t pixels = static_cast<uint64_t>(params.size.x) * params.size.y;
     put(slot.depth, frame->depth, pixels * 2, "depth");
     if (slot.colour) {
-        put(slot.colour, frame->colour, 4ull * params.colourSize.x * params.colourSize.y, "colour");
+        const uint64_t words = uint64_t{params.colourSize.x} * params.colourSize.y / (slot.yuyv ? 2 : 1);
+        put(slot.colour, frame->colours(slot.yuyv), 4 * words, slot.yuyv ? "YUYV" : "colour");
     }
     *slot.params.as<shared::FrameParams>().data() = params;
 }

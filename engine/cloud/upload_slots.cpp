@@ -40,8 +40,9 @@ UploadSlots::Pictures UploadSlots::inPlace(const Frame& frame) const {
         frame->depth.size() >= camera_.depth.pixels()) {
         pictures.depth = frame->depthMemory;
     }
-    if (plan_.colour && frame->colourMemory.get() == frame->colour.data() &&
-        frame->colour.size() >= camera_.colour.pixels()) {
+    const auto colours = std::as_bytes(frame->colours(plan_.yuyv));
+    if (plan_.colour && frame->colourMemory.get() == colours.data() &&
+        colours.size() >= camera_.colourBytes()) {
         pictures.colour = frame->colourMemory;
     }
     return pictures;

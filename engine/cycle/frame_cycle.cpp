@@ -124,12 +124,12 @@ void FrameCycle::warmUp() {
         return;
     }
     const std::vector<uint16_t> depth(camera_.depth.pixels(), 0);
-    const std::vector<uint32_t> colour(plan_.colour ? camera_.colour.pixels() : 0, 0);
+    const std::vector<uint32_t> colour(plan_.colour ? camera_.colourBytes() / 4 : 0, 0);
     const shared::FrameParams params =
         cloud::sceneParams(scene_, camera_, layout_, dvec3(0.0), work_.cellEdge, work_.cellsAcross);
     Frame::Content content;
     content.depth = depth;
-    content.colour = colour;
+    (plan_.yuyv ? content.yuyv : content.colour) = colour;
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         cloud::uploadFrame(uploads_[slot], Frame(content, nullptr), params);
         uploadArm(slot, dvec3(0.0));

@@ -6,32 +6,46 @@ namespace fathom {
 
 namespace {
 
+CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
+    constexpr std::string_view kScenes[] = {"tank", "sphere", "plane",  "torus", "slot",
+                                            "gap",  "plate",  "corner", "sonar", "wetmate"};
+    constexpr std::string_view kFormats[] = {"rgba", "yuyv"};
+    CameraSource source{CameraSource::Kind::Simulated, std::string(kScenes[simulated.oneOf(kScenes)])};
+    const bool sonar = source.value == "sonar";
+    const auto arm = node.find("arm");
+    source.showsArm = arm && arm->boolean();
+    if (source.showsArm && sonar) {
+        arm->refuse("false: the simulated sonar draws none");
+    }
+    if (const auto pictures = node.find("pictures")) {
+        source.pictures = static_cast<uint32_t>(pictures->integer(1, 100'000));
+    }
+    const auto colour = node.find("colour");
+    source.yuyv = colour && colour->oneOf(kFormats) == 1;
+    if (source.yuyv && sonar) {
+        colour->refuse("rgba: the simulated sonar is grey");
+    }
+    return source;
+}
+
 CameraSource loadSource(const YamlNode& node, Scene& scene) {
-    node.checkKeys({"simulated", "recorded", "v4l2", "arm", "pictures"});
+    node.checkKeys({"simulated", "recorded", "v4l2", "arm", "pictures", "colour"});
     const auto simulated = node.find("simulated"), recorded = node.find("recorded"), v4l2 = node.find("v4l2");
     const int given = int(simulated.has_value()) + int(recorded.has_value()) + int(v4l2.has_value());
     if (given != 1) {
         node.refuse(std::to_string(given) + " sources", "exactly one of simulated, recorded, v4l2");
     }
     if (simulated) {
-        constexpr std::string_view kScenes[] = {"tank", "sphere", "plane",  "torus", "slot",
-                                                "gap",  "plate",  "corner", "sonar", "wetmate"};
-        CameraSource source{CameraSource::Kind::Simulated, std::string(kScenes[simulated->oneOf(kScenes)])};
-        const auto arm = node.find("arm");
-        source.showsArm = arm && arm->boolean();
-        if (source.showsArm && source.value == "sonar") {
-            arm->refuse("false: the simulated sonar draws none");
-        }
-        if (const auto pictures = node.find("pictures")) {
-            source.pictures = static_cast<uint32_t>(pictures->integer(1, 100'000));
-        }
-        return source;
+        return simulatedSource(node, *simulated);
     }
     if (const auto arm = node.find("arm")) {
         arm->refuse("nothing: only a simulated camera draws an arm");
     }
     if (const auto pictures = node.find("pictures")) {
         pictures->refuse("nothing: only a simulated camera has as many as one likes");
+    }
+    if (const auto colour = node.find("colour")) {
+        colour->refuse("nothing: only a simulated camera is told how to send it");
     }
     if (recorded) {
         return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};

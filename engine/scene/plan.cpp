@@ -39,6 +39,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.inPlace =
         plan.cloud && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
+    plan.yuyv = plan.colour && camera.yuyv;
     plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
     plan.beam = plan.spheres && camera.beam.has_value();
@@ -148,8 +149,10 @@ void explainBuffers(Plan& plan, const CameraInfo& camera) {
                              ? "double-buffered, for pictures not in whole pages of the host's memory"
                              : "double-buffered";
     buffer("depth upload", plan.cloud, 2 * 2 * pixels, copies);
-    buffer("colour upload", plan.colour, 2 * 4ull * camera.colour.pixels(),
-           plan.colour ? copies : "no class asks for colour");
+    buffer("colour upload", plan.colour, 2 * camera.colourBytes(),
+           !plan.colour ? "no class asks for colour"
+           : plan.yuyv  ? std::string(copies) + "; YUYV, as the camera sends it"
+                        : copies);
     buffer("depth on the device", plan.keepDepth, 2 * pixels,
            plan.keepDepth ? "read across the bus once" : "passes read what was uploaded");
     buffer("rays", plan.rays, 8 * pixels,

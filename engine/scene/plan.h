@@ -36,6 +36,7 @@ struct Plan {
     // Variants.
     bool rays = false;        // distorted lens, or a fan
     bool colour = false;      // some class asks for colour: it is uploaded
+    bool yuyv = false;        // as the camera sends it, two pixels a word
     bool inPlace = false;     // pictures in whole pages are read where the camera left them, not copied
     bool tiled = false;       // the filter's window from shared memory
     bool filterBlock = false; // a 4x4 sub-patch an invocation, its window in registers (radius <= 2)

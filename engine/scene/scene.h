@@ -64,6 +64,7 @@ struct CameraSource {
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
     uint32_t pictures = 0;      // of a simulated camera; 0 = as many as it has by itself
     bool showsArm = false;      // a simulated camera draws the scene's arm, in lockstep
+    bool yuyv = false;          // a simulated camera sends its colour as a USB camera does
 };
 
 struct HandLoop {             // the simulated hand that closes the loop (--hand)

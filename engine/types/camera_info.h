@@ -50,10 +50,12 @@ struct CameraInfo {
     Pose colourTdepth;            // maps depth-camera points to the colour camera; identity when registered
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
+    bool yuyv = false;  // colour comes as YUYV (yuyv.h); its width is even then
     double sigma = 0.0; // [m] of its points beyond noise: what a correction leaves; regions grow by 3 of them
     bool inWater = false;          // a flat port was corrected for already; sigma says what that left
     std::optional<BeamSigma> beam; // of each point; its region grows by 3 of them
 
+    uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of a picture
     double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading there, camera frame
 };
 

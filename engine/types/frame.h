@@ -14,7 +14,8 @@
 namespace fathom {
 
 // The memory belongs to the camera and returns to it when the lease is destroyed. Depth: width x height
-// uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, empty when the camera has none.
+// uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, or YUYV (yuyv.h) of a camera whose
+// CameraInfo says so; the other is empty, and both are when the camera has none.
 class Frame {
 public:
     // What a frame is made of.
@@ -24,10 +25,13 @@ public:
         double captureTime = 0.0;  // [s] on the source's clock
         std::span<const uint16_t> depth;
         std::span<const uint32_t> colour; // 0xAABBGGRR
+        std::span<const uint32_t> yuyv;   // two pixels a word
         std::optional<Pose> baseTcamera;  // when the source knows it (poses.txt, simulated); else the scene's
         // Blocks of whole pages that begin where depth and colour do: a device may read them there, and who
         // holds one keeps its address from being used for anything else. Null, or of another address: copied.
         std::shared_ptr<const void> depthMemory, colourMemory;
+
+        std::span<const uint32_t> colours(bool asYuyv) const { return asYuyv ? yuyv : colour; }
     };
 
     Frame() = default;

@@ -2,6 +2,8 @@
 // V4L2 pixel layouts, without a camera.
 #include "devices/v4l2/pixel_format.h"
 
+#include "engine/types/yuyv.h"
+
 #include <doctest/doctest.h>
 #include <vector>
 
@@ -79,6 +81,24 @@ TEST_CASE("YUYV and UYVY give black, white and the primaries of BT.601, odd widt
     std::vector<uint32_t> again(3);
     REQUIRE(unpackColour(fourccOf("UYVY"), {3, 1}, 8, uyvy, again).empty());
     CHECK(again == out);
+}
+
+TEST_CASE("YUYV and UYVY are copied as words without the gaps between rows, and unpack to what they are") {
+    const auto yuyv = bytesOf({16, 128, 235, 129, 81, 90, 41, 240, 7, 7, 9, 1, 2, 3, 4, 5, 6, 7});
+    const auto uyvy = bytesOf({128, 16, 129, 235, 90, 81, 240, 41, 7, 7, 1, 9, 3, 2, 5, 4, 7, 6});
+    constexpr VideoSize kSize{4, 2};
+    std::vector<uint32_t> words(4), again(4), rgba(8), unpacked(8);
+    REQUIRE(copyYuyv(fourccOf("YUYV"), kSize, 10, yuyv, words).empty());
+    REQUIRE(copyYuyv(fourccOf("UYVY"), kSize, 10, uyvy, again).empty());
+    CHECK(words == std::vector<uint32_t>{0x81eb8010u, 0xf0295a51u, 0x03020109u, 0x07060504u});
+    CHECK(again == words);
+    REQUIRE(unpackColour(fourccOf("YUYV"), kSize, 10, yuyv, rgba).empty());
+    unpackYuyv(words, unpacked);
+    CHECK(unpacked == rgba);
+    CHECK(isYuyv(fourccOf("UYVY")));
+    CHECK_FALSE(isYuyv(fourccOf("RGB3")));
+    CHECK(copyYuyv(fourccOf("YUYV"), kSize, 10, bytesOf({16, 128, 235, 129}), words) ==
+          "a colour picture of 4 bytes, 18 make one");
 }
 
 TEST_CASE("RGB and BGR differ in order only, and short colour is told of") {

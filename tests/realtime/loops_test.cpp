@@ -234,6 +234,16 @@ TEST_CASE("A spooled camera gives the very pictures of its source, once, and lea
     }
     CHECK_FALSE(spooled.next().has_value());
 
+    options.yuyv = true;
+    SimulatedCamera sender(*analyticScene("tank"), options);
+    SpooledCamera packed(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
+                         [](uint64_t) {});
+    const auto sent = sender.next(), kept = packed.next();
+    CHECK(packed.info().yuyv);
+    CHECK((*kept)->colour.empty());
+    CHECK((*kept)->yuyv.size() == 70 * 50 / 2);
+    CHECK(std::ranges::equal((*kept)->yuyv, (*sent)->yuyv));
+
     stop = true; // asked to stop: the first picture is still there
     SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
                       [](uint64_t) {});

@@ -190,6 +190,11 @@ TEST_CASE("bounds are inclusive, an empty list of fixtures and the words auto an
     for (const char* name : {"tank", "sphere", "plane", "torus", "slot", "gap", "plate", "corner", "sonar"}) {
         CHECK(refusal(kMinimal + "camera: {source: {simulated: " + name + "}}\n") == "");
     }
+    for (const bool yuyv : {false, true}) {
+        const SceneFile file(
+            kMinimal + "camera: {source: {simulated: tank, colour: " + (yuyv ? "yuyv" : "rgba") + "}}\n");
+        CHECK(loadScene(file.path()).source.yuyv == yuyv);
+    }
 }
 
 TEST_CASE("a quaternion of huge or tiny length is normalised without overflow") {

@@ -104,6 +104,7 @@ TEST_CASE(
             REQUIRE(frame);
             CHECK(isPlainDepth(*frame, 320));
             CHECK((*frame)->colour.empty());
+            CHECK((*frame)->yuyv.empty());
         }
         CHECK(camera->skipped() == 0); // nothing waits for a colour picture
         device.unplug();
