@@ -66,10 +66,11 @@ void FrameBench::place(size_t at, const Shot& shot) {
         memory_[at] = std::make_unique<FrameSlot>(most, true);
     }
     std::copy(shot.depth.begin(), shot.depth.end(), memory_[at]->depth().begin());
-    std::copy(shot.colour.begin(), shot.colour.end(), memory_[at]->colour().begin());
+    const std::vector<uint32_t>& colours = camera_.yuyv ? shot.yuyv : shot.colour;
+    std::copy(colours.begin(), colours.end(), memory_[at]->colour().begin());
     Frame::Content& content = placed_[at];
     content.depth = memory_[at]->depth().first(shot.depth.size());
-    content.colour = memory_[at]->colour().first(shot.colour.size());
+    (camera_.yuyv ? content.yuyv : content.colour) = memory_[at]->colour().first(colours.size());
     content.baseTcamera = shot.baseTcamera;
 }
 

@@ -19,7 +19,9 @@ namespace fathom::profile {
 // A picture and, where the scene is analytic, the exact depth behind each pixel [m] (0 = no surface).
 struct Shot {
     std::vector<uint16_t> depth;
-    std::vector<uint32_t> colour;
+    std::vector<uint32_t> colour; // 0xAABBGGRR
+    std::vector<uint32_t>
+        yuyv; // of a camera that sends this (CameraInfo::yuyv); `colour` is what it unpacks to
     Pose baseTcamera;
     std::vector<double> truth;
 };

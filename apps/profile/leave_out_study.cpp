@@ -65,6 +65,7 @@ struct Pictures {
 CameraInfo fullCamera(CameraInfo camera) {
     camera.depth.distortion = {0.02, -0.03, 0.0005, 0.0003, 0.0};
     camera.colour = camera.depth;
+    camera.yuyv = false; // one stage has it
     return camera;
 }
 
@@ -115,6 +116,8 @@ std::vector<Stage> stages() {
          [](Setup& s) { s.camera.depth.distortion = {}, s.camera.colour.distortion = {}; }},
         {"colour registration", [](Setup& s) { registerColour(s.camera); }},
         {"colour, of gates that pass all", dropColour, gateNothing},
+        {"half of colour's bytes (YUYV instead of RGBA)", [](Setup& s) { s.camera.yuyv = true; },
+         [](Setup& s) { registerColour(s.camera); }},
         {"self-filter", [](Setup& s) { s.selfFilter = false; }},
         {"pictures that are not new", [](Setup& s) { s.still = true; }},
         {"times of passes", [](Setup& s) { s.passTimes = false; }},
@@ -250,7 +253,8 @@ Study leaveOutStudy(const StudyContext& context) {
                        "memory_saved_MiB",           "heap_saved_MiB"};
     const uint32_t w = context.settings.quick ? 320 : 640, h = context.settings.quick ? 240 : 480;
     const uint32_t frames = context.settings.quick ? 1 : 4;
-    const Pictures pictures{analyticShots("tank", w, h, frames), twoCameraShots("tank", w, h, frames)};
+    const Pictures pictures{inYuyv(analyticShots("tank", w, h, frames)),
+                            inYuyv(twoCameraShots("tank", w, h, frames))};
     const Setup setup{fullScene(context.settings), fullCamera(pictures.beside.camera)};
     const Verified full = verified(context, setup, pictures, "nothing left out");
     const FrameCost alone = full.bench->measure(full.shots, context.settings.effort());

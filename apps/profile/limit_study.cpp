@@ -23,9 +23,9 @@ struct Need {
 
 // What a frame selects.
 struct Load {
-    double pixels, slots, guidedSlots, selected, guided, spheres, packed, tapsPerPixel,
-        cells; // packed: bytes
-    bool occlusion, hold, colour, inPlace, pack, keepDepth, thin, thinsWithin, tree;
+    double pixels, slots, guidedSlots, selected, guided, spheres, packed, tapsPerPixel, cells,
+        colourBytes; // packed: bytes; colourBytes: a pixel
+    bool occlusion, hold, inPlace, pack, keepDepth, thin, thinsWithin, tree;
     QueryWork query; // of a query on the device, by its answer; none without one
 };
 
@@ -63,7 +63,7 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     const cloud::WorkBuffers& work = bench.cycle().work();
     load.cells = load.occlusion ? static_cast<double>(work.cellsAcross) * work.cellsDown : 0.0;
     load.hold = bench.plan().hold;
-    load.colour = bench.plan().colour;
+    load.colourBytes = !bench.plan().colour ? 0.0 : bench.plan().yuyv ? 2.0 : 4.0;
     load.inPlace = report.inPlace;
     load.keepDepth = bench.plan().keepDepth;
     load.pack = bench.plan().pack;
@@ -90,7 +90,7 @@ double sphereBytes(const Load& l) {
 // read the depth the same bytes are read again, for it does not keep them.
 Need classifyNeed(const Load& l) {
     Need need{l.pixels * ((l.keepDepth ? 2.0 : 0.0) + 1.0) + 4.0 * l.cells, 40.0 * l.pixels};
-    need.pictures = l.pixels * (2.0 + (l.colour ? 4.0 : 0.0));
+    need.pictures = l.pixels * (2.0 + l.colourBytes);
     return need;
 }
 Need occlusionNeed(const Load& l) {
@@ -107,7 +107,7 @@ double thinOperations(const Load& l) {
 std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     return {
         {"upload",
-         {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (l.colour ? 6.0 : 2.0), 0.0,
+         {l.inPlace ? 2.0 * sizeof(shared::FrameParams) : 2.0 * l.pixels * (2.0 + l.colourBytes), 0.0,
           Need::Where::Host}},
         {"occlusion", occlusionNeed(l)},
         {"classify", classifyNeed(l)},
@@ -177,13 +177,14 @@ struct LimitCase {
 };
 // A tenth of the picture and all of it, with noise and without (thinning leaves fewer points then), and the
 // passes that such a scene does not have: colour of a second camera, and a tree for a query on the device.
+// Colours as USB cameras send them.
 std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t h) {
     Scene asked = studyScene(settings);
     asked.contact.where = Scene::Contact::Where::Gpu;
-    return {{"10 % forbidden", studyScene(settings), wallShot(w, h, 0.1, WallNoise::Sensor)},
-            {"100 % forbidden", studyScene(settings), wallShot(w, h, 1.0, WallNoise::Sensor)},
-            {"100 % forbidden, noise-free", studyScene(settings), wallShot(w, h, 1.0)},
-            {"two cameras, query on the device", asked, twoCameraShots("tank", w, h, 1)}};
+    return {{"10 % forbidden", studyScene(settings), inYuyv(wallShot(w, h, 0.1, WallNoise::Sensor))},
+            {"100 % forbidden", studyScene(settings), inYuyv(wallShot(w, h, 1.0, WallNoise::Sensor))},
+            {"100 % forbidden, noise-free", studyScene(settings), inYuyv(wallShot(w, h, 1.0))},
+            {"two cameras, query on the device", asked, inYuyv(twoCameraShots("tank", w, h, 1))}};
 }
 
 void sayCeilings(Study& study, const Ceilings& c) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the cost of a frame grows and how: picture size, share of selected pixels, number of classes. Of a
 // wall with the sensor's noise; without noise thinning leaves fewer points, and what follows it has less to
-// do.
+// do. Colours are YUYV, as USB cameras send them, and RGBA in rows that say so.
 #include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
 
@@ -125,13 +125,14 @@ private:
     Study& study_;
 };
 
+using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
+
 Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
-    using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
     Curve sizes;
     for (const auto& [w, h] :
          quick ? Sizes{{80, 60}, {160, 120}, {400, 300}}
                : Sizes{{160, 120}, {320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
-        const ShotSource shots = wallShot(w, h, 1.0, noise);
+        const ShotSource shots = inYuyv(wallShot(w, h, 1.0, noise));
         const char* source = noise == WallNoise::Sensor ? "size, every point forbidden"
                                                         : "size, every point forbidden, noise-free";
         sizes.push_back(run.take(source, shots.name, Grows::Pixels, w * static_cast<double>(h), shots, 2));
@@ -139,12 +140,21 @@ Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
     return sizes;
 }
 
+// What colours cost that are sent unpacked, or are another format that the host unpacks.
+void unpackedSizes(ScalingRun& run, bool quick) {
+    for (const auto& [w, h] : quick ? Sizes{{160, 120}} : Sizes{{640, 480}, {1280, 720}, {3840, 2160}}) {
+        const ShotSource shots = wallShot(w, h, 1.0, WallNoise::Sensor);
+        run.take("size, every point forbidden, colours RGBA", shots.name, Grows::Pixels,
+                 w * static_cast<double>(h), shots, 2);
+    }
+}
+
 Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve shares;
     for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
         shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
                                   digits(share * 100.0) + " %", Grows::SharePercent, share * 100.0,
-                                  wallShot(w, h, share, WallNoise::Sensor), 2));
+                                  inYuyv(wallShot(w, h, share, WallNoise::Sensor)), 2));
     }
     return shares;
 }
@@ -153,7 +163,7 @@ Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve classes;
     for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
         classes.push_back(run.take("classes, 10 % forbidden", std::to_string(c) + " classes", Grows::Classes,
-                                   c, wallShot(w, h, 0.1, WallNoise::Sensor), c));
+                                   c, inYuyv(wallShot(w, h, 0.1, WallNoise::Sensor)), c));
     }
     return Curve(classes.rbegin(), classes.rend()); // the most passes first: they name the lines
 }
@@ -168,6 +178,7 @@ Study scalingStudy(const StudyContext& context) {
         "at every size: class bits of every pixel and points of up to 300 patches, corners among them, "
         "against "
         "the float64 twins; every region sphere about a forbidden point of its own; every pixel counted";
+    study.findings.push_back("colours are YUYV, as USB cameras send them, where a row does not say RGBA");
     study.errorName = "error", study.errorUnit = "none";
     study.noDefault = "its rows are sizes and scenes, which the camera and the scene file give";
     study.timeName = "upload to published p50";
@@ -192,6 +203,7 @@ Study scalingStudy(const StudyContext& context) {
     ScalingRun run(context, study);
     const Curve sizes = sizesOf(run, WallNoise::Sensor, quick), smooth = sizesOf(run, WallNoise::None, quick),
                 shares = sharesOf(run, w, h, quick), classes = classesOf(run, w, h, quick);
+    unpackedSizes(run, quick);
     run.draw(sizes, "every point forbidden", "pixels", true);
     run.draw(smooth, "every point forbidden, noise-free", "pixels", true);
     run.draw(shares, size + ", forbidden share", "forbidden pixels [%]", false);

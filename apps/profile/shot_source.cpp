@@ -4,7 +4,9 @@
 #include "apps/binding/open_source.h"
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/analytic_scene.h"
+#include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
+#include "engine/types/yuyv.h"
 
 #include <algorithm>
 
@@ -22,7 +24,7 @@ void take(Camera& camera, uint32_t frames, ShotSource& source) {
         }
         Shot& shot = source.shots.emplace_back();
         shot.depth.assign((*frame)->depth.begin(), (*frame)->depth.end());
-        shot.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
+        readColours(**frame, shot.colour);
         shot.baseTcamera = (*frame)->baseTcamera.value_or(Pose{});
     }
 }
@@ -71,7 +73,7 @@ ShotSource twoCameraShots(const std::string& scene, uint32_t width, uint32_t hei
     SimulatedCamera second = cameraOn(scene, width, height, kAside);
     const std::optional<Frame> frame = second.next();
     for (Shot& shot : source.shots) {
-        shot.colour.assign((*frame)->colour.begin(), (*frame)->colour.end());
+        readColours(**frame, shot.colour);
     }
     source.camera.colour = source.camera.depth;
     source.camera.registered = false;
@@ -111,6 +113,16 @@ ShotSource wallShot(uint32_t width, uint32_t height, double share, WallNoise noi
             shot.depth.push_back(static_cast<uint16_t>(std::lround(z / source.camera.metresPerUnit)));
             shot.colour.push_back(v < redRows ? kRed : v < redRows + yellowRows ? kYellow : kGrey);
         }
+    }
+    return source;
+}
+
+ShotSource inYuyv(ShotSource source) {
+    source.camera.yuyv = true;
+    for (Shot& shot : source.shots) {
+        shot.yuyv.resize(shot.colour.size() / 2);
+        packYuyv(shot.colour, shot.yuyv);
+        unpackYuyv(shot.yuyv, shot.colour);
     }
     return source;
 }

@@ -24,6 +24,9 @@ ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames);
 enum class WallNoise { None, Sensor };
 ShotSource wallShot(uint32_t width, uint32_t height, double share, WallNoise noise = WallNoise::None);
 
+// The same pictures of a camera that sends YUYV, their colours packed and unpacked once. Of an even width.
+ShotSource inYuyv(ShotSource source);
+
 // Every point of a picture forbidden, R = 20 mm, and nothing left out or moved: as many spheres as points, in
 // sets that the CPU's query and the GPU's can both be asked about.
 Scene everyPointScene();
