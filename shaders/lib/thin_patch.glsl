@@ -25,20 +25,25 @@ uint cornerOf(uint cell) {
     return (cell / 5u * kSide + cell % 5u) * 4u;
 }
 
-// Of the nine points of a quarter: what they ask of the whole cell's corners, or the growth of the quarter's own.
+// What a lane asks of a cell: points of it that are no corners, each by one lane. Of the whole cell four lanes, turned by a quarter of
+// a circle about its centre, take five each and the centre; of a quarter one takes all five.
 float askedOf(uint cell, uint quarter, bool whole) {
     uvec2 corner = uvec2(quarter & 1u, quarter >> 1) * 2u;
     uint from = cornerOf(cell) + corner.y * kSide + corner.x;
     uint first = whole ? cornerOf(cell) : from, k = whole ? 4u : 2u;
-    vec4 own = ofPatch[first];
+    vec4 own = ofPatch[first], right = ofPatch[first + k], below = ofPatch[first + k * kSide], across = ofPatch[first + k * (kSide + 1u)];
     uint c = uint(own.w);
     float radius = radiusOf(c), most = 0.0, share = whole ? 0.25 : 0.5;
-    Corners corners = cornersOf(own.xyz, ofPatch[first + k].xyz, ofPatch[first + k * kSide].xyz, ofPatch[first + k * (kSide + 1u)].xyz);
-    vec2 offset = whole ? vec2(corner) : vec2(0.0);
-    bool full = c != kNone;
-    [[unroll]] for (uint i = 0; i < 9u; ++i) {
-        vec4 q = ofPatch[from + i / 3u * kSide + i % 3u];
-        vec2 t = (offset + vec2(i % 3u, i / 3u)) * share;
+    Corners corners = cornersOf(own.xyz, right.xyz, below.xyz, across.xyz);
+    ivec2 turn = quarter == 0u ? ivec2(1, 0) : (quarter == 1u ? ivec2(0, 1) : (quarter == 2u ? ivec2(-1, 0) : ivec2(0, -1)));
+    bool full = all(bvec4(c != kNone, right.w == own.w, below.w == own.w, across.w == own.w));
+    const ivec2 ofWhole[6] = ivec2[6](ivec2(0, 0), ivec2(1, 0), ivec2(2, 0), ivec2(1, 1), ivec2(2, 1), ivec2(2, -1));
+    const ivec2 ofQuarter[6] = ivec2[6](ivec2(0, 0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1), ivec2(0, 0));
+    [[unroll]] for (uint i = 0; i < 6u; ++i) {
+        ivec2 d = whole ? ofWhole[i] : ofQuarter[i];
+        ivec2 at = ivec2(turn.x * d.x - turn.y * d.y, turn.y * d.x + turn.x * d.y) + int(k >> 1);
+        vec4 q = ofPatch[int(first) + at.y * int(kSide) + at.x];
+        vec2 t = vec2(at) * share;
         most = max(most, askedBy(q.xyz, corners, t.x, t.y, radius));
         full = all(bvec2(full, q.w == own.w));
     }

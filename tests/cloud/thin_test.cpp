@@ -116,6 +116,32 @@ TEST_CASE("Thinning decides as the twin does and asks for the same growth, for e
             " thinned cells of ", all.cells, " (4x4); ", all.unsure, " decisions on the budget differ");
 }
 
+TEST_CASE(
+    "Each of a cell's 25 points is asked: one that stands out alone decides about its cell and its quarter") {
+    const CameraInfo camera = longLens(68, 68);
+    for (const double out : {0.0003, 0.001}) { // within the budget, and beyond it
+        const Picture picture = drawnPicture(camera, [&](int u, int v) {
+            const int cell =
+                u / 12 + v / 12 * 5; // a point of its own stands out in each third cell across and down
+            return u % 12 == 4 + cell % 5 && v % 12 == 4 + cell / 5 ? 0.6 - out : 0.6;
+        });
+        for (const uint32_t group : {0u, 64u, 128u, 256u}) {
+            CAPTURE(out);
+            CAPTURE(group);
+            CloudRig rig(budgetScene(0.0006), camera, [&](Plan& plan) {
+                plan.byPixel = plan.pack = group != 0;
+                plan.pixelGroup = group != 0 ? group : plan.pixelGroup;
+            });
+            rig.run(picture);
+            const ThinAgreement a = compareCells(rig);
+            CHECK(a.wrong == 0);
+            CHECK(a.unsure == 0);
+            CHECK(a.worst < 1e-6);
+            CHECK(a.thinned > 17 * 17 - 4 * 25);
+        }
+    }
+}
+
 TEST_CASE("Kept spheres are those of the rule that the twin states, and no other") {
     for (const char* name : {"sphere", "corner"}) {
         SimulatedCameraOptions options;
