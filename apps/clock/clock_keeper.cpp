@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/clock/clock_keeper.h"
 
+#include "apps/binding/own_process.h"
 #include "engine/types/log.h"
 
 #include <array>
@@ -10,14 +11,11 @@
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
-#include <spawn.h>
 #include <string>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
 #include <utility>
-
-extern char** environ;
 
 namespace fathom {
 
@@ -26,29 +24,6 @@ namespace {
 constexpr auto kPatience = std::chrono::seconds(20); // a driver of many devices takes seconds
 constexpr auto kFarewell = std::chrono::seconds(1);
 constexpr auto kStep = std::chrono::milliseconds(5);
-
-// Ctrl-C is the engine's: the clock is held until that ends. Returns errno's number.
-int spawn(pid_t& process, int life, int answer, const std::string& id, const std::string& name) noexcept {
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t how;
-    ::posix_spawn_file_actions_init(&files);
-    ::posix_spawnattr_init(&how);
-    ::posix_spawn_file_actions_adddup2(&files, life, STDIN_FILENO);
-    ::posix_spawn_file_actions_adddup2(&files, answer, STDOUT_FILENO);
-    ::posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-    sigset_t none, all;
-    ::sigemptyset(&none);
-    ::sigfillset(&all);
-    ::posix_spawnattr_setsigmask(&how, &none);
-    ::posix_spawnattr_setsigdefault(&how, &all);
-    ::posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-    const char* words[] = {"fathom", kKeepClockCommand, id.c_str(), name.c_str(), nullptr};
-    const int fault =
-        ::posix_spawn(&process, "/proc/self/exe", &files, &how, const_cast<char* const*>(words), environ);
-    ::posix_spawnattr_destroy(&how);
-    ::posix_spawn_file_actions_destroy(&files);
-    return fault;
-}
 
 } // namespace
 
@@ -67,7 +42,10 @@ ClockKeeper::ClockKeeper(const GlobalOptions& options, const DeviceFacts& device
     int life[2] = {-1, -1}, answer[2] = {-1, -1};
     int fault = ::pipe2(life, O_CLOEXEC) == 0 && ::pipe2(answer, O_CLOEXEC) == 0 ? 0 : errno;
     if (fault == 0) {
-        fault = spawn(process_, life[0], answer[1], hexOf(device.uuid), device.name);
+        const std::string id = hexOf(device.uuid);
+        const int files[] = {life[0], answer[1], STDERR_FILENO};
+        const char* words[] = {"fathom", kKeepClockCommand, id.c_str(), device.name.c_str(), nullptr};
+        fault = startOwnProcess(process_, files, words);
     }
     ::close(life[0]);
     ::close(answer[1]);
