@@ -1,12 +1,13 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Points of the listed patches: flying and isolated pixels rejected, the paper's Cartesian bilateral filter (eq. 1-2),
-// base frame. One group a patch, one invocation a pixel, or (kBlock) a 4x4 sub-patch, whose pixels share their window and weights in registers.
+// base frame. One group a patch, one invocation a pixel, or (kPair) two of a row, which share what they fetch of their windows, or (kBlock) a 4x4
+// sub-patch, whose pixels share their window and weights in registers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;                  // 256
+layout(local_size_x_id = 0) in;                  // divides 256; 128 with kPair
 layout(constant_id = 1) const uint kRays = 0;
 layout(constant_id = 2) const uint kRadius = 2;  // filter window (2 r + 1)^2; 0 compiles the filter out
 layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejected
@@ -15,6 +16,7 @@ layout(constant_id = 4) const uint kTiled = 0;   // 1: the window comes from sha
 layout(constant_id = 5) const uint kBlock = 0;   // 1: a 4x4 sub-patch an invocation, radius at most 2; groups of 16
 layout(constant_id = 6) const uint kFour = 0;    // 1: blocks, and four divides the width: a texel of depth is four pixels
 layout(constant_id = 7) const uint kPolynomial = 0; // 1: weights by a power of a line, which has no exp and ends at 0
+layout(constant_id = 8) const uint kPair = 0;    // 1 (with kTiled and radius 2): two pixels an invocation
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
@@ -121,20 +123,74 @@ float weightOf(float t) {
     return w * w;
 }
 
+// Summed as differences from the centre: the mean keeps all digits of a distant surface.
+struct Mean {
+    float sum, weights;
+};
+
+Mean weighed(Mean mean, vec3 q, vec3 p) {
+    vec3 apart = q - p;
+    float weight = weightOf(dot(apart, apart) * params.filterParams.x);
+    weight = q.z != 0.0 ? weight : 0.0;
+    return Mean(mean.sum + (q.z - p.z) * weight, mean.weights + weight);
+}
+
 // Paper eq. 1-2: v the depth value, weights by the Cartesian distance between the points.
 float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
-    float sum = 0.0, weights = 0.0;
+    Mean mean = Mean(0.0, 0.0);
     for (int dy = -int(kRadius); dy <= int(kRadius); ++dy) {
         for (int dx = -int(kRadius); dx <= int(kRadius); ++dx) {
-            vec3 q = windowPoint(at + ivec2(dx, dy), patchOrigin), apart = q - p;
-            float weight = weightOf(dot(apart, apart) * params.filterParams.x);
-            weight = q.z != 0.0 ? weight : 0.0;
-            // Summed as differences from the centre: the mean keeps all digits of a distant surface.
-            sum += (q.z - p.z) * weight;
-            weights += weight;
+            mean = weighed(mean, windowPoint(at + ivec2(dx, dy), patchOrigin), p);
         }
     }
-    return p.z + sum / weights; // weights >= 1: the centre itself
+    return p.z + mean.sum / mean.weights; // weights >= 1: the centre itself
+}
+
+bool isRejected(vec3 around[9]) {
+    bool flying = kEdge != 0 ? isFlying(depthsOf(around)) : false;
+    return any(bvec2(flying, isIsolated(around)));
+}
+
+vec4 basePoint(ivec2 at, float z) {
+    return vec4(transformPoint(params.baseTcamera, pointAt(at, z)), z);
+}
+
+void filterPixel(uint slot, ivec2 patchOrigin) {
+    vec4 result = vec4(0.0);
+    if (maskAt(slot) != 0) {
+        ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+        vec3 around[9] = aroundOf(at, patchOrigin);
+        if (!isRejected(around)) {
+            result = basePoint(at, kRadius != 0 ? filtered(at, around[4], patchOrigin) : around[4].z);
+        }
+    }
+    points[slot] = result;
+}
+
+// Two pixels side by side: what their windows share is fetched once, and summed in the same order.
+void filterPair(uint slot, ivec2 patchOrigin) {
+    uvec2 mask = uvec2(maskAt(slot), maskAt(slot + 1u));
+    if (mask == uvec2(0)) {
+        points[slot] = vec4(0.0);
+        points[slot + 1u] = vec4(0.0);
+        return;
+    }
+    ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
+    vec3 p[2] = vec3[2](windowPoint(at, patchOrigin), windowPoint(at + ivec2(1, 0), patchOrigin));
+    Mean mean[2] = Mean[2](Mean(0.0, 0.0), Mean(0.0, 0.0));
+    [[unroll]] for (int dy = -2; dy <= 2; ++dy) {
+        [[unroll]] for (int x = -2; x <= 3; ++x) {
+            vec3 q = windowPoint(at + ivec2(x, dy), patchOrigin);
+            [[unroll]] for (int k = 0; k < 2; ++k) {
+                mean[k] = x - k >= -2 && x - k <= 2 ? weighed(mean[k], q, p[k]) : mean[k];
+            }
+        }
+    }
+    [[unroll]] for (int k = 0; k < 2; ++k) {
+        ivec2 here = at + ivec2(k, 0);
+        bool shown = mask[k] != 0 && !isRejected(aroundOf(here, patchOrigin));
+        points[slot + uint(k)] = shown ? basePoint(here, p[k].z + mean[k].sum / mean[k].weights) : vec4(0.0);
+    }
 }
 
 // The window of a 4x4 sub-patch: points of the camera frame, z = 0 where there is no depth.
@@ -220,18 +276,13 @@ void main() {
     if (kTiled != 0) {
         fillTile(patchOrigin);
     }
-    for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
-        uint slot = patchIndex * 256u + i;
-        vec4 result = vec4(0.0);
-        if (maskAt(slot) != 0) {
-            ivec2 at = ivec2(pixelOfSlot(slot, params.size.z));
-            vec3 around[9] = aroundOf(at, patchOrigin);
-            if (!(kEdge != 0 && isFlying(depthsOf(around))) && !isIsolated(around)) {
-                vec3 p = around[4];
-                float z = kRadius != 0 ? filtered(at, p, patchOrigin) : p.z;
-                result = vec4(transformPoint(params.baseTcamera, pointAt(at, z)), z);
-            }
+    if (kPair != 0) {
+        for (uint i = gl_LocalInvocationID.x; i < 128u; i += gl_WorkGroupSize.x) {
+            filterPair(patchIndex * 256u + i * 2u, patchOrigin);
         }
-        points[slot] = result;
+        return;
+    }
+    for (uint i = gl_LocalInvocationID.x; i < 256u; i += gl_WorkGroupSize.x) {
+        filterPixel(patchIndex * 256u + i, patchOrigin);
     }
 }

@@ -4,28 +4,37 @@
 #include "shaders/shared/frame_params.h"
 #include "shaders/spheres.h"
 
+#include <algorithm>
 #include <cstddef>
 
 namespace fathom::cloud {
 
+namespace {
+
+// Smaller groups wait for less at a time, larger ones are sooner done with a patch.
+uint32_t spheresGroup(const Plan& plan) {
+    return !plan.byPixel ? plan.subGroup : std::min(plan.pixelGroup, plan.manyPatches ? 128u : 256u);
+}
+
+} // namespace
+
 SpheresPass::Variant::Variant(const CloudContext& c, uint32_t hold)
-    : pipeline(c.device,
-               {"spheres",
-                spheres_spv,
-                27,
-                true,
-                0,
-                std::array{c.plan.byPixel ? c.plan.pixelGroup : c.plan.subGroup, uint32_t{c.plan.thin}, hold,
-                           uint32_t{c.plan.byPixel}, uint32_t{c.plan.leaks}, c.plan.classes,
-                           uint32_t{c.plan.fan}, uint32_t{c.plan.beam}, uint32_t{c.plan.tree},
-                           uint32_t{c.plan.pack}, uint32_t{c.plan.memoryTexels}},
-                {{1, kDepthTexels},
-                 {2, kMaskTexels},
-                 {3, kPointTexels},
-                 {6, VK_FORMAT_R32G32B32A32_SFLOAT},
-                 {18, VK_FORMAT_R32G32B32A32_SFLOAT},
-                 {19, VK_FORMAT_R32G32B32A32_SFLOAT},
-                 {20, VK_FORMAT_R32_UINT}}}) {}
+    : pipeline(c.device, {"spheres",
+                          spheres_spv,
+                          27,
+                          true,
+                          0,
+                          std::array{spheresGroup(c.plan), uint32_t{c.plan.thin}, hold,
+                                     uint32_t{c.plan.byPixel}, uint32_t{c.plan.leaks}, c.plan.classes,
+                                     uint32_t{c.plan.fan}, uint32_t{c.plan.beam}, uint32_t{c.plan.tree},
+                                     uint32_t{c.plan.pack}, uint32_t{c.plan.memoryTexels}},
+                          {{1, kDepthTexels},
+                           {2, kMaskTexels},
+                           {3, kPointTexels},
+                           {6, VK_FORMAT_R32G32B32A32_SFLOAT},
+                           {18, VK_FORMAT_R32G32B32A32_SFLOAT},
+                           {19, VK_FORMAT_R32G32B32A32_SFLOAT},
+                           {20, VK_FORMAT_R32_UINT}}}) {}
 
 SpheresPass::SpheresPass(const CloudContext& c)
     : context_(c)

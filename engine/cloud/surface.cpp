@@ -11,9 +11,9 @@ namespace fathom::cloud {
 
 namespace {
 
-// A sub-patch an invocation: 16 do a patch.
+// A sub-patch an invocation: 16 do a patch. Pairs: smaller groups, of which more are under way.
 uint32_t groupOf(const Plan& plan) {
-    return plan.filterBlock ? 16u : plan.pixelGroup;
+    return plan.filterBlock ? 16u : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
 }
 
 bool inFours(const CloudContext& c) {
@@ -32,7 +32,7 @@ SurfacePass::SurfacePass(const CloudContext& c)
                            std::array{groupOf(c.plan), uint32_t{c.plan.rays}, c.plan.filterRadius,
                                       uint32_t{c.plan.edge}, uint32_t{c.plan.tiled && !c.plan.filterBlock},
                                       uint32_t{c.plan.filterBlock}, uint32_t{inFours(c)},
-                                      uint32_t{c.plan.polynomialWeights}},
+                                      uint32_t{c.plan.polynomialWeights}, uint32_t{c.plan.filterPairs()}},
                            {{1, inFours(c) ? VK_FORMAT_R16G16B16A16_UINT : kDepthTexels}, {3, kMaskTexels}}})
     , counters_(c.work.counters) {}
 

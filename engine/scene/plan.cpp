@@ -11,6 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
+constexpr uint32_t kManyPatches = 6000; // measured on an H100: 1280x720 has 3600, 1920x1080 8160
 constexpr uint32_t kManyProcessors = 8, kMostPublishers = 12;
 constexpr uint32_t kOtherThreads = 4;    // haptics, contact, writer or window, and one for the system
 constexpr uint64_t kSmallestPage = 4096; // of any host: a camera's memory comes in whole pages
@@ -78,6 +79,8 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
     plan.groupCounts = device.kind != DeviceKind::Cpu; // there a barrier costs more than the counts
     plan.byPixel = device.kind != DeviceKind::Cpu;     // there shared memory made it twice as slow
+    plan.manyPatches =
+        plan.byPixel && patchLayout(camera.depth.width, camera.depth.height).patches() >= kManyPatches;
     plan.filterBlock = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
@@ -116,9 +119,10 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
-                                      (plan.filterBlock ? ", 4x4 blocks from registers"
-                                       : plan.tiled     ? ", shared-memory tiles"
-                                                        : ", direct reads") +
+                                      (plan.filterBlock     ? ", 4x4 blocks from registers"
+                                       : plan.filterPairs() ? ", shared-memory tiles, two pixels at a time"
+                                       : plan.tiled         ? ", shared-memory tiles"
+                                                            : ", direct reads") +
                                       (plan.polynomialWeights ? ", polynomial weights" : "")
                                 : "no filter: points as measured",
          "the scene has no class of points");

@@ -57,7 +57,8 @@ struct Plan {
     bool memoryTexels = false; // memory of points is read as texels: faster on a CPU device, but elsewhere a
                                // fetch may come after what is written to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
-    uint32_t pixelGroup = 256; // invocations a group of the pixel passes; divides 256
+    bool manyPatches = false;  // several rounds of groups: what a round of them does counts, not how soon
+    uint32_t pixelGroup = 256; // invocations a group of the pixel passes, at most; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
     bool arm = false;   // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions
     bool water = false; // colours are put right for what water took of them
@@ -78,6 +79,9 @@ struct Plan {
     uint64_t packedBytes() const { // a slot, at most
         return packsDepths() ? 4u + (thin ? 1u : 0u) + (hold ? 16u : 0u) : (hold ? 32u : 16u);
     }
+    // Two pixels an invocation of the filter: a sixth faster where there are many, slower where groups are
+    // few.
+    bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
     bool delivers() const { return cloud && byPixel; } // by a dispatch; a CPU device copies
     uint32_t dispatchesPerFrame() const;               // of the frame path, query excluded
 };

@@ -74,6 +74,32 @@ TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixe
             all.rejected, " pixels rejected, ", all.unsure, " on a threshold");
 }
 
+TEST_CASE("Two pixels an invocation give the points of one, and a patch that has one pixel of a pair") {
+    for (const double edge : {0.0, 0.03}) {
+        for (const uint32_t width : {67u, 68u, 1u}) {
+            CAPTURE(edge);
+            CAPTURE(width);
+            const CameraInfo camera = pinholeCamera(width, 41);
+            Scene scene = edgeScene(edge);
+            scene.filter.radius = 2;
+            scene.fixtures[0].hue = Band{20, 200}; // some pixels are of no class
+            const Picture picture = stressPicture(camera, width);
+            CloudRig one(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
+            CloudRig two(scene, camera,
+                         [](Plan& plan) { plan.tiled = plan.manyPatches = true, plan.filterBlock = false; });
+            CHECK_FALSE(one.plan().filterPairs());
+            CHECK(two.plan().filterPairs());
+            one.run(picture), two.run(picture);
+            CHECK((!onCpu() || (one.points().z == two.points().z && one.points().at == two.points().at)));
+            const SurfaceAgreement agreement = comparePoints(two);
+            CHECK((width == 1 || agreement.points > 300));
+            CHECK((width == 1 || agreement.points < 67 * 30));
+            CHECK(agreement.wrong == 0);
+            CHECK(agreement.worst < 1e-6);
+        }
+    }
+}
+
 TEST_CASE("Windows from shared memory, direct reads and blocks in registers give the same points") {
     for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
         for (const double edge : {0.0, 0.03}) {
