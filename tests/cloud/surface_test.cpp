@@ -100,6 +100,22 @@ TEST_CASE("Two pixels an invocation give the points of one, and a patch that has
     }
 }
 
+TEST_CASE("Two pixels an invocation are for a GPU's large pictures and the 5x5 filter") {
+    Scene scene = edgeScene(0.03);
+    scene.filter.radius = 2;
+    const auto planOf = [&](uint32_t width, uint32_t height, DeviceKind kind) {
+        DeviceFacts facts = vulkan().device.facts();
+        facts.kind = kind;
+        return makePlan(scene, pinholeCamera(width, height), 1, facts);
+    };
+    CHECK(planOf(1920, 1080, DeviceKind::Discrete).filterPairs());
+    CHECK_FALSE(planOf(1280, 720, DeviceKind::Discrete).manyPatches);
+    CHECK_FALSE(planOf(3840, 2160, DeviceKind::Cpu).manyPatches);
+    scene.filter.radius = 3;
+    CHECK(planOf(1920, 1080, DeviceKind::Discrete).manyPatches);
+    CHECK_FALSE(planOf(1920, 1080, DeviceKind::Discrete).filterPairs());
+}
+
 TEST_CASE("Windows from shared memory, direct reads and blocks in registers give the same points") {
     for (const uint32_t radius : {0u, 1u, 2u, 5u, 16u}) {
         for (const double edge : {0.0, 0.03}) {
