@@ -7,7 +7,7 @@
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;                  // divides 256; 128 with kPair
+layout(local_size_x_id = 0) in;                  // divides 256, with kPair 128
 layout(constant_id = 1) const uint kRays = 0;
 layout(constant_id = 2) const uint kRadius = 2;  // filter window (2 r + 1)^2; 0 compiles the filter out
 layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejected

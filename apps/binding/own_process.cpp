@@ -16,6 +16,13 @@ namespace {
 constexpr int kAbove = 10;  // descriptors that no action of the child overwrites
 constexpr size_t kMost = 8; // of a child's
 
+// What we were started with has no FD_CLOEXEC; what we open has, and may be given the number of a standard
+// error that was closed.
+bool hasStandardError() noexcept {
+    const int flags = ::fcntl(STDERR_FILENO, F_GETFD);
+    return flags >= 0 && (flags & FD_CLOEXEC) == 0;
+}
+
 // The child's descriptors: copies that its places do not hit, closed here when it has them.
 class Actions {
 public:
@@ -23,7 +30,7 @@ public:
         ::posix_spawn_file_actions_init(&actions);
         for (const int file : files) {
             const int place = static_cast<int>(count_);
-            if (file == kNullDevice || (file == STDERR_FILENO && ::fcntl(file, F_GETFD) < 0)) {
+            if (file == kNullDevice || (file == STDERR_FILENO && !hasStandardError())) {
                 copies_[count_++] = -1;
                 ::posix_spawn_file_actions_addopen(&actions, place, "/dev/null", O_RDWR, 0);
                 continue;

@@ -7,12 +7,13 @@
 
 namespace fathom {
 
-inline constexpr int kNullDevice = -1; // stands for /dev/null among descriptors
+inline constexpr int kNullDevice = -2; // stands for /dev/null among descriptors
 
-// Runs `fathom WORDS...` with files[i] as its descriptor i (at most 8; a standard error that is closed is
-// /dev/null there) and none else of ours: it must not keep a camera or a GPU open. In a session of its own,
-// with the usual signals: Ctrl-C and a closed terminal are the engine's. words: ends in nullptr. Returns
-// errno's number, 0 when `process` runs.
+// Runs this program with those words, the first its name and the last nullptr. files[i], at most 8, is its
+// descriptor i, and none else of ours: it must not keep a camera or a GPU open. A standard error that was
+// closed when we began is /dev/null there, whatever has its number now. In a session of its own, with the
+// usual signals: Ctrl-C and a closed terminal are the engine's. Returns errno's number, 0 when `process`
+// runs.
 int startOwnProcess(pid_t& process, std::span<const int> files, std::span<const char* const> words) noexcept;
 
 } // namespace fathom

@@ -29,16 +29,13 @@ uint64_t bytesOfTile(uint32_t radius) {
     return 3 * sizeof(float) * edge * edge;
 }
 
-// Decides the switches; the items that explain them follow from these alone.
-Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
-    Plan plan;
+// What the scene asks for of what the camera gives.
+void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.spheres = scene.hasForbiddenPoints();
     plan.arm = scene.arm.has_value();
     plan.selfFilter = plan.arm && scene.arm->selfFilter && (plan.spheres || scene.hasGuidance());
     plan.moments = scene.hasGuidance();
     plan.cloud = plan.spheres || plan.moments;
-    plan.inPlace =
-        plan.cloud && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
     plan.yuyv = plan.colour && camera.yuyv;
     plan.water = plan.colour && scene.attenuation;
@@ -46,11 +43,7 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
     plan.beam = plan.spheres && camera.beam.has_value();
     plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof wants one radius a class
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
-    plan.memoryTexels = plan.hold && device.kind == DeviceKind::Cpu;
     plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
-    plan.pack =
-        plan.spheres && device.kind != DeviceKind::Cpu; // there nothing crosses a bus, and it takes 2 ms
-    plan.keepDepth = plan.cloud && device.kind != DeviceKind::Cpu && camera.depth.width % 4 == 0;
     for (const FixtureClass& f : scene.fixtures) {
         plan.classes += f.isPoints() ? 1 : 0;
         plan.box = plan.box || (f.isPoints() && f.box);
@@ -58,30 +51,42 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
         plan.guidancePoints = plan.guidancePoints ||
                               (f.isPoints() && f.role == Role::Guidance && (f.largestPart || f.trim > 0.0));
     }
-    while (plan.pixelGroup > device.maxInvocations) {
-        plan.pixelGroup /= 2;
-    }
-    // Beside a device of its own those who share it look out for it while the device works, so that the other
-    // cadences keep processors of their own; a CPU device has done its work by then.
-    if (plan.spheres && device.kind == DeviceKind::Cpu) {
-        plan.publishers = std::min(kMostPublishers, device.hostProcessors);
-    } else if (plan.spheres && device.hostProcessors >= kManyProcessors) {
-        plan.publishers = std::min(kMostPublishers, device.hostProcessors - kOtherThreads);
-    }
     plan.rays = plan.cloud && !camera.depth.pinhole();
     plan.fan = plan.cloud && camera.depth.fan;
     plan.filterRadius = scene.filter.radius;
     plan.edge = scene.filter.edge > 0.0;
     plan.polynomialWeights = scene.filter.weights == Scene::Filter::Weights::Polynomial;
+}
+
+// How the passes that a scene needs are laid out.
+void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& plan) {
+    const bool cpu = device.kind == DeviceKind::Cpu;
+    plan.inPlace =
+        plan.cloud && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
+    plan.memoryTexels = plan.hold && cpu;
+    plan.pack = plan.spheres && !cpu; // there nothing crosses a bus, and it takes 2 ms
+    plan.keepDepth = plan.cloud && !cpu && camera.depth.width % 4 == 0;
+    while (plan.pixelGroup > device.maxInvocations) {
+        plan.pixelGroup /= 2;
+    }
+    // Beside a device of its own those who share it look out for it while the device works, so that the other
+    // cadences keep processors of their own; a CPU device has done its work by then.
+    if (plan.spheres && cpu) {
+        plan.publishers = std::min(kMostPublishers, device.hostProcessors);
+    } else if (plan.spheres && device.hostProcessors >= kManyProcessors) {
+        plan.publishers = std::min(kMostPublishers, device.hostProcessors - kOtherThreads);
+    }
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
-    plan.tiled = device.kind != DeviceKind::Cpu && scene.filter.radius >= 2 &&
-                 bytesOfTile(scene.filter.radius) <= device.maxSharedBytes;
-    // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
-    plan.groupCounts = device.kind != DeviceKind::Cpu; // there a barrier costs more than the counts
-    plan.byPixel = device.kind != DeviceKind::Cpu;     // there shared memory made it twice as slow
+    plan.tiled = !cpu && plan.filterRadius >= 2 && bytesOfTile(plan.filterRadius) <= device.maxSharedBytes;
+    plan.groupCounts = !cpu; // there a barrier costs more than the counts
+    plan.byPixel = !cpu;     // there shared memory made it twice as slow
     plan.manyPatches =
         plan.byPixel && patchLayout(camera.depth.width, camera.depth.height).patches() >= kManyPatches;
-    plan.filterBlock = device.kind == DeviceKind::Cpu && scene.filter.radius <= 2;
+    // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
+    plan.filterBlock = cpu && plan.filterRadius <= 2;
+}
+
+void decideQuery(const Scene& scene, uint32_t toolLeaves, const DeviceFacts& device, Plan& plan) {
     if (plan.spheres) {
         const bool gpu = scene.contact.where == Scene::Contact::Where::Gpu ||
                          (scene.contact.where == Scene::Contact::Where::Auto && !plan.arm &&
@@ -89,6 +94,14 @@ Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, c
         plan.query = gpu ? Plan::Query::Gpu : Plan::Query::Cpu;
     }
     plan.tree = plan.query == Plan::Query::Gpu;
+}
+
+// Decides the switches; the items that explain them follow from these alone.
+Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
+    Plan plan;
+    decideByScene(scene, camera, plan);
+    decideByDevice(camera, device, plan);
+    decideQuery(scene, toolLeaves, device, plan);
     return plan;
 }
 
@@ -239,6 +252,10 @@ uint32_t Plan::dispatchesPerFrame() const {
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     if (scene.arm && scene.contact.where == Scene::Contact::Where::Gpu) {
         throw BadInput(scene.file.string(), "contact.where", "gpu", "auto or cpu with an arm");
+    }
+    if (camera.yuyv && camera.colour.width % 2 != 0) {
+        throw BadInput("camera", "width of its colour, which comes as YUYV",
+                       std::to_string(camera.colour.width), "an even one: two pixels a word");
     }
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);

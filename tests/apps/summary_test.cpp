@@ -14,13 +14,13 @@
 
 using namespace fathom;
 using namespace fathom::testing;
-using Json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 
 namespace {
 
 const double kNan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<std::string> keysOf(const Json& object) {
+std::vector<std::string> keysOf(const Ordered& object) {
     std::vector<std::string> keys;
     for (const auto& item : object.items()) {
         keys.push_back(item.key());
@@ -58,7 +58,7 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
     summary.fixtures.push_back({"wheel", "forbidden", 10.0, 5.0, 1.0});
     summary.guidance.push_back(
         {"body", dvec3(1, 2, 3), dvec3(0, 0, -1), Pose{{4, 5, 6}, {0.5, 0.5, -0.5, 0.5}}, 77});
-    const Json json = Json::parse(toJson(summary));
+    const Ordered json = Ordered::parse(toJson(summary));
     CHECK(keysOf(json) ==
           Keys{"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
     CHECK(keysOf(json["frames"]) == Keys{"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
@@ -75,8 +75,8 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
           Keys{"class", "role", "points_mean", "spheres_mean", "patches_mean"});
     CHECK(keysOf(json["guidance"][0]) ==
           Keys{"class", "position_m", "normal", "target_m", "target_qwxyz", "count"});
-    CHECK(json["guidance"][0]["target_qwxyz"] == Json::array({0.5, 0.5, -0.5, 0.5}));
-    CHECK(json["guidance"][0]["position_m"] == Json::array({1.0, 2.0, 3.0}));
+    CHECK(json["guidance"][0]["target_qwxyz"] == Ordered::array({0.5, 0.5, -0.5, 0.5}));
+    CHECK(json["guidance"][0]["position_m"] == Ordered::array({1.0, 2.0, 3.0}));
     CHECK(json["contact"]["where"] == "none");
 }
 
@@ -90,7 +90,7 @@ TEST_CASE("what is unknown or not finite is null, and bytes that are no UTF-8 do
     summary.device = "bad \xff\xfe name";
     writeSummary(folder.path() / "summary.json", summary);
     const std::string text = textOf(folder.path() / "summary.json");
-    const Json json = Json::parse(text);
+    const Ordered json = Ordered::parse(text);
     CHECK(json["haptic"]["max_penetration_m"].is_null());
     CHECK(json["haptic"]["max_escape_depth_m"].is_null());
     CHECK(json["haptic"]["max_force_N"].is_null());

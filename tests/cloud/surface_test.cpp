@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // surface.comp against its float64 twin: rejection, filter, base-frame points.
-#include "engine/reference/surface.h"
-#include "tests/support/cloud_rig.h"
+#include "tests/cloud/surface_agreement.h"
 #include "tests/support/sanitized.h"
 
 #include <algorithm>
@@ -13,44 +12,8 @@ using namespace fathom::test;
 
 namespace {
 
-struct SurfaceAgreement {
-    uint32_t points = 0, rejected = 0, unsure = 0,
-             wrong = 0; // wrong: one keeps what the other rejects, although sure
-    double worst = 0.0; // [m] distance to the twin's point, at ranges over 1 m divided by the range
-};
-
-SurfaceAgreement comparePoints(const CloudRig& rig) {
-    const std::vector<uint32_t> masks = rig.masks();
-    const reference::SurfacePicture twin = reference::surface(rig.view(), masks);
-    const reference::PointPicture points = rig.points();
-    SurfaceAgreement a;
-    for (size_t i = 0; i < masks.size(); ++i) {
-        const bool here = points.z[i] != 0.0, there = twin.points.z[i] != 0.0;
-        a.points += here, a.rejected += masks[i] != 0 && !here;
-        a.unsure += twin.unsure[i];
-        a.wrong += here != there && twin.unsure[i] == 0;
-        if (here && there) {
-            const double scale = std::max(1.0, twin.points.z[i]);
-            a.worst = std::max(a.worst, glm::distance(points.at[i], twin.points.at[i]) / scale);
-            a.worst = std::max(a.worst, std::abs(points.z[i] - twin.points.z[i]) / scale);
-        }
-    }
-    return a;
-}
-
 bool keeps(const CloudRig& rig, int u, int v) {
     return rig.points().z[static_cast<size_t>(v * rig.width() + u)] != 0.0;
-}
-
-Scene edgeScene(double edge) {
-    Scene scene = plainScene();
-    scene.filter.edge = edge;
-    return scene;
-}
-
-// Blocks are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
-bool onCpu() {
-    return vulkan().device.facts().kind == DeviceKind::Cpu;
 }
 
 } // namespace
@@ -72,48 +35,6 @@ TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixe
     CHECK(all.rejected > (kSanitized ? 500 : 3000));
     MESSAGE("surface: largest error ", all.worst * 1e6, " um a metre of range over ", all.points, " points; ",
             all.rejected, " pixels rejected, ", all.unsure, " on a threshold");
-}
-
-TEST_CASE("Two pixels an invocation give the points of one, and a patch that has one pixel of a pair") {
-    for (const double edge : {0.0, 0.03}) {
-        for (const uint32_t width : {67u, 68u, 1u}) {
-            CAPTURE(edge);
-            CAPTURE(width);
-            const CameraInfo camera = pinholeCamera(width, 41);
-            Scene scene = edgeScene(edge);
-            scene.filter.radius = 2;
-            scene.fixtures[0].hue = Band{20, 200}; // some pixels are of no class
-            const Picture picture = stressPicture(camera, width);
-            CloudRig one(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
-            CloudRig two(scene, camera,
-                         [](Plan& plan) { plan.tiled = plan.manyPatches = true, plan.filterBlock = false; });
-            CHECK_FALSE(one.plan().filterPairs());
-            CHECK(two.plan().filterPairs());
-            one.run(picture), two.run(picture);
-            CHECK((!onCpu() || (one.points().z == two.points().z && one.points().at == two.points().at)));
-            const SurfaceAgreement agreement = comparePoints(two);
-            CHECK((width == 1 || agreement.points > 300));
-            CHECK((width == 1 || agreement.points < 67 * 30));
-            CHECK(agreement.wrong == 0);
-            CHECK(agreement.worst < 1e-6);
-        }
-    }
-}
-
-TEST_CASE("Two pixels an invocation are for a GPU's large pictures and the 5x5 filter") {
-    Scene scene = edgeScene(0.03);
-    scene.filter.radius = 2;
-    const auto planOf = [&](uint32_t width, uint32_t height, DeviceKind kind) {
-        DeviceFacts facts = vulkan().device.facts();
-        facts.kind = kind;
-        return makePlan(scene, pinholeCamera(width, height), 1, facts);
-    };
-    CHECK(planOf(1920, 1080, DeviceKind::Discrete).filterPairs());
-    CHECK_FALSE(planOf(1280, 720, DeviceKind::Discrete).manyPatches);
-    CHECK_FALSE(planOf(3840, 2160, DeviceKind::Cpu).manyPatches);
-    scene.filter.radius = 3;
-    CHECK(planOf(1920, 1080, DeviceKind::Discrete).manyPatches);
-    CHECK_FALSE(planOf(1920, 1080, DeviceKind::Discrete).filterPairs());
 }
 
 TEST_CASE("Windows from shared memory, direct reads and blocks in registers give the same points") {

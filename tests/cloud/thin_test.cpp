@@ -116,19 +116,28 @@ TEST_CASE("Thinning decides as the twin does and asks for the same growth, for e
             " thinned cells of ", all.cells, " (4x4); ", all.unsure, " decisions on the budget differ");
 }
 
-TEST_CASE(
-    "Each of a cell's 25 points is asked: one that stands out alone decides about its cell and its quarter") {
+TEST_CASE("Each of a cell's 25 points is asked: one that is unlike the rest decides about its cell and its "
+          "quarter") {
     const CameraInfo camera = longLens(68, 68);
-    for (const double out : {0.0003, 0.001}) { // within the budget, and beyond it
-        const Picture picture = drawnPicture(camera, [&](int u, int v) {
-            const int cell =
-                u / 12 + v / 12 * 5; // a point of its own stands out in each third cell across and down
-            return u % 12 == 4 + cell % 5 && v % 12 == 4 + cell / 5 ? 0.6 - out : 0.6;
-        });
+    const auto isUnlike = [](int u, int v) { // a point of its own in each third cell across and down
+        const int cell = u / 12 + v / 12 * 5;
+        return u % 12 == 4 + cell % 5 && v % 12 == 4 + cell / 5;
+    };
+    Scene scene = budgetScene(0.0006);
+    scene.fixtures = {forbiddenClass("red", 0.02), forbiddenClass("blue", 0.02)};
+    scene.fixtures[0].hue = Band{330, 30}, scene.fixtures[1].hue = Band{200, 260};
+    // Nearer, within the budget and beyond it; not there at all; of the other class.
+    for (const double out : {0.0003, 0.001, 0.6, 0.0}) {
+        Picture picture =
+            drawnPicture(camera, [&](int u, int v) { return isUnlike(u, v) ? 0.6 - out : 0.6; });
+        for (size_t i = 0; i < picture.colour.size(); ++i) {
+            const bool blue = out == 0.0 && isUnlike(static_cast<int>(i % 68), static_cast<int>(i / 68));
+            picture.colour[i] = blue ? 0xffc02020 : 0xff2020c0;
+        }
         for (const uint32_t group : {0u, 64u, 128u, 256u}) {
             CAPTURE(out);
             CAPTURE(group);
-            CloudRig rig(budgetScene(0.0006), camera, [&](Plan& plan) {
+            CloudRig rig(scene, camera, [&](Plan& plan) {
                 plan.byPixel = plan.pack = group != 0;
                 plan.pixelGroup = group != 0 ? group : plan.pixelGroup;
             });

@@ -55,14 +55,21 @@ Scene gates() {
 }
 
 // Class bits of one picture whose colours are those words.
-std::vector<uint32_t> masksOf(const Scene& scene, const CameraInfo& camera, const Frame::Content& content) {
-    CloudRig rig(scene, camera);
+std::vector<uint32_t> masksOf(const Scene& scene, const CameraInfo& camera, const Frame::Content& content,
+                              const CloudRig::Change& change = {}) {
+    CloudRig rig(scene, camera, change);
     rig.cycle().process(Frame(content, nullptr));
     return rig.masks();
 }
 
 uint32_t countOf(const std::vector<uint32_t>& masks) {
     return static_cast<uint32_t>(std::ranges::count_if(masks, [](uint32_t m) { return m != 0; }));
+}
+
+// As a GPU's invocations are laid out, whatever the device is.
+void forGpu(Plan& plan) {
+    plan.byPixel = plan.groupCounts = plan.pack = true;
+    plan.memoryTexels = plan.filterBlock = false;
 }
 
 // The words as they are, and what the host unpacks them to.
@@ -76,6 +83,10 @@ void checkSame(const Scene& scene, const CameraInfo& camera) {
     sent.yuyv = words, plain.colour = rgba;
     const auto masks = masksOf(scene, sendsYuyv(camera), sent);
     CHECK(masks == masksOf(scene, camera, plain));
+    CHECK(masks == masksOf(scene, sendsYuyv(camera), sent, [&](Plan& plan) {
+              forGpu(plan);
+              plan.keepDepth = camera.depth.width % 4 == 0;
+          }));
     CHECK(countOf(masks) > camera.depth.pixels() / 4);
 }
 
@@ -133,6 +144,14 @@ TEST_CASE("Colours sent as YUYV are put right for water like others") {
     Scene scene = gates();
     scene.attenuation = dvec3(0.6, 0.15, 0.1);
     checkSame(scene, pinholeCamera(322, 241));
+}
+
+TEST_CASE("A camera whose colour has an odd width is refused when it says that it sends YUYV") {
+    const CameraInfo camera = sendsYuyv(pinholeCamera(63, 48));
+    CHECK_THROWS_WITH_AS(
+        makePlan(gates(), camera, 1, vulkan().device.facts()),
+        "camera: width of its colour, which comes as YUYV: 63 (allowed: an even one: two pixels a word)",
+        BadInput);
 }
 
 TEST_CASE("A frame without the YUYV that its camera promised is refused, and so is one that lacks a row") {

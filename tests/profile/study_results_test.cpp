@@ -174,7 +174,7 @@ TEST_CASE("A row of the scaling study says its size in pixels, per cent or class
         }
         CHECK(said == 1);
     }
-    CHECK(rows.at("pixels") == 7); // three with noise, three without
+    CHECK(rows.at("pixels") == 7); // three with noise, three without, one of RGBA
     CHECK(rows.at("forbidden_percent") == 3);
     CHECK(rows.at("classes") == 2);
 }
