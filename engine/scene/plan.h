@@ -57,8 +57,8 @@ struct Plan {
     bool memoryTexels = false; // memory of points is read as texels: faster on a CPU device, but elsewhere a
                                // fetch may come after what is written to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
-    // Several rounds of groups: what a round of them does counts, not how soon. By the picture, for what of it
-    // will have work is not known when the passes are recorded.
+    // Several rounds of groups: what a round of them does counts, not how soon. By the picture, for what of
+    // it will have work is not known when the passes are recorded.
     bool manyPatches = false;
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes, at most; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
