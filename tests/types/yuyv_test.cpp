@@ -60,8 +60,7 @@ TEST_CASE("The two pixels of a word have their own luma and one chroma") {
     CHECK(rgbaOfYuyv(0u)[0] == rgbaOfYuyv(0u)[1]);
 }
 
-TEST_CASE(
-    "Colours that come in pairs come back within two steps, greys exactly, and mixed pairs share chroma") {
+TEST_CASE("Colours that come in pairs come back within two steps, greys within one and without chroma") {
     double worst = 0.0;
     for (uint32_t k = 0; k < 32 * 32 * 32; ++k) {
         const uint32_t c = 0xff000000u | (k & 31) * 8 | (k >> 5 & 31) * 8 << 8 | (k >> 10) * 8 << 16;
@@ -83,6 +82,24 @@ TEST_CASE(
         CHECK((word[0] >> 24) == 128);
         CHECK(std::abs(channel(rgbaOfYuyv(word[0])[0], 1) - static_cast<int>(grey)) <= 1);
     }
+}
+
+TEST_CASE("Two unlike pixels keep a luma each and share the mean of their chroma") {
+    const auto wordOf = [](uint32_t a, uint32_t b) {
+        const std::array<uint32_t, 2> in{a, b};
+        std::array<uint32_t, 1> word{};
+        packYuyv(in, word);
+        return word[0];
+    };
+    constexpr uint32_t kRed = 0xff2020c0u, kBlue = 0xffc02020u;
+    const uint32_t red = wordOf(kRed, kRed), blue = wordOf(kBlue, kBlue), mixed = wordOf(kRed, kBlue);
+    CHECK((mixed & 255) == (red & 255));
+    CHECK((mixed >> 16 & 255) == (blue & 255));
+    for (const int shift : {8, 24}) {
+        const int mean = static_cast<int>((red >> shift & 255) + (blue >> shift & 255)) / 2;
+        CHECK(std::abs(static_cast<int>(mixed >> shift & 255) - mean) <= 1);
+    }
+    CHECK((red & 255) != (blue & 255));
 }
 
 TEST_CASE("Who reads a frame's colours gets the same of YUYV and of what it unpacks to, now or from a copy") {
