@@ -15,12 +15,11 @@ namespace fathom {
 
 // Depth of 16-bit rows without gaps is leased where the driver put it (no copy, and a GPU that imports the
 // host's memory reads it there) while the driver keeps two buffers; anything else is unpacked into memory of
-// the camera's own. Colour is unpacked, too, but for YUYV and UYVY of an even
-// width, which are copied as they are. Capture times are
-// CLOCK_MONOTONIC [s]: when the first bytes of the picture came from a UVC camera, which its driver calls the
-// start of exposure; when the exposure began where a RealSense D4xx and the kernel tell it
-// (frame_metadata.h). Colour is paired by the driver's stamps. Frames count from 0; each is new (source
-// number index + 1).
+// the camera's own. Colour is unpacked, too, but for YUYV and UYVY of an even width, which are copied as they
+// are. Capture times are CLOCK_MONOTONIC [s]: when the first bytes of the picture came from a UVC camera,
+// which its driver calls the start of exposure; when the exposure began where a RealSense D4xx and the kernel
+// tell it (frame_metadata.h). Colour is paired by the driver's stamps. Frames count from 0; each is new
+// (source number index + 1).
 //
 // next() gives the newest pair there is, none from before a pause in which the driver ran out of buffers
 // (every one, in order, with everyFrame). A damaged, short or unpaired picture is skipped, counted, named in

@@ -56,7 +56,7 @@ struct UploadBuffers {
     gpu::Buffer params; // FrameParams
     gpu::Buffer depth;  // uint16 a pixel, row-major
     gpu::Buffer colour; // uint a pixel, or (Plan::yuyv) two pixels, row-major; empty when no class asks
-    bool yuyv = false;
+    bool yuyv = false;  // Plan::yuyv
     gpu::Buffer arm; // vec4: links and spheres of the arm, as classify.comp says; empty without self-filter
 };
 

@@ -156,53 +156,60 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     (void)camera;
 }
 
-void explainBuffers(Plan& plan, const CameraInfo& camera) {
-    const PatchLayout layout = patchLayout(camera.depth.width, camera.depth.height);
-    const uint64_t pixels = camera.depth.pixels(), slots = layout.slots();
-    const auto buffer = [&](const char* name, bool in, uint64_t bytes, std::string why) {
-        plan.items.push_back({"buffer", name, in, std::move(why), in ? bytes : 0});
-    };
+void explainBuffer(Plan& plan, const char* name, bool in, uint64_t bytes, std::string why) {
+    plan.items.push_back({"buffer", name, in, std::move(why), in ? bytes : 0});
+}
+
+void explainPictures(Plan& plan, const CameraInfo& camera) {
+    const uint64_t pixels = camera.depth.pixels();
     const char* copies = plan.inPlace
                              ? "double-buffered, for pictures not in whole pages of the host's memory"
                              : "double-buffered";
-    buffer("depth upload", plan.cloud, 2 * 2 * pixels, copies);
-    buffer("colour upload", plan.colour, 2 * camera.colourBytes(),
-           !plan.colour ? "no class asks for colour"
-           : plan.yuyv  ? std::string(copies) + "; YUYV, as the camera sends it"
-                        : copies);
-    buffer("depth on the device", plan.keepDepth, 2 * pixels,
-           plan.keepDepth ? "read across the bus once" : "passes read what was uploaded");
-    buffer("rays", plan.rays, 8 * pixels,
-           plan.fan    ? "beams at equal angles"
-           : plan.rays ? "distorted lens"
-                       : "no lens distortion: computed from the pixel");
-    buffer("rays on the host", plan.rays && plan.packsDepths(), 8 * pixels,
-           !plan.packsDepths() ? "the host is sent no depths to make points of"
-           : plan.rays         ? "it makes points of depths"
-                               : "no lens distortion: computed from the pixel");
-    buffer("masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
-    buffer("thinning cells", plan.thin, slots, plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
-    buffer("memory of points", plan.hold, 36 * slots, plan.hold ? "points that may be held" : "hold_s is 0");
-    buffer("sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
-           plan.tree ? "of one fixture set: the GPU query reads them" : "no query asks the device");
-    buffer("radii", plan.spheres && !plan.pack, slots * (plan.hold ? 8u : 4u),
-           !plan.spheres ? "no forbidden class of points"
-           : plan.pack   ? "the host reads packed spheres"
-                         : "the host reads them beside the points");
+    explainBuffer(plan, "depth upload", plan.cloud, 2 * 2 * pixels, copies);
+    explainBuffer(plan, "colour upload", plan.colour, 2 * camera.colourBytes(),
+                  !plan.colour ? "no class asks for colour"
+                  : plan.yuyv  ? std::string(copies) + "; YUYV, as the camera sends it"
+                               : copies);
+    explainBuffer(plan, "depth on the device", plan.keepDepth, 2 * pixels,
+                  plan.keepDepth ? "read across the bus once" : "passes read what was uploaded");
+    explainBuffer(plan, "rays", plan.rays, 8 * pixels,
+                  plan.fan    ? "beams at equal angles"
+                  : plan.rays ? "distorted lens"
+                              : "no lens distortion: computed from the pixel");
+    explainBuffer(plan, "rays on the host", plan.rays && plan.packsDepths(), 8 * pixels,
+                  !plan.packsDepths() ? "the host is sent no depths to make points of"
+                  : plan.rays         ? "it makes points of depths"
+                                      : "no lens distortion: computed from the pixel");
+}
+
+void explainResults(Plan& plan, const CameraInfo& camera) {
+    const PatchLayout layout = patchLayout(camera.depth.width, camera.depth.height);
+    const uint64_t slots = layout.slots();
+    explainBuffer(plan, "masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
+    explainBuffer(plan, "thinning cells", plan.thin, slots,
+                  plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
+    explainBuffer(plan, "memory of points", plan.hold, 36 * slots,
+                  plan.hold ? "points that may be held" : "hold_s is 0");
+    explainBuffer(plan, "sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
+                  plan.tree ? "of one fixture set: the GPU query reads them" : "no query asks the device");
+    explainBuffer(plan, "radii", plan.spheres && !plan.pack, slots * (plan.hold ? 8u : 4u),
+                  !plan.spheres ? "no forbidden class of points"
+                  : plan.pack   ? "the host reads packed spheres"
+                                : "the host reads them beside the points");
     const bool packedClasses = plan.pack && plan.classes > 1;
-    buffer("classes of spheres", plan.spheres && (!plan.pack || packedClasses), slots,
-           !plan.spheres   ? "no forbidden class of points"
-           : packedClasses ? "of patches with spheres of several"
-           : plan.pack     ? "there is one"
-                           : "the host reads them beside the points");
-    buffer("packed spheres", plan.pack, slots * plan.packedBytes() + 72ull * layout.patches(),
-           !plan.spheres        ? "no forbidden class of points"
-           : plan.packsDepths() ? "of one fixture set; a depth a seen sphere"
-           : plan.pack          ? "of one fixture set"
-                                : "the host reads radii beside the points");
-    buffer("tree nodes", plan.tree, 20ull * layout.nodes(),
-           plan.tree ? "of one fixture set" : "no query walks a tree");
-    buffer("moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
+    explainBuffer(plan, "classes of spheres", plan.spheres && (!plan.pack || packedClasses), slots,
+                  !plan.spheres   ? "no forbidden class of points"
+                  : packedClasses ? "of patches with spheres of several"
+                  : plan.pack     ? "there is one"
+                                  : "the host reads them beside the points");
+    explainBuffer(plan, "packed spheres", plan.pack, slots * plan.packedBytes() + 72ull * layout.patches(),
+                  !plan.spheres        ? "no forbidden class of points"
+                  : plan.packsDepths() ? "of one fixture set; a depth a seen sphere"
+                  : plan.pack          ? "of one fixture set"
+                                       : "the host reads radii beside the points");
+    explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
+                  plan.tree ? "of one fixture set" : "no query walks a tree");
+    explainBuffer(plan, "moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
 }
 
 } // namespace
@@ -259,7 +266,8 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     }
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
-    explainBuffers(plan, camera);
+    explainPictures(plan, camera);
+    explainResults(plan, camera);
     const auto thread = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"thread", name, in, why, 0});
     };
