@@ -5,7 +5,7 @@
 #include "apps/clock/keep_clock_command.h"
 #include "apps/devices/devices_command.h"
 #include "apps/global_options.h"
-#include "apps/guard/arm_guardian_command.h"
+#include "apps/guard/arm_watchdog_command.h"
 #include "apps/guard/guard_command.h"
 #include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
@@ -79,7 +79,7 @@ int run(int argc, char** argv) {
     fathom::addPlanCommand(app, global);
     fathom::addRegisterCommand(app, global);
     fathom::addGuardCommand(app);
-    fathom::addArmGuardianCommand(app);
+    fathom::addArmWatchdogCommand(app);
     fathom::addArmSimulatorCommand(app);
     fathom::addKeepClockCommand(app);
     fathom::addDevicesCommand(app, global);

@@ -32,7 +32,7 @@ public:
     virtual void showArm(std::span<const Sphere>) {}
     // A recording: how many pictures it has, bad ones included; 0 where one cannot choose. seek() makes
     // `index` the next one that next() looks at; false where that is not possible.
-    virtual uint32_t pictures() const { return 0; }
+    virtual uint32_t images() const { return 0; }
     virtual bool seek(uint32_t) { return false; }
     // [s] from picture to picture, when the source knows.
     virtual std::optional<double> framePeriod() const { return std::nullopt; }

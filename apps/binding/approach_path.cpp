@@ -98,7 +98,7 @@ public:
         append(duration, buttons, [&](double) { return pose; });
     }
     // There and back on both sides about an axis through the tool's origin.
-    void turn(const dvec3& axis, double angle, double duration) {
+    void step(const dvec3& axis, double angle, double duration) {
         const dvec3 position = path_.back().deviceThandle.position;
         append(duration, 0, [&](double s) {
             return Pose{position, rotationExp(angle * std::sin(2.0 * kPi * minimumJerk(s)) * axis)};
@@ -197,7 +197,7 @@ void push(PathWriter& path, const FreeSpace& space, const Goal& goal, const dvec
     path.rest(0.3, 0);
     // Mostly across the push, which levers a long tool, and partly about it.
     const dvec3 aside = glm::cross(direction, std::abs(direction.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0));
-    path.turn(glm::normalize(glm::normalize(aside) + 0.5 * direction), kTurn * kPi / 180.0, kTurnTime);
+    path.step(glm::normalize(glm::normalize(aside) + 0.5 * direction), kTurn * kPi / 180.0, kTurnTime);
     path.rest(0.3, 0);
     path.move(before, kFastest);
 }

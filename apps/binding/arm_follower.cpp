@@ -22,9 +22,9 @@ ArmState ArmFollower::stateOf(bool asked) const noexcept {
                                  : ArmState::Held;
 }
 
-ArmTold ArmFollower::exchange(double now, const ArmWish& wish, double wishAge) noexcept {
-    const bool asked = !wish.hold && wishAge <= kWishStale;
-    if (wish.off) {
+ArmStatus ArmFollower::exchange(double now, const ArmSetpoint& setpoint, double setpointAge) noexcept {
+    const bool asked = !setpoint.hold && setpointAge <= kSetpointStale;
+    if (setpoint.off) {
         device_.reset();
     }
     // A hold while the positions mean nothing: homing in the middle of a run would go to the stops blindly.
@@ -32,16 +32,16 @@ ArmTold ArmFollower::exchange(double now, const ArmWish& wish, double wishAge) n
     if (command_.hold) {
         command_.position = device_.feedback().position; // also of axes that nobody moves
     } else {
-        axes_.command(wish.posture, command_);
+        axes_.command(setpoint.posture, command_);
     }
     device_.step(now, command_);
     const ArmFeedback& feedback = device_.feedback();
-    ArmTold told;
+    ArmStatus told;
     told.posture = axes_.postureOf(feedback);
     told.known = feedback.homed && !feedback.stale;
     told.age = feedback.age;
     told.damaged = feedback.damaged;
-    told.lag = told.known ? axes_.lag(wish.posture, told.posture) : 0.0;
+    told.lag = told.known ? axes_.lag(setpoint.posture, told.posture) : 0.0;
     const bool lags = told.known && asked && told.lag > 1.0;
     lagging_ = !lags ? 0.0 : lagging_ > 0.0 ? lagging_ : now;
     behind_ =

@@ -18,13 +18,13 @@ public:
     // Nothing looks at what the joints hit on their way to their stops.
     bool home(double now) noexcept;
 
-    // now [s]: any monotonic clock; wishAge [s]: of the wish, on the haptic thread's word. at and reopened of
-    // the answer are the caller's.
-    ArmTold exchange(double now, const ArmWish& wish, double wishAge) noexcept;
+    // now [s]: any monotonic clock; setpointAge [s]: of the wish, on the haptic thread's word. at and
+    // reopened of the answer are the caller's.
+    ArmStatus exchange(double now, const ArmSetpoint& setpoint, double setpointAge) noexcept;
 
-    static constexpr double kWishStale = 0.1;   // [s] a haptic thread that is silent holds the arm
-    static constexpr double kBehindTime = 0.5;  // [s]
-    static constexpr double kBehindOver = 0.25; // of the lag that is allowed: it may follow again
+    static constexpr double kSetpointStale = 0.1; // [s] a haptic thread that is silent holds the arm
+    static constexpr double kBehindTime = 0.5;    // [s]
+    static constexpr double kBehindOver = 0.25;   // of the lag that is allowed: it may follow again
 
 private:
     ArmState stateOf(bool asked) const noexcept;

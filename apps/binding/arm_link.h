@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/binding/posture_track.h"
-#include "engine/types/latest.h"
+#include "engine/types/triple_buffer.h"
 
 #include <limits>
 
@@ -29,14 +29,14 @@ constexpr bool isFault(ArmState state) {
     return state > ArmState::Held;
 }
 
-struct ArmWish { // haptic -> arm
+struct ArmSetpoint { // haptic -> arm
     ArmPosture posture;
     bool hold = true;
     bool off = true;         // forces are off: what is latched may go
     PostureTrack::Time at{}; // of the turn
 };
 
-struct ArmTold { // arm -> haptic
+struct ArmStatus { // arm -> haptic
     ArmState state = ArmState::Silent;
     bool known = false;                                   // the posture is fresh and means something
     ArmPosture posture;                                   // measured
@@ -48,8 +48,8 @@ struct ArmTold { // arm -> haptic
 };
 
 struct ArmLink {
-    Latest<ArmWish> wish;
-    Latest<ArmTold> told;
+    TripleBuffer<ArmSetpoint> setpoint;
+    TripleBuffer<ArmStatus> told;
     PostureTrack measured; // arm -> frame
 };
 

@@ -17,7 +17,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr auto kPause = std::chrono::milliseconds(2);
 constexpr double kNoAnswer = 5.0, kHomingTime = 300.0; // [s]
-constexpr auto kGuardianStart = std::chrono::seconds(5);
+constexpr auto kWatchdogStart = std::chrono::seconds(5);
 constexpr double kRetry = 0.5;     // [s] between looks for a line that is gone, or for another guardian
 constexpr double kLastWords = 0.2; // [s] of telling it to stand still
 constexpr double kQuiet = 2.0;     // [s] between two lines of the log
@@ -54,7 +54,7 @@ std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, co
 ArmThread::Line::Line(const SceneArm::Driver& driver, const std::string& name)
     : port(name, driver.baud, driver.rs485)
     , device(deviceFor(driver, port))
-    , guardian(std::make_unique<ArmGuardian>(port, driver.protocol)) {}
+    , watchdog(std::make_unique<ArmWatchdog>(port, driver.protocol)) {}
 
 ArmThread::ArmThread(const Scene& scene, const ArmRig& rig, std::string port)
     : joints_(rig.model.joints)
@@ -97,10 +97,10 @@ ArmPosture ArmThread::inLimits(ArmPosture posture) const {
     return posture;
 }
 
-void ArmThread::awaitGuardian(const std::atomic<bool>& stop) {
-    const auto until = Clock::now() + kGuardianStart;
-    while (!line_->guardian->stands()) {
-        if (stop.load() || line_->guardian->ended() || Clock::now() > until) {
+void ArmThread::awaitWatchdog(const std::atomic<bool>& stop) {
+    const auto until = Clock::now() + kWatchdogStart;
+    while (!line_->watchdog->stands()) {
+        if (stop.load() || line_->watchdog->ended() || Clock::now() > until) {
             throw Error(description() + ": its guardian does not start");
         }
         std::this_thread::sleep_for(kPause);
@@ -108,7 +108,7 @@ void ArmThread::awaitGuardian(const std::atomic<bool>& stop) {
 }
 
 ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
-    awaitGuardian(stop);
+    awaitWatchdog(stop);
     const double began = secondsAt(Clock::now());
     double heard = began;
     bool told = false;
@@ -160,35 +160,35 @@ void ArmThread::reopen(double now) noexcept {
 
 // A guardian that somebody killed gets a successor; this never waits for it.
 bool ArmThread::guarded(double now) noexcept {
-    std::unique_ptr<ArmGuardian>& guardian = line_->guardian;
-    if (guardian && !guardian->ended()) {
-        guardian->alive(now);
-        return guardian->stands();
+    std::unique_ptr<ArmWatchdog>& watchdog = line_->watchdog;
+    if (watchdog && !watchdog->ended()) {
+        watchdog->alive(now);
+        return watchdog->stands();
     }
-    if (now < nextGuardian_) {
+    if (now < nextWatchdog_) {
         return false;
     }
-    nextGuardian_ = now + kRetry;
+    nextWatchdog_ = now + kRetry;
     try {
         log::warn("{}: its guardian was ended; the arm is held until there is another", description());
-        guardian = std::make_unique<ArmGuardian>(line_->port, driver_.protocol);
+        watchdog = std::make_unique<ArmWatchdog>(line_->port, driver_.protocol);
     } catch (const std::exception&) { // no process to be had now
-        guardian.reset();
+        watchdog.reset();
     }
     return false;
 }
 
-ArmTold ArmThread::exchange(double now) noexcept {
-    ArmTold told;
+ArmStatus ArmThread::exchange(double now) noexcept {
+    ArmStatus told;
     if (!line_ || line_->port.gone()) {
         reopen(now);
     }
     if (line_) {
-        link_.wish.refresh();
-        ArmWish wish = link_.wish.front();
+        link_.setpoint.refresh();
+        ArmSetpoint setpoint = link_.setpoint.front();
         const bool safe = guarded(now);
-        wish.hold = wish.hold || !safe; // nothing moves that nobody would stop
-        told = follower_->exchange(now, wish, now - secondsAt(wish.at));
+        setpoint.hold = setpoint.hold || !safe; // nothing moves that nobody would stop
+        told = follower_->exchange(now, setpoint, now - secondsAt(setpoint.at));
     }
     const bool gone = !line_ || line_->port.gone();
     told.state = gone ? ArmState::Gone : told.state;
@@ -198,7 +198,7 @@ ArmTold ArmThread::exchange(double now) noexcept {
     return told;
 }
 
-void ArmThread::note(const ArmTold& told, double now) {
+void ArmThread::note(const ArmStatus& told, double now) {
     if (told.state == noted_ || (now < quietUntil_ && told.state != ArmState::Gone)) {
         return;
     }
@@ -216,13 +216,14 @@ void ArmThread::run() noexcept {
     while (!stop_.load(std::memory_order_relaxed)) {
         const Clock::time_point time = Clock::now();
         const double now = secondsAt(time);
-        ArmTold told = exchange(now);
+        ArmStatus told = exchange(now);
         told.at = time;
         const double taken = now - told.age;
         if (told.known && taken > measuredAt_) {
             measuredAt_ = taken;
             ArmPosture posture = told.posture;
-            posture.grasp = std::isfinite(posture.grasp) ? posture.grasp : link_.wish.front().posture.grasp;
+            posture.grasp =
+                std::isfinite(posture.grasp) ? posture.grasp : link_.setpoint.front().posture.grasp;
             const std::chrono::duration<double> age(told.age);
             link_.measured.add(time - std::chrono::duration_cast<Clock::duration>(age), posture);
         }

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/binding/arm_follower.h"
-#include "apps/binding/arm_guardian.h"
+#include "apps/binding/arm_watchdog.h"
 #include "devices/serial/serial_port.h"
 
 #include <atomic>
@@ -49,15 +49,15 @@ private:
         Line(const SceneArm::Driver& driver, const std::string& port);
         SerialPort port;
         std::unique_ptr<ArmDevice> device;
-        std::unique_ptr<ArmGuardian> guardian; // null: it was killed, and another could not be started yet
+        std::unique_ptr<ArmWatchdog> watchdog; // null: it was killed, and another could not be started yet
     };
     void open();
     void run() noexcept;
     void reopen(double now) noexcept;
-    void awaitGuardian(const std::atomic<bool>& stop);
+    void awaitWatchdog(const std::atomic<bool>& stop);
     bool guarded(double now) noexcept;
-    ArmTold exchange(double now) noexcept;
-    void note(const ArmTold& told, double now);
+    ArmStatus exchange(double now) noexcept;
+    void note(const ArmStatus& told, double now);
     void standStill() noexcept;
     ArmPosture inLimits(ArmPosture posture) const;
 
@@ -70,7 +70,7 @@ private:
     ArmLink link_;
     std::atomic<bool> stop_{false}, gone_{false};
     std::thread thread_;
-    double nextTry_ = 0.0, nextGuardian_ = 0.0, measuredAt_ = 0.0, quietUntil_ = 0.0; // [s]
+    double nextTry_ = 0.0, nextWatchdog_ = 0.0, measuredAt_ = 0.0, quietUntil_ = 0.0; // [s]
     uint64_t reopened_ = 0;
     ArmState noted_ = ArmState::Held;
 };

@@ -13,7 +13,7 @@ void ContactLoop::run(const std::atomic<bool>& stop) {
     }
 }
 
-void ContactLoop::answerOne(const ToolPlace& place) {
+void ContactLoop::answerOne(const ToolState& place) {
     ContactSet& set = crossings_.contacts.back();
     const auto begin = std::chrono::steady_clock::now();
     if (!answers_.answer(place, set)) {

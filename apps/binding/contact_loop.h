@@ -14,7 +14,7 @@ class ContactAnswers {
 public:
     virtual ~ContactAnswers() = default;
     // Fills `out` for the newest fixture set; false when there is none yet.
-    virtual bool answer(const ToolPlace& place, ContactSet& out) = 0;
+    virtual bool answer(const ToolState& place, ContactSet& out) = 0;
 };
 
 class ContactLoop {
@@ -32,7 +32,7 @@ public:
     void run(const std::atomic<bool>& stop);
 
 private:
-    void answerOne(const ToolPlace& place);
+    void answerOne(const ToolState& place);
 
     ContactAnswers& answers_;
     Crossings& crossings_;

@@ -6,11 +6,11 @@
 #include "devices/haptic_device.h"
 #include "engine/contact/contact_set.h"
 #include "engine/cycle/frame_cycle.h"
-#include "engine/cycle/turn_record.h"
+#include "engine/cycle/step_record.h"
 #include "engine/haptics/proxy.h"
-#include "engine/types/latest.h"
 #include "engine/types/lease_pool.h"
-#include "engine/types/ring.h"
+#include "engine/types/spsc_queue.h"
+#include "engine/types/triple_buffer.h"
 #include "shaders/shared/frame_params.h"
 
 #include <array>
@@ -21,7 +21,7 @@ namespace fathom {
 
 // Frame cadence to haptic cadence: what the newest fixture set brings besides its spheres. Times are of the
 // run's clock [s].
-struct SceneNews {
+struct SceneUpdate {
     int64_t frame = -1;
     uint64_t generation = 0;
     double captureTime = 0.0; // of the newest picture that shows it
@@ -39,8 +39,8 @@ struct ShapeList {
 };
 
 // Haptic cadence to writer: one turn.
-struct TurnRow {
-    TurnRecord record;
+struct TickRow {
+    StepRecord record;
     HandSample hand;         // raw, as the device gave it
     Pose start;              // base_T_tool that the turn started from
     ArmPosture startArm;     // and the arm, where there is one
@@ -52,7 +52,7 @@ struct TurnRow {
     uint32_t missed = 0;     // periods before this one in which no turn ran
     bool driven = false;     // a real arm follows
     bool placed = false;     // the turn started from where that arm was measured
-    ArmTold told;            // by it, before the turn
+    ArmStatus told;          // by it, before the turn
 };
 
 // Contact cadence to writer: one answer. Its leaves behind a surface are exempt from the promise that the
@@ -81,20 +81,20 @@ struct Crossings {
     // turns: how many the writer may fall behind.
     explicit Crossings(uint64_t turnCapacity)
         : contacts(2, [] { return std::make_unique<ContactSet>(); })
-        , turns(turnCapacity)
+        , ticks(turnCapacity)
         , queries(turnCapacity)
         , frames(kFramesInFlight)
         , emptied(2 * kFramesInFlight) {}
 
-    Latest<SceneNews> scene;             // frame -> haptic
-    Latest<ToolPlace> proxy;             // haptic -> contact
+    TripleBuffer<SceneUpdate> scene;     // frame -> haptic
+    TripleBuffer<ToolState> proxy;       // haptic -> contact
     PostureTrack postures;               // haptic -> frame: where the arm was, for the self-filter
-    Latest<ShapeList> shapes;            // window -> haptic
+    TripleBuffer<ShapeList> shapes;      // window -> haptic
     LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, in force and offered
-    Ring<TurnRow> turns;                 // haptic -> writer
-    Ring<QueryNote> queries;             // contact -> writer
-    Ring<PublishedFrame*> frames;        // frame -> writer
-    Ring<PublishedFrame*> emptied;       // writer -> frame
+    SpscQueue<TickRow> ticks;            // haptic -> writer
+    SpscQueue<QueryNote> queries;        // contact -> writer
+    SpscQueue<PublishedFrame*> frames;   // frame -> writer
+    SpscQueue<PublishedFrame*> emptied;  // writer -> frame
     ArmLink* arm = nullptr;              // haptic <-> a real arm's thread; null = there is none
     std::atomic<bool> hapticDone{false}; // the last wrench is written
 

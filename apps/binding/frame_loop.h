@@ -25,7 +25,7 @@ public:
     virtual std::optional<RunClock::Time> captured() const { return std::nullopt; }
     // Where the arm was when the picture was taken, as near as is known, before publish(); the pose is not
     // given. Not called without an arm or before the first turn.
-    virtual void shown(const ToolPlace&) {}
+    virtual void shown(const ToolState&) {}
     // That picture, captured at t [s], becomes the newest fixture set. Fills everything in `out` but its t. A
     // picture that is the same again makes no set: `changed` false, the set and the colour in `out` are left
     // alone.
@@ -55,7 +55,7 @@ public:
     void run(const std::atomic<bool>& stop);
 
     uint64_t lost() const { return lost_; } // after run()
-    const SceneNews& news() const { return news_; }
+    const SceneUpdate& news() const { return news_; }
 
 private:
     std::optional<uint32_t> fetch(const std::atomic<bool>& stop);
@@ -74,7 +74,7 @@ private:
     std::deque<std::unique_ptr<PublishedFrame>> owned_; // all there are, wherever they are now
     PublishedFrame* spare_ = nullptr;                   // one whose picture came to nothing
     double retry_;                                      // [s] until a lost device is asked for again
-    SceneNews news_;
+    SceneUpdate news_;
     bool cameraGone_ = false, deviceGone_ = false;
     uint32_t firstIndex_ = 0;
     double origin_ = 0.0; // [s] when the first picture would have been due

@@ -28,7 +28,7 @@ bool HapticLoop::Until::passed(const void* context) noexcept {
 }
 
 bool HapticLoop::ended(double t) const noexcept {
-    const SceneNews& news = crossings_.scene.front();
+    const SceneUpdate& news = crossings_.scene.front();
     const bool frames =
         news.live || news.gone || (news.sourceEnded && t >= news.captureTime + ends_.framePeriod);
     return frames && t >= ends_.pathDuration;
@@ -43,7 +43,7 @@ void HapticLoop::run(const std::atomic<bool>& stop) noexcept {
         if (ended(woken)) {
             break;
         }
-        const double over = turn(due);
+        const double over = step(due);
         // One turn a period at most, however late this one was.
         const auto ran = static_cast<uint64_t>(std::max(0.0, woken / period_));
         const auto now = static_cast<uint64_t>(std::max(0.0, over / period_));
@@ -67,7 +67,7 @@ void HapticLoop::offerNewest() noexcept {
 }
 
 // Of a real arm, where one follows: what it told last. A thread of its own that has stopped is a silent arm.
-void HapticLoop::hearArm(TurnRow& row) noexcept {
+void HapticLoop::hearArm(TickRow& row) noexcept {
     if (crossings_.arm == nullptr) {
         return;
     }
@@ -81,16 +81,17 @@ void HapticLoop::hearArm(TurnRow& row) noexcept {
     row.placed = cycle_.follow({!isFault(row.told.state), row.told.known, row.told.posture});
 }
 
-void HapticLoop::tellArm(const TurnRecord& record, bool off) noexcept {
+void HapticLoop::tellArm(const StepRecord& record, bool off) noexcept {
     if (crossings_.arm != nullptr) {
-        crossings_.arm->wish.back() = {record.arm.posture, record.armHold, off, clock_.timeAt(clock_.now())};
-        crossings_.arm->wish.publish();
+        crossings_.arm->setpoint.back() = {record.arm.posture, record.armHold, off,
+                                           clock_.timeAt(clock_.now())};
+        crossings_.arm->setpoint.publish();
     }
 }
 
-TurnInput HapticLoop::inputFor(double now, const HandSample& sample, const Until& until) const noexcept {
-    const SceneNews& news = crossings_.scene.front();
-    TurnInput input;
+StepInput HapticLoop::inputFor(double now, const HandSample& sample, const Until& until) const noexcept {
+    const SceneUpdate& news = crossings_.scene.front();
+    StepInput input;
     input.time = now;
     input.deviceThandle = sample.deviceThandle;
     input.buttons = sample.buttons;
@@ -106,7 +107,7 @@ TurnInput HapticLoop::inputFor(double now, const HandSample& sample, const Until
     return input;
 }
 
-double HapticLoop::turn(double due) noexcept {
+double HapticLoop::step(double due) noexcept {
     crossings_.scene.refresh();
     if (crossings_.shapes.refresh()) {
         const ShapeList& list = crossings_.shapes.front();
@@ -117,12 +118,12 @@ double HapticLoop::turn(double due) noexcept {
     const HandSample sample = hand_.read(std::max(0.0, began));
     // The end of the period that the clock is in: after a late wake-up that is not the one that was due.
     const Until until{&clock_, (std::floor(began / period_) + 1.0) * period_};
-    const TurnInput input = inputFor(began, sample, until);
-    TurnRow row;
+    const StepInput input = inputFor(began, sample, until);
+    TickRow row;
     hearArm(row);
-    const ToolPlace start = cycle_.place();
+    const ToolState start = cycle_.place();
     const auto turnBegan = std::chrono::steady_clock::now();
-    const TurnRecord record = cycle_.turn(input);
+    const StepRecord record = cycle_.step(input);
     const auto turnOver = std::chrono::steady_clock::now();
     hand_.write(record.deviceWrench, input.measuredPeriod > 0.0 ? input.measuredPeriod : period_);
     tellArm(record, (sample.buttons & kDeadManOpen) != 0);
@@ -139,15 +140,15 @@ double HapticLoop::turn(double due) noexcept {
     report(record, sample, start, due, began,
            std::chrono::duration<double, std::micro>(turnOver - turnBegan).count(), over, row);
     if (trace_ != nullptr) {
-        trace_->turn(turnBegan, turnOver, began - due);
+        trace_->step(turnBegan, turnOver, began - due);
     }
     before_ = began;
     first_ = false;
     return over;
 }
 
-void HapticLoop::report(const TurnRecord& record, const HandSample& hand, const ToolPlace& start, double due,
-                        double began, double took, double over, TurnRow& row) noexcept {
+void HapticLoop::report(const StepRecord& record, const HandSample& hand, const ToolState& start, double due,
+                        double began, double took, double over, TickRow& row) noexcept {
     row.record = record;
     row.hand = hand;
     row.start = start.pose;
@@ -158,7 +159,7 @@ void HapticLoop::report(const TurnRecord& record, const HandSample& hand, const 
     row.micros = took;
     row.late = over > due + period_;
     row.missed = missedNow_;
-    crossings_.turns.push(row);
+    crossings_.ticks.push(row);
 }
 
 } // namespace fathom

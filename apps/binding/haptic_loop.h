@@ -25,7 +25,7 @@ public:
     void run(const std::atomic<bool>& stop) noexcept;
 
     // One turn, due at `due` [s] and started now; the tick that run() does. Returns when it was over [s].
-    double turn(double due) noexcept;
+    double step(double due) noexcept;
 
     uint64_t missed() const { return missed_; } // periods without a turn
 
@@ -37,11 +37,11 @@ private:
     };
     bool ended(double t) const noexcept;
     void offerNewest() noexcept;
-    void hearArm(TurnRow& row) noexcept;
-    void tellArm(const TurnRecord& record, bool off) noexcept;
-    TurnInput inputFor(double now, const HandSample& sample, const Until& until) const noexcept;
-    void report(const TurnRecord& record, const HandSample& hand, const ToolPlace& start, double due,
-                double began, double took, double over, TurnRow& row) noexcept;
+    void hearArm(TickRow& row) noexcept;
+    void tellArm(const StepRecord& record, bool off) noexcept;
+    StepInput inputFor(double now, const HandSample& sample, const Until& until) const noexcept;
+    void report(const StepRecord& record, const HandSample& hand, const ToolState& start, double due,
+                double began, double took, double over, TickRow& row) noexcept;
 
     HapticCycle& cycle_;
     HapticDevice& hand_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/open_hand.h"
 
-#include "devices/bridge/door_hand.h"
+#include "devices/bridge/socket_hand.h"
 #include "devices/usb/space_mouse_hand.h"
 #include "engine/haptics/device_preset.h"
 #include "engine/types/error.h"
@@ -24,7 +24,8 @@ std::unique_ptr<LiveHand> open(const std::string& name, uint32_t clutchBit) {
                                                 options);
     }
     const bool guarded = name == "falcon" || name == "haply"; // by `fathom guard`, at its default door
-    return std::make_unique<DoorHand>(guarded ? defaultDoor(name) : std::filesystem::path(name), clutchBit);
+    return std::make_unique<SocketHand>(guarded ? defaultEndpoint(name) : std::filesystem::path(name),
+                                        clutchBit);
 }
 
 std::string listed(const AxisMask& axes) {

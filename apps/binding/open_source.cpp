@@ -32,7 +32,7 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     if (scene.source.value == "sonar") {
         SimulatedSonarOptions sonar;
         sonar.baseTscene = scene.baseTcamera;
-        sonar.frames = scene.source.pictures > 0 ? scene.source.pictures : sonar.frames;
+        sonar.frames = scene.source.images > 0 ? scene.source.images : sonar.frames;
         return std::make_unique<SimulatedSonar>(sonarScene(), sonar);
     }
     const auto solids = analyticScene(scene.source.value);
@@ -42,19 +42,19 @@ std::unique_ptr<Camera> openSimulated(const Scene& scene) {
     }
     SimulatedCameraOptions options;
     options.baseTscene = scene.baseTcamera;
-    options.frames = scene.source.pictures > 0 ? scene.source.pictures : options.frames;
+    options.frames = scene.source.images > 0 ? scene.source.images : options.frames;
     options.yuyv = scene.source.yuyv;
     return std::make_unique<SimulatedCamera>(*solids, options);
 }
 
-std::unique_ptr<Camera> openLive(CameraRequest request, Pictures pictures) {
-    request.everyFrame = pictures == Pictures::Every;
+std::unique_ptr<Camera> openLive(CameraRequest request, Images images) {
+    request.everyFrame = images == Images::Every;
     return std::make_unique<V4l2Camera>(request);
 }
 
-std::unique_ptr<Camera> openNamed(const std::string& source, Pictures pictures) {
+std::unique_ptr<Camera> openNamed(const std::string& source, Images images) {
     if (isCameraRequest(source)) {
-        return openLive(parseCameraRequest(source), pictures);
+        return openLive(parseCameraRequest(source), images);
     }
     if (isOpenNi2Request(source)) {
         return openOpenNi2(source);
@@ -69,15 +69,15 @@ std::unique_ptr<Camera> openNamed(const std::string& source, Pictures pictures) 
 }
 
 std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                Pictures pictures) {
+                                Images images) {
     if (source) {
-        return openNamed(source->string(), pictures);
+        return openNamed(source->string(), images);
     }
     switch (scene.source.kind) {
     case CameraSource::Kind::Simulated:
         return openSimulated(scene);
     case CameraSource::Kind::Recorded:
-        return openNamed(scene.source.value, pictures);
+        return openNamed(scene.source.value, images);
     case CameraSource::Kind::V4l2:
         break;
     }
@@ -89,7 +89,7 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
         }
         request.intrinsics = file;
     }
-    return openLive(request, pictures);
+    return openLive(request, images);
 }
 
 } // namespace
@@ -110,14 +110,14 @@ Scene openScene(const std::filesystem::path& file) {
 }
 
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                   Pictures pictures) {
-    std::unique_ptr<Camera> camera = openDry(scene, source, pictures);
+                                   Images images) {
+    std::unique_ptr<Camera> camera = openDry(scene, source, images);
     if (scene.beam) {
         const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);
     }
     // A recording keeps what the camera saw, but for one that a window made of what it used.
-    if (!scene.port || pictures == Pictures::Every || camera->info().inWater) {
+    if (!scene.port || images == Images::Every || camera->info().inWater) {
         return camera;
     }
     const FlatPort port{scene.port->distance, scene.port->index};

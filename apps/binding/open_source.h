@@ -22,11 +22,11 @@ inline constexpr const char* kSourceHelp =
     "an organised PCD, an .oni file, or a live camera as v4l2:auto or openni2";
 
 // Of a live camera: the newest at each call, or every one in order (for recordings).
-enum class Pictures { Newest, Every };
+enum class Images { Newest, Every };
 
 // The scene's camera, or `source` when given: a recording, or a live camera ("v4l2:..."). Throws BadInput.
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
-                                   Pictures pictures = Pictures::Newest);
+                                   Images images = Images::Newest);
 
 // What the camera's own corrections leave uncertain (of a flat port) makes the scene's regions grow as a
 // registration does. Once a scene and camera.

@@ -45,9 +45,9 @@ public:
     explicit AgeAlarm(double staleAfter)
         : staleAfter_(staleAfter) {}
 
-    void see(const TurnRecord& record) {
+    void see(const StepRecord& record) {
         const bool stale = record.sceneAge > staleAfter_;
-        staleTurns_ += stale ? 1 : 0;
+        staleTicks_ += stale ? 1 : 0;
         if (stale && !stale_ && record.t >= quietUntil_) {
             log::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t, record.sceneAge * 1e3);
             quietUntil_ = record.t + kQuiet;
@@ -58,20 +58,20 @@ public:
         }
         stale_ = stale;
     }
-    uint64_t staleTurns() const { return staleTurns_; }
+    uint64_t staleTicks() const { return staleTicks_; }
 
 private:
     static constexpr double kQuiet = 5.0; // [s]
     double staleAfter_;
     double quietUntil_ = 0.0;
     bool stale_ = false, told_ = false;
-    uint64_t staleTurns_ = 0;
+    uint64_t staleTicks_ = 0;
 };
 
 // Tells of numbers that are none, from the hand or anywhere, when they begin; each turn of them has no force.
 class NumberAlarm {
 public:
-    void see(const TurnRow& row) {
+    void see(const TickRow& row) {
         const bool broken = !row.record.finite;
         if (broken && !broken_ && row.record.t >= quietUntil_) {
             const bool fromHand = !isFinite(row.hand.deviceThandle);
@@ -96,13 +96,13 @@ public:
         , alarm_(staleAfter) {}
     void frame(const PublishedFrame& frame, const Fixtures& set) override { sink_.frame(frame, set); }
     void query(const QueryNote& note) override { sink_.query(note); }
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override {
         alarm_.see(row.record);
         numbers_.see(row);
-        sink_.turn(row, obeyed, known, behind);
+        sink_.step(row, obeyed, known, behind);
     }
-    uint64_t staleTurns() const { return alarm_.staleTurns(); }
+    uint64_t staleTicks() const { return alarm_.staleTicks(); }
 
 private:
     RunSink& sink_;
@@ -156,7 +156,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
                 guarded([this] { pinThread(options_.placement.contact), contact_->run(stop_); });
             });
         }
-        Joined turns(stop_, [this, &haptic] {
+        Joined ticks(stop_, [this, &haptic] {
             std::string refused;
             guarded([&] { refused = makeHapticThread(options_.placement); });
             if (!refused.empty()) {
@@ -171,7 +171,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
     releaseLockedMemory();
     drain.drain(true);
     missed_ = haptic.missed();
-    staleTurns_ = watched.staleTurns();
+    staleTicks_ = watched.staleTicks();
     last_ = drain.newest();
 }
 
@@ -183,7 +183,7 @@ void RealtimeRun::write(RecordDrain& drain, const std::atomic<bool>& stop) {
             options_.trace->file().drain();
         }
         if (options_.progress) {
-            options_.progress(clock_.now(), drain.frames(), drain.turns());
+            options_.progress(clock_.now(), drain.frames(), drain.ticks());
         }
         if (stop.load(std::memory_order_relaxed)) {
             stop_.store(true);

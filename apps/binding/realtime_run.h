@@ -24,7 +24,7 @@ struct RealtimeOptions {
     double staleAfter = 0.1;         // [s] scene age that is worth a warning
     CadenceTrace* trace = nullptr;
     ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
-    std::function<void(double t, uint64_t frames, uint64_t turns)>
+    std::function<void(double t, uint64_t frames, uint64_t ticks)>
         progress; // on the writer thread, now and then
 };
 
@@ -48,8 +48,8 @@ public:
 
     uint64_t framesLost() const { return frames_.lost(); }
     uint64_t periodsMissed() const { return missed_; }
-    uint64_t staleTurns() const { return staleTurns_; } // with a scene older than staleAfter
-    uint64_t recordsLost() const { return crossings_.turns.dropped() + crossings_.queries.dropped(); }
+    uint64_t staleTicks() const { return staleTicks_; } // with a scene older than staleAfter
+    uint64_t recordsLost() const { return crossings_.ticks.dropped() + crossings_.queries.dropped(); }
     const PublishedFrame* lastFrame() const { return last_; } // lives as long as this
     // What a thread threw; null when none did.
     std::exception_ptr failure() const { return failure_; }
@@ -66,7 +66,7 @@ private:
     std::atomic<bool> stop_{false};
     std::mutex failureMutex_; // never taken by the haptic thread
     std::exception_ptr failure_;
-    uint64_t missed_ = 0, staleTurns_ = 0;
+    uint64_t missed_ = 0, staleTicks_ = 0;
     const PublishedFrame* last_ = nullptr;
 };
 

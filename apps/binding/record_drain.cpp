@@ -8,9 +8,9 @@ namespace fathom {
 void RecordDrain::drain(bool all) {
     takeFrames();
     takeQueries();
-    for (TurnRow row;;) {
+    for (TickRow row;;) {
         if (!waiting_) {
-            if (!crossings_.turns.pop(row)) {
+            if (!crossings_.ticks.pop(row)) {
                 return;
             }
             waiting_ = row;
@@ -58,7 +58,7 @@ void RecordDrain::takeQueries() {
     }
 }
 
-void RecordDrain::hand(const TurnRow& row) {
+void RecordDrain::hand(const TickRow& row) {
     while (kept_.size() > 1 && kept_.front()->fixtures.generation < row.generation) {
         letGo(0);
     }
@@ -73,8 +73,8 @@ void RecordDrain::hand(const TurnRow& row) {
         known = !notes_.empty() && notes_.front().query == row.query;
         behind = known ? std::span<const uint32_t>(notes_.front().behind) : behind;
     }
-    ++turns_;
-    sink_.turn(row, obeyed, known, behind);
+    ++ticks_;
+    sink_.step(row, obeyed, known, behind);
 }
 
 } // namespace fathom

@@ -21,7 +21,7 @@ public:
     virtual void query(const QueryNote& note) = 0;
     // `obeyed`: the frame whose set the turn obeyed, null when there is none or it is no longer kept
     // (obeyedKnown false). `behind`: the leaves flagged in the answer it obeyed.
-    virtual void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+    virtual void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                       std::span<const uint32_t> behind) = 0;
 };
 
@@ -36,13 +36,13 @@ public:
     void drain(bool all = false);
 
     const PublishedFrame* newest() const { return kept_.empty() ? nullptr : kept_.back(); }
-    uint64_t turns() const { return turns_; }
+    uint64_t ticks() const { return ticks_; }
     uint64_t frames() const { return frames_; }
 
 private:
     void takeFrames();
     void takeQueries();
-    void hand(const TurnRow& row);
+    void hand(const TickRow& row);
     void letGo(size_t i);
 
     static constexpr size_t kKept =
@@ -52,9 +52,9 @@ private:
     RunSink& sink_;
     std::deque<PublishedFrame*> kept_; // by generation
     std::deque<QueryNote> notes_;      // by query; the front is the one obeyed
-    std::optional<TurnRow> waiting_;
+    std::optional<TickRow> waiting_;
     uint64_t newestGeneration_ = 0;
-    uint64_t turns_ = 0, frames_ = 0;
+    uint64_t ticks_ = 0, frames_ = 0;
 };
 
 } // namespace fathom

@@ -46,7 +46,7 @@ SceneEdit readEdit(const std::filesystem::path& file, const TextLine& line) {
         refuse(file, line, "row", line.text, SceneEdits::kHead);
     }
     SceneEdit edit;
-    if (!parseNumber(fields[0], edit.picture)) {
+    if (!parseNumber(fields[0], edit.image)) {
         refuse(file, line, "picture", fields[0], "a whole number from 0");
     }
     edit.scene = sceneNamed(file, line, fields[1]);
@@ -85,8 +85,8 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
     }
     for (size_t i = 1; i < lines.size(); ++i) {
         SceneEdit edit = readEdit(file, lines[i]);
-        if (i == 1 ? edit.picture != 0 : edit.picture < edits_.back().picture) {
-            refuse(file, lines[i], "picture", std::to_string(edit.picture),
+        if (i == 1 ? edit.image != 0 : edit.image < edits_.back().image) {
+            refuse(file, lines[i], "picture", std::to_string(edit.image),
                    i == 1 ? "0: the scene of the start" : "none before the row above");
         }
         if (i > 1 && cloud::classRows(edit.scene) != cloud::classRows(edits_.front().scene)) {
@@ -97,9 +97,9 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
     }
 }
 
-const SceneEdit& SceneEdits::at(uint32_t picture) const {
-    const auto after = std::upper_bound(edits_.begin(), edits_.end(), picture,
-                                        [](uint32_t p, const SceneEdit& e) { return p < e.picture; });
+const SceneEdit& SceneEdits::at(uint32_t image) const {
+    const auto after = std::upper_bound(edits_.begin(), edits_.end(), image,
+                                        [](uint32_t p, const SceneEdit& e) { return p < e.image; });
     return *(after == edits_.begin() ? after : after - 1);
 }
 

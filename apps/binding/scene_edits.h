@@ -21,9 +21,9 @@ std::string spareName(size_t row); // that it has in a scene file
 
 // One change, told by the window to its recording.
 struct SceneEdit {
-    uint32_t picture = 0; // first one of the recording that obeys it
-    Scene scene;          // with spare classes; FixtureClass::frozen as it was
-    bool still = false;   // all fixtures are held: pictures make no set
+    uint32_t image = 0; // first one of the recording that obeys it
+    Scene scene;        // with spare classes; FixtureClass::frozen as it was
+    bool still = false; // all fixtures are held: pictures make no set
 };
 
 // edits.csv of a recording, `picture,scene,held,still`: scene is a file beside it, held the rows of classes
@@ -39,7 +39,7 @@ public:
 
     bool empty() const { return edits_.empty(); }
     // In force at this picture. Not of none.
-    const SceneEdit& at(uint32_t picture) const;
+    const SceneEdit& at(uint32_t image) const;
     void takeUncertainty(const Camera& camera); // of all scenes; apps/binding/open_source.h
 
 private:

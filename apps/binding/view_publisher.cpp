@@ -63,9 +63,9 @@ fathom_door_fixture rowOf(const Shape& shape) {
 
 } // namespace
 
-void ViewPublisher::turn(const TurnRow& row) {
-    if (turns_++ % kPollEvery == 0) {
-        const bool newcomer = door_.poll();
+void ViewPublisher::step(const TickRow& row) {
+    if (ticks_++ % kPollEvery == 0) {
+        const bool newcomer = endpoint_.poll();
         if (newcomer) {
             tellRegions();
         }
@@ -73,10 +73,10 @@ void ViewPublisher::turn(const TurnRow& row) {
             tellFixtures();
         }
     }
-    if (!door_.watched()) {
+    if (!endpoint_.watched()) {
         return;
     }
-    const TurnRecord& r = row.record;
+    const StepRecord& r = row.record;
     state_.t = r.t;
     copy(r.device.position, state_.base_T_hand_position);
     copy(r.device.rotation, state_.base_T_hand_orientation);
@@ -91,7 +91,7 @@ void ViewPublisher::turn(const TurnRow& row) {
     state_.generation = row.generation;
     state_.contacts = r.contacts;
     state_.state = static_cast<uint32_t>(r.state);
-    door_.send(state_);
+    endpoint_.send(state_);
 }
 
 void ViewPublisher::frame(const Fixtures& set) {
@@ -114,7 +114,7 @@ bool ViewPublisher::shapesAreOthers() {
 }
 
 void ViewPublisher::tellRegions() noexcept {
-    if (set_ == nullptr || !door_.watched()) {
+    if (set_ == nullptr || !endpoint_.watched()) {
         return;
     }
     const RegionSpheres& spheres = set_->spheres;
@@ -130,7 +130,7 @@ void ViewPublisher::tellRegions() noexcept {
             regions_.spheres[i] = {spheres.x[at], spheres.y[at], spheres.z[at], spheres.radius[at],
                                    spheres.fixture[at]};
         }
-        door_.send(regions_);
+        endpoint_.send(regions_);
         regions_.first += regions_.count;
     } while (regions_.first < regions_.total);
 }
@@ -154,7 +154,7 @@ void ViewPublisher::tellFixtures() {
     do { // none is told, too
         fixtures_.count = std::min<uint32_t>(FATHOM_DOOR_ROWS, fixtures_.total - fixtures_.first);
         std::copy_n(rows_.begin() + fixtures_.first, fixtures_.count, fixtures_.rows);
-        door_.send(fixtures_);
+        endpoint_.send(fixtures_);
         fixtures_.first += fixtures_.count;
     } while (fixtures_.first < fixtures_.total);
 }

@@ -5,14 +5,14 @@
 
 #include "apps/binding/crossings.h"
 #include "apps/binding/record_drain.h"
-#include "devices/bridge/view_door.h"
+#include "devices/bridge/view_socket.h"
 
 #include <mutex>
 #include <vector>
 
 namespace fathom {
 
-inline constexpr const char* kViewDoorHelp =
+inline constexpr const char* kViewEndpointHelp =
     "a socket where observers get every turn and fixture set (devices/bridge)";
 
 // One thread, the writer's, but for setShapes() and forget().
@@ -20,9 +20,9 @@ class ViewPublisher {
 public:
     // Throws BadInput.
     explicit ViewPublisher(const std::filesystem::path& path)
-        : door_(path) {}
+        : endpoint_(path) {}
 
-    void turn(const TurnRow& row);
+    void step(const TickRow& row);
     // `set` must stay whole until the next call: an observer who comes later gets it then.
     void frame(const Fixtures& set);
 
@@ -31,7 +31,7 @@ public:
     // The set last given goes away: while no run is on.
     void forget() noexcept { set_ = nullptr; }
 
-    const ViewDoor& door() const noexcept { return door_; }
+    const ViewSocket& endpoint() const noexcept { return endpoint_; }
 
 private:
     void tellRegions() noexcept;
@@ -40,10 +40,10 @@ private:
 
     static constexpr uint32_t kPollEvery = 16; // turns
 
-    ViewDoor door_;
+    ViewSocket endpoint_;
     const Fixtures* set_ = nullptr;
     uint64_t told_ = 0; // generation
-    uint32_t turns_ = 0;
+    uint32_t ticks_ = 0;
     fathom_door_state state_{};
     fathom_door_regions regions_{};
     fathom_door_fixtures fixtures_{};
@@ -67,11 +67,11 @@ public:
         }
     }
     void query(const QueryNote& note) override { next_.query(note); }
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override {
-        next_.turn(row, obeyed, known, behind);
+        next_.step(row, obeyed, known, behind);
         if (view_ != nullptr) {
-            view_->turn(row);
+            view_->step(row);
         }
     }
 

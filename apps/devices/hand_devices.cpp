@@ -2,7 +2,7 @@
 #include "apps/devices/hand_devices.h"
 
 #include "apps/binding/open_hand.h"
-#include "devices/bridge/door_socket.h"
+#include "devices/bridge/device_socket.h"
 #include "devices/openni2/open_openni2.h"
 #include "devices/usb/device_files.h"
 #include "devices/v4l2/pixel_format.h"
@@ -99,7 +99,7 @@ void print(std::ostream& out, const DeviceFile& file) {
 }
 
 // Sockets of bridges in the user's run-time folder.
-int printDoors(std::ostream& out, const std::filesystem::path& folder) {
+int printEndpoints(std::ostream& out, const std::filesystem::path& folder) {
     std::vector<std::filesystem::path> found;
     std::error_code error;
     for (std::filesystem::directory_iterator it(folder, error), end; !error && it != end;
@@ -110,8 +110,8 @@ int printDoors(std::ostream& out, const std::filesystem::path& folder) {
     }
     std::sort(found.begin(), found.end());
     for (const auto& path : found) {
-        DoorSocket door;
-        const int refused = DoorSocket::tryConnect(path, door);
+        DeviceSocket endpoint;
+        const int refused = DeviceSocket::tryConnect(path, endpoint);
         out << "door    " << path.string() << "\n          "
             << (refused == 0              ? "a bridge listens; --hand-device " + path.string()
                 : refused == ECONNREFUSED ? std::string("REFUSED: the bridge that made it is gone")
@@ -124,7 +124,7 @@ int printDoors(std::ostream& out, const std::filesystem::path& folder) {
 } // namespace
 
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
-                      const std::filesystem::path& doors) {
+                      const std::filesystem::path& endpoints) {
     auto files = findDeviceFiles(root);
     std::erase_if(files, [](const DeviceFile& f) { // it belongs to the camera before it
         return f.kind == DeviceFile::Kind::Camera && isMetadataNode(f.node);
@@ -132,10 +132,10 @@ void printHandDevices(std::ostream& out, const std::filesystem::path& root,
     for (const DeviceFile& file : files) {
         print(out, file);
     }
-    if (files.empty() && printDoors(out, doors) == 0) {
+    if (files.empty() && printEndpoints(out, endpoints) == 0) {
         out << "no camera, haptic device or door found\n";
     } else if (!files.empty()) {
-        printDoors(out, doors);
+        printEndpoints(out, endpoints);
     }
 }
 

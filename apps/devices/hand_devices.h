@@ -9,6 +9,6 @@ namespace fathom {
 
 // Looks at sysfs and at the doors in `doors`; opens nothing but to see whether it may be.
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
-                      const std::filesystem::path& doors);
+                      const std::filesystem::path& endpoints);
 
 } // namespace fathom

@@ -19,7 +19,7 @@ namespace {
 
 struct GuardOptions {
     std::string kind;
-    std::string door;
+    std::string endpoint;
     std::string firmware;
     std::string service = "localhost:10001"; // of Haply
     std::string device;                      // its id; empty = the first
@@ -37,18 +37,18 @@ void hurry() {
 
 template <class Guard>
 void runGuard(Guard& guard, const GuardOptions& options, const StopSignals& signals) {
-    std::cout << options.kind << " at " << guard.place() << ", door " << guard.door().path().string()
+    std::cout << options.kind << " at " << guard.place() << ", door " << guard.endpoint().path().string()
               << "; Ctrl-C ends with zero force" << std::endl;
     hurry();
     guard.run(signals.asked());
     const auto& f = guard.figures();
     std::cout << "ended with zero force after " << f.replies << " exchanges; " << f.late << " answers late, "
               << f.faults << " packets broken, " << guard.losses() << " times unplugged, "
-              << guard.door().gate().silences() << " silences of the engine" << std::endl;
+              << guard.endpoint().gate().silences() << " silences of the engine" << std::endl;
 }
 
-HaplyGuard::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& door) {
-    HaplyGuard::Options haply{door, "", 0, options.device};
+HaplyGuard::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& endpoint) {
+    HaplyGuard::Options haply{endpoint, "", 0, options.device};
     const size_t colon = options.service.rfind(':');
     const std::string port = colon == std::string::npos ? "" : options.service.substr(colon + 1);
     const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), haply.port);
@@ -61,13 +61,13 @@ HaplyGuard::Options haplyOptions(const GuardOptions& options, const std::filesys
 
 void guardDevice(const GuardOptions& options) {
     const StopSignals signals;
-    const std::filesystem::path door =
-        options.door.empty() ? defaultDoor(options.kind) : std::filesystem::path(options.door);
+    const std::filesystem::path endpoint =
+        options.endpoint.empty() ? defaultEndpoint(options.kind) : std::filesystem::path(options.endpoint);
     if (options.kind == "haply") {
-        HaplyGuard guard(haplyOptions(options, door));
+        HaplyGuard guard(haplyOptions(options, endpoint));
         runGuard(guard, options, signals);
     } else {
-        FalconGuard guard({door, options.firmware});
+        FalconGuard guard({endpoint, options.firmware});
         runGuard(guard, options, signals);
     }
 }
@@ -80,7 +80,7 @@ void addGuardCommand(CLI::App& app) {
     command->add_option("DEVICE", options->kind, "what to guard")
         ->required()
         ->check(CLI::IsMember({"falcon", "haply"}));
-    command->add_option("--door", options->door,
+    command->add_option("--door", options->endpoint,
                         "socket to listen at (default $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
     command->add_option("--firmware", options->firmware,
                         "the Falcon's firmware, for after power-on; none is shipped");

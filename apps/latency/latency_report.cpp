@@ -43,8 +43,8 @@ nlohmann::json toJson(const Histogram& h) {
 void printLatency(std::ostream& out, const LatencyPart& part) {
     out << std::fixed << std::setprecision(1) << std::left << std::setw(13) << part.load;
     printTimes(out, "woken late", part.late);
-    printTimes(out, "; turn", part.turn);
-    out << "\n             " << part.turn.count() << " turns in " << part.seconds << " s, "
+    printTimes(out, "; turn", part.tick);
+    out << "\n             " << part.tick.count() << " turns in " << part.seconds << " s, "
         << part.periodsMissed << " periods without one, " << part.late.between(1000, Histogram::kBins)
         << " over 1 ms late, " << part.framesLost << " frames lost";
     if (!part.memory.empty()) {
@@ -58,7 +58,7 @@ void printHistograms(std::ostream& out, std::span<const LatencyPart> parts) {
     out << std::right << std::setw(14) << "from us";
     for (const LatencyPart& part : parts) {
         out << std::setw(14) << part.load + " late" << std::setw(14) << part.load + " turn";
-        columns.insert(columns.end(), {&part.late, &part.turn});
+        columns.insert(columns.end(), {&part.late, &part.tick});
     }
     out << "\n";
     bool begun = false;
@@ -88,7 +88,7 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
         all["parts"].push_back({{"load", part.load},
                                 {"seconds", part.seconds},
                                 {"woken_late", toJson(part.late)},
-                                {"turn", toJson(part.turn)},
+                                {"turn", toJson(part.tick)},
                                 {"frames_lost", part.framesLost},
                                 {"periods_missed", part.periodsMissed},
                                 {"records_lost", part.recordsLost},
@@ -105,7 +105,7 @@ void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart
 }
 
 bool soakHolds(const LatencyPart& part, double asked) {
-    const bool whole = part.seconds >= kWholeShare * asked && part.frames > 0 && part.turn.count() > 0 &&
+    const bool whole = part.seconds >= kWholeShare * asked && part.frames > 0 && part.tick.count() > 0 &&
                        part.memory.size() >= kLeastLooks;
     return whole && part.framesLost == 0 && part.recordsLost == 0 && part.memoryGrowth() <= kMostGrowth;
 }

@@ -30,7 +30,7 @@ public:
         first_ = false;
         return more ? feed_.fetch() : std::nullopt;
     }
-    void shown(const ToolPlace& place) override { feed_.shown(place); }
+    void shown(const ToolState& place) override { feed_.shown(place); }
     void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
 
 private:
@@ -47,9 +47,9 @@ public:
 
     void frame(const PublishedFrame&, const Fixtures&) override { ++part_.frames; }
     void query(const QueryNote&) override {}
-    void turn(const TurnRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override {
+    void step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override {
         part_.late.add(row.wokenLate * 1e6);
-        part_.turn.add(row.micros);
+        part_.tick.add(row.micros);
         part_.armTravel += first_ ? 0.0 : travel(row.record.arm.posture.q, before_);
         before_ = row.record.arm.posture.q;
         first_ = false;
@@ -186,7 +186,7 @@ LatencyPart LatencyRun::window() {
     LatencyPart part;
     part.load = "window";
     OperateOptions o = operateOptions(options_);
-    o.turns = options_.seconds; // not of the window, which may wait long for its first picture
+    o.ticks = options_.seconds; // not of the window, which may wait long for its first picture
     o.armed = true;             // as the other parts are
     o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     GlobalOptions global = global_;
@@ -194,11 +194,11 @@ LatencyPart LatencyRun::window() {
     operate::OperatorRun run(o, global);
     run.run();
     const operate::RunView& seen = run.view();
-    for (size_t i = 0; i < seen.turnMicros().size(); ++i) {
-        part.turn.add(static_cast<double>(seen.turnMicros()[i]));
+    for (size_t i = 0; i < seen.stepMicros().size(); ++i) {
+        part.tick.add(static_cast<double>(seen.stepMicros()[i]));
         part.late.add(static_cast<double>(seen.wokenLateMicros()[i]));
     }
-    part.seconds = seen.turn().record.t;
+    part.seconds = seen.step().record.t;
     part.framesLost = run.engine().framesLost();
     part.periodsMissed = run.engine().periodsMissed();
     part.recordsLost = run.engine().recordsLost();

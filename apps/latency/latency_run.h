@@ -22,7 +22,7 @@ struct LatencyPart {
         load; // idle: one picture, then none; frames: 30 a second; window: frames, and the window drawing
     double seconds = 0.0;       // that it really took
     Histogram late;             // [us] wake-ups after they were due
-    Histogram turn;             // [us] compute time of a turn
+    Histogram tick;             // [us] compute time of a turn
     uint64_t frames = 0;        // published
     uint64_t framesLost = 0;    // that a live camera would have thrown away
     uint64_t periodsMissed = 0; // without a turn

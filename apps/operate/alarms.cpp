@@ -68,30 +68,30 @@ void Alarms::raise(Level level, const std::string& key, const std::string& words
 
 // No picture for long: whoever is to blame is named. The camera is not while a GPU that was lost has made no
 // set.
-void Alarms::stepScene(const TurnRecord& turn, const HapticOptions& haptics, bool deviceGone) {
-    const bool stale = turn.sceneAge > haptics.staleAfter;
-    lostFrame_ = deviceGone ? turn.frame : lostFrame_;
-    waits_ = deviceGone || (waits_ && stale && turn.frame == lostFrame_);
-    set(waits_, Level::Warning, "gpu", "GPU is gone: no picture, forces fade; it is looked for", turn.t);
-    set(!waits_ && turn.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
-        print("Camera silent: scene %.1f s old", turn.sceneAge), turn.t);
+void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone) {
+    const bool stale = tick.sceneAge > haptics.staleAfter;
+    lostFrame_ = deviceGone ? tick.frame : lostFrame_;
+    waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
+    set(waits_, Level::Warning, "gpu", "GPU is gone: no picture, forces fade; it is looked for", tick.t);
+    set(!waits_ && tick.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
+        print("Camera silent: scene %.1f s old", tick.sceneAge), tick.t);
     set(stale, Level::Caution, "stale",
-        print("Scene stale: over %.0f ms, forces fade", haptics.staleAfter * 1e3), turn.t);
+        print("Scene stale: over %.0f ms, forces fade", haptics.staleAfter * 1e3), tick.t);
 }
 
 void Alarms::step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
                   const Health& health) {
-    const double now = run.anyTurn() ? run.turn().record.t : 0.0;
+    const double now = run.anyTurn() ? run.step().record.t : 0.0;
     set(health.handGone, Level::Warning, "hand",
         "Haptic device is gone: forces are off, the tool stays; it is looked for", now);
     set(!health.recorderFailed.empty(), Level::Caution, "recorder",
         "Recording has ended: " + health.recorderFailed, now);
     if (run.anyTurn()) {
-        const TurnRecord& r = run.turn().record;
+        const StepRecord& r = run.step().record;
         const Rates rates = run.rates();
         const double force = glm::length(r.wrench.force), torque = glm::length(r.wrench.torque);
         set(!r.finite, Level::Warning, "finite", "A number was not finite: zero wrench", r.t);
-        set(r.state == TurnState::Trapped, Level::Warning, "trapped",
+        set(r.state == StepState::Trapped, Level::Warning, "trapped",
             "Tool trapped: no motion obeys every region", r.t);
         stepScene(r, haptics, health.gpuGone);
         set(force > 0.98 * haptics.forceLimit, Level::Caution, "force",
@@ -100,11 +100,11 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
             print("Torque at its limit of %.2f N m", haptics.torqueLimit), r.t);
         set(rates.worstPeriodMs > 1e4 * haptics.period, Level::Caution, "overrun",
             print("Haptic overrun: a period of %.1f ms", rates.worstPeriodMs), r.t);
-        set(r.state == TurnState::Escape, Level::Caution, "escape",
+        set(r.state == StepState::Escape, Level::Caution, "escape",
             "New data lies over the tool: it is let out", r.t);
         set(r.marginPassive < kMarginNoise, Level::Caution, "passive", "Springs beyond the passive bound",
             r.t);
-        const ArmState arm = run.turn().driven ? run.turn().told.state : ArmState::Follows;
+        const ArmState arm = run.step().driven ? run.step().told.state : ArmState::Follows;
         set(isFault(arm), Level::Warning, "arm",
             print("Arm %s: it stands still, and so does the tool", armStateName(arm)), r.t);
         set(glm::distance(r.tool.position, r.device.position) > 0.10, Level::Advisory, "apart",

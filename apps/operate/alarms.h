@@ -48,7 +48,7 @@ public:
 
 private:
     void set(bool on, Level level, const char* key, const std::string& words, double t);
-    void stepScene(const TurnRecord& turn, const HapticOptions& haptics, bool deviceGone);
+    void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone);
     std::vector<Alarm> alarms_;
     bool waits_ = false;     // for the first picture after the GPU was lost
     int64_t lostFrame_ = -1; // newest picture while it was

@@ -42,13 +42,13 @@ dvec3 centreOf(const Fixtures& set, size_t i) {
 void CameraGround::compose(const SceneSnapshot& scene, const Selection& selection) {
     const CameraInfo& camera = scene.set.camera;
     const bool coloured = camera.hasColour && scene.colour.size() == camera.colour.pixels();
-    view_ = pictureView(camera, scene.set.baseTcamera, !coloured, kLeastWidth);
+    view_ = imageView(camera, scene.set.baseTcamera, !coloured, kLeastWidth);
     pixels_.assign(static_cast<size_t>(view_.width()) * static_cast<size_t>(view_.height()), 0xff201814u);
-    paintPicture(scene, selection);
+    paintImage(scene, selection);
     paintRegions(scene.set);
 }
 
-void CameraGround::paintPicture(const SceneSnapshot& scene, const Selection& selection) {
+void CameraGround::paintImage(const SceneSnapshot& scene, const Selection& selection) {
     const CameraInfo& camera = scene.set.camera;
     const Intrinsics& lens = view_.lens;
     const bool coloured = scene.colour.size() == lens.pixels();

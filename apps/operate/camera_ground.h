@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/operate/snapshots.h"
-#include "apps/replay/picture_view.h"
+#include "apps/replay/image_view.h"
 #include "apps/replay/silhouette.h"
 
 #include <vector>
@@ -21,16 +21,16 @@ public:
     void compose(const SceneSnapshot& scene, const Selection& selection);
 
     const std::vector<uint32_t>& pixels() const { return pixels_; } // 0xAABBGGRR, view().width() x height()
-    const PictureView& view() const { return view_; }
+    const ImageView& view() const { return view_; }
     const std::vector<OutlineLine>& seenOutline() const { return seen_; }
     const std::vector<OutlineLine>& heldOutline() const { return held_; }
     double unknownShare() const { return unknown_; } // of the picture without depth, 0..1
 
 private:
-    void paintPicture(const SceneSnapshot& scene, const Selection& selection);
+    void paintImage(const SceneSnapshot& scene, const Selection& selection);
     void paintRegions(const Fixtures& set);
 
-    PictureView view_;
+    ImageView view_;
     std::vector<uint32_t> pixels_;
     std::vector<OutlineLine> seen_, held_;
     double unknown_ = 0.0;

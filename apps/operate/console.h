@@ -40,8 +40,8 @@ struct TimeLine {
     double t = 0.0;          // [s] shown
     double duration = 0.0;   // [s]
     double speed = 1.0;      // of playing
-    uint32_t picture = 0;    // shown, from 0
-    uint32_t pictures = 0;   // there are
+    uint32_t image = 0;      // shown, from 0
+    uint32_t images = 0;     // there are
     bool wholeMemory = true; // held points of earlier pictures are there, too
 };
 

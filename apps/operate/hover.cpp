@@ -40,7 +40,7 @@ const Block* blockAt(const MarksInput& input, ImVec2 mouse) {
     float least = kNear;
     for (const Block& block : input.run.blocks()) {
         const auto at = input.port.of(block.touch.point);
-        const bool lasts = input.run.turn().record.t - block.last < kLasting;
+        const bool lasts = input.run.step().record.t - block.last < kLasting;
         if (at && lasts && pixelsBetween(*at, mouse) < least) {
             least = pixelsBetween(*at, mouse);
             best = &block;

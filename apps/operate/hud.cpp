@@ -88,27 +88,27 @@ void passes(const HudInput& input) {
 } // namespace
 
 Mode modeOf(const Console& console, const RunView& run) {
-    const TurnState state = run.turn().record.state;
+    const StepState state = run.step().record.state;
     if (!console.forces) {
-        return state == TurnState::Fading ? Mode{"FORCES FADING", "~", colour::kCaution}
+        return state == StepState::Fading ? Mode{"FORCES FADING", "~", colour::kCaution}
                                           : Mode{"FORCES OFF", "\xe2\x96\xa0", colour::kQuiet};
     }
     switch (state) {
-    case TurnState::Off:
+    case StepState::Off:
         return {"WAITING", "\xe2\x80\xa6", colour::kQuiet};
-    case TurnState::Trapped:
+    case StepState::Trapped:
         return {"TRAPPED", "!", colour::kWarning};
-    case TurnState::Fading:
+    case StepState::Fading:
         return {"FADING", "~", colour::kCaution};
-    case TurnState::Escape:
+    case StepState::Escape:
         return {"ESCAPE", "!", colour::kCaution};
     default:
         break;
     }
-    if (run.turn().record.guidance > 0.0) {
+    if (run.step().record.guidance > 0.0) {
         return {"GUIDANCE", "+", colour::kGuidance};
     }
-    return state == TurnState::Contact ? Mode{"CONTACT", "\xe2\x97\x8f", colour::kTouch}
+    return state == StepState::Contact ? Mode{"CONTACT", "\xe2\x97\x8f", colour::kTouch}
                                        : Mode{"ARMED", "\xe2\x97\x8f", colour::kGood};
 }
 
@@ -149,7 +149,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     ImGui::SameLine(280.0f * static_cast<float>(console.textScale));
     ImGui::Dummy({0.0f, 0.0f});
     const Rates rates = input.run.rates();
-    const TurnRecord& record = input.run.turn().record;
+    const StepRecord& record = input.run.step().record;
     const double period = input.haptics.period;
     const bool slow = rates.worstPeriodMs > 2.5e3 * period;
     figure(input, print("%.0f Hz", rates.hapticHz), "haptic rate");
@@ -184,7 +184,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
 }
 
 void drawGauges(Console& console, const HudInput& input) {
-    const TurnRecord& record = input.run.turn().record;
+    const StepRecord& record = input.run.step().record;
     bar(input, "Force", glm::length(record.wrench.force), input.haptics.forceLimit, "N", colour::kForce);
     bar(input, "Torque", glm::length(record.wrench.torque), input.haptics.torqueLimit, "N m",
         IM_COL32(186, 140, 255, 255));

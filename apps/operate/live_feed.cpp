@@ -14,9 +14,9 @@ LiveFeed::LiveFeed(OperateSession& session)
     }
 }
 
-void LiveFeed::shown(const ToolPlace& place) {
+void LiveFeed::shown(const ToolState& place) {
     if (session_.cycles.plan().selfFilter && !lost()) {
-        session_.cycles.frames().setArm(session_.arm->inPicture(place.arm));
+        session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
     }
 }
 
@@ -110,7 +110,7 @@ void LiveFeed::publishNew(PublishedFrame& out) {
     }
 }
 
-bool LiveAnswers::answer(const ToolPlace& place, ContactSet& out) {
+bool LiveAnswers::answer(const ToolState& place, ContactSet& out) {
     return session_.cycles.answer(place, out);
 }
 

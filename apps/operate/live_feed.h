@@ -20,7 +20,7 @@ public:
 
     std::optional<uint32_t> fetch() override;
     std::optional<RunClock::Time> captured() const override;
-    void shown(const ToolPlace& place) override;
+    void shown(const ToolState& place) override;
     void publish(double t, PublishedFrame& out) override;
     bool renewable() const override { return true; }
     bool lost() const override { return session_.handover.lost(); }
@@ -57,7 +57,7 @@ class LiveAnswers final : public ContactAnswers {
 public:
     explicit LiveAnswers(OperateSession& session)
         : session_(session) {}
-    bool answer(const ToolPlace& place, ContactSet& out) override;
+    bool answer(const ToolState& place, ContactSet& out) override;
 
 private:
     OperateSession& session_;

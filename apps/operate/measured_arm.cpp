@@ -10,7 +10,7 @@ namespace fathom::operate {
 
 MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const Sphere> wanted) {
     MeasuredArm measured;
-    const TurnRow& row = run.turn();
+    const TickRow& row = run.step();
     if (arm == nullptr || !row.driven) {
         return measured;
     }
@@ -42,26 +42,26 @@ MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const S
     return measured;
 }
 
-std::vector<std::string> armHolds(const ArmRig* arm, const TurnRecord& turn) {
+std::vector<std::string> armHolds(const ArmRig* arm, const StepRecord& tick) {
     constexpr double kAt = 1e-4; // [rad], [m]
     std::vector<std::string> holds;
     if (arm == nullptr) {
         return holds;
     }
-    for (size_t k = 0; turn.arm.atLimits > 0 && k < arm->model.joints.size(); ++k) {
+    for (size_t k = 0; tick.arm.atLimits > 0 && k < arm->model.joints.size(); ++k) {
         const ArmJoint& joint = arm->model.joints[k];
-        const double q = turn.arm.posture.q[k];
+        const double q = tick.arm.posture.q[k];
         if (q > joint.upper - kAt || q < joint.lower + kAt) {
             holds.push_back(joint.name + " at its " + (q > joint.upper - kAt ? "upper" : "lower") + " limit");
         }
     }
-    if (turn.arm.atLimits > 0 && holds.empty()) {
+    if (tick.arm.atLimits > 0 && holds.empty()) {
         holds.emplace_back("joints at their full speed");
     }
-    if (turn.arm.singular) {
+    if (tick.arm.singular) {
         holds.emplace_back("arm near a singular posture: it moves slowly there");
     }
-    if (turn.arm.graspHeld) {
+    if (tick.arm.graspHeld) {
         holds.emplace_back("jaws held: a finger would enter a region");
     }
     return holds;

@@ -33,6 +33,6 @@ MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const S
 
 // What of the arm itself holds the tool in this turn, a phrase each: joints at their limits or their full
 // speed, a singular posture, jaws that would enter a region. Empty without an arm.
-std::vector<std::string> armHolds(const ArmRig* arm, const TurnRecord& turn);
+std::vector<std::string> armHolds(const ArmRig* arm, const StepRecord& tick);
 
 } // namespace fathom::operate

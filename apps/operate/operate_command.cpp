@@ -26,7 +26,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
     command->add_flag("--path", options->path, "the scene's hand path drives, not mouse and keyboard")
         ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
-    command->add_option("--view-door", options->viewDoor, kViewDoorHelp);
+    command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
     command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
         ->check(CLI::NonNegativeNumber);
@@ -43,7 +43,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         }
         for (const auto& [name, value] :
              {std::pair("--source", &options->source), std::pair("--hand-device", &options->handDevice),
-              std::pair("--arm", &options->arm), std::pair("--view-door", &options->viewDoor)}) {
+              std::pair("--arm", &options->arm), std::pair("--view-door", &options->viewEndpoint)}) {
             if (!options->recording.empty() && !value->empty()) {
                 throw BadInput("operate", name, *value, "nothing beside a recording");
             }

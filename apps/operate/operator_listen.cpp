@@ -11,7 +11,7 @@ namespace fathom::operate {
 
 void OperatorRun::listen() {
     const ViewPort& large = screen_.large();
-    const TurnRecord& record = view_.turn().record;
+    const StepRecord& record = view_.step().record;
     const double depth = large.view.cameraTbase.apply(record.device.position).z;
     if (const auto at = steering_->step(console_, large, depth)) {
         clickInView(console_, *editor_, screen_, view_.scene(), *at);
@@ -78,7 +78,7 @@ void OperatorRun::followRecorder() {
         recorder_.finish();
         const std::string failure = recorder_.failure();
         const uint64_t lost = recorder_.lost();
-        console_.tell(std::to_string(recorder_.pictures()) + " pictures recorded in " + recordingTo_ +
+        console_.tell(std::to_string(recorder_.images()) + " pictures recorded in " + recordingTo_ +
                       (lost > 0 ? ", " + std::to_string(lost) + " left out: the disk was too slow" : "") +
                       (failure.empty() ? "" : ", then: " + failure));
         recordingTo_.clear();

@@ -45,7 +45,8 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , haptics_(softly(session_.scene, session_.tool))
     , feed_(session_)
     , answers_(session_)
-    , observers_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
+    , observers_(options.viewEndpoint.empty() ? nullptr
+                                              : std::make_unique<ViewPublisher>(options.viewEndpoint))
     , published_(recorder_, observers_.get())
     , faults_(options.shots, haptics_.period, published_)
     , sink_(faults_)
@@ -67,7 +68,7 @@ OperatorRun::~OperatorRun() {
 }
 
 bool OperatorRun::wantsToEnd() const {
-    const bool turned = options_.turns > 0.0 && view_.turn().record.t >= options_.turns;
+    const bool turned = options_.ticks > 0.0 && view_.step().record.t >= options_.ticks;
     return turned || window_.closed() || console_.quit || ended_.load() || signals_.asked().load() ||
            (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
 }
@@ -84,7 +85,7 @@ HudInput OperatorRun::hudInput() const {
                  options_.path || session_.liveHand != nullptr,
                  &measured_,
                  !hand_->there(),
-                 armHolds(session_.arm.get(), view_.turn().record)};
+                 armHolds(session_.arm.get(), view_.step().record)};
     return hud;
 }
 
@@ -112,7 +113,7 @@ void OperatorRun::run() {
 void OperatorRun::frame() {
     const bool fresh = view_.refresh();
     const HudInput hud = hudInput();
-    const auto arm = armSpheres(session_.arm.get(), view_.turn().record.arm.posture);
+    const auto arm = armSpheres(session_.arm.get(), view_.step().record.arm.posture);
     measured_ = measuredArm(session_.arm.get(), view_, arm);
     screen_.draw(console_, *editor_, alarms_, {view_, session_.tool, hud, fresh, arm, measured_});
     const auto& room = console_.places["traces room"];
@@ -168,7 +169,7 @@ StateExtras OperatorRun::extras() const {
 }
 
 void OperatorRun::report() const {
-    const std::vector<float>& us = view_.turnMicros();
+    const std::vector<float>& us = view_.stepMicros();
     const double time = std::max(1e-3, seconds() - started_);
     std::printf("window       %.1f frames a second, %llu left out for passes on the shared queue\n",
                 static_cast<double>(canvas_->counts().drawn) / time,

@@ -42,7 +42,7 @@ private:
     HapticDevice& device(); // that drives
     void makeHand(const Pose& start, const Pose* tool);
     void makeEngine(const Pose& start, const Pose* tool);
-    void forgetPictures();
+    void forgetFrames();
     void startThreads();
     void resumeThreads();
     void pauseThreads(); // the last thing that the hand gets is a zero wrench

@@ -131,7 +131,7 @@ void OperatorRun::endThreads() {
 }
 
 // The clock of a run begins anew. Another device remembers nothing anyway.
-void OperatorRun::forgetPictures() {
+void OperatorRun::forgetFrames() {
     try {
         if (!session_.handover.lost()) {
             session_.cycles.frames().forget();
@@ -156,9 +156,9 @@ void OperatorRun::followPilot() {
     if (ended_.load()) {
         return; // it failed: the window ends
     }
-    forgetPictures();
+    forgetFrames();
     view_.refresh();
-    const TurnRecord last = view_.turn().record;
+    const StepRecord last = view_.step().record;
     const Pose raw = steering_->pose();
     const bool stays = view_.anyTurn() && !options_.path && isFinite(last.tool);
     if (session_.arm && stays) {

@@ -151,7 +151,7 @@ void Painter::resize(VkExtent2D size) {
         return;
     }
     vkDestroyFramebuffer(device_.handle(), framebuffer_, nullptr);
-    target_ = PictureImage(device_, kDrawn, size,
+    target_ = FrameTexture(device_, kDrawn, size,
                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                VK_IMAGE_USAGE_TRANSFER_DST_BIT);
     VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
@@ -218,7 +218,7 @@ void Painter::stage(std::span<const Layer> layers) {
         Staged& staged = staged_[i];
         if (!staged.image || staged.image.size().width != layer.width ||
             staged.image.size().height != layer.height) {
-            staged.image = PictureImage(device_, kPicture, {layer.width, layer.height},
+            staged.image = FrameTexture(device_, kImage, {layer.width, layer.height},
                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
             staged.staging = gpu::Buffer(device_, layer.pixels.size_bytes(), gpu::MemoryKind::Upload, "view");
         }

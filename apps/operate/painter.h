@@ -3,7 +3,7 @@
 // the surface or, without one, nowhere. One frame in flight.
 #pragma once
 
-#include "apps/operate/picture_image.h"
+#include "apps/operate/frame_texture.h"
 #include "apps/operate/swapchain.h"
 
 #include <array>
@@ -55,7 +55,7 @@ public:
 
 private:
     struct Staged {
-        PictureImage image;
+        FrameTexture image;
         gpu::Buffer staging;
     };
     Painter(gpu::Device& device, Swapchain* swapchain); // without anything on the device
@@ -81,7 +81,7 @@ private:
     VkFence done_ = VK_NULL_HANDLE;
     VkSemaphore ready_ = VK_NULL_HANDLE;
     VkFramebuffer framebuffer_ = VK_NULL_HANDLE;
-    PictureImage target_;
+    FrameTexture target_;
     std::array<Staged, kMostLayers> staged_;
     std::array<bool, kMostLayers> fresh_{};
     bool flying_ = false; // a submission whose end has not been seen

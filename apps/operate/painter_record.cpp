@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a window frame is on the device, command by command; and how it comes back as a file.
 #include "apps/operate/painter.h"
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 #include "engine/gpu/result.h"
 
 #include <backends/imgui_impl_vulkan.h>
@@ -120,17 +120,17 @@ void Painter::screenshot(const std::filesystem::path& file) {
         vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1,
                              &toHost, 0, nullptr, 0, nullptr);
     });
-    const Picture picture(static_cast<int>(size.width), static_cast<int>(size.height), {0.0, 0.0, 0.0});
-    picture.beginPixels();
+    const Image image(static_cast<int>(size.width), static_cast<int>(size.height), {0.0, 0.0, 0.0});
+    image.beginPixels();
     const auto pixels = landing.as<uint32_t>();
     for (uint32_t v = 0; v < size.height; ++v) {
-        uint32_t* row = picture.row(static_cast<int>(v));
+        uint32_t* row = image.row(static_cast<int>(v));
         for (uint32_t u = 0; u < size.width; ++u) {
             row[u] = 0xff000000u | pixels[v * size.width + u]; // both 0xAARRGGBB
         }
     }
-    picture.endPixels();
-    picture.writePng(file);
+    image.endPixels();
+    image.writePng(file);
 }
 
 } // namespace fathom::operate

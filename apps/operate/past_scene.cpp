@@ -17,10 +17,10 @@ constexpr double kMostLead = 90.0; // pictures, however long points are held
 
 PastScene::PastScene(OperateSession& session)
     : session_(session)
-    , pictures_(session.camera->pictures())
+    , images_(session.camera->images())
     , lead_(
           static_cast<uint32_t>(std::min(kMostLead, std::ceil(session.scene.holdSeconds / kPeriod) + 1.0))) {
-    if (pictures_ == 0) {
+    if (images_ == 0) {
         throw BadInput(session.camera->description(), "recording",
                        "its pictures come one after the other only", "a recording folder (TUM RGB-D)");
     }
@@ -50,7 +50,7 @@ bool PastScene::process(uint32_t index, PublishedFrame& out) {
 }
 
 void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
-    index = std::min(index, pictures_ - 1);
+    index = std::min(index, images_ - 1);
     if (any_ && index == asked_ && (whole_ || !whole)) {
         return;
     }
@@ -62,20 +62,20 @@ void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
         session_.cycles.frames().forget();
         first = whole ? index - std::min(index, lead_) : index;
     }
-    PublishedFrame picture;
+    PublishedFrame image;
     bool good = false;
     for (uint32_t i = first; i <= index; ++i) {
-        const bool more = process(i, picture);
+        const bool more = process(i, image);
         good = good || more;
-        i = more ? std::max(i, picture.report.index) : index; // a bad picture gives the next good one
+        i = more ? std::max(i, image.report.index) : index; // a bad picture gives the next good one
     }
     asked_ = index;
     any_ = true;
     whole_ = whole || follows || first == 0;
     if (good) {
-        shown_ = picture.report.index;
+        shown_ = image.report.index;
         const auto set = session_.cycles.frames().sets().newest();
-        sink.frame(picture, set->host);
+        sink.frame(image, set->host);
     }
 }
 

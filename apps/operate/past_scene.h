@@ -17,7 +17,7 @@ public:
 
     static constexpr double kPeriod = 1.0 / 30.0; // [s] from picture to picture, as in `replay`
 
-    uint32_t pictures() const { return pictures_; }
+    uint32_t images() const { return images_; }
     // Leaves picture `index` (or the next good one) and its fixtures in `sink`. whole: with the points that
     // are held from pictures before it, which takes a run through those; otherwise of this picture alone.
     // Nothing when that is what is shown already.
@@ -36,7 +36,7 @@ private:
     void takeEdit(uint32_t index);
 
     OperateSession& session_;
-    uint32_t pictures_, lead_;
+    uint32_t images_, lead_;
     uint32_t asked_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;
     const SceneEdit* edit_ = nullptr; // in force

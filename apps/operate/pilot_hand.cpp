@@ -18,27 +18,27 @@ constexpr double kClosedWithin = 1e-3; // [m]
 } // namespace
 
 PilotHand::PilotHand(const Pose& start)
-    : wishes_(HandSample{start, 0})
+    : setpoints_(HandSample{start, 0})
     , now_(start) {}
 
-void PilotHand::ask(const HandSample& wish) noexcept {
-    wishes_.back() = wish;
-    wishes_.publish();
+void PilotHand::ask(const HandSample& setpoint) noexcept {
+    setpoints_.back() = setpoint;
+    setpoints_.publish();
 }
 
 HandSample PilotHand::read(double t) noexcept {
-    wishes_.refresh();
-    const HandSample& wish = wishes_.front();
+    setpoints_.refresh();
+    const HandSample& setpoint = setpoints_.front();
     const double dt = std::clamp(t - before_, 0.0, kLongest);
     before_ = t;
-    const dvec3 gap = wish.deviceThandle.position - now_.position;
+    const dvec3 gap = setpoint.deviceThandle.position - now_.position;
     velocity_ += dt * (kPull * kPull * gap - 2.0 * kPull * velocity_);
     velocity_ = clampLength(velocity_, kSpeed);
     now_.position += dt * velocity_;
-    const dvec3 turn = rotationLog(wish.deviceThandle.rotation * glm::conjugate(now_.rotation));
+    const dvec3 turn = rotationLog(setpoint.deviceThandle.rotation * glm::conjugate(now_.rotation));
     const dvec3 share = clampLength(turn * std::min(1.0, kPull * dt), kTurnSpeed * dt);
     now_.rotation = glm::normalize(rotationExp(share) * now_.rotation);
-    return {now_, wish.buttons};
+    return {now_, setpoint.buttons};
 }
 
 PathHand::PathHand(HandPath path)

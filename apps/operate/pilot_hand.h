@@ -5,7 +5,7 @@
 
 #include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
-#include "engine/types/latest.h"
+#include "engine/types/triple_buffer.h"
 
 #include <atomic>
 
@@ -17,7 +17,7 @@ class PilotHand final : public HapticDevice {
 public:
     explicit PilotHand(const Pose& start); // raw, device frame
 
-    void ask(const HandSample& wish) noexcept;
+    void ask(const HandSample& setpoint) noexcept;
     HandSample read(double t) noexcept override;
     void write(const Wrench&, double) noexcept override {}
 
@@ -25,7 +25,7 @@ public:
     static constexpr double kTurnSpeed = 2.0; // [rad/s]
 
 private:
-    Latest<HandSample> wishes_;
+    TripleBuffer<HandSample> setpoints_;
     Pose now_;
     dvec3 velocity_{0.0};
     double before_ = 0.0;

@@ -30,9 +30,9 @@ std::optional<HandPath> handOf(const std::filesystem::path& folder) {
 }
 
 // Without what was felt: the device's pose as the hand's map gives it, clutch and all; no tool.
-TurnLog mappedHand(const HandPath& hand, const Scene& scene) {
+TickLog mappedHand(const HandPath& hand, const Scene& scene) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-    TurnLog log;
+    TickLog log;
     HandMap map(scene.hand.baseRdevice, scene.hand.scale);
     for (const HandWaypoint& w : hand.waypoints()) {
         Moment moment;
@@ -46,13 +46,13 @@ TurnLog mappedHand(const HandPath& hand, const Scene& scene) {
 }
 
 // What is known of each turn, the hand from its own file where wrench.csv is without poses.
-TurnLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
+TickLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
                 const Scene& scene) {
-    TurnLog log = readTurnLog(folder);
+    TickLog log = readTickLog(folder);
     if (!hand || log.poses) {
         return log;
     }
-    TurnLog mapped = mappedHand(*hand, scene);
+    TickLog mapped = mappedHand(*hand, scene);
     if (log.moments.empty()) {
         return mapped;
     }
@@ -65,9 +65,9 @@ TurnLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPat
     return log;
 }
 
-double durationOf(const PastScene& past, const TurnLog& log) {
-    const double pictures = past.pictures() * PastScene::kPeriod;
-    return log.moments.empty() ? pictures : std::max(pictures, log.moments.back().t);
+double durationOf(const PastScene& past, const TickLog& log) {
+    const double images = past.images() * PastScene::kPeriod;
+    return log.moments.empty() ? images : std::max(images, log.moments.back().t);
 }
 
 } // namespace
@@ -95,7 +95,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     canvas_ = std::make_unique<Canvas>(window_, session_.instance, console_.textScale, options.shots);
     canvas_->open(session_.cycles.device());
     console_.timeLine.on = true;
-    console_.timeLine.pictures = past_.pictures();
+    console_.timeLine.images = past_.images();
     console_.timeLine.duration = durationOf(past_, log_);
     if (log_.moments.empty()) {
         console_.tell("no hand.csv or wrench.csv there: pictures only");
@@ -175,7 +175,7 @@ void PlaybackRun::draw(double dt) {
     alarms_ = Alarms(); // of this moment, none is latched
     alarms_.step(console_, view_, haptics_, editor_.scene());
     const bool known = log_.poses && view_.anyTurn();
-    const auto arm = armSpheres(known ? session_.arm.get() : nullptr, view_.turn().record.arm.posture);
+    const auto arm = armSpheres(known ? session_.arm.get() : nullptr, view_.step().record.arm.posture);
     screen_.draw(console_, editor_, alarms_, {view_, session_.tool, hud, fresh, arm, MeasuredArm()});
     const auto& room = console_.places["traces room"];
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
@@ -209,12 +209,12 @@ void PlaybackRun::followTime(double dt) {
         line.playing = line.t < line.duration;
     }
     line.t = std::clamp(line.t, 0.0, line.duration);
-    const auto picture = static_cast<uint32_t>(line.t / PastScene::kPeriod + 1e-6);
-    past_.show(picture, !line.dragged, sink_);
+    const auto image = static_cast<uint32_t>(line.t / PastScene::kPeriod + 1e-6);
+    past_.show(image, !line.dragged, sink_);
     if (const Scene* scene = past_.newScene()) {
         editor_.showFixtures(*scene);
     }
-    line.picture = past_.shown();
+    line.image = past_.shown();
     line.wholeMemory = past_.whole();
     if (line.t != shown_) {
         shown_ = line.t;
@@ -239,7 +239,7 @@ void PlaybackRun::showMoment() {
             moments.begin());
     };
     const size_t end = after(t + kSame);
-    TurnRow row;
+    TickRow row;
     for (size_t i = after(t - RunView::kSpan); i < end; ++i) {
         row.record = log_.recordAt(i);
         view_.take(row);

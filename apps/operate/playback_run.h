@@ -45,7 +45,7 @@ private:
     std::unique_ptr<Canvas> canvas_;
     HapticOptions haptics_;
     std::optional<HandPath> hand_;
-    TurnLog log_;
+    TickLog log_;
     PastScene past_;
     Recorder nothing_; // never started: the sink behind the sink
     SnapshotSink sink_;

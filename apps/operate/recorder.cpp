@@ -2,7 +2,7 @@
 #include "apps/operate/recorder.h"
 
 #include "apps/binding/scene_edits.h"
-#include "apps/operate/turn_log.h"
+#include "apps/operate/tick_log.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -14,8 +14,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kPicturePeriod = 1.0 / 30.0; // [s] of a replay
-constexpr size_t kMostNumbers = 60;           // pictures that a turn may have obeyed
+constexpr double kFramePeriod = 1.0 / 30.0; // [s] of a replay
+constexpr size_t kMostNumbers = 60;         // pictures that a turn may have obeyed
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -48,7 +48,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     finish();
     const std::lock_guard lock(mutex_);
     failure_.clear();
-    turns_.clear();
+    ticks_.clear();
     numbers_.clear();
     upcoming_.clear();
     edits_.close();
@@ -57,7 +57,7 @@ void Recorder::start(const std::filesystem::path& folder, const std::string& sce
     scenes_ = 0;
     still_ = false;
     lastCapture_ = lastWritten_ = -1.0;
-    lost_ = pictures_ = 0;
+    lost_ = images_ = 0;
     writer_ = std::make_unique<RecordingWriter>(folder, camera, 1);
     std::ofstream text(folder / "scene.yaml");
     text << scene << std::flush;
@@ -74,9 +74,9 @@ void Recorder::stop() {
         return;
     }
     orFail([this] {
-        if (pictures_ > 0) { // the turns since the last picture
-            flushTurns(lastCapture_, lastCapture_ + kPicturePeriod,
-                       static_cast<double>(pictures_ - 1) * kPicturePeriod, 1.0);
+        if (images_ > 0) { // the turns since the last picture
+            flushTurns(lastCapture_, lastCapture_ + kFramePeriod,
+                       static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
         }
     });
     writer_->close();
@@ -118,24 +118,23 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
         ++lost_;
         return;
     }
-    orFail([&] { addPicture(frame, set); });
+    orFail([&] { addImage(frame, set); });
 }
 
-void Recorder::addPicture(const PublishedFrame& frame, const Fixtures& set) {
-    if (pictures_ > 0 && frame.t > lastCapture_) {
-        const double start = static_cast<double>(pictures_ - 1) * kPicturePeriod;
-        flushTurns(lastCapture_, frame.t, start, kPicturePeriod / (frame.t - lastCapture_));
+void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
+    if (images_ > 0 && frame.t > lastCapture_) {
+        const double start = static_cast<double>(images_ - 1) * kFramePeriod;
+        flushTurns(lastCapture_, frame.t, start, kFramePeriod / (frame.t - lastCapture_));
     } else {
-        turns_.clear();
+        ticks_.clear();
     }
     lastCapture_ = frame.t;
-    numbers_.emplace_back(frame.report.index, pictures_);
+    numbers_.emplace_back(frame.report.index, images_);
     if (numbers_.size() > kMostNumbers) {
         numbers_.pop_front();
     }
     addEdit(frame);
-    writer_->add(
-        {static_cast<double>(pictures_++) * kPicturePeriod, set.depth, frame.colour, set.baseTcamera});
+    writer_->add({static_cast<double>(images_++) * kFramePeriod, set.depth, frame.colour, set.baseTcamera});
 }
 
 void Recorder::edit(uint64_t number, RecordedScene scene) {
@@ -153,7 +152,7 @@ void Recorder::addEdit(const PublishedFrame& frame) {
     }
     if (!edits_.isOpen()) {
         edits_.open(folder_ / SceneEdits::kFile, SceneEdits::kHead);
-        if (pictures_ > 0) {
+        if (images_ > 0) {
             putEdit(0, still_);
         }
     }
@@ -161,10 +160,10 @@ void Recorder::addEdit(const PublishedFrame& frame) {
         edited_ = std::move(upcoming_.front().second);
     }
     still_ = frame.still;
-    putEdit(pictures_, still_);
+    putEdit(images_, still_);
 }
 
-void Recorder::putEdit(uint64_t picture, bool still) {
+void Recorder::putEdit(uint64_t image, bool still) {
     const std::string name = "scene-" + std::to_string(scenes_++) + ".yaml";
     std::ofstream text(folder_ / name);
     text << edited_.text << std::flush;
@@ -172,7 +171,7 @@ void Recorder::putEdit(uint64_t picture, bool still) {
         throw Error((folder_ / name).string() + ": cannot be written");
     }
     std::ostream& out = edits_.lines();
-    out << picture << "," << name << ",";
+    out << image << "," << name << ",";
     for (size_t i = 0; i < edited_.held.size(); ++i) {
         out << (i == 0 ? "" : " ") << edited_.held[i];
     }
@@ -180,26 +179,26 @@ void Recorder::putEdit(uint64_t picture, bool still) {
     edits_.flush();
 }
 
-void Recorder::turn(const TurnRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {
+void Recorder::step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) {
     if (recording()) {
         const std::lock_guard lock(mutex_);
-        turns_.push_back(row);
+        ticks_.push_back(row);
     }
 }
 
 void Recorder::flushTurns(double from, double to, double start, double scale) {
-    while (!turns_.empty() && turns_.front().record.t < to) {
-        if (turns_.front().record.t >= from) {
-            putTurn(turns_.front(), start + scale * (turns_.front().record.t - from));
+    while (!ticks_.empty() && ticks_.front().record.t < to) {
+        if (ticks_.front().record.t >= from) {
+            putTurn(ticks_.front(), start + scale * (ticks_.front().record.t - from));
         }
-        turns_.pop_front();
+        ticks_.pop_front();
     }
     hand_.flush();
     wrench_.flush(); // before what touched in its turns
     touches_.flush();
 }
 
-void Recorder::putTurn(const TurnRow& row, double t) {
+void Recorder::putTurn(const TickRow& row, double t) {
     if (!(t > lastWritten_)) {
         return; // a path's times ascend
     }
@@ -210,10 +209,10 @@ void Recorder::putTurn(const TurnRow& row, double t) {
     put(out, hand.position);
     out << "," << hand.rotation.w << "," << hand.rotation.x << "," << hand.rotation.y << ","
         << hand.rotation.z << "," << row.hand.buttons << "\n";
-    writeTurn(wrench_.lines(), touches_.lines(), t, pictureOf(row.record.frame), row.record);
+    writeTurn(wrench_.lines(), touches_.lines(), t, imageOf(row.record.frame), row.record);
 }
 
-int64_t Recorder::pictureOf(int64_t frame) const {
+int64_t Recorder::imageOf(int64_t frame) const {
     const auto at = std::find_if(numbers_.rbegin(), numbers_.rend(),
                                  [&](const auto& number) { return number.first <= frame; });
     return at == numbers_.rend() ? -1 : static_cast<int64_t>(at->second);

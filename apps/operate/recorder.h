@@ -49,30 +49,30 @@ public:
     // Why the last recording ended by itself; empty = it did not.
     std::string failure() const;
     uint64_t lost() const { return lost_.load(); }
-    uint64_t pictures() const { return pictures_.load(); }
+    uint64_t images() const { return images_.load(); }
 
     // Writer thread of the run.
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote&) override {}
-    void turn(const TurnRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override;
+    void step(const TickRow& row, const PublishedFrame*, bool, std::span<const uint32_t>) override;
 
 private:
     template <class Job>
     void orFail(const Job& job); // with mutex_ held
     void openFiles(const std::filesystem::path& folder);
-    void addPicture(const PublishedFrame& frame, const Fixtures& set);
+    void addImage(const PublishedFrame& frame, const Fixtures& set);
     void addEdit(const PublishedFrame& frame);
-    void putEdit(uint64_t picture, bool still);
+    void putEdit(uint64_t image, bool still);
     void flushTurns(double from, double to, double start, double scale);
-    void putTurn(const TurnRow& row, double t);
-    int64_t pictureOf(int64_t frame) const; // of this recording; -1 = from before it
+    void putTurn(const TickRow& row, double t);
+    int64_t imageOf(int64_t frame) const; // of this recording; -1 = from before it
 
     std::atomic<bool> recording_{false};
-    std::atomic<uint64_t> lost_{0}, pictures_{0};
+    std::atomic<uint64_t> lost_{0}, images_{0};
     mutable std::mutex mutex_; // of everything below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
-    std::deque<TurnRow> turns_;                        // since the last picture
+    std::deque<TickRow> ticks_;                        // since the last picture
     std::deque<std::pair<int64_t, uint64_t>> numbers_; // of late pictures: index in the run, in the recording
     double lastCapture_ = -1.0, lastWritten_ = -1.0;
     LineFile hand_, wrench_, touches_, edits_;

@@ -41,18 +41,18 @@ ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const
                              const std::function<void(size_t)>& progress)
     : info_(source->info())
     , description_(source->description()) {
-    while (pictures_.size() < count && !(stop.load() && !pictures_.empty())) {
+    while (images_.size() < count && !(stop.load() && !images_.empty())) {
         const std::optional<Frame> frame = source->next();
         if (!frame) {
             break;
         }
         const Frame::Content& c = **frame;
         const std::span<const uint32_t> colours = c.colours(info_.yuyv);
-        pictures_.push_back(
+        images_.push_back(
             {{c.depth.begin(), c.depth.end()}, {colours.begin(), colours.end()}, c.baseTcamera});
-        progress(pictures_.size());
+        progress(images_.size());
     }
-    if (pictures_.empty()) {
+    if (images_.empty()) {
         throw Error(description_ + ": no picture");
     }
     slots_ = std::make_unique<FrameSlots>(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
@@ -63,19 +63,19 @@ std::optional<Frame> ShuttleCamera::next() {
     if (slot == nullptr) {
         throw Error(description_ + ": more pictures in flight than there is memory for");
     }
-    const size_t turns = std::max<size_t>(1, 2 * (pictures_.size() - 1));
-    const size_t place = shown_ % turns;
-    const Picture& picture = pictures_[place < pictures_.size() ? place : turns - place];
-    std::copy(picture.depth.begin(), picture.depth.end(), slot->depth().begin());
+    const size_t ticks = std::max<size_t>(1, 2 * (images_.size() - 1));
+    const size_t place = shown_ % ticks;
+    const Image& image = images_[place < images_.size() ? place : ticks - place];
+    std::copy(image.depth.begin(), image.depth.end(), slot->depth().begin());
     const std::span<uint32_t> colours =
-        slot->colour().first(std::min(picture.colours.size(), slot->colour().size()));
-    std::copy_n(picture.colours.begin(), colours.size(), colours.begin());
+        slot->colour().first(std::min(image.colours.size(), slot->colour().size()));
+    std::copy_n(image.colours.begin(), colours.size(), colours.begin());
     Frame::Content content;
     content.index = shown_;
     content.sourceNumber = shown_++;
     content.depth = slot->depth();
     (info_.yuyv ? content.yuyv : content.colour) = colours;
-    content.baseTcamera = picture.baseTcamera;
+    content.baseTcamera = image.baseTcamera;
     return slot->lend(content);
 }
 

@@ -50,14 +50,14 @@ public:
     std::string description() const override { return description_; }
 
 private:
-    struct Picture {
+    struct Image {
         std::vector<uint16_t> depth;
         std::vector<uint32_t> colours; // as the source sent them
         std::optional<Pose> baseTcamera;
     };
     CameraInfo info_;
     std::string description_;
-    std::vector<Picture> pictures_;
+    std::vector<Image> images_;
     std::unique_ptr<FrameSlots> slots_;
     uint32_t shown_ = 0;
 };

@@ -14,15 +14,15 @@ constexpr size_t kMostTurns = 1'000'000; // whose times are kept: a session last
 } // namespace
 
 bool RunView::refresh() {
-    TurnRow row;
-    while (sink_.turns().pop(row)) {
+    TickRow row;
+    while (sink_.ticks().pop(row)) {
         take(row);
     }
     const bool fresh = sink_.scene().refresh();
     if (fresh) {
-        pictures_.push_back(scene().t);
-        while (scene().t - pictures_.front() > 1.0) {
-            pictures_.pop_front();
+        images_.push_back(scene().t);
+        while (scene().t - images_.front() > 1.0) {
+            images_.pop_front();
         }
         if (!scene().report.unchanged) {
             passMs_ = scene().report.passMs;
@@ -32,27 +32,27 @@ bool RunView::refresh() {
 }
 
 void RunView::rewind() {
-    turn_ = {};
+    tick_ = {};
     measured_.reset();
-    turns_ = late_ = 0;
+    ticks_ = late_ = 0;
     trace_.clear();
-    pictures_.clear();
+    images_.clear();
     blocks_.clear();
     micros_.clear();
     wokenLate_.clear();
 }
 
-void RunView::take(const TurnRow& row) {
-    turn_ = row;
-    ++turns_;
+void RunView::take(const TickRow& row) {
+    tick_ = row;
+    ++ticks_;
     late_ += row.late ? 1 : 0;
     if (micros_.size() < kMostTurns) {
         micros_.resize(micros_.size() + 1);
         wokenLate_.resize(micros_.size());
     }
-    micros_[(turns_ - 1) % kMostTurns] = static_cast<float>(row.micros);
-    wokenLate_[(turns_ - 1) % kMostTurns] = static_cast<float>(row.wokenLate * 1e6);
-    const TurnRecord& r = row.record;
+    micros_[(ticks_ - 1) % kMostTurns] = static_cast<float>(row.micros);
+    wokenLate_[(ticks_ - 1) % kMostTurns] = static_cast<float>(row.wokenLate * 1e6);
+    const StepRecord& r = row.record;
     if (row.driven && row.told.known) {
         measured_ = Measured{r.t - row.told.age, row.told.posture};
     }
@@ -64,8 +64,8 @@ void RunView::take(const TurnRow& row) {
     noteBlocks(row);
 }
 
-void RunView::noteBlocks(const TurnRow& row) {
-    const TurnRecord& r = row.record;
+void RunView::noteBlocks(const TickRow& row) {
+    const StepRecord& r = row.record;
     for (uint32_t i = 0; i < r.touchCount; ++i) {
         const Touch& touch = r.touches[i];
         auto same = std::find_if(blocks_.begin(), blocks_.end(), [&](const Block& b) {
@@ -102,8 +102,8 @@ Rates RunView::rates() const {
     }
     rates.hapticHz = now > later ? static_cast<double>(count - 1) / (now - later) : 0.0;
     rates.worstPeriodMs = worst * 1e3;
-    if (pictures_.size() > 1 && pictures_.back() > pictures_.front()) {
-        rates.cameraHz = static_cast<double>(pictures_.size() - 1) / (pictures_.back() - pictures_.front());
+    if (images_.size() > 1 && images_.back() > images_.front()) {
+        rates.cameraHz = static_cast<double>(images_.size() - 1) / (images_.back() - images_.front());
     }
     return rates;
 }

@@ -17,7 +17,7 @@ struct TraceSample {
     glm::vec3 force{0.0f};  // [N] base axes
     glm::vec3 torque{0.0f}; // [N m]
     int64_t frame = -1;     // obeyed
-    TurnState state = TurnState::Off;
+    StepState state = StepState::Off;
     bool guided = false, late = false;
 };
 
@@ -50,34 +50,34 @@ public:
 
     // Of a recording: all turns and pictures go, and these come in their place, as they were.
     void rewind();
-    void take(const TurnRow& row);
+    void take(const TickRow& row);
 
     // Takes over all that has come; true when there is a new picture.
     bool refresh();
 
     const SceneSnapshot& scene() const { return sink_.scene().front(); }
-    const TurnRow& turn() const { return turn_; }
+    const TickRow& step() const { return tick_; }
     const std::optional<Measured>& measured() const { return measured_; } // the last time; empty = never
-    bool anyTurn() const { return turns_ > 0; }
-    uint64_t turns() const { return turns_; }
+    bool anyTurn() const { return ticks_ > 0; }
+    uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
     const std::deque<Block>& blocks() const { return blocks_; } // newest first; one a kind, fixture and leaf
     Rates rates() const;
     // Of the last million turns, in no order.
-    const std::vector<float>& turnMicros() const { return micros_; }
+    const std::vector<float>& stepMicros() const { return micros_; }
     const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // likewise
     uint64_t lateTurns() const { return late_; }
     const std::vector<double>& passMs() const { return passMs_; } // of the last frame that had passes
 
 private:
-    void noteBlocks(const TurnRow& row);
+    void noteBlocks(const TickRow& row);
 
     SnapshotSink& sink_;
-    TurnRow turn_;
+    TickRow tick_;
     std::optional<Measured> measured_;
-    uint64_t turns_ = 0, late_ = 0;
+    uint64_t ticks_ = 0, late_ = 0;
     std::deque<TraceSample> trace_;
-    std::deque<double> pictures_; // [s] capture times of the last second
+    std::deque<double> images_; // [s] capture times of the last second
     std::deque<Block> blocks_;
     std::vector<float> micros_, wokenLate_;
     std::vector<double> passMs_;

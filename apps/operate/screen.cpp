@@ -75,8 +75,8 @@ Screen::Rooms Screen::arrange(ImVec2 size, double scale, bool timeLine) {
     return rooms;
 }
 
-void Screen::makePictures(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
-                          const Rooms& rooms) {
+void Screen::makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
+                        const Rooms& rooms) {
     const SceneSnapshot& scene = input.run.scene();
     const bool newSelection = selectionDrawn_ != editor.selectionNumber();
     const bool first = !cameraPort_ || std::exchange(redraw_, false);
@@ -84,7 +84,7 @@ void Screen::makePictures(const Console& console, const FixtureEditor& editor, c
         drawnOrbit_.centre = middleOf(scene.set, input.arm);
         centred_ = true;
     }
-    const bool fresh = input.freshPicture || newSelection || first;
+    const bool fresh = input.freshImage || newSelection || first;
     if (fresh) {
         camera_.compose(scene, editor.selection());
         selectionDrawn_ = editor.selectionNumber();
@@ -99,7 +99,7 @@ void Screen::makePictures(const Console& console, const FixtureEditor& editor, c
     const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / 3, 48, 900));
     const bool space = first || moved || width != space_.view().lens.width ||
                        height != space_.view().lens.height ||
-                       (input.freshPicture && (console.spaceIsLarge || scene.number % 3 == 0));
+                       (input.freshImage && (console.spaceIsLarge || scene.number % 3 == 0));
     if (space) {
         space_.compose(scene, orbit, width, height, console.treeLevel, input.arm);
         drawnOrbit_ = orbit;
@@ -260,7 +260,7 @@ void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, c
 
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
     const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale, console.timeLine.on);
-    makePictures(console, editor, input, rooms);
+    makeImages(console, editor, input, rooms);
     drawViews(console, editor, input, rooms);
     drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
     ImGui::SetNextWindowPos(cornerOf(rooms.gauges));
@@ -286,7 +286,7 @@ std::optional<glm::uvec2> Screen::colourPixelAt(ImVec2 at) const {
     if (!cameraPort_ || !cameraPort_->holds(at)) {
         return std::nullopt;
     }
-    const glm::dvec2 p = cameraPort_->toPicture(at) / static_cast<double>(camera_.view().scale);
+    const glm::dvec2 p = cameraPort_->toImage(at) / static_cast<double>(camera_.view().scale);
     const Intrinsics& lens = camera_.view().lens;
     return glm::uvec2(std::min(lens.width - 1, static_cast<uint32_t>(p.x)),
                       std::min(lens.height - 1, static_cast<uint32_t>(p.y)));

@@ -16,7 +16,7 @@ struct ScreenInput {
     const RunView& run;
     const Tool& tool;
     const HudInput& hud;
-    bool freshPicture = false;   // since the call before
+    bool freshImage = false;     // since the call before
     std::span<const Sphere> arm; // base frame; empty = none
     const MeasuredArm& measured;
 };
@@ -39,8 +39,8 @@ private:
         PixelRect head, large, inset, gauges, tabs, traces, timeLine;
     };
     static Rooms arrange(ImVec2 size, double scale, bool timeLine);
-    void makePictures(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
-                      const Rooms& rooms);
+    void makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
+                    const Rooms& rooms);
     void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input,
                    const Rooms& rooms);
     void drawAlarm(Console& console, const Alarms& alarms) const;

@@ -29,7 +29,7 @@ StateExtras extrasOf(const ShownState& s) {
     extras.selected = s.editor.selectedPoints();
     extras.stiffness = s.haptics.springs.stiffness;
     extras.forceLimit = s.haptics.forceLimit;
-    extras.armHolds = armHolds(s.session.arm.get(), s.view.turn().record);
+    extras.armHolds = armHolds(s.session.arm.get(), s.view.step().record);
     if (!s.view.blocks().empty()) {
         extras.why = whyBlocked(s.view.blocks().front(), s.editor.scene(), s.view.scene().set);
     }

@@ -10,15 +10,15 @@ void SnapshotSink::frame(const PublishedFrame& frame, const Fixtures& set) {
     out.t = frame.t;
     out.set = set;
     out.colour = frame.colour;
-    out.number = ++pictures_;
+    out.number = ++images_;
     scene_.publish();
     also_.frame(frame, set);
 }
 
-void SnapshotSink::turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+void SnapshotSink::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
                         std::span<const uint32_t> behind) {
-    turns_.push(row);
-    also_.turn(row, obeyed, known, behind);
+    ticks_.push(row);
+    also_.step(row, obeyed, known, behind);
 }
 
 } // namespace fathom::operate

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "apps/binding/record_drain.h"
-#include "engine/types/latest.h"
-#include "engine/types/ring.h"
+#include "engine/types/spsc_queue.h"
+#include "engine/types/triple_buffer.h"
 
 #include <vector>
 
@@ -28,21 +28,21 @@ public:
     // also: gets everything too; outlives this.
     explicit SnapshotSink(RunSink& also)
         : also_(also)
-        , turns_(8192) {}
+        , ticks_(8192) {}
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote&) override {}
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
-    Latest<SceneSnapshot>& scene() { return scene_; } // the window reads
-    Ring<TurnRow>& turns() { return turns_; }
+    TripleBuffer<SceneSnapshot>& scene() { return scene_; } // the window reads
+    SpscQueue<TickRow>& ticks() { return ticks_; }
 
 private:
     RunSink& also_;
-    Latest<SceneSnapshot> scene_;
-    Ring<TurnRow> turns_;
-    uint64_t pictures_ = 0;
+    TripleBuffer<SceneSnapshot> scene_;
+    SpscQueue<TickRow> ticks_;
+    uint64_t images_ = 0;
 };
 
 } // namespace fathom::operate

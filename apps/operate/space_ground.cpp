@@ -64,7 +64,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
     }
     const bool coloured = set.camera.registered && scene.colour.size() == lens.pixels();
     const Pose eyeTcamera = view_.cameraTbase * set.baseTcamera;
-    const glm::mat3 turn = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
+    const glm::mat3 tick = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
     const glm::vec3 shift(eyeTcamera.position);
     const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
     for (uint32_t v = 0; v < lens.height; ++v) {
@@ -76,7 +76,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
             const auto z = static_cast<float>(set.depth[i] * set.camera.metresPerUnit);
             const glm::dvec2 ray =
                 lens.fan ? lens.ray(u, v) : glm::dvec2((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy);
-            const glm::vec3 p = turn * (z * glm::vec3(glm::vec2(ray), 1.0f)) + shift;
+            const glm::vec3 p = tick * (z * glm::vec3(glm::vec2(ray), 1.0f)) + shift;
             if (p.z < static_cast<float>(kNearest)) {
                 continue;
             }

@@ -5,7 +5,7 @@
 
 #include "apps/operate/console.h"
 #include "apps/operate/snapshots.h"
-#include "apps/replay/picture_view.h"
+#include "apps/replay/image_view.h"
 
 #include <span>
 #include <vector>
@@ -20,7 +20,7 @@ public:
                  int treeLevel, std::span<const Sphere> arm);
 
     const std::vector<uint32_t>& pixels() const { return pixels_; } // 0xAABBGGRR
-    const PictureView& view() const { return view_; }
+    const ImageView& view() const { return view_; }
     // Bounds of 4x4, 16x16, ... pixels of regions at the level asked for: centre (base, [m]) and radius.
     const std::vector<Sphere>& bounds() const { return bounds_; }
 
@@ -31,7 +31,7 @@ private:
     void shadeRegions();
     void boundBlocks(const Fixtures& set, int level);
 
-    PictureView view_;
+    ImageView view_;
     std::vector<uint32_t> pixels_;
     std::vector<float> depth_, front_;
     std::vector<uint8_t> shade_;

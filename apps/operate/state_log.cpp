@@ -43,8 +43,8 @@ json consoleOf(const Console& c) {
              {{"on", c.timeLine.on},
               {"t", c.timeLine.t},
               {"duration", c.timeLine.duration},
-              {"picture", c.timeLine.picture},
-              {"pictures", c.timeLine.pictures},
+              {"picture", c.timeLine.image},
+              {"pictures", c.timeLine.images},
               {"playing", c.timeLine.playing},
               {"speed", c.timeLine.speed},
               {"whole_memory", c.timeLine.wholeMemory}}},
@@ -64,13 +64,13 @@ json armOf(const MeasuredArm* arm) {
 }
 
 json turnOf(const RunView& run, const StateExtras& extras) {
-    const TurnRecord& r = run.turn().record;
+    const StepRecord& r = run.step().record;
     const Rates rates = run.rates();
     return {{"t", r.t},
             {"haptic_hz", rates.hapticHz},
             {"worst_period_ms", rates.worstPeriodMs},
             {"camera_hz", rates.cameraHz},
-            {"turns", run.turns()},
+            {"turns", run.ticks()},
             {"device", vec(r.device.position)},
             {"tool", vec(r.tool.position)},
             {"force_N", glm::length(r.wrench.force)},
@@ -86,7 +86,7 @@ json turnOf(const RunView& run, const StateExtras& extras) {
             {"generation", run.scene().set.generation},
             {"grasp", r.arm.posture.grasp},
             {"arm_holds", extras.armHolds},
-            {"arm", run.turn().driven ? json(armStateName(run.turn().told.state)) : json(nullptr)},
+            {"arm", run.step().driven ? json(armStateName(run.step().told.state)) : json(nullptr)},
             {"real_arm", armOf(extras.arm)}};
 }
 

@@ -60,7 +60,7 @@ void Steering::shift(const dvec3& base) {
     raw_.position += glm::conjugate(baseRdevice_) * base / scale_;
 }
 
-void Steering::turn(const dvec3& base) {
+void Steering::step(const dvec3& base) {
     raw_.rotation = glm::normalize(rotationExp(glm::conjugate(baseRdevice_) * base) * raw_.rotation);
 }
 
@@ -122,7 +122,7 @@ void Steering::moveByKeys(Console& console, const ViewPort& large) {
     const double dt = std::min(0.1, double{io.DeltaTime});
     const dquat baseReye = glm::conjugate(large.view.cameraTbase.rotation);
     if (io.KeyShift) {
-        turn(baseReye * (kTurning * dt * dvec3(-way.y, way.x, way.z)));
+        step(baseReye * (kTurning * dt * dvec3(-way.y, way.x, way.z)));
     } else {
         shift(baseReye * (kSpeed * dt * way));
     }
@@ -139,7 +139,7 @@ void Steering::moveByMouse(Console& console, const ViewPort& large, double toolD
         console.orbit.yaw += 0.006 * io.MouseDelta.x;
         console.orbit.pitch = std::clamp(console.orbit.pitch + 0.006 * io.MouseDelta.y, -1.5, 1.5);
     } else if (orbiting_) {
-        turn(baseReye * (0.006 * dvec3(-io.MouseDelta.y, io.MouseDelta.x, 0.0)));
+        step(baseReye * (0.006 * dvec3(-io.MouseDelta.y, io.MouseDelta.x, 0.0)));
     }
     if (io.MouseWheel != 0.0f && large.holds(io.MousePos) && !io.WantCaptureMouse) {
         if (io.KeyCtrl && console.spaceIsLarge) {

@@ -35,7 +35,7 @@ private:
     std::optional<ImVec2> clickByMouse(const ViewPort& large);
     void moveByMouse(Console& console, const ViewPort& large, double toolDepth);
     void shift(const dvec3& base);
-    void turn(const dvec3& base); // rotation vector [rad]
+    void step(const dvec3& base); // rotation vector [rad]
 
     Pose raw_;
     dquat baseRdevice_;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kTurn = 0.001; // [s] of a step where no turn tells more
 constexpr double kSlowest = 1.0 / 16.0, kFastest = 4.0;
 
-void stepPictures(TimeLine& line, int by) {
+void stepFrames(TimeLine& line, int by) {
     const auto now = static_cast<int64_t>(std::floor(line.t / PastScene::kPeriod + 1e-6));
     line.t = static_cast<double>(std::max<int64_t>(0, now + by)) * PastScene::kPeriod;
     line.playing = false;
@@ -37,7 +37,7 @@ void stepTurns(TimeLine& line, const std::vector<double>& times, int by) {
 
 } // namespace
 
-TimeLinePanel::TimeLinePanel(const TurnLog& log, double duration)
+TimeLinePanel::TimeLinePanel(const TickLog& log, double duration)
     : columns_(kColumns) {
     for (const Moment& moment : log.moments) {
         times_.push_back(moment.t);
@@ -65,7 +65,7 @@ void TimeLinePanel::listen(Console& console) const {
         }
         for (const auto& [key, by] : {std::pair(GLFW_KEY_LEFT, -1), std::pair(GLFW_KEY_RIGHT, 1)}) {
             if (pressed(key)) {
-                io.KeyShift ? stepTurns(line, times_, by) : stepPictures(line, by);
+                io.KeyShift ? stepTurns(line, times_, by) : stepFrames(line, by);
             }
         }
         if (pressed(GLFW_KEY_HOME)) {
@@ -109,21 +109,21 @@ void TimeLinePanel::drawButtons(Console& console) const {
         line.t = 0.0;
     }
     if (button("< picture", "back")) {
-        stepPictures(line, -1);
+        stepFrames(line, -1);
     }
     if (button(line.playing ? "Pause (Space)" : "\xe2\x96\xb6 Play (Space)", "play")) {
         line.playing = !line.playing;
         line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
     }
     if (button("picture >", "forth")) {
-        stepPictures(line, 1);
+        stepFrames(line, 1);
     }
     if (button(">|", "to end")) {
         line.t = line.duration;
     }
     char text[160];
     std::snprintf(text, sizeof text, "%.3f of %.3f s   picture %u of %u   speed %.3g   most %.2f N%s", line.t,
-                  line.duration, line.picture + 1, line.pictures, line.speed, double{most_},
+                  line.duration, line.image + 1, line.images, line.speed, double{most_},
                   line.wholeMemory ? "" : "   this picture alone");
     ImGui::TextDisabled("  %s", text);
 }
@@ -154,8 +154,8 @@ void TimeLinePanel::drawStrip(Console& console) const {
                                column.guided ? colour::kGuidance : IM_COL32(52, 66, 88, 255));
         }
     }
-    const float apart = room.x / static_cast<float>(std::max(1u, line.pictures));
-    for (uint32_t i = 0; apart > 4.0f && i < line.pictures; ++i) {
+    const float apart = room.x / static_cast<float>(std::max(1u, line.images));
+    for (uint32_t i = 0; apart > 4.0f && i < line.images; ++i) {
         const float x = at.x + apart * static_cast<float>(i);
         list.AddLine({x, at.y}, {x, at.y + 4.0f}, IM_COL32(120, 134, 156, 160));
     }

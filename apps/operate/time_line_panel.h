@@ -4,7 +4,7 @@
 
 #include "apps/operate/console.h"
 #include "apps/operate/theme.h"
-#include "apps/operate/turn_log.h"
+#include "apps/operate/tick_log.h"
 
 #include <vector>
 
@@ -13,7 +13,7 @@ namespace fathom::operate {
 // A recording in a few hundred columns.
 class TimeLinePanel {
 public:
-    TimeLinePanel(const TurnLog& log, double duration);
+    TimeLinePanel(const TickLog& log, double duration);
 
     // Thread: the window's; inside an ImGui frame. Changes console.timeLine only.
     void listen(Console& console) const; // keys

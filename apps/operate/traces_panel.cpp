@@ -64,13 +64,13 @@ float frame(const Plot& plot, const char* name, double limit, const char* unit) 
     return plot.at.x + 6.0f + ImGui::CalcTextSize(text).x;
 }
 
-const char* wordOf(TurnState state) {
+const char* wordOf(StepState state) {
     switch (state) {
-    case TurnState::Escape:
+    case StepState::Escape:
         return "escape";
-    case TurnState::Trapped:
+    case StepState::Trapped:
         return "trapped";
-    case TurnState::Fading:
+    case StepState::Fading:
         return "fading";
     default:
         return "";
@@ -90,7 +90,7 @@ void events(const Plot& plot, const std::deque<TraceSample>& trace, float title)
         if (trace[i].guided != trace[i - 1].guided) {
             plot.list.AddTriangleFilled({x - 4.0f, plot.at.y}, {x + 4.0f, plot.at.y}, {x, plot.at.y + 7.0f},
                                         colour::kGuidance);
-        } else if (trace[i].state != trace[i - 1].state && trace[i].state >= TurnState::Escape && x > free) {
+        } else if (trace[i].state != trace[i - 1].state && trace[i].state >= StepState::Escape && x > free) {
             free = x + kRoom;
             const char* word = wordOf(trace[i].state);
             const float end = x + 6.0f + ImGui::CalcTextSize(word).x;

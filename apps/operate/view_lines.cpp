@@ -51,7 +51,7 @@ void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLi
     for (const OutlineLine& l : lines) {
         points.clear();
         for (const glm::dvec2& p : l) {
-            points.push_back(port.ofPicture(p));
+            points.push_back(port.ofFrame(p));
         }
         if (!isDashed) {
             thin(points);

@@ -59,7 +59,7 @@ void measuredAt(ImDrawList& list, const MarksInput& input) {
     const ImU32 colour = measured.known ? colour::kMeasured : colour::kQuiet;
     const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
     outline(list, input.port, lines, colour, 2.0f, true);
-    const auto tip = input.port.of(measured.tip), tool = input.port.of(input.run.turn().record.tool.position);
+    const auto tip = input.port.of(measured.tip), tool = input.port.of(input.run.step().record.tool.position);
     if (!tip || !tool) {
         return;
     }
@@ -116,7 +116,7 @@ void guidanceAt(ImDrawList& list, const MarksInput& input, const GuidancePose& g
 }
 
 void touches(ImDrawList& list, const MarksInput& input) {
-    const TurnRecord& record = input.run.turn().record;
+    const StepRecord& record = input.run.step().record;
     for (uint32_t i = 0; i < record.touchCount; ++i) {
         const Touch& touch = record.touches[i];
         const auto at = input.port.of(touch.point), tip = input.port.of(touch.point + 0.03 * touch.normal);
@@ -130,7 +130,7 @@ void touches(ImDrawList& list, const MarksInput& input) {
 
 void force(ImDrawList& list, const MarksInput& input) {
     constexpr double kMetresPerNewton = 0.006, kLeast = 0.05;
-    const TurnRecord& record = input.run.turn().record;
+    const StepRecord& record = input.run.step().record;
     const double size = glm::length(record.wrench.force);
     const auto from = input.port.of(record.tool.position),
                to = input.port.of(record.tool.position + kMetresPerNewton * record.wrench.force);
@@ -224,7 +224,7 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
             drawBox(list, input.port, box, IM_COL32(160, 230, 190, 200));
         }
     }
-    const TurnRecord& record = input.run.turn().record;
+    const StepRecord& record = input.run.step().record;
     const auto& guidance = input.run.scene().set.guidance;
     for (size_t i = 0; i < guidance.size(); ++i) {
         if (guidance[i].present) {

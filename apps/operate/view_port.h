@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/operate/painter.h"
-#include "apps/replay/picture_view.h"
+#include "apps/replay/image_view.h"
 
 #include <imgui.h>
 #include <optional>
@@ -11,19 +11,19 @@
 namespace fathom::operate {
 
 struct ViewPort {
-    PictureView view;
+    ImageView view;
     PixelRect where; // [pixels] of the window
 
     double scale() const { return static_cast<double>(where.width) / std::max(1, view.width()); }
-    ImVec2 ofPicture(glm::dvec2 p) const {
+    ImVec2 ofFrame(glm::dvec2 p) const {
         return {static_cast<float>(where.x + p.x * scale()), static_cast<float>(where.y + p.y * scale())};
     }
     // Window pixel of a base point [m]; empty when it is not in front of the eye.
     std::optional<ImVec2> of(const dvec3& base) const {
         const auto p = view.ofBase(base);
-        return p ? std::optional(ofPicture(*p)) : std::nullopt;
+        return p ? std::optional(ofFrame(*p)) : std::nullopt;
     }
-    glm::dvec2 toPicture(ImVec2 p) const {
+    glm::dvec2 toImage(ImVec2 p) const {
         return {(double{p.x} - where.x) / scale(), (double{p.y} - where.y) / scale()};
     }
     bool holds(ImVec2 p) const {

@@ -50,11 +50,11 @@ std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& s
 
 void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds) {
     constexpr double kNow = 0.1; // [s]
-    const double now = run.turn().record.t;
-    if (run.turn().record.state == TurnState::Trapped) {
+    const double now = run.step().record.t;
+    if (run.step().record.state == StepState::Trapped) {
         ImGui::TextColored(ImColor(colour::kWarning), "Trapped: no motion obeys every region at once.");
     }
-    if (run.turn().record.stalled) {
+    if (run.step().record.stalled) {
         ImGui::TextColored(ImColor(colour::kCaution),
                            "Waiting for the next contact set: the tool moves fast.");
     }

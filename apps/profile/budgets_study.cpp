@@ -9,7 +9,7 @@
 
 #include "engine/contact/cull_cpu.h"
 #include "engine/haptics/constraint_solver.h"
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 
 #include <algorithm>
 
@@ -163,15 +163,15 @@ void addGrid(const StudyContext& context, Study& study, const TouchRig& rig, dou
     const uint32_t publishers =
         makePlan(everyPointScene(), wallShot(640, 480, 1.0).camera, 1, context.device.facts()).publishers;
     for (const uint32_t members : {publishers, 1u}) {
-        Crew crew(members);
+        ThreadPool workers(members);
         RegionGrid grid;
         const std::string who =
             members == 1 ? "one thread" : std::to_string(members) + " threads, as publishing has here";
-        grid.build(rig.wall.spheres, &crew);
+        grid.build(rig.wall.spheres, &workers);
         verifyGrid(rig, grid, who);
         addRow(study, "grid over the whole set", std::to_string(rig.wall.spheres.size()) + " spheres, " + who,
                sampleEach(amountOf(context).samples / 10, 1,
-                          [&](size_t) { grid.build(rig.wall.spheres, &crew); }),
+                          [&](size_t) { grid.build(rig.wall.spheres, &workers); }),
                {budget, NAN}, NAN);
         if (publishers == 1) {
             return;

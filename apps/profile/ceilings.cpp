@@ -2,7 +2,7 @@
 #include "apps/profile/ceilings.h"
 #include "apps/profile/device_stream.h"
 
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 #include "shaders/ceiling.h"
 
 #include <algorithm>
@@ -65,13 +65,13 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
 }
 
 double hostCopy(uint32_t threads, const Effort& effort) {
-    Crew crew(threads);
+    ThreadPool workers(threads);
     std::vector<char> from(kHostCopyBytes, 3), to(kHostCopyBytes, 0);
     double least = HUGE_VAL;
     repeat(
         effort,
         [&] {
-            inParts(&crew, kHostCopyBytes, kLeastPart,
+            inParts(&workers, kHostCopyBytes, kLeastPart,
                     [&](size_t begin, size_t end) { std::memcpy(&to[begin], &from[begin], end - begin); });
         },
         [&](const Clocks& c) { least = std::min(least, c.wallMs()); });
@@ -101,7 +101,7 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort
     verify(c.deviceBytes > 0.0 && c.uploadBytes > 0.0, "limit", "ceilings", "no memory for them");
     c.hostThreads = hostThreads;
     c.hostBytes = hostCopy(1, effort);
-    c.crewBytes = hostCopy(hostThreads, effort);
+    c.workerBytes = hostCopy(hostThreads, effort);
     std::vector<double> empty;
     repeat(
         effort, [&] { submissions.once([](gpu::Commands&) {}); },
@@ -110,10 +110,10 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort
     return c;
 }
 
-double readingMs(const Ceilings& c, double own, double pictures, bool inPlace) {
+double readingMs(const Ceilings& c, double own, double images, bool inPlace) {
     const double rate = inPlace ? c.importBytes : c.uploadBytes;
-    return 1e3 * (c.oneMemory ? (own + pictures) / std::max(c.deviceBytes, rate)
-                              : std::max(own / c.deviceBytes, pictures / rate));
+    return 1e3 * (c.oneMemory ? (own + images) / std::max(c.deviceBytes, rate)
+                              : std::max(own / c.deviceBytes, images / rate));
 }
 
 } // namespace fathom::profile

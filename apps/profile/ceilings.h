@@ -15,7 +15,7 @@ struct Ceilings {
     bool oneMemory = false;   // these are one and the same memory
     double deviceFlops = 0.0; // [1/s] float32, a fused multiply-add counts two
     double hostBytes = 0.0;   // [B/s] read plus written by memcpy of one thread
-    double crewBytes = 0.0;   // [B/s] the same of hostThreads threads
+    double workerBytes = 0.0; // [B/s] the same of hostThreads threads
     uint32_t hostThreads = 1;
     double submitMs = 0.0; // [ms] an empty submission until its result is known, p50
     std::string how;       // sizes and what came out best, for people
@@ -29,6 +29,6 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort
 // Least time [ms] of a pass that moves `own` bytes of the device's memory and reads `pictures` bytes: where
 // the camera left them, or where the CPU wrote them for the device. Two memories may be busy at once, one may
 // not.
-double readingMs(const Ceilings& c, double own, double pictures, bool inPlace);
+double readingMs(const Ceilings& c, double own, double images, bool inPlace);
 
 } // namespace fathom::profile

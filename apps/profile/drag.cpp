@@ -153,12 +153,12 @@ private:
                     std::chrono::nanoseconds(static_cast<int64_t>(setting_.deadlineMicros * 1e3))};
         const Deadline deadline{setting_.deadlineMicros > 0.0 ? &Clock::passed : nullptr, &clock};
         const Clocks clocks;
-        const ProxyTurn turn = proxy_.turn({hand, 0.05, &inForce_, deadline});
+        const ProxyStep turn = proxy_.step({hand, 0.05, &inForce_, deadline});
         result_.turns.take(clocks);
         note(k, hand, turn);
     }
 
-    void note(uint32_t k, const Pose& hand, const ProxyTurn& turn) {
+    void note(uint32_t k, const Pose& hand, const ProxyStep& turn) {
         result_.stalled += turn.stalled ? 1 : 0;
         result_.solves += turn.solves;
         result_.rounds += turn.rounds;

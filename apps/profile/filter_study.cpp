@@ -102,7 +102,7 @@ struct DepthErrors {
     size_t count = 0;
     std::vector<double> edge;
 
-    void add(const ShotSource& source, const reference::PointPicture& points, std::span<const uint32_t> masks,
+    void add(const ShotSource& source, const reference::PointImage& points, std::span<const uint32_t> masks,
              const std::vector<uint8_t>& edges) {
         for (size_t i = 0; i < points.z.size(); ++i) {
             const double truth = source.shots.front().truth[i];
@@ -124,7 +124,7 @@ struct DepthErrors {
 
 // Typical change of a pixel between one frame and the next, over sqrt(2) [mm]: the scatter of one frame where
 // the scene is static. By the median (x 1.4826), so that pixels that do move hardly count.
-double scatterOf(const std::vector<reference::PointPicture>& frames) {
+double scatterOf(const std::vector<reference::PointImage>& frames) {
     std::vector<double> changes;
     for (size_t f = 1; f < frames.size(); ++f) {
         for (size_t i = 0; i < frames[f].z.size(); ++i) {
@@ -169,7 +169,7 @@ StudyRow errorRow(const StudyContext& context, const ShotSource& source, const s
     const uint32_t own =
         (1u << studyScene(context.settings).fixtures.size()) - 1; // not the class of everyPatch
     DepthErrors errors;
-    std::vector<reference::PointPicture> frames;
+    std::vector<reference::PointImage> frames;
     for (const Shot& shot : source.shots) {
         bench.run(shot);
         if (&shot == &source.shots.front()) {

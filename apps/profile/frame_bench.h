@@ -78,7 +78,7 @@ public:
     // Of the last frame, row-major: class bits, filtered depth along the optical axis [m] (0 = no point),
     // base points.
     std::vector<uint32_t> masks() const;
-    reference::PointPicture points() const;
+    reference::PointImage points() const;
 
     // Compares occlusion cells, class bits and points of the last frame with the float64 twins. Empty when
     // they agree (cells to 1 um, points to 20 um; what the twins call unsure is left out), else what differs.

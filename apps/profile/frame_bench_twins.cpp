@@ -26,7 +26,7 @@ std::vector<uint32_t> FrameBench::masks() const {
     return verify::masksOf(device_, *cycle_, camera_);
 }
 
-reference::PointPicture FrameBench::points() const {
+reference::PointImage FrameBench::points() const {
     return verify::pointsOf(device_, *cycle_, *lease_, camera_);
 }
 
@@ -51,7 +51,7 @@ std::vector<uint8_t> samplePatches(const PatchLayout& layout, size_t most) {
 
 // A point on a border between two cells has two truths: each cell lies between what it must hold and what it
 // may. Classes are looked up in the device's own cells then.
-std::string cellsDiffer(const reference::FrameView& view, const reference::CellPicture& cells) {
+std::string cellsDiffer(const reference::FrameView& view, const reference::CellImage& cells) {
     const reference::CellBounds twin = reference::occlusion(view, kSamePixel);
     for (size_t i = 0; i < twin.sure.nearest.size(); ++i) {
         const double z = i < cells.nearest.size() ? cells.nearest[i] : 0.0;
@@ -67,7 +67,7 @@ std::string cellsDiffer(const reference::FrameView& view, const reference::CellP
 std::string FrameBench::differsFromTwins(const Shot& shot, size_t mostPatches) const {
     const reference::FrameView view(scene_, camera_, shot.baseTcamera, shot.depth, shot.colour);
     std::vector<uint32_t> looked = masks();
-    std::optional<reference::CellPicture> cells;
+    std::optional<reference::CellImage> cells;
     if (plan_.occlusion) {
         cells = verify::cellsOf(device_, *cycle_);
         const std::string wrong = cellsDiffer(view, *cells);
@@ -75,7 +75,7 @@ std::string FrameBench::differsFromTwins(const Shot& shot, size_t mostPatches) c
             return wrong;
         }
     }
-    reference::ClassPicture classes = reference::classify(view, cells ? &*cells : nullptr);
+    reference::ClassImage classes = reference::classify(view, cells ? &*cells : nullptr);
     if (plan_.selfFilter) {
         reference::removeArm(view, arm_.spheres, classes);
     }
@@ -92,8 +92,8 @@ std::string FrameBench::differsFromTwins(const Shot& shot, size_t mostPatches) c
     for (size_t i = 0; i < looked.size(); ++i) {
         looked[i] = sampled(i) ? looked[i] : 0; // the twin makes no point there
     }
-    const reference::SurfacePicture twin = reference::surface(view, looked);
-    const reference::PointPicture mine = points();
+    const reference::SurfaceImage twin = reference::surface(view, looked);
+    const reference::PointImage mine = points();
     for (size_t i = 0; i < looked.size(); ++i) {
         const bool same = (mine.z[i] == 0.0) == (twin.points.z[i] == 0.0) &&
                           glm::length(mine.at[i] - twin.points.at[i]) <= kSamePoint;
@@ -107,7 +107,7 @@ std::string FrameBench::differsFromTwins(const Shot& shot, size_t mostPatches) c
 std::string FrameBench::spheresDiffer() const {
     const RegionSpheres& spheres = set().host.spheres;
     const std::vector<uint32_t> bits = masks();
-    const reference::PointPicture mine = points();
+    const reference::PointImage mine = points();
     std::vector<uint8_t> taken(bits.size(), 0);
     for (size_t i = 0; i < spheres.size(); ++i) {
         const uint32_t pixel = spheres.source[i];
@@ -130,7 +130,7 @@ std::string FrameBench::spheresDiffer() const {
 
 std::string FrameBench::guidanceDiffers() const {
     const std::vector<uint32_t> rows = cloud::classRows(scene_), bits = masks();
-    const reference::PointPicture all = points();
+    const reference::PointImage all = points();
     const int width = static_cast<int>(camera_.depth.width), height = static_cast<int>(camera_.depth.height);
     for (const GuidancePose& here : set().host.guidance) {
         const FixtureClass& f = scene_.fixtures[here.fixture];

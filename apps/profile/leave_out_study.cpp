@@ -56,7 +56,7 @@ cloud::LinkSpheres armInView() {
 }
 
 // Pictures of one camera, and the same with the colour of a second one beside it.
-struct Pictures {
+struct Images {
     ShotSource registered, beside;
     const ShotSource& of(const CameraInfo& camera) const { return camera.registered ? registered : beside; }
 };
@@ -148,9 +148,9 @@ double heapOf(const StudyContext& context, const Setup& setup, const std::vector
     return static_cast<double>(heapBytes()) - before;
 }
 
-Verified verified(const StudyContext& context, const Setup& setup, const Pictures& pictures,
+Verified verified(const StudyContext& context, const Setup& setup, const Images& images,
                   const std::string& name) {
-    Verified v{benchOf(context, setup), pictures.of(setup.camera).shots};
+    Verified v{benchOf(context, setup), images.of(setup.camera).shots};
     v.bench->run(v.shots.front());
     const std::string wrong = v.bench->differsFromTwins(v.shots.front());
     verify(wrong.empty(), "leave_out", name, wrong + " differs from the float64 twin");
@@ -203,16 +203,16 @@ StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved, 
 }
 
 StudyRow stageRow(const StudyContext& context, const Stage& stage, const Verified& full, const Setup& setup,
-                  const Pictures& pictures) {
+                  const Images& images) {
     Setup less = setup;
     std::optional<Verified> own; // where it is left out of something else
     if (stage.before) {
         stage.before(less);
-        own.emplace(verified(context, less, pictures, stage.name));
+        own.emplace(verified(context, less, images, stage.name));
     }
     stage.leaveOut(less);
     const Verified& from = own ? *own : full;
-    const Verified without = verified(context, less, pictures, stage.name);
+    const Verified without = verified(context, less, images, stage.name);
     const Pair pair = measureInTurn(from, without, context.settings.effort());
     const double bytes = static_cast<double>(bytesOf(from.bench->plan())) -
                          static_cast<double>(bytesOf(without.bench->plan()));
@@ -253,14 +253,14 @@ Study leaveOutStudy(const StudyContext& context) {
                        "memory_saved_MiB",           "heap_saved_MiB"};
     const uint32_t w = context.settings.quick ? 320 : 640, h = context.settings.quick ? 240 : 480;
     const uint32_t frames = context.settings.quick ? 1 : 4;
-    const Pictures pictures{inYuyv(analyticShots("tank", w, h, frames)),
-                            inYuyv(twoCameraShots("tank", w, h, frames))};
-    const Setup setup{fullScene(context.settings), fullCamera(pictures.beside.camera)};
-    const Verified full = verified(context, setup, pictures, "nothing left out");
+    const Images images{inYuyv(analyticShots("tank", w, h, frames)),
+                        inYuyv(twoCameraShots("tank", w, h, frames))};
+    const Setup setup{fullScene(context.settings), fullCamera(images.beside.camera)};
+    const Verified full = verified(context, setup, images, "nothing left out");
     const FrameCost alone = full.bench->measure(full.shots, context.settings.effort());
     study.rows.push_back(rowOf("nothing left out", {alone, alone}, 0.0, 0.0));
     for (const Stage& stage : stages()) {
-        study.rows.push_back(stageRow(context, stage, full, setup, pictures));
+        study.rows.push_back(stageRow(context, stage, full, setup, images));
         sayRow(study, study.rows.back());
     }
     study.findings.push_back(

@@ -17,8 +17,8 @@ namespace {
 // What one step must do at least. Operations are float32, counted in the formulas of the pass.
 struct Need {
     double bytes = 0.0, operations = 0.0;
-    enum class Where { Device, Host, Crew } where = Where::Device; // Crew: those who publish
-    double pictures = 0.0; // bytes that are read where the pictures lie, not among `bytes`
+    enum class Where { Device, Host, ThreadPool } where = Where::Device; // Crew: those who publish
+    double images = 0.0; // bytes that are read where the pictures lie, not among `bytes`
 };
 
 // What a frame selects.
@@ -90,12 +90,12 @@ double sphereBytes(const Load& l) {
 // read the depth the same bytes are read again, for it does not keep them.
 Need classifyNeed(const Load& l) {
     Need need{l.pixels * ((l.keepDepth ? 2.0 : 0.0) + 1.0) + 4.0 * l.cells, 40.0 * l.pixels};
-    need.pictures = l.pixels * (2.0 + l.colourBytes);
+    need.images = l.pixels * (2.0 + l.colourBytes);
     return need;
 }
 Need occlusionNeed(const Load& l) {
     Need need{4.0 * l.cells, l.occlusion ? 40.0 * l.pixels : 0.0};
-    need.pictures = l.occlusion ? 2.0 * l.pixels : 0.0;
+    need.images = l.occlusion ? 2.0 * l.pixels : 0.0;
     return need;
 }
 
@@ -121,8 +121,8 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
         {"collect", // read as the device packs or leaves them, written as columns; what points take of depths
                     // is not counted
-         {(l.pack ? l.packed : 20.0 * l.spheres) + 21.0 * l.spheres, 0.0, Need::Where::Crew}},
-        {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::Crew}},
+         {(l.pack ? l.packed : 20.0 * l.spheres) + 21.0 * l.spheres, 0.0, Need::Where::ThreadPool}},
+        {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::ThreadPool}},
     };
 }
 
@@ -137,7 +137,7 @@ Spread spreadIn(const FrameCost& cost, const std::string& step) {
 double bytesPerSecond(const Ceilings& c, Need::Where where) {
     return where == Need::Where::Device ? c.deviceBytes
            : where == Need::Where::Host ? c.hostBytes
-                                        : c.crewBytes;
+                                        : c.workerBytes;
 }
 
 void addRows(Study& study, const std::string& source, const Load& load, const FrameCost& cost,
@@ -152,13 +152,11 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         row.setting = step;
         const bool onDevice = need.where == Need::Where::Device;
         (onDevice ? row.cost.gpu : row.cost.wall) = time; // the host's steps are shared by threads
-        const double moving = need.pictures > 0.0
-                                  ? readingMs(ceilings, need.bytes, need.pictures, load.inPlace)
-                                  : 1e3 * need.bytes / bytesPerSecond(ceilings, need.where);
+        const double moving = need.images > 0.0 ? readingMs(ceilings, need.bytes, need.images, load.inPlace)
+                                                : 1e3 * need.bytes / bytesPerSecond(ceilings, need.where);
         const double computing = onDevice ? need.operations / ceilings.deviceFlops * 1e3 : 0.0;
         const double floor = std::max(moving, computing), ratio = floor > 0.0 ? time.p50 / floor : NAN;
-        row.more = {
-            (need.bytes + need.pictures) / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
+        row.more = {(need.bytes + need.images) / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
         study.rows.push_back(row);
         if (floor == 0.0) { // dispatched over nothing
             study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, has no work");
@@ -173,7 +171,7 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
 struct LimitCase {
     std::string name;
     Scene scene;
-    ShotSource pictures;
+    ShotSource images;
 };
 // A tenth of the picture and all of it, with noise and without (thinning leaves fewer points then), and the
 // passes that such a scene does not have: colour of a second camera, and a tree for a query on the device.
@@ -196,7 +194,7 @@ void sayCeilings(Study& study, const Ceilings& c) {
                              : std::string(" and cannot read the host's own pages")) +
         "; an empty submission takes " + digits(c.submitMs) + " ms");
     study.findings.push_back("host: copies " + digits(c.hostBytes * 1e-9) + " GB/s on one thread, " +
-                             digits(c.crewBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
+                             digits(c.workerBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
                              " that publish (read + written)");
     study.findings.push_back("ceilings: " + c.how +
                              ", the host's copies of 64 MiB; a step whose data stay in a cache may take "
@@ -225,15 +223,15 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
 
 // Passes of a frame and, where the plan has a tree, the query of that frame's set.
 void addCase(const StudyContext& context, const LimitCase& each, const Ceilings& ceilings, Study& study) {
-    FrameBench bench(context.device, each.scene, each.pictures.camera);
-    const Shot& first = each.pictures.shots.front();
+    FrameBench bench(context.device, each.scene, each.images.camera);
+    const Shot& first = each.images.shots.front();
     const FrameReport report = bench.run(first);
     const std::string wrong = bench.differsFromTwins(first);
     verify(wrong.empty(), "limit", each.name, wrong + " differs from the float64 twin");
     Load load = loadOf(bench, report);
     const QueryLimit query = load.tree ? measureQuery(context, bench, first.baseTcamera) : QueryLimit{};
     load.query = query.least;
-    FrameCost cost = bench.measure(each.pictures.shots, context.settings.effort());
+    FrameCost cost = bench.measure(each.images.shots, context.settings.effort());
     cost.passes["tree_query"] = query.time;
     addRows(study, each.name, load, cost, ceilings);
     if (query.time) {

@@ -93,7 +93,7 @@ StudyRow twinRow(const StudyContext& context, const reference::FrameView& view, 
                  std::vector<double>& z) {
     StudyRow row = peerRow(source, "Fathom float64 twin");
     const std::vector<uint32_t> masks(view.pixels(), 1);
-    reference::SurfacePicture twin;
+    reference::SurfaceImage twin;
     const Effort few{3, 5, 0.2};
     row.cost = timeCpu(context.settings.quick ? Effort{1, 1, 0.0} : few,
                        [&] { twin = reference::surface(view, masks); });
@@ -190,7 +190,7 @@ void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
     FrameBench bench(context.device, scene, shots.camera);
     bench.run(shot);
     const reference::FrameView view(scene, shots.camera, shot.baseTcamera, shot.depth, shot.colour);
-    const reference::PointPicture ours = bench.points();
+    const reference::PointImage ours = bench.points();
     const size_t first = rows.size();
     StudyRow row = peerRow(source, "Fathom surface pass");
     row.error = static_cast<double>(wrongPoints(view, ours.at, [&](size_t i) { return ours.z[i] > 0.0; }));

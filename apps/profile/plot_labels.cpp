@@ -14,8 +14,8 @@ constexpr double kAscent = 11.0, kDescent = 3.0, kGap = 11.0; // [pixels]
 constexpr double kTouching = 10.0;                            // [pixels] between centres of two dots
 constexpr int kDirections = 24;
 
-LabelPlace placeAt(const LabelWish& wish, double x, double y, bool beside) {
-    return {x, y, beside, {x, y - kAscent, x + wish.width, y + kDescent}};
+LabelPlace placeAt(const LabelRequest& setpoint, double x, double y, bool beside) {
+    return {x, y, beside, {x, y - kAscent, x + setpoint.width, y + kDescent}};
 }
 
 bool isFree(const PlotBox& box, const PlotBox& room, const std::vector<PlotBox>& taken) {
@@ -24,11 +24,11 @@ bool isFree(const PlotBox& box, const PlotBox& room, const std::vector<PlotBox>&
 }
 
 // At the right or the left of the point, above it, level with it or below.
-std::optional<LabelPlace> placeBeside(const LabelWish& wish, const PlotBox& room,
+std::optional<LabelPlace> placeBeside(const LabelRequest& setpoint, const PlotBox& room,
                                       const std::vector<PlotBox>& taken) {
-    for (const double dx : {kGap, -kGap - wish.width}) {
+    for (const double dx : {kGap, -kGap - setpoint.width}) {
         for (const double dy : {-7.0, 4.0, 18.0}) {
-            const LabelPlace place = placeAt(wish, wish.x + dx, wish.y + dy, true);
+            const LabelPlace place = placeAt(setpoint, setpoint.x + dx, setpoint.y + dy, true);
             if (isFree(place.box, room, taken)) {
                 return place;
             }
@@ -38,14 +38,15 @@ std::optional<LabelPlace> placeBeside(const LabelWish& wish, const PlotBox& room
 }
 
 // On rings about the point, the nearest that is free.
-std::optional<LabelPlace> placeOff(const LabelWish& wish, const PlotBox& room,
+std::optional<LabelPlace> placeOff(const LabelRequest& setpoint, const PlotBox& room,
                                    const std::vector<PlotBox>& taken) {
     const double farthest = std::hypot(room.x1 - room.x0, room.y1 - room.y0);
     for (double ring = 24.0; ring < farthest; ring += 8.0) {
         for (int k = 0; k < kDirections; ++k) {
-            const double angle = 2.0 * M_PI * k / kDirections, x = wish.x + ring * std::cos(angle),
-                         y = wish.y + ring * std::sin(angle);
-            const LabelPlace place = placeAt(wish, std::cos(angle) < 0.0 ? x - wish.width : x, y, false);
+            const double angle = 2.0 * M_PI * k / kDirections, x = setpoint.x + ring * std::cos(angle),
+                         y = setpoint.y + ring * std::sin(angle);
+            const LabelPlace place =
+                placeAt(setpoint, std::cos(angle) < 0.0 ? x - setpoint.width : x, y, false);
             if (isFree(place.box, room, taken)) {
                 return place;
             }
@@ -56,13 +57,13 @@ std::optional<LabelPlace> placeOff(const LabelWish& wish, const PlotBox& room,
 
 } // namespace
 
-std::vector<size_t> distinctLabels(const std::vector<LabelWish>& wishes) {
+std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& setpoints) {
     std::vector<size_t> kept;
-    for (size_t i = 0; i < wishes.size(); ++i) {
-        const LabelWish& wish = wishes[i];
+    for (size_t i = 0; i < setpoints.size(); ++i) {
+        const LabelRequest& setpoint = setpoints[i];
         const bool repeats = std::any_of(kept.begin(), kept.end(), [&](size_t k) {
-            return wishes[k].text == wish.text &&
-                   std::hypot(wishes[k].x - wish.x, wishes[k].y - wish.y) < kTouching;
+            return setpoints[k].text == setpoint.text &&
+                   std::hypot(setpoints[k].x - setpoint.x, setpoints[k].y - setpoint.y) < kTouching;
         });
         if (!repeats) {
             kept.push_back(i);
@@ -71,13 +72,13 @@ std::vector<size_t> distinctLabels(const std::vector<LabelWish>& wishes) {
     return kept;
 }
 
-std::vector<LabelPlace> placeLabels(const std::vector<LabelWish>& wishes, const PlotBox& room,
+std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& setpoints, const PlotBox& room,
                                     std::vector<PlotBox> taken) {
     std::vector<LabelPlace> places;
-    for (const LabelWish& wish : wishes) {
-        std::optional<LabelPlace> place = placeBeside(wish, room, taken);
-        place = place ? place : placeOff(wish, room, taken);
-        places.push_back(place ? *place : placeAt(wish, wish.x + kGap, wish.y - 7.0, true));
+    for (const LabelRequest& setpoint : setpoints) {
+        std::optional<LabelPlace> place = placeBeside(setpoint, room, taken);
+        place = place ? place : placeOff(setpoint, room, taken);
+        places.push_back(place ? *place : placeAt(setpoint, setpoint.x + kGap, setpoint.y - 7.0, true));
         taken.push_back(places.back().box);
     }
     return places;

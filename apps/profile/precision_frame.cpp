@@ -16,11 +16,11 @@ constexpr int kWindow = 2;      // [pixels] of the filter
 constexpr double kSigma = 0.01; // [m]
 
 // A waved wall 0.8 m away with a step and a millimetre of noise.
-struct Picture {
+struct Image {
     int width, height;
     std::vector<uint16_t> raw;
 
-    Picture(int w, int h)
+    Image(int w, int h)
         : width(w)
         , height(h) {
         for (int v = 0; v < h; ++v) {
@@ -59,18 +59,18 @@ struct PlainPixel {
 };
 
 template <class Pixel>
-PrecisionLoop depthLoop(const std::shared_ptr<const Picture>& shared, const char* name, double allowed) {
-    const Picture& picture = *shared;
+PrecisionLoop depthLoop(const std::shared_ptr<const Image>& shared, const char* name, double allowed) {
+    const Image& image = *shared;
     using T = typename Pixel::Number;
     std::vector<Pixel> pixels;
-    std::transform(picture.raw.begin(), picture.raw.end(), std::back_inserter(pixels), Pixel::of);
+    std::transform(image.raw.begin(), image.raw.end(), std::back_inserter(pixels), Pixel::of);
     struct Points {
         std::vector<T> x, y, z;
     };
     const size_t count = pixels.size();
     const auto points =
         std::make_shared<Points>(Points{std::vector<T>(count), std::vector<T>(count), std::vector<T>(count)});
-    const T inverse = static_cast<T>(1.0 / picture.focal());
+    const T inverse = static_cast<T>(1.0 / image.focal());
     const auto unproject = [shared, points, pixels, inverse] {
         const int middleU = shared->width / 2, middleV = shared->height / 2;
         T *x = points->x.data(), *y = points->y.data(), *z = points->z.data();
@@ -88,7 +88,7 @@ PrecisionLoop depthLoop(const std::shared_ptr<const Picture>& shared, const char
     unproject();
     double error = 0.0; // [m]
     for (size_t i = 0; i < pixels.size(); ++i) {
-        error = std::max(error, std::abs(static_cast<double>(points->z[i]) - picture.exact(i)));
+        error = std::max(error, std::abs(static_cast<double>(points->z[i]) - image.exact(i)));
     }
     verify(error <= allowed, "precision", name, "a depth is off by " + digits(error * 1e3) + " mm");
     return {precisionRow("frame: depth pixels", name, std::string(name) == "16-bit sensor units", error * 1e3,
@@ -107,7 +107,7 @@ T kept(T weight) {
 
 // The paper's filter over a picture (eq. 1-2), but for the border, in T.
 template <class T, bool kHalfWeights>
-std::vector<double> filter(const Picture& p) {
+std::vector<double> filter(const Image& p) {
     const T inverse = static_cast<T>(1.0 / p.focal()), scale = static_cast<T>(1.0 / (2.0 * kSigma * kSigma));
     std::vector<double> out(p.raw.size(), 0.0);
     const int middleU = p.width / 2, middleV = p.height / 2;
@@ -167,27 +167,27 @@ void gapsOf(const Pairs& pairs, std::vector<T>& gaps) {
 
 std::vector<PrecisionLoop> depthRows(const StudyContext& context) {
     const bool quick = context.settings.quick;
-    const auto picture = std::make_shared<const Picture>(quick ? 160 : 640, quick ? 120 : 480);
-    return {depthLoop<PlainPixel<double>>(picture, "double", 0.0),
-            depthLoop<PlainPixel<float>>(picture, "single", 1e-7),
-            depthLoop<RawPixel>(picture, "16-bit sensor units", 1e-7),
-            depthLoop<HalfPixel>(picture, "half", 2.5e-4)};
+    const auto image = std::make_shared<const Image>(quick ? 160 : 640, quick ? 120 : 480);
+    return {depthLoop<PlainPixel<double>>(image, "double", 0.0),
+            depthLoop<PlainPixel<float>>(image, "single", 1e-7),
+            depthLoop<RawPixel>(image, "16-bit sensor units", 1e-7),
+            depthLoop<HalfPixel>(image, "half", 2.5e-4)};
 }
 
 std::vector<PrecisionLoop> weightRows(const StudyContext& context) {
     const bool quick = context.settings.quick;
-    const auto picture = std::make_shared<const Picture>(quick ? 80 : 320, quick ? 60 : 240);
-    const std::vector<double> truth = filter<double, false>(*picture);
+    const auto image = std::make_shared<const Image>(quick ? 80 : 320, quick ? 60 : 240);
+    const std::vector<double> truth = filter<double, false>(*image);
     struct Kind {
         const char* name;
-        std::vector<double> (*run)(const Picture&);
+        std::vector<double> (*run)(const Image&);
         double bytes, allowed; // [m]
     };
     std::vector<PrecisionLoop> loops;
     for (const Kind& kind :
          {Kind{"double", filter<double, false>, 8, 0.0}, Kind{"single", filter<float, false>, 4, 1e-6},
           Kind{"half weights", filter<float, true>, 2, 2e-5}}) {
-        const std::vector<double> found = kind.run(*picture);
+        const std::vector<double> found = kind.run(*image);
         double error = 0.0; // [m]
         for (size_t i = 0; i < truth.size(); ++i) {
             error = std::max(error, std::abs(found[i] - truth[i]));
@@ -196,7 +196,7 @@ std::vector<PrecisionLoop> weightRows(const StudyContext& context) {
                "filtered depth off by " + digits(error * 1e3) + " mm");
         loops.push_back({precisionRow("frame: filter weights", kind.name, std::string(kind.name) == "single",
                                       error * 1e3, kind.bytes, static_cast<double>(truth.size()), NAN),
-                         [picture, run = kind.run] { run(*picture); }});
+                         [image, run = kind.run] { run(*image); }});
     }
     return loops;
 }

@@ -23,8 +23,8 @@ void traceTicks(ContactCycle& contact, const FrameBench& bench, Proxy& proxy, co
         const double phase = 0.02 * (frame * kTicks + k);
         Pose hand = touching;
         hand.position += dvec3(0.02 * std::sin(phase), 0.02 * std::cos(phase), 0.003);
-        proxy.turn({hand, 0.05, &set, {}});
-        trace.turn(answered, std::chrono::steady_clock::now(), 0.0);
+        proxy.step({hand, 0.05, &set, {}});
+        trace.step(answered, std::chrono::steady_clock::now(), 0.0);
     }
 }
 

@@ -29,11 +29,11 @@ constexpr std::array<Colour, 11> kSeries{{{0.0, 0.45, 0.70},
 // One panel in its rectangle of the picture.
 class PanelPainter {
 public:
-    PanelPainter(const Picture& picture, const PlotPanel& panel, double left, double top)
-        : p_(picture)
+    PanelPainter(const Image& image, const PlotPanel& panel, double left, double top)
+        : p_(image)
         , panel_(panel)
         , x0_(left + (panel.bars ? 250.0 : 86.0))
-        , x1_(left + kPanelWidth - 24.0 - legendRoom(picture, panel))
+        , x1_(left + kPanelWidth - 24.0 - legendRoom(image, panel))
         , y0_(top + 40.0)
         , y1_(top + kPanelHeight - 62.0) {
         std::vector<double> xs, ys;
@@ -69,10 +69,10 @@ public:
 
 private:
     // The legend stands beside the plot, never over data.
-    static double legendRoom(const Picture& picture, const PlotPanel& panel) {
+    static double legendRoom(const Image& image, const PlotPanel& panel) {
         double widest = 0.0;
         for (const PlotSeries& s : panel.series) {
-            widest = std::max(widest, picture.textWidth(s.name, 13));
+            widest = std::max(widest, image.textWidth(s.name, 13));
         }
         return panel.bars ? 0.0 : widest + 40.0;
     }
@@ -174,7 +174,7 @@ private:
     // Points of the front and defaults choose first.
     void paintLabels() const {
         std::vector<PlotBox> taken;
-        std::vector<LabelWish> all, wishes;
+        std::vector<LabelRequest> all, setpoints;
         std::vector<const PlotPoint*> points;
         for (const PlotSeries& s : panel_.series) {
             for (const PlotPoint& q : s.points) {
@@ -194,24 +194,24 @@ private:
         }
         const std::vector<size_t> distinct = distinctLabels(all);
         for (const size_t i : distinct) {
-            wishes.push_back(all[i]);
+            setpoints.push_back(all[i]);
         }
-        const auto places = placeLabels(wishes, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
+        const auto places = placeLabels(setpoints, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
         for (size_t i = 0; i < distinct.size(); ++i) {
-            paintLabel(*points[distinct[i]], wishes[i], places[i]);
+            paintLabel(*points[distinct[i]], setpoints[i], places[i]);
         }
     }
 
     static std::string textOf(const PlotPoint& q) { return q.isDefault ? q.label + " (default)" : q.label; }
 
-    void paintLabel(const PlotPoint& q, const LabelWish& wish, const LabelPlace& place) const {
+    void paintLabel(const PlotPoint& q, const LabelRequest& setpoint, const LabelPlace& place) const {
         if (!place.beside) { // to the nearer end of the text
-            const bool right = place.x >= wish.x;
-            line(wish.x, wish.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0, kFaint.alpha(0.5),
-                 0.8);
+            const bool right = place.x >= setpoint.x;
+            line(setpoint.x, setpoint.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0,
+                 kFaint.alpha(0.5), 0.8);
         }
         const Colour colour = q.isFront || q.isDefault ? kInk : kFaint;
-        words(place.x, place.y, wish.text, colour, q.isDefault);
+        words(place.x, place.y, setpoint.text, colour, q.isDefault);
     }
 
     void paintLegend() const {
@@ -257,7 +257,7 @@ private:
         }
     }
 
-    const Picture& p_;
+    const Image& p_;
     const PlotPanel& panel_;
     double x0_, x1_, y0_, y1_;
     PanelAxis x_, y_;
@@ -274,15 +274,15 @@ PanelGrid panelGrid(size_t panels) {
 
 void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file) {
     const PanelGrid grid = panelGrid(study.panels.size());
-    const Picture picture(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
-    picture.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
-    picture.text(24.0, 60.0, subtitle, 13, kFaint);
+    const Image image(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
+    image.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
+    image.text(24.0, 60.0, subtitle, 13, kFaint);
     for (size_t i = 0; i < study.panels.size(); ++i) {
         const int k = static_cast<int>(i), row = k / grid.across;
-        PanelPainter(picture, study.panels[i], (k % grid.across) * kPanelWidth, kHead + row * kPanelHeight)
+        PanelPainter(image, study.panels[i], (k % grid.across) * kPanelWidth, kHead + row * kPanelHeight)
             .paint();
     }
-    picture.writePng(file);
+    image.writePng(file);
 }
 
 } // namespace fathom::profile

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/profile/study.h"
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 
 namespace fathom::profile {
 

@@ -62,7 +62,7 @@ int runRecord(const RecordOptions& options) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source),
-        Pictures::Every);
+        Images::Every);
     const StopSignals signals;
     RecordingWriter writer(options.out, camera->info(), 2);
     const std::unique_ptr<HandLog> hand = openHandLog(options, scene, *camera);

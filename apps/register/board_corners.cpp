@@ -27,7 +27,7 @@ constexpr size_t kSeeds = 12;       // corners to begin a grid at
 constexpr double kWindow = 2.0;     // [pixels] sigma of the quadric's weights
 constexpr int kLeastContrast = 160; // of the response: 10 grey levels at every sample
 
-struct Picture {
+struct Image {
     std::span<const uint8_t> grey;
     int width, height;
     int at(int x, int y) const { return grey[static_cast<size_t>(y) * static_cast<size_t>(width) + x]; }
@@ -41,11 +41,11 @@ struct Picture {
 };
 
 // Large where opposite samples are alike and those a quarter further are not.
-int response(const Picture& picture, int x, int y) {
+int response(const Image& image, int x, int y) {
     std::array<int, 16> ring{};
     int sum = 0, across = 0, along = 0;
     for (size_t k = 0; k < 16; ++k) {
-        sum += ring[k] = picture.at(x + kRing[k][0], y + kRing[k][1]);
+        sum += ring[k] = image.at(x + kRing[k][0], y + kRing[k][1]);
     }
     for (size_t k = 0; k < 4; ++k) {
         across += std::abs(ring[k] + ring[k + 8] - ring[k + 4] - ring[k + 12]);
@@ -53,13 +53,13 @@ int response(const Picture& picture, int x, int y) {
     for (size_t k = 0; k < 8; ++k) {
         along += std::abs(ring[k] - ring[k + 8]);
     }
-    const int near = picture.at(x, y) + picture.at(x + 1, y) + picture.at(x - 1, y) + picture.at(x, y + 1) +
-                     picture.at(x, y - 1);
+    const int near =
+        image.at(x, y) + image.at(x + 1, y) + image.at(x - 1, y) + image.at(x, y + 1) + image.at(x, y - 1);
     return across - along - std::abs(16 * near / 5 - sum);
 }
 
 // The stationary point of the quadric that fits the picture about `guess`.
-std::optional<dvec2> saddle(const Picture& picture, dvec2 guess) {
+std::optional<dvec2> saddle(const Image& image, dvec2 guess) {
     const dvec2 first = guess;
     for (int round = 0; round < 4; ++round) {
         Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
@@ -72,7 +72,7 @@ std::optional<dvec2> saddle(const Picture& picture, dvec2 guess) {
                 Eigen::Matrix<double, 6, 1> row;
                 row << u * u, v * v, u * v, u, v, 1.0;
                 normal += weight * row * row.transpose();
-                right += weight * picture.at(x, y) * row;
+                right += weight * image.at(x, y) * row;
             }
         }
         const Eigen::Matrix<double, 6, 1> q = normal.ldlt().solve(right);
@@ -88,24 +88,24 @@ std::optional<dvec2> saddle(const Picture& picture, dvec2 guess) {
     return guess;
 }
 
-std::vector<dvec2> saddles(const Picture& picture, size_t most) {
+std::vector<dvec2> saddles(const Image& image, size_t most) {
     struct Peak {
         int strength, x, y;
     };
-    std::vector<int> field(picture.grey.size(), 0);
+    std::vector<int> field(image.grey.size(), 0);
     const auto at = [&](int x, int y) -> int& {
-        return field[static_cast<size_t>(y) * static_cast<size_t>(picture.width) + x];
+        return field[static_cast<size_t>(y) * static_cast<size_t>(image.width) + x];
     };
     int strongest = kLeastContrast;
-    for (int y = kMargin; y < picture.height - kMargin; ++y) {
-        for (int x = kMargin; x < picture.width - kMargin; ++x) {
-            at(x, y) = response(picture, x, y);
+    for (int y = kMargin; y < image.height - kMargin; ++y) {
+        for (int x = kMargin; x < image.width - kMargin; ++x) {
+            at(x, y) = response(image, x, y);
             strongest = std::max(strongest, at(x, y));
         }
     }
     std::vector<Peak> peaks;
-    for (int y = kMargin; y < picture.height - kMargin; ++y) {
-        for (int x = kMargin; x < picture.width - kMargin; ++x) {
+    for (int y = kMargin; y < image.height - kMargin; ++y) {
+        for (int x = kMargin; x < image.width - kMargin; ++x) {
             bool peak = at(x, y) >= std::max(kLeastContrast, static_cast<int>(kWeakest * strongest));
             for (int dy = -4; dy <= 4 && peak; ++dy) {
                 for (int dx = -4; dx <= 4 && peak; ++dx) {
@@ -122,7 +122,7 @@ std::vector<dvec2> saddles(const Picture& picture, size_t most) {
               [](const Peak& a, const Peak& b) { return a.strength > b.strength; });
     std::vector<dvec2> found;
     for (size_t i = 0; i < std::min(most, peaks.size()); ++i) {
-        if (const auto place = saddle(picture, {peaks[i].x, peaks[i].y})) {
+        if (const auto place = saddle(image, {peaks[i].x, peaks[i].y})) {
             found.push_back(*place);
         }
     }
@@ -214,7 +214,7 @@ std::vector<dvec2> rowByRow(const std::map<Cell, Grown>& grid, int columns, int 
 }
 
 // Right-handed as it is read, and begun at the corner beyond which it is dark.
-void putUpright(const Picture& picture, std::vector<dvec2>& corners, size_t columns) {
+void putUpright(const Image& image, std::vector<dvec2>& corners, size_t columns) {
     const dvec2 right = corners[1] - corners[0], down = corners[columns] - corners[0];
     if (right.x * down.y - right.y * down.x < 0.0) {
         for (size_t row = 0; row < corners.size(); row += columns) {
@@ -226,7 +226,7 @@ void putUpright(const Picture& picture, std::vector<dvec2>& corners, size_t colu
     const dvec2 begin = 0.5 * (corners[1] - corners[0]) + 0.5 * (corners[columns] - corners[0]);
     const dvec2 end =
         0.5 * (corners[last] - corners[last - 1]) + 0.5 * (corners[last] - corners[last - columns]);
-    if (picture.between(corners[0] - begin) > picture.between(corners[last] + end)) {
+    if (image.between(corners[0] - begin) > image.between(corners[last] + end)) {
         std::reverse(corners.begin(), corners.end());
     }
 }
@@ -235,13 +235,13 @@ void putUpright(const Picture& picture, std::vector<dvec2>& corners, size_t colu
 
 std::vector<glm::dvec2> boardCorners(std::span<const uint8_t> grey, uint32_t width, uint32_t height,
                                      uint32_t columns, uint32_t rows) {
-    const Picture picture{grey, static_cast<int>(width), static_cast<int>(height)};
-    const std::vector<dvec2> points = saddles(picture, 4 * size_t{columns} * rows + 64);
+    const Image image{grey, static_cast<int>(width), static_cast<int>(height)};
+    const std::vector<dvec2> points = saddles(image, 4 * size_t{columns} * rows + 64);
     for (size_t seed = 0; seed < std::min(kSeeds, points.size()); ++seed) {
         std::vector<dvec2> corners =
             rowByRow(grow(points, seed), static_cast<int>(columns), static_cast<int>(rows));
         if (!corners.empty()) {
-            putUpright(picture, corners, columns);
+            putUpright(image, corners, columns);
             return corners;
         }
     }

@@ -70,8 +70,8 @@ std::vector<TagFinder::Corners> TagFinder::detect(const Frame& frame) {
     greyOf(frame, grey_);
     const auto width = static_cast<int32_t>(camera_.colour.width),
                height = static_cast<int32_t>(camera_.colour.height);
-    image_u8_t picture{width, height, width, grey_.data()};
-    zarray_t* found = apriltag_detector_detect(detector_->detector, &picture);
+    image_u8_t image{width, height, width, grey_.data()};
+    zarray_t* found = apriltag_detector_detect(detector_->detector, &image);
     std::vector<Corners> tags;
     for (int i = 0; i < zarray_size(found); ++i) {
         apriltag_detection_t* one = nullptr;

@@ -99,13 +99,13 @@ void ArmReport::add(const TickRecord& tick) {
 }
 
 void ArmReport::addDriven(const TickRecord& tick) {
-    const ArmTold& told = tick.told;
+    const ArmStatus& told = tick.told;
     ReplaySummary::Arm::Driven& driven = *sums_.driven;
     row_.add(std::string(armStateName(told.state)));
     for (size_t k = 0; k < rig_.model.count(); ++k) {
         row_.add(told.known ? told.posture.q[k] : kUnknown);
     }
-    ++turns_[static_cast<size_t>(told.state)];
+    ++ticks_[static_cast<size_t>(told.state)];
     driven.lastState = armStateName(told.state);
     driven.damaged = std::max(driven.damaged, told.damaged);
     driven.reopened = told.reopened;
@@ -125,7 +125,7 @@ ReplaySummary::Arm ArmReport::summary(const std::vector<double>& links) {
     }
     out.residual = percentilesOf(std::move(residuals_));
     for (size_t i = 0; out.driven && i < kArmStates; ++i) {
-        out.driven->turns.emplace_back(armStateName(static_cast<ArmState>(i)), turns_[i]);
+        out.driven->turns.emplace_back(armStateName(static_cast<ArmState>(i)), ticks_[i]);
     }
     if (out.driven) {
         out.driven->tipLag = percentilesOf(std::move(tipLags_));

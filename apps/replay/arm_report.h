@@ -37,7 +37,7 @@ private:
     CsvRow row_;
     ReplaySummary::Arm sums_;
     std::vector<float> residuals_, tipLags_;
-    std::array<uint64_t, kArmStates> turns_{}; // by state of a real arm
+    std::array<uint64_t, kArmStates> ticks_{}; // by state of a real arm
 };
 
 } // namespace fathom

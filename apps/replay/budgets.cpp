@@ -45,8 +45,8 @@ std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intr
     }
     const std::string of =
         " (" + std::to_string(leaves) + (leaves == 1 ? " leaf; " : " leaves; ") + kTurnOf + ")";
-    add("turn p50" + of, "us", summary.haptic.turnMicros.p50, kTurnP50);
-    add("turn p99" + of, "us", summary.haptic.turnMicros.p99, kTurnP99);
+    add("turn p50" + of, "us", summary.haptic.stepMicros.p50, kTurnP50);
+    add("turn p99" + of, "us", summary.haptic.stepMicros.p99, kTurnP99);
     return figures;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/curve_plot.h"
 
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 #include "apps/replay/plot_axis.h"
 
 #include <algorithm>
@@ -79,31 +79,30 @@ Scale scaleOf(const std::vector<PlotCurve>& curves, bool ofX, double from, doubl
     return scale;
 }
 
-void drawGrid(const Picture& picture, const Scale& x, const Scale& y) {
-    picture.setColour(kGrid);
-    cairo_set_line_width(picture.cr(), 1.0);
+void drawGrid(const Image& image, const Scale& x, const Scale& y) {
+    image.setColour(kGrid);
+    cairo_set_line_width(image.cr(), 1.0);
     for (const PlotTick& tick : x.ticks(9)) {
         const double at = x.axis.at(tick.value);
-        picture.setColour(kGrid);
-        cairo_move_to(picture.cr(), at, kTop);
-        cairo_line_to(picture.cr(), at, kBottom);
-        cairo_stroke(picture.cr());
-        picture.text(at, kBottom + 20.0, tick.label, 13.0, kQuiet, Align::Centre);
+        image.setColour(kGrid);
+        cairo_move_to(image.cr(), at, kTop);
+        cairo_line_to(image.cr(), at, kBottom);
+        cairo_stroke(image.cr());
+        image.text(at, kBottom + 20.0, tick.label, 13.0, kQuiet, Align::Centre);
     }
     for (const PlotTick& tick : y.ticks(7)) {
         const double at = y.axis.at(tick.value);
-        picture.setColour(kGrid);
-        cairo_move_to(picture.cr(), kLeft, at);
-        cairo_line_to(picture.cr(), kRight, at);
-        cairo_stroke(picture.cr());
-        picture.text(kLeft - 8.0, at + 4.0, tick.label, 13.0, kQuiet, Align::Right);
+        image.setColour(kGrid);
+        cairo_move_to(image.cr(), kLeft, at);
+        cairo_line_to(image.cr(), kRight, at);
+        cairo_stroke(image.cr());
+        image.text(kLeft - 8.0, at + 4.0, tick.label, 13.0, kQuiet, Align::Right);
     }
 }
 
-void drawCurve(const Picture& picture, const Scale& x, const Scale& y, const PlotCurve& curve,
-               Colour colour) {
-    cairo_t* cr = picture.cr();
-    picture.setColour(colour);
+void drawCurve(const Image& image, const Scale& x, const Scale& y, const PlotCurve& curve, Colour colour) {
+    cairo_t* cr = image.cr();
+    image.setColour(colour);
     cairo_set_line_width(cr, 2.0);
     const size_t count = std::min(curve.x.size(), curve.y.size());
     bool open = false;
@@ -124,14 +123,14 @@ void drawCurve(const Picture& picture, const Scale& x, const Scale& y, const Plo
     }
 }
 
-void drawLegend(const Picture& picture, const std::vector<PlotCurve>& curves) {
+void drawLegend(const Image& image, const std::vector<PlotCurve>& curves) {
     double left = kLeft;
     for (size_t i = 0; i < curves.size(); ++i) {
-        picture.setColour(kLines[i % kLines.size()]);
-        cairo_rectangle(picture.cr(), left, 84.0, 18.0, 4.0);
-        cairo_fill(picture.cr());
-        picture.text(left + 24.0, 91.0, curves[i].name, 13.0, kInk);
-        left += 44.0 + picture.textWidth(curves[i].name, 13.0);
+        image.setColour(kLines[i % kLines.size()]);
+        cairo_rectangle(image.cr(), left, 84.0, 18.0, 4.0);
+        cairo_fill(image.cr());
+        image.text(left + 24.0, 91.0, curves[i].name, 13.0, kInk);
+        left += 44.0 + image.textWidth(curves[i].name, 13.0);
     }
 }
 
@@ -139,22 +138,22 @@ void drawLegend(const Picture& picture, const std::vector<PlotCurve>& curves) {
 
 void writeCurvePlot(const std::filesystem::path& file, const std::string& title, const std::string& subtitle,
                     const std::vector<PlotCurve>& curves) {
-    const Picture picture(kWidth, kHeight, kPaper);
+    const Image image(kWidth, kHeight, kPaper);
     const Scale x = scaleOf(curves, true, kLeft, kRight), y = scaleOf(curves, false, kBottom, kTop);
-    picture.text(24.0, 36.0, title, 20.0, kInk, Align::Left, true);
-    picture.text(24.0, 60.0, subtitle, 13.0, kQuiet);
-    drawGrid(picture, x, y);
+    image.text(24.0, 36.0, title, 20.0, kInk, Align::Left, true);
+    image.text(24.0, 60.0, subtitle, 13.0, kQuiet);
+    drawGrid(image, x, y);
     for (size_t i = 0; i < curves.size(); ++i) {
-        drawCurve(picture, x, y, curves[i], kLines[i % kLines.size()]);
+        drawCurve(image, x, y, curves[i], kLines[i % kLines.size()]);
     }
-    drawLegend(picture, curves);
-    picture.text(0.5 * (kLeft + kRight), kBottom + 52.0, curves.front().xLabel, 15.0, kInk, Align::Centre);
-    cairo_save(picture.cr());
-    cairo_translate(picture.cr(), 26.0, 0.5 * (kTop + kBottom));
-    cairo_rotate(picture.cr(), -1.5707963267948966);
-    picture.text(0.0, 0.0, curves.front().yLabel, 15.0, kInk, Align::Centre);
-    cairo_restore(picture.cr());
-    picture.writePng(file);
+    drawLegend(image, curves);
+    image.text(0.5 * (kLeft + kRight), kBottom + 52.0, curves.front().xLabel, 15.0, kInk, Align::Centre);
+    cairo_save(image.cr());
+    cairo_translate(image.cr(), 26.0, 0.5 * (kTop + kBottom));
+    cairo_rotate(image.cr(), -1.5707963267948966);
+    image.text(0.0, 0.0, curves.front().yLabel, 15.0, kInk, Align::Centre);
+    cairo_restore(image.cr());
+    image.writePng(file);
 }
 
 } // namespace fathom

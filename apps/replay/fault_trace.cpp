@@ -2,7 +2,7 @@
 #include "apps/replay/fault_trace.h"
 
 #include "apps/replay/haptics_csv.h"
-#include "apps/replay/turn_to_tick.h"
+#include "apps/replay/step_to_tick.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -27,17 +27,17 @@ FaultTrace::FaultTrace(std::filesystem::path folder, double period, RunSink& nex
     , next_(next)
     , ring_(turnsOf(kSeconds, period)) {}
 
-void FaultTrace::turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+void FaultTrace::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
                       std::span<const uint32_t> behind) {
     keep(row);
     if (!row.record.finite && row.record.t >= quietUntil_) {
         quietUntil_ = row.record.t + kQuiet;
         write(row.record.t);
     }
-    next_.turn(row, obeyed, known, behind);
+    next_.step(row, obeyed, known, behind);
 }
 
-void FaultTrace::keep(const TurnRow& row) {
+void FaultTrace::keep(const TickRow& row) {
     if (row.record.t < newest_) { // another run on a clock of its own
         seen_ = 0;
         quietUntil_ = 0.0;

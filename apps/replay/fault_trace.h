@@ -21,14 +21,14 @@ public:
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }
     void query(const QueryNote& note) override { next_.query(note); }
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
     static constexpr double kSeconds = 2.0; // that are kept
     static constexpr double kQuiet = 60.0;  // [s] between files
 
 private:
-    void keep(const TurnRow& row);
+    void keep(const TickRow& row);
     void write(double t) const;
 
     std::filesystem::path folder_;

@@ -2,7 +2,7 @@
 #include "apps/replay/lockstep_replay.h"
 
 #include "apps/replay/progress.h"
-#include "apps/replay/turn_to_tick.h"
+#include "apps/replay/step_to_tick.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
@@ -49,8 +49,8 @@ void LockstepReplay::fetch() {
 
 // As the pilot had it from this picture on: gates with its set, shapes now, which is within a picture of when
 // they were placed.
-void LockstepReplay::takeEdit(uint32_t picture) {
-    const SceneEdit* edit = session_.newEdit(picture);
+void LockstepReplay::takeEdit(uint32_t image) {
+    const SceneEdit* edit = session_.newEdit(image);
     if (edit == nullptr) {
         return;
     }
@@ -67,7 +67,7 @@ void LockstepReplay::processNext() {
     if (session_.cycles.plan()
             .selfFilter) { // the arm as the picture shows it, or as it is when the picture is due
         const bool now = cycle_ && !session_.scene.source.showsArm;
-        session_.cycles.frames().setArm(session_.arm->inPicture(now ? cycle_->place().arm : taken_));
+        session_.cycles.frames().setArm(session_.arm->inImage(now ? cycle_->place().arm : taken_));
     }
     if (session_.heldStill() && !kept_.empty()) {
         ready_ = session_.cycles.frames().without((*next_)->index);
@@ -132,7 +132,7 @@ void LockstepReplay::dropOldSets() {
     }
 }
 
-void LockstepReplay::audit(const TurnRecord& record, const ToolPlace& start) {
+void LockstepReplay::audit(const StepRecord& record, const ToolState& start) {
     const Kept* obeyed = inForce_ ? keptSet(inForce_->generation) : nullptr;
     if (obeyed == nullptr || !session_.cycles.plan().spheres) {
         return;
@@ -145,7 +145,7 @@ void LockstepReplay::audit(const TurnRecord& record, const ToolPlace& start) {
 }
 
 void LockstepReplay::tick(double t) {
-    TurnInput input;
+    StepInput input;
     const HandSample sample = hand_->read(std::max(0.0, t - pathStart_));
     input.time = t;
     input.deviceThandle = sample.deviceThandle;
@@ -161,12 +161,12 @@ void LockstepReplay::tick(double t) {
     }
     input.sourceEnded = sourceEnded_;
 
-    const ToolPlace start = cycle_->place();
+    const ToolState start = cycle_->place();
     const auto began = std::chrono::steady_clock::now();
-    const TurnRecord record = cycle_->turn(input);
+    const StepRecord record = cycle_->step(input);
     const double took = micros(began);
     if (trace_ != nullptr) {
-        trace_->turn(began, std::chrono::steady_clock::now(), 0.0);
+        trace_->step(began, std::chrono::steady_clock::now(), 0.0);
         trace_->file().drain();
     }
     if (record.adopted) {

@@ -38,12 +38,12 @@ private:
 
     void fetch();       // the next usable frame from the camera, stamped with its lockstep time
     void processNext(); // through the frame cycle
-    void takeEdit(uint32_t picture);
+    void takeEdit(uint32_t image);
     void takeDueFrames(double t);
     bool ended(double t) const;
     void query(double t);
     void tick(double t);
-    void audit(const TurnRecord& record, const ToolPlace& start);
+    void audit(const StepRecord& record, const ToolState& start);
     const Kept* keptSet(uint64_t generation) const;
     void dropOldSets();
 

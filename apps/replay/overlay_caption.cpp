@@ -39,11 +39,11 @@ public:
         , base_(base) {}
 
     void region(const char* words, bool held) {
-        cairo_t* cr = canvas_.picture.cr();
+        cairo_t* cr = canvas_.image.cr();
         const double size = canvas_.size, top = base_ - 12.0 * size, height = 15.0 * size;
         cairo_save(cr);
         cairo_rectangle(cr, x_, top, swatch(), height);
-        canvas_.picture.setColour(kRegion.alpha(held ? 0.18 : 0.38));
+        canvas_.image.setColour(kRegion.alpha(held ? 0.18 : 0.38));
         cairo_fill_preserve(cr);
         cairo_clip(cr);
         for (double foot = -swatch(); foot < 2.0 * swatch(); foot += 7.0 * size) {
@@ -51,7 +51,7 @@ public:
             cairo_move_to(cr, x_ + foot, top + height);
             cairo_line_to(cr, x_ + foot + lean, top);
         }
-        canvas_.picture.setColour(kRegion.alpha(0.8));
+        canvas_.image.setColour(kRegion.alpha(0.8));
         cairo_set_line_width(cr, 1.4 * size);
         cairo_stroke(cr);
         cairo_restore(cr);
@@ -60,19 +60,19 @@ public:
 
     void dots(const char* words) {
         for (double k : {0.15, 0.38, 0.61, 0.84}) {
-            cairo_rectangle(canvas_.picture.cr(), x_ + k * swatch(), middle() - canvas_.size,
+            cairo_rectangle(canvas_.image.cr(), x_ + k * swatch(), middle() - canvas_.size,
                             2.0 * canvas_.size, 2.0 * canvas_.size);
         }
-        canvas_.picture.setColour({1.0, 0.60, 0.54});
-        cairo_fill(canvas_.picture.cr());
+        canvas_.image.setColour({1.0, 0.60, 0.54});
+        cairo_fill(canvas_.image.cr());
         name(words);
     }
 
     void cross(const char* words) {
         const double arm = 6.0 * canvas_.size, u = x_ + 0.5 * swatch();
         for (double direction : {-1.0, 1.0}) {
-            cairo_move_to(canvas_.picture.cr(), u - arm, middle() - direction * arm);
-            cairo_line_to(canvas_.picture.cr(), u + arm, middle() + direction * arm);
+            cairo_move_to(canvas_.image.cr(), u - arm, middle() - direction * arm);
+            cairo_line_to(canvas_.image.cr(), u + arm, middle() + direction * arm);
         }
         strokeOnShade(canvas_, kGuidance, 2.6);
         name(words);
@@ -80,17 +80,17 @@ public:
 
     void outline(const char* words, bool dashed) {
         const double r = 6.5 * canvas_.size;
-        cairo_new_sub_path(canvas_.picture.cr());
-        cairo_arc(canvas_.picture.cr(), x_ + 0.5 * swatch(), middle(), r, 0.0, 6.283185307179586);
+        cairo_new_sub_path(canvas_.image.cr());
+        cairo_arc(canvas_.image.cr(), x_ + 0.5 * swatch(), middle(), r, 0.0, 6.283185307179586);
         const double dashes[] = {3.4 * canvas_.size, 3.4 * canvas_.size};
         if (dashed) {
-            cairo_set_dash(canvas_.picture.cr(), dashes, 2, 0.0);
+            cairo_set_dash(canvas_.image.cr(), dashes, 2, 0.0);
         }
-        canvas_.picture.setColour(kTool);
-        cairo_set_line_cap(canvas_.picture.cr(), CAIRO_LINE_CAP_BUTT);
-        cairo_set_line_width(canvas_.picture.cr(), (dashed ? 1.6 : 2.2) * canvas_.size);
-        cairo_stroke(canvas_.picture.cr());
-        cairo_set_dash(canvas_.picture.cr(), nullptr, 0, 0.0);
+        canvas_.image.setColour(kTool);
+        cairo_set_line_cap(canvas_.image.cr(), CAIRO_LINE_CAP_BUTT);
+        cairo_set_line_width(canvas_.image.cr(), (dashed ? 1.6 : 2.2) * canvas_.size);
+        cairo_stroke(canvas_.image.cr());
+        cairo_set_dash(canvas_.image.cr(), nullptr, 0, 0.0);
         name(words);
     }
 
@@ -105,8 +105,8 @@ private:
 
     void name(const char* words) {
         const double size = 14.0 * canvas_.size;
-        canvas_.picture.text(x_ + swatch() + 0.6 * size, base_, words, size, kWords);
-        x_ += swatch() + 0.6 * size + canvas_.picture.textWidth(words, size) + 1.8 * size;
+        canvas_.image.text(x_ + swatch() + 0.6 * size, base_, words, size, kWords);
+        x_ += swatch() + 0.6 * size + canvas_.image.textWidth(words, size) + 1.8 * size;
     }
 
     const Canvas& canvas_;
@@ -117,14 +117,14 @@ private:
 
 void drawCaption(const Canvas& canvas, const OverlayInput& input, double captionHeight) {
     const double margin = 18.0 * canvas.size, size = 16.0 * canvas.size;
-    const double top = canvas.picture.height() - captionHeight;
+    const double top = canvas.image.height() - captionHeight;
     const double line = top + 0.40 * captionHeight;
     const std::string text = moment(input);
-    canvas.picture.text(margin, line, text, size, kWords, Align::Left, true);
-    const double room = canvas.view.width() - 3.0 * margin - canvas.picture.textWidth(text, size, true);
-    if (canvas.picture.textWidth(input.title, 0.88 * size) <= room) {
-        canvas.picture.text(canvas.view.width() - margin, line, input.title, 0.88 * size, kQuietWords,
-                            Align::Right);
+    canvas.image.text(margin, line, text, size, kWords, Align::Left, true);
+    const double room = canvas.view.width() - 3.0 * margin - canvas.image.textWidth(text, size, true);
+    if (canvas.image.textWidth(input.title, 0.88 * size) <= room) {
+        canvas.image.text(canvas.view.width() - margin, line, input.title, 0.88 * size, kQuietWords,
+                          Align::Right);
     }
     Legend legend(canvas, margin, top + 0.80 * captionHeight);
     if (input.set != nullptr && input.set->frame >= 0) {

@@ -59,7 +59,7 @@ bool hasColour(const OverlayInput& input) {
            input.colour.size() == input.camera.colour.pixels();
 }
 
-void drawCameraPicture(const Canvas& canvas, const OverlayInput& input) {
+void drawCameraImage(const Canvas& canvas, const OverlayInput& input) {
     const Intrinsics& lens = canvas.view.lens;
     std::vector<uint32_t> pixels = groundPixels(input, lens.pixels());
     const auto width = static_cast<int>(lens.width);
@@ -68,7 +68,7 @@ void drawCameraPicture(const Canvas& canvas, const OverlayInput& input) {
                                             CAIRO_FORMAT_ARGB32, width, static_cast<int>(lens.height),
                                             4 * width),
         cairo_surface_destroy);
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     cairo_save(cr);
     cairo_rectangle(cr, 0.0, 0.0, canvas.view.width(), canvas.view.height());
     cairo_clip(cr);
@@ -78,7 +78,7 @@ void drawCameraPicture(const Canvas& canvas, const OverlayInput& input) {
     cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
     cairo_paint(cr);
     // A little darker, so that lines stand out from bright walls too.
-    canvas.picture.setColour(kShade.alpha(0.16));
+    canvas.image.setColour(kShade.alpha(0.16));
     cairo_paint(cr);
     cairo_restore(cr);
     cairo_surface_flush(cairo_get_target(cr));

@@ -2,9 +2,9 @@
 // The layers of overlay.png, lowest first. Each draws itself whole; none knows the others.
 #pragma once
 
-#include "apps/replay/overlay_picture.h"
-#include "apps/replay/picture.h"
-#include "apps/replay/picture_view.h"
+#include "apps/replay/image.h"
+#include "apps/replay/image_view.h"
+#include "apps/replay/overlay_image.h"
 
 namespace fathom::overlay {
 
@@ -16,13 +16,13 @@ constexpr Colour kShade{0.03, 0.04, 0.06};
 
 // The picture to draw on, where it shows the base frame, and by how much lines and letters grow with it.
 struct Canvas {
-    const Picture& picture;
-    const PictureView& view;
+    const Image& image;
+    const ImageView& view;
     double size; // 1 at a width of 1280 pixels and below
 };
 
 bool hasColour(const OverlayInput& input);
-void drawCameraPicture(const Canvas& canvas, const OverlayInput& input);
+void drawCameraImage(const Canvas& canvas, const OverlayInput& input);
 void drawRegions(const Canvas& canvas, const Fixtures& set);
 void drawGuidance(const Canvas& canvas, const OverlayInput& input);
 void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input); // above tool and hand

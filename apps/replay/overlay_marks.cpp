@@ -15,13 +15,13 @@ using Pixel = std::optional<glm::dvec2>;
 
 void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour colour) {
     const double size = 14.0 * canvas.size;
-    const double width = canvas.picture.textWidth(text, size, true);
+    const double width = canvas.image.textWidth(text, size, true);
     at.x = std::clamp(at.x, 6.0, std::max(6.0, canvas.view.width() - width - 8.0));
     at.y = std::clamp(at.y, 1.6 * size, canvas.view.height() - 8.0);
-    canvas.picture.setColour(kShade.alpha(0.66));
-    cairo_rectangle(canvas.picture.cr(), at.x - 5.0, at.y - 1.08 * size, width + 10.0, 1.5 * size);
-    cairo_fill(canvas.picture.cr());
-    canvas.picture.text(at.x, at.y, text, size, colour, Align::Left, true);
+    canvas.image.setColour(kShade.alpha(0.66));
+    cairo_rectangle(canvas.image.cr(), at.x - 5.0, at.y - 1.08 * size, width + 10.0, 1.5 * size);
+    cairo_fill(canvas.image.cr());
+    canvas.image.text(at.x, at.y, text, size, colour, Align::Left, true);
 }
 
 // Two unit vectors that with n make a right angle each.
@@ -35,7 +35,7 @@ void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
     constexpr int kCorners = 64;
     dvec3 a, b;
     acrossOf(normal, a, b);
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     for (int i = 0; i < kCorners; ++i) {
         const double angle = 6.283185307179586 * i / kCorners;
         const Pixel pixel =
@@ -47,7 +47,7 @@ void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
         cairo_line_to(cr, pixel->x, pixel->y);
     }
     cairo_close_path(cr);
-    canvas.picture.setColour(kGuidance.alpha(0.28));
+    canvas.image.setColour(kGuidance.alpha(0.28));
     cairo_fill_preserve(cr);
     strokeOnShade(canvas, kGuidance, 2.0);
 }
@@ -64,7 +64,7 @@ void target(const Canvas& canvas, const GuidancePose& guidance) {
             arrow(canvas, *position, *tip, kGuidance, 2.6);
         }
     }
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     const double arm = 11.0 * canvas.size;
     const Pixel goal = canvas.view.ofBase(guidance.target.position);
     if (goal && glm::distance(*goal, *position) > 3.0) {
@@ -90,7 +90,7 @@ void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
     for (const Sphere& leaf : leaves) {
         silhouette.add(pose.apply(leaf.centre), leaf.radius);
     }
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     const auto lines = traceOutline(silhouette.mask(), canvas.view.width(), canvas.view.height(), 0);
     for (const OutlineLine& line : lines) {
         cairo_move_to(cr, line.front().x, line.front().y);
@@ -99,7 +99,7 @@ void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
         }
     }
     if (!dashed) {
-        canvas.picture.setColour(kTool.alpha(0.16));
+        canvas.image.setColour(kTool.alpha(0.16));
         cairo_fill_preserve(cr);
     }
     strokeOnShade(canvas, kTool, dashed ? 1.8 : 2.4, dashed);
@@ -111,7 +111,7 @@ void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
     if (leaves.size() < 2 || leaves.size() > kMost) {
         return;
     }
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     for (const Sphere& leaf : leaves) {
         const dvec3 centre = canvas.view.cameraTbase.apply(pose.apply(leaf.centre));
         if (const Pixel pixel = canvas.view.ofCamera(centre)) {
@@ -121,7 +121,7 @@ void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
                       6.283185307179586);
         }
     }
-    canvas.picture.setColour(kTool.alpha(0.45));
+    canvas.image.setColour(kTool.alpha(0.45));
     cairo_set_line_width(cr, canvas.size);
     cairo_stroke(cr);
 }
@@ -129,17 +129,17 @@ void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
 } // namespace
 
 void strokeOnShade(const Canvas& canvas, Colour colour, double width, bool dashed) {
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     const double dashes[] = {7.0 * canvas.size, 7.0 * canvas.size};
     if (dashed) {
         cairo_set_dash(cr, dashes, 2, 0.0);
     }
-    canvas.picture.setColour(kShade.alpha(0.6));
+    canvas.image.setColour(kShade.alpha(0.6));
     cairo_set_line_width(cr, (width + 2.2) * canvas.size);
     cairo_stroke_preserve(cr);
-    canvas.picture.setColour(colour);
+    canvas.image.setColour(colour);
     cairo_set_line_width(cr, width * canvas.size);
     cairo_stroke(cr);
     cairo_set_dash(cr, nullptr, 0, 0.0);
@@ -153,7 +153,7 @@ void arrow(const Canvas& canvas, glm::dvec2 a, glm::dvec2 b, Colour colour, doub
     const glm::dvec2 along = (b - a) / length;
     const glm::dvec2 across(-along.y, along.x);
     const double head = std::min(12.0 * canvas.size, length);
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     cairo_move_to(cr, a.x, a.y);
     cairo_line_to(cr, b.x, b.y);
     for (double side : {-0.5, 0.5}) {
@@ -195,7 +195,7 @@ void drawTool(const Canvas& canvas, const OverlayInput& input) {
     const Pixel hand = canvas.view.ofBase(tick.device.position);
     const Pixel tool = canvas.view.ofBase(tick.tool.position);
     if (hand && tool) {
-        cairo_t* cr = canvas.picture.cr();
+        cairo_t* cr = canvas.image.cr();
         cairo_move_to(cr, hand->x, hand->y);
         cairo_line_to(cr, tool->x, tool->y);
         strokeOnShade(canvas, kTool, 1.4);

@@ -56,9 +56,9 @@ double hatchAt(int along, double period, double width) {
 void tint(const Canvas& canvas, const RegionMasks& masks) {
     const int width = canvas.view.width(), height = canvas.view.height();
     const double period = 15.0 * canvas.size, line = 2.2 * canvas.size;
-    canvas.picture.beginPixels();
+    canvas.image.beginPixels();
     for (int v = 0; v < height; ++v) {
-        uint32_t* row = canvas.picture.row(v);
+        uint32_t* row = canvas.image.row(v);
         const size_t first = static_cast<size_t>(v) * static_cast<size_t>(width);
         for (int u = 0; u < width; ++u) {
             const size_t i = first + static_cast<size_t>(u);
@@ -69,12 +69,12 @@ void tint(const Canvas& canvas, const RegionMasks& masks) {
             }
         }
     }
-    canvas.picture.endPixels();
+    canvas.image.endPixels();
 }
 
 void outline(const Canvas& canvas, const std::vector<uint8_t>& mask, bool dashed) {
     constexpr size_t kLeast = 24; // specks of a few pixels are no region's edge
-    cairo_t* cr = canvas.picture.cr();
+    cairo_t* cr = canvas.image.cr();
     for (const OutlineLine& line : traceOutline(mask, canvas.view.width(), canvas.view.height(), kLeast)) {
         cairo_move_to(cr, line.front().x, line.front().y);
         for (const glm::dvec2& point : line) {
@@ -88,7 +88,7 @@ void outline(const Canvas& canvas, const std::vector<uint8_t>& mask, bool dashed
 void points(const Canvas& canvas, const Fixtures& set) {
     const int width = canvas.view.width(), height = canvas.view.height();
     const int dot = std::max(1, static_cast<int>(std::lround(1.6 * canvas.size)));
-    canvas.picture.beginPixels();
+    canvas.image.beginPixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         const auto pixel = canvas.view.ofBase(centreOf(set, i));
         if (!pixel || !(pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < width && pixel->y < height)) {
@@ -98,12 +98,12 @@ void points(const Canvas& canvas, const Fixtures& set) {
         const int v0 = std::max(0, static_cast<int>(pixel->y) - dot / 2);
         for (int v = v0; v < std::min(height, v0 + dot); ++v) {
             for (int u = u0; u < std::min(width, u0 + dot); ++u) {
-                uint32_t& target = canvas.picture.row(v)[u];
+                uint32_t& target = canvas.image.row(v)[u];
                 target = blend(target, {1.0, 0.55, 0.48}, 0.6);
             }
         }
     }
-    canvas.picture.endPixels();
+    canvas.image.endPixels();
 }
 
 } // namespace

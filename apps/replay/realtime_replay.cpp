@@ -5,7 +5,7 @@
 #include "apps/binding/raw_path.h"
 #include "apps/binding/spooled_camera.h"
 #include "apps/replay/lockstep_replay.h"
-#include "apps/replay/turn_to_tick.h"
+#include "apps/replay/step_to_tick.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -40,13 +40,13 @@ public:
         : session_(session)
         , edited_(std::move(edited)) {
         if (session_.cycles.plan().selfFilter) {
-            session_.cycles.frames().setArm(session_.arm->inPicture(session_.arm->startPosture()));
+            session_.cycles.frames().setArm(session_.arm->inImage(session_.arm->startPosture()));
         }
     }
 
-    void shown(const ToolPlace& place) override {
+    void shown(const ToolState& place) override {
         if (session_.cycles.plan().selfFilter) {
-            session_.cycles.frames().setArm(session_.arm->inPicture(place.arm));
+            session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
         }
     }
 
@@ -105,7 +105,7 @@ public:
     explicit Answers(ReplaySession& session)
         : session_(session) {}
 
-    bool answer(const ToolPlace& place, ContactSet& out) override {
+    bool answer(const ToolState& place, ContactSet& out) override {
         return session_.cycles.answer(place, out);
     }
 
@@ -123,7 +123,7 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , haptics_(makeHapticOptions(session.scene, session.tool))
     , audit_(session.tool, session.arm.get())
     , faults_(recorder.folder(), haptics_.period, *this)
-    , view_(options.viewDoor.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewDoor))
+    , view_(options.viewEndpoint.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewEndpoint))
     , feed_(std::make_unique<Feed>(session, [this](const std::vector<Shape>& shapes) { takeShapes(shapes); }))
     , answers_(session.cycles.plan().query != Plan::Query::None ? std::make_unique<Answers>(session)
                                                                 : nullptr)
@@ -152,12 +152,12 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     RealtimeOptions o;
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
-    o.framePeriod = options_.pictureRate > 0.0 ? 1.0 / options_.pictureRate : LockstepReplay::kFramePeriod;
+    o.framePeriod = options_.frameRate > 0.0 ? 1.0 / options_.frameRate : LockstepReplay::kFramePeriod;
     o.staleAfter = haptics_.staleAfter;
     o.trace = trace;
     o.arm = session_.realArm ? &session_.realArm->link() : nullptr;
-    o.progress = [this](double t, uint64_t frames, uint64_t turns) {
-        progress_.update({frames, 0, turns, t});
+    o.progress = [this](double t, uint64_t frames, uint64_t ticks) {
+        progress_.update({frames, 0, ticks, t});
     };
     return o;
 }
@@ -198,7 +198,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     figures_.exposureMs = percentilesOf(std::move(feed_->exposureMs));
     figures_.live = session_.camera->live();
     figures_.periodsMissed = run_->periodsMissed();
-    figures_.staleTurns = run_->staleTurns();
+    figures_.staleTicks = run_->staleTicks();
     figures_.recordsLost = run_->recordsLost();
     figures_.renewals = session_.cycles.renewals();
     figures_.stopped = signals_.asked().load();
@@ -261,7 +261,7 @@ void RealtimeReplay::query(const QueryNote& note) {
     recorder_.query(note.micros);
 }
 
-void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+void RealtimeReplay::step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                           std::span<const uint32_t> behind) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
     TickRecord tick = tickOf(row.record, row.startArm, row.micros, row.late);
@@ -269,7 +269,7 @@ void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool
     tick.told = row.told;
     recorder_.tick(tick);
     if (view_) {
-        view_->turn(row);
+        view_->step(row);
     }
     if (const std::string told = watched_ ? watched_->told() : ""; !told.empty()) {
         log::warn("{}", told);
@@ -280,7 +280,7 @@ void RealtimeReplay::turn(const TurnRow& row, const PublishedFrame* obeyed, bool
     }
 }
 
-void RealtimeReplay::audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+void RealtimeReplay::audit(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                            std::span<const uint32_t> behind) {
     if (!session_.cycles.plan().spheres) {
         return;

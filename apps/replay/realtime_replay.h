@@ -28,7 +28,7 @@ struct RealtimeFigures {
     uint64_t framesLost = 0;     // by a live camera, or that one would have thrown away
     uint64_t periodsMissed = 0;  // without a turn
     uint64_t framesInPlace = 0;  // whose depth the device read where the camera left it
-    uint64_t staleTurns = 0;     // with a scene old enough for forces to fade
+    uint64_t staleTicks = 0;     // with a scene old enough for forces to fade
     uint64_t recordsLost = 0;    // the writer fell behind
     uint32_t renewals = 0;       // times that the device was made anew
     bool stopped = false;        // by a signal
@@ -38,7 +38,7 @@ struct RealtimeFigures {
 std::string describe(const ThreadPlacement& placement);
 
 // Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is
-// captured at (index j - index 0) / 30 s by the clock (ReplayOptions::pictureRate). Ends when frames (plus
+// captured at (index j - index 0) / 30 s by the clock (ReplayOptions::frameRate). Ends when frames (plus
 // one such period) and hand path both have, or on a signal of StopSignals: then too every file is whole.
 class RealtimeReplay final : private RunSink {
 public:
@@ -62,9 +62,9 @@ private:
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote& note) override;
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
               std::span<const uint32_t> behind) override;
-    void audit(const TurnRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+    void audit(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                std::span<const uint32_t> behind);
     void takeShapes(const std::vector<Shape>& shapes);
     RealtimeOptions runOptions(CadenceTrace* trace);

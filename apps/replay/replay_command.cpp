@@ -49,7 +49,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     printPart("  latency   ", s.frames.latencyMs, "ms");
     std::cout << "haptic       " << s.haptic.ticks << " ticks, " << s.haptic.stalledTicks << " stalled, "
               << s.haptic.trappedTicks << " trapped, " << s.haptic.escapeTicks << " escaping\n";
-    printPart("  turn      ", s.haptic.turnMicros, "us");
+    printPart("  turn      ", s.haptic.stepMicros, "us");
     printPart("  query     ", s.contact.queryMicros, "us");
     std::cout << "  force      up to " << s.haptic.maxForce << " N, torque up to " << s.haptic.maxTorque
               << " N m, stiffness " << s.haptic.stiffness.value_or(0.0) << " N/m\n"
@@ -85,7 +85,7 @@ void print(const RealtimeFigures& f, const ThreadPlacement& placement, const Rep
     std::cout << "  turns     " << s.haptic.late << " of " << s.haptic.ticks
               << " ended over one period late, " << f.periodsMissed << " periods without one\n  frames    "
               << f.framesLost << (f.live ? " lost" : " that a live camera would have lost") << ", "
-              << f.framesInPlace << " read where the camera left them; scene too old in " << f.staleTurns
+              << f.framesInPlace << " read where the camera left them; scene too old in " << f.staleTicks
               << " turns\n";
     if (f.renewals > 0) {
         std::cout << "  device    lost and made anew " << f.renewals << " times\n";
@@ -138,8 +138,8 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     const CpuConfinement confined(
         placement.rest); // before the device: a software device's workers inherit it
     ReplaySession session(options, global, 2);
-    if (options.pictureRate > 0.0 && session.camera->live()) {
-        throw BadInput("replay", "--picture-rate", std::to_string(options.pictureRate),
+    if (options.frameRate > 0.0 && session.camera->live()) {
+        throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
                        "with a recording or a simulated camera: a live one has a rate of its own");
     }
     const auto trace = openTrace(session, global);
@@ -194,14 +194,14 @@ int runReplay(const ReplayOptions& asked, const GlobalOptions& global) {
     if (!options.handDevice.empty() && !options.realtime) {
         throw BadInput("replay", "--hand-device", options.handDevice, "together with --realtime");
     }
-    if (!options.viewDoor.empty() && !options.realtime) {
-        throw BadInput("replay", "--view-door", options.viewDoor, "together with --realtime");
+    if (!options.viewEndpoint.empty() && !options.realtime) {
+        throw BadInput("replay", "--view-door", options.viewEndpoint, "together with --realtime");
     }
     if (!options.arm.empty() && !options.realtime) {
         throw BadInput("replay", "--arm", options.arm, "together with --realtime");
     }
-    if (options.pictureRate > 0.0 && !options.realtime) {
-        throw BadInput("replay", "--picture-rate", std::to_string(options.pictureRate),
+    if (options.frameRate > 0.0 && !options.realtime) {
+        throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
                        "together with --realtime");
     }
     const ReplaySummary summary =
@@ -225,7 +225,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_option("--operator", options->operatorCsv, "hand path: CSV t_s,x,y,z,qw,qx,qy,qz[,button]");
     command->add_flag("--hand", options->hand, "close the loop with the simulated hand of hand.loop");
     command->add_option("--hand-device", options->handDevice, kHandHelp)->excludes("--operator", "--hand");
-    command->add_option("--view-door", options->viewDoor, kViewDoorHelp);
+    command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--seconds", options->seconds, "with --hand-device: go on so long on the last frame")
         ->check(CLI::NonNegativeNumber);
@@ -233,7 +233,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
         ->check(CLI::IsMember({"cpu", "gpu"}));
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
     command
-        ->add_option("--picture-rate", options->pictureRate,
+        ->add_option("--picture-rate", options->frameRate,
                      "with --realtime: pictures a second of a recording or simulated camera, 30 unless told")
         ->check(CLI::Range(1.0, 240.0));
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");

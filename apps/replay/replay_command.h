@@ -20,10 +20,10 @@ struct ReplayOptions {
     std::string query;        // cpu, gpu; empty = the scene's
     bool hand = false;        // close the loop with the simulated hand
     std::string handDevice;   // live device (apps/binding/open_hand.h); empty = none
-    std::string viewDoor;     // socket for observers (devices/bridge); empty = none
+    std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
     std::string arm;          // serial line of the scene's real arm; empty = nothing moves
     double seconds = 0.0;     // that a run with a live device lasts at least
-    double pictureRate = 0.0; // [Hz] of a camera that is not live, by the clock; 0 = 30
+    double frameRate = 0.0;   // [Hz] of a camera that is not live, by the clock; 0 = 30
     bool realtime = false;
     bool saveFixtures = false;
     std::filesystem::path out;

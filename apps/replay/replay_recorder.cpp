@@ -2,7 +2,7 @@
 #include "apps/replay/replay_recorder.h"
 
 #include "apps/replay/fixtures_ply.h"
-#include "apps/replay/overlay_picture.h"
+#include "apps/replay/overlay_image.h"
 #include "apps/replay/traces_plot.h"
 #include "engine/cloud/frame_params.h"
 
@@ -134,7 +134,7 @@ std::vector<ReplaySummary::FixtureRow> ReplayRecorder::fixtureRows() const {
     return rows;
 }
 
-void ReplayRecorder::writePictures(const Ending& ending) const {
+void ReplayRecorder::writeImages(const Ending& ending) const {
     TracesLabels labels;
     labels.subtitle = ending.title;
     labels.forceLimit = ending.forceLimit;
@@ -166,7 +166,7 @@ ReplaySummary ReplayRecorder::finish(const Ending& ending) {
     summary.digest = haptics_.digest();
     haptics_.commit();
     frames_.commit();
-    writePictures(ending);
+    writeImages(ending);
     summary.frames = {frameCount_,
                       ending.skipped,
                       percentilesOf(std::move(gpuMs_)),

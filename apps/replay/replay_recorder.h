@@ -64,7 +64,7 @@ private:
     };
     void addGuidance(const Fixtures& set);
     std::vector<ReplaySummary::FixtureRow> fixtureRows() const;
-    void writePictures(const Ending& ending) const;
+    void writeImages(const Ending& ending) const;
 
     std::filesystem::path out_;
     const Scene& scene_;

@@ -57,8 +57,8 @@ ReplaySession::ReplaySession(const ReplayOptions& options, const GlobalOptions& 
     edits.takeUncertainty(*camera);
 }
 
-const SceneEdit* ReplaySession::newEdit(uint32_t picture) {
-    const SceneEdit* edit = edits.empty() ? nullptr : &edits.at(picture);
+const SceneEdit* ReplaySession::newEdit(uint32_t image) {
+    const SceneEdit* edit = edits.empty() ? nullptr : &edits.at(image);
     return edit == std::exchange(edit_, edit) ? nullptr : edit;
 }
 

@@ -33,7 +33,7 @@ struct ReplaySession {
     DeviceCycles cycles;
 
     // What the pilot had changed from this picture on; null = nothing since the picture asked about before.
-    const SceneEdit* newEdit(uint32_t picture);
+    const SceneEdit* newEdit(uint32_t image);
     bool heldStill() const { return edit_ != nullptr && edit_->still; } // all fixtures, in that picture
 
     std::string title() const; // scene, source

@@ -52,7 +52,7 @@ Range runAt(const dvec3& c, double k, double y) {
 
 } // namespace
 
-Silhouette::Silhouette(const PictureView& view)
+Silhouette::Silhouette(const ImageView& view)
     : view_(view)
     , width_(view.width())
     , height_(view.height())

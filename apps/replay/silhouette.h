@@ -3,7 +3,7 @@
 // lines.
 #pragma once
 
-#include "apps/replay/picture_view.h"
+#include "apps/replay/image_view.h"
 
 #include <cstdint>
 #include <vector>
@@ -15,7 +15,7 @@ namespace fathom {
 // lens distortion is taken at the sphere's centre.
 class Silhouette {
 public:
-    explicit Silhouette(const PictureView& view);
+    explicit Silhouette(const ImageView& view);
 
     void add(const dvec3& baseCentre, double radius); // [m]
     // 1 where some sphere covers the centre of the pixel; width x height, rows from the top.
@@ -24,7 +24,7 @@ public:
 private:
     void addRow(int v, double from, double to);
 
-    const PictureView view_;
+    const ImageView view_;
     int width_, height_;
     std::vector<int32_t> steps_; // by row, width + 1: how many runs begin less how many ended
 };

@@ -38,14 +38,14 @@ Json framesJson(const ReplaySummary::Frames& frames) {
 }
 
 Json hapticJson(const ReplaySummary::Haptic& haptic) {
-    const Percentiles& turn = haptic.turnMicros;
+    const Percentiles& tick = haptic.stepMicros;
     return {{"ticks", haptic.ticks},
             {"late", haptic.late},
             {"turn_us",
-             {{"p50", number(turn.p50)},
-              {"p99", number(turn.p99)},
-              {"p999", number(turn.p999)},
-              {"max", number(turn.max)}}},
+             {{"p50", number(tick.p50)},
+              {"p99", number(tick.p99)},
+              {"p999", number(tick.p999)},
+              {"max", number(tick.max)}}},
             {"stalled_ticks", haptic.stalledTicks},
             {"trapped_ticks", haptic.trappedTicks},
             {"escape_ticks", haptic.escapeTicks},
@@ -146,7 +146,7 @@ void ReplaySummary::Haptic::take(TickTotals totals) {
         solvesMean = static_cast<double>(totals.solves) / static_cast<double>(totals.ticks);
     }
     infeasible = totals.infeasible;
-    turnMicros = percentilesOf(std::move(totals.turnMicros));
+    stepMicros = percentilesOf(std::move(totals.stepMicros));
 }
 
 std::string toJson(const ReplaySummary& summary) {

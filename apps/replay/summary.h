@@ -27,7 +27,7 @@ struct ReplaySummary {
 
     struct Haptic {
         uint64_t ticks = 0, late = 0;
-        Percentiles turnMicros;
+        Percentiles stepMicros;
         uint64_t stalledTicks = 0, trappedTicks = 0, escapeTicks = 0;
         uint64_t notFiniteTicks = 0;                          // without force, because some number was none
         std::optional<double> maxPenetration, maxEscapeDepth; // [m], of the penetration audit

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/binding/arm_link.h"
-#include "engine/cycle/turn_record.h"
+#include "engine/cycle/step_record.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
@@ -45,7 +45,7 @@ struct TickRecord {
     double marginPassive = kUnknown, marginUncoupled = kUnknown;
 
     // Not columns: they feed summary.json and are left out of the digest.
-    double turnMicros = kUnknown; // [us] compute time of the turn
+    double stepMicros = kUnknown; // [us] compute time of the turn
     bool late = false;            // ended more than one period after its start was due
     uint32_t solves = 0;          // linearisations
     bool infeasible = false;      // some solve had no feasible step
@@ -53,7 +53,7 @@ struct TickRecord {
     ArmRecord arm;                // all zero without an arm
     ArmPosture armStart;          // that the turn started from
     bool driven = false;          // a real arm follows
-    ArmTold told;                 // by it, before the turn
+    ArmStatus told;               // by it, before the turn
 };
 
 // A pass of the frame cadence and the time it took [ms]; kUnknown when the device gives no timestamps.

@@ -36,8 +36,8 @@ void TickTotals::add(const TickRecord& tick) {
     }
     lower(minMarginPassive, tick.marginPassive);
     lower(minMarginUncoupled, tick.marginUncoupled);
-    if (std::isfinite(tick.turnMicros)) {
-        turnMicros.push_back(static_cast<float>(tick.turnMicros));
+    if (std::isfinite(tick.stepMicros)) {
+        stepMicros.push_back(static_cast<float>(tick.stepMicros));
     }
 }
 

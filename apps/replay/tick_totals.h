@@ -22,7 +22,7 @@ public:
     double maxForceStep = 0.0;              // [N] between neighbouring ticks; the first counts from zero
     std::optional<double> minMarginPassive, minMarginUncoupled;
     uint64_t solves = 0;
-    std::vector<float> turnMicros;
+    std::vector<float> stepMicros;
 
 private:
     dvec3 lastForce_{0.0};

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "engine/cycle/arm_rig.h"
-#include "engine/cycle/turn_record.h"
+#include "engine/cycle/step_record.h"
 #include "engine/reference/penetration_audit.h"
 
 #include <optional>
@@ -18,7 +18,7 @@ public:
     ToolAudit(const Tool& tool, const ArmRig* arm);
 
     // As PenetrationAudit::tick().
-    void tick(const Fixtures& set, const RegionGrid& grid, const ToolPlace& start, const ToolPlace& end,
+    void tick(const Fixtures& set, const RegionGrid& grid, const ToolState& start, const ToolState& end,
               std::span<const uint32_t> behind);
 
     void retake() { audit_.retake(); } // as PenetrationAudit::retake()

@@ -35,14 +35,14 @@ std::vector<Span> spansOf(const std::vector<TraceBin>& bins, const PlotAxis& tim
     return spans;
 }
 
-void fill(const Picture& picture, const std::vector<Span>& spans, const Panel& panel, Colour colour,
+void fill(const Image& image, const std::vector<Span>& spans, const Panel& panel, Colour colour,
           bool hatched) {
     for (const Span& span : spans) {
-        picture.setColour(colour);
-        cairo_rectangle(picture.cr(), span.from, panel.top, span.to - span.from, panel.bottom - panel.top);
-        cairo_fill(picture.cr());
+        image.setColour(colour);
+        cairo_rectangle(image.cr(), span.from, panel.top, span.to - span.from, panel.bottom - panel.top);
+        cairo_fill(image.cr());
         if (hatched) {
-            hatch(picture, span.from, panel.top, span.to - span.from, panel.bottom - panel.top,
+            hatch(image, span.from, panel.top, span.to - span.from, panel.bottom - panel.top,
                   kAlarm.alpha(0.55));
         }
     }
@@ -67,26 +67,26 @@ Colour colourOf(PhaseKind kind) {
 
 // Swatch and words; returns where the next entry starts.
 template <class Swatch>
-double entry(const Picture& picture, double x, const std::string& words, Swatch swatch) {
+double entry(const Image& image, double x, const std::string& words, Swatch swatch) {
     constexpr double kSwatch = 30.0, kGap = 10.0, kApart = 34.0;
     swatch(x, kLegendBase - 13.0, kSwatch, 16.0);
-    picture.text(x + kSwatch + kGap, kLegendBase, words, 15.0, kInk);
-    return x + kSwatch + kGap + picture.textWidth(words, 15.0) + kApart;
+    image.text(x + kSwatch + kGap, kLegendBase, words, 15.0, kInk);
+    return x + kSwatch + kGap + image.textWidth(words, 15.0) + kApart;
 }
 
-void box(const Picture& picture, double x, double y, double w, double h, Colour colour) {
-    picture.setColour(colour);
-    cairo_rectangle(picture.cr(), x, y, w, h);
-    cairo_fill(picture.cr());
+void box(const Image& image, double x, double y, double w, double h, Colour colour) {
+    image.setColour(colour);
+    cairo_rectangle(image.cr(), x, y, w, h);
+    cairo_fill(image.cr());
 }
 
 } // namespace
 
-void dashedLine(const Picture& picture, double from, double to, double y) {
-    cairo_t* cr = picture.cr();
+void dashedLine(const Image& image, double from, double to, double y) {
+    cairo_t* cr = image.cr();
     const double dashes[] = {8.0, 5.0};
     cairo_set_dash(cr, dashes, 2, 0.0);
-    picture.setColour(kAlarm);
+    image.setColour(kAlarm);
     cairo_set_line_width(cr, 1.6);
     cairo_move_to(cr, from, y);
     cairo_line_to(cr, to, y);
@@ -94,9 +94,9 @@ void dashedLine(const Picture& picture, double from, double to, double y) {
     cairo_set_dash(cr, nullptr, 0, 0.0);
 }
 
-void hatch(const Picture& picture, double x, double y, double width, double height, Colour colour) {
+void hatch(const Image& image, double x, double y, double width, double height, Colour colour) {
     constexpr double kApart = 9.0;
-    cairo_t* cr = picture.cr();
+    cairo_t* cr = image.cr();
     cairo_save(cr);
     cairo_rectangle(cr, x, y, width, height);
     cairo_clip(cr);
@@ -106,13 +106,13 @@ void hatch(const Picture& picture, double x, double y, double width, double heig
         cairo_move_to(cr, foot, y + height);
         cairo_line_to(cr, foot + height, y);
     }
-    picture.setColour(colour);
+    image.setColour(colour);
     cairo_set_line_width(cr, 1.3);
     cairo_stroke(cr);
     cairo_restore(cr);
 }
 
-BandsSeen drawBands(const Picture& picture, const TraceHistory& history, const PlotAxis& time,
+BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel) {
     const auto& bins = history.bins();
     const auto idle = spansOf(bins, time, [](const TraceBin& bin) {
@@ -125,39 +125,39 @@ BandsSeen drawBands(const Picture& picture, const TraceHistory& history, const P
     const auto alarm = spansOf(bins, time, [](const TraceBin& bin) {
         return bin.in(TickState::Escape) + bin.in(TickState::Trapped) > 0;
     });
-    fill(picture, idle, panel, kIdle.alpha(0.16), false);
-    fill(picture, contact, panel, kContact.alpha(0.20), false);
-    fill(picture, guidance, panel, kGuidance.alpha(0.13), false);
-    fill(picture, alarm, panel, kAlarm.alpha(0.10), true);
+    fill(image, idle, panel, kIdle.alpha(0.16), false);
+    fill(image, contact, panel, kContact.alpha(0.20), false);
+    fill(image, guidance, panel, kGuidance.alpha(0.13), false);
+    fill(image, alarm, panel, kAlarm.alpha(0.10), true);
     return {!contact.empty(), !guidance.empty(), !alarm.empty(), !idle.empty()};
 }
 
-void drawPhaseStrip(const Picture& picture, const TraceHistory& history, const PlotAxis& time) {
+void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotAxis& time) {
     constexpr double kBase = kStripBottom - 10.0;
     char letter = 'A';
     for (const Phase& phase : findPhases(history)) {
         const double from = time.at(phase.begin);
         const double width = std::max(1.0, time.at(phase.end) - from);
-        box(picture, from, kStripTop, width, kStripBottom - kStripTop, colourOf(phase.kind));
+        box(image, from, kStripTop, width, kStripBottom - kStripTop, colourOf(phase.kind));
         if (phase.kind == PhaseKind::Trapped) {
-            hatch(picture, from, kStripTop, width, kStripBottom - kStripTop, kAlarm.alpha(0.5));
+            hatch(image, from, kStripTop, width, kStripBottom - kStripTop, kAlarm.alpha(0.5));
         }
-        box(picture, from - 0.5, kStripTop, 1.0, kTorqueBottom - kStripTop, kInk.alpha(0.22));
+        box(image, from - 0.5, kStripTop, 1.0, kTorqueBottom - kStripTop, kInk.alpha(0.22));
         const std::string name(1, letter++);
         const std::string words = phaseName(phase.kind);
         const double middle = from + 0.5 * width;
-        const double letterWidth = picture.textWidth(name, 18.0, true);
-        const double both = letterWidth + 9.0 + picture.textWidth(words, 15.0);
+        const double letterWidth = image.textWidth(name, 18.0, true);
+        const double both = letterWidth + 9.0 + image.textWidth(words, 15.0);
         if (both + 14.0 <= width) {
-            picture.text(middle - 0.5 * both, kBase, name, 18.0, kInk, Align::Left, true);
-            picture.text(middle + 0.5 * both, kBase, words, 15.0, kInk, Align::Right);
+            image.text(middle - 0.5 * both, kBase, name, 18.0, kInk, Align::Left, true);
+            image.text(middle + 0.5 * both, kBase, words, 15.0, kInk, Align::Right);
         } else if (letterWidth + 4.0 <= width) {
-            picture.text(middle, kBase, name, 18.0, kInk, Align::Centre, true);
+            image.text(middle, kBase, name, 18.0, kInk, Align::Centre, true);
         }
     }
 }
 
-bool drawFrameTicks(const Picture& picture, const TraceHistory& history, const PlotAxis& time,
+bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel) {
     constexpr double kLeastApart = 4.0; // [pixels]
     if (history.newFrames() == 0 ||
@@ -166,24 +166,24 @@ bool drawFrameTicks(const Picture& picture, const TraceHistory& history, const P
     }
     for (const TraceBin& bin : history.bins()) {
         if (bin.newFrames > 0) {
-            box(picture, time.at(bin.begin) - 0.6, panel.bottom - 8.0, 1.2, 8.0, kQuietInk.alpha(0.8));
+            box(image, time.at(bin.begin) - 0.6, panel.bottom - 8.0, 1.2, 8.0, kQuietInk.alpha(0.8));
         }
     }
     return true;
 }
 
-void drawLegend(const Picture& picture, const BandsSeen& seen, bool frameTicks, bool limits,
+void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool limits,
                 const std::string& remark) {
     double x = kLeft;
-    x = entry(picture, x, "norm", [&](double left, double top, double w, double h) {
-        box(picture, left, top + 0.5 * h - 1.1, w, 2.2, kTrace);
+    x = entry(image, x, "norm", [&](double left, double top, double w, double h) {
+        box(image, left, top + 0.5 * h - 1.1, w, 2.2, kTrace);
     });
     const auto band = [&](bool present, const char* words, Colour colour, bool hatched) {
         if (present) {
-            x = entry(picture, x, words, [&](double left, double top, double w, double h) {
-                box(picture, left, top, w, h, colour);
+            x = entry(image, x, words, [&](double left, double top, double w, double h) {
+                box(image, left, top, w, h, colour);
                 if (hatched) {
-                    hatch(picture, left, top, w, h, kAlarm.alpha(0.55));
+                    hatch(image, left, top, w, h, kAlarm.alpha(0.55));
                 }
             });
         }
@@ -193,18 +193,18 @@ void drawLegend(const Picture& picture, const BandsSeen& seen, bool frameTicks, 
     band(seen.alarm, "escaping or trapped", kAlarm.alpha(0.12), true);
     band(seen.idle, "off or fading", kIdle.alpha(0.22), false);
     if (frameTicks) {
-        x = entry(picture, x, "new frame", [&](double left, double top, double w, double h) {
+        x = entry(image, x, "new frame", [&](double left, double top, double w, double h) {
             for (double k : {0.2, 0.5, 0.8}) {
-                box(picture, left + k * w, top + 0.5 * h, 1.2, 8.0, kQuietInk);
+                box(image, left + k * w, top + 0.5 * h, 1.2, 8.0, kQuietInk);
             }
         });
     }
     if (limits) {
-        entry(picture, x, "limit", [&](double left, double top, double w, double h) {
-            dashedLine(picture, left, left + w, top + 0.5 * h);
+        entry(image, x, "limit", [&](double left, double top, double w, double h) {
+            dashedLine(image, left, left + w, top + 0.5 * h);
         });
     }
-    picture.text(kRight, kLegendBase, remark, 15.0, kQuietInk, Align::Right);
+    image.text(kRight, kLegendBase, remark, 15.0, kQuietInk, Align::Right);
 }
 
 } // namespace fathom::traces

@@ -3,7 +3,7 @@
 // legend.
 #pragma once
 
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 #include "apps/replay/plot_axis.h"
 #include "apps/replay/trace_history.h"
 
@@ -20,18 +20,18 @@ struct BandsSeen {
     bool contact = false, guidance = false, alarm = false, idle = false;
 };
 
-BandsSeen drawBands(const Picture& picture, const TraceHistory& history, const PlotAxis& time,
+BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel);
-void drawPhaseStrip(const Picture& picture, const TraceHistory& history, const PlotAxis& time);
+void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotAxis& time);
 // Ticks at the panel's foot where a new frame came into force; none when they would run together (returns
 // false).
-bool drawFrameTicks(const Picture& picture, const TraceHistory& history, const PlotAxis& time,
+bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel);
-void drawLegend(const Picture& picture, const BandsSeen& seen, bool frameTicks, bool limits,
+void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool limits,
                 const std::string& remark);
 // The line of a limit.
-void dashedLine(const Picture& picture, double from, double to, double y);
+void dashedLine(const Image& image, double from, double to, double y);
 // Diagonal lines over a rectangle, for what must not be told by colour alone.
-void hatch(const Picture& picture, double x, double y, double width, double height, Colour colour);
+void hatch(const Image& image, double x, double y, double width, double height, Colour colour);
 
 } // namespace fathom::traces

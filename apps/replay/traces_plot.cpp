@@ -51,42 +51,42 @@ PlotAxis timeAxis(const TraceHistory& history) {
     return {begin, end, kLeft, kRight};
 }
 
-void drawFrameAndGrid(const Picture& picture, const Series& series, const PlotAxis& time,
-                      const PlotAxis& value, bool timeLabels) {
-    cairo_t* cr = picture.cr();
+void drawFrameAndGrid(const Image& image, const Series& series, const PlotAxis& time, const PlotAxis& value,
+                      bool timeLabels) {
+    cairo_t* cr = image.cr();
     const Panel& panel = series.panel;
     cairo_set_line_width(cr, 1.0);
     for (const PlotTick& tick : ticksOf(value, 6)) {
         const double y = std::round(value.at(tick.value)) + 0.5;
-        picture.setColour(tick.value == 0.0 ? kQuietInk : kGrid);
+        image.setColour(tick.value == 0.0 ? kQuietInk : kGrid);
         cairo_move_to(cr, kLeft, y);
         cairo_line_to(cr, kRight, y);
         cairo_stroke(cr);
-        picture.text(kLeft - 12.0, y + 5.0, tick.label, 15.0, kInk, Align::Right);
+        image.text(kLeft - 12.0, y + 5.0, tick.label, 15.0, kInk, Align::Right);
     }
     for (const PlotTick& tick : ticksOf(time, 12)) {
         const double x = std::round(time.at(tick.value)) + 0.5;
-        picture.setColour(kGrid);
+        image.setColour(kGrid);
         cairo_move_to(cr, x, panel.top);
         cairo_line_to(cr, x, panel.bottom);
         cairo_stroke(cr);
         if (timeLabels) {
-            picture.text(x, panel.bottom + 24.0, tick.label, 15.0, kInk, Align::Centre);
+            image.text(x, panel.bottom + 24.0, tick.label, 15.0, kInk, Align::Centre);
         }
     }
     cairo_save(cr);
     cairo_translate(cr, 36.0, 0.5 * (panel.top + panel.bottom));
     cairo_rotate(cr, -0.5 * 3.14159265358979);
-    picture.text(0.0, 0.0, std::string(series.title) + " [" + series.unit + "]", 17.0, kInk, Align::Centre,
-                 true);
+    image.text(0.0, 0.0, std::string(series.title) + " [" + series.unit + "]", 17.0, kInk, Align::Centre,
+               true);
     cairo_restore(cr);
 }
 
 // One point a bin, or the extremes of each pixel column when there are more bins than that. A column without
 // a finite value breaks the line.
-void traceLine(const Picture& picture, const TraceHistory& history, const Series& series,
-               const PlotAxis& time, const PlotAxis& value) {
-    cairo_t* cr = picture.cr();
+void traceLine(const Image& image, const TraceHistory& history, const Series& series, const PlotAxis& time,
+               const PlotAxis& value) {
+    cairo_t* cr = image.cr();
     const auto& bins = history.bins();
     bool drawing = false;
     for (size_t i = 0; i < bins.size();) {
@@ -111,7 +111,7 @@ void traceLine(const Picture& picture, const TraceHistory& history, const Series
         cairo_line_to(cr, x, value.at(lo) + 0.01); // a lone point is still a dot
         drawing = true;
     }
-    picture.setColour(kTrace);
+    image.setColour(kTrace);
     cairo_set_line_width(cr, 1.8);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
@@ -120,51 +120,51 @@ void traceLine(const Picture& picture, const TraceHistory& history, const Series
 }
 
 // Words over the traces on a pale ground, so that grid and trace do not cross them.
-void label(const Picture& picture, double x, double y, const std::string& words, Colour colour, Align align) {
-    const double width = picture.textWidth(words, 14.5);
+void label(const Image& image, double x, double y, const std::string& words, Colour colour, Align align) {
+    const double width = image.textWidth(words, 14.5);
     const double left = align == Align::Left ? x : align == Align::Right ? x - width : x - 0.5 * width;
-    picture.setColour(kPaper.alpha(0.82));
-    cairo_rectangle(picture.cr(), left - 5.0, y - 14.5, width + 10.0, 20.0);
-    cairo_fill(picture.cr());
-    picture.text(x, y, words, 14.5, colour, align);
+    image.setColour(kPaper.alpha(0.82));
+    cairo_rectangle(image.cr(), left - 5.0, y - 14.5, width + 10.0, 20.0);
+    cairo_fill(image.cr());
+    image.text(x, y, words, 14.5, colour, align);
 }
 
 // True when the limit's line is in the picture; otherwise its value is written in the corner.
-bool drawLimit(const Picture& picture, const Series& series, const PlotAxis& value) {
+bool drawLimit(const Image& image, const Series& series, const PlotAxis& value) {
     if (!series.limit || !std::isfinite(*series.limit)) {
         return false;
     }
     const std::string words = "limit " + roundNumber(*series.limit) + " " + series.unit;
     if (*series.limit > value.hi) {
-        label(picture, kRight - 12.0, series.panel.top + 22.0, words + ", above this axis", kQuietInk,
+        label(image, kRight - 12.0, series.panel.top + 22.0, words + ", above this axis", kQuietInk,
               Align::Right);
         return false;
     }
     const double y = std::round(value.at(*series.limit)) + 0.5;
-    dashedLine(picture, kLeft, kRight, y);
-    label(picture, kRight - 12.0, y - 8.0, words, kAlarm, Align::Right);
+    dashedLine(image, kLeft, kRight, y);
+    label(image, kRight - 12.0, y - 8.0, words, kAlarm, Align::Right);
     return true;
 }
 
-void drawPeak(const Picture& picture, const Series& series, const PlotAxis& time, const PlotAxis& value) {
+void drawPeak(const Image& image, const Series& series, const PlotAxis& time, const PlotAxis& value) {
     if (series.peak.value <= 0.0) {
-        label(picture, 0.5 * (kLeft + kRight), 0.5 * (series.panel.top + series.panel.bottom),
+        label(image, 0.5 * (kLeft + kRight), 0.5 * (series.panel.top + series.panel.bottom),
               "zero throughout", kQuietInk, Align::Centre);
         return;
     }
-    cairo_t* cr = picture.cr();
+    cairo_t* cr = image.cr();
     const double x = time.at(series.peak.t);
     const double y = value.at(series.peak.value);
-    picture.setColour(kPaper);
+    image.setColour(kPaper);
     cairo_arc(cr, x, y, 5.5, 0.0, 6.2832);
     cairo_fill(cr);
-    picture.setColour(kTrace);
+    image.setColour(kTrace);
     cairo_arc(cr, x, y, 3.8, 0.0, 6.2832);
     cairo_fill(cr);
     char seconds[40];
     std::snprintf(seconds, sizeof seconds, " at %.3f s", series.peak.t);
     const bool toLeft = x > 0.5 * (kLeft + kRight);
-    label(picture, toLeft ? x - 14.0 : x + 14.0, std::max(y - 6.0, series.panel.top + 18.0),
+    label(image, toLeft ? x - 14.0 : x + 14.0, std::max(y - 6.0, series.panel.top + 18.0),
           "peak " + shortNumber(series.peak.value) + " " + series.unit + seconds, kInk,
           toLeft ? Align::Right : Align::Left);
 }
@@ -177,7 +177,7 @@ std::string remark(const TraceHistory& history) {
 } // namespace
 
 void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels) {
-    const Picture picture(kWidth, kHeight, kPaper);
+    const Image image(kWidth, kHeight, kPaper);
     const PlotAxis time = timeAxis(history);
     const Series force{"Force",
                        "N",
@@ -193,26 +193,26 @@ void writeTraces(const std::filesystem::path& file, const TraceHistory& history,
                         history.torquePeak(),
                         labels.torqueLimit,
                         {kTorqueTop, kTorqueBottom}};
-    picture.text(kLeft, kTitleBase, labels.title, 28.0, kInk, Align::Left, true);
-    picture.text(kLeft, kSubtitleBase, labels.subtitle, 16.0, kQuietInk);
+    image.text(kLeft, kTitleBase, labels.title, 28.0, kInk, Align::Left, true);
+    image.text(kLeft, kSubtitleBase, labels.subtitle, 16.0, kQuietInk);
     BandsSeen seen;
     bool limits = false;
     bool frameTicks = false;
     for (const Series* series : {&force, &torque}) {
-        seen = drawBands(picture, history, time, series->panel);
+        seen = drawBands(image, history, time, series->panel);
     }
-    drawPhaseStrip(picture, history, time);
+    drawPhaseStrip(image, history, time);
     for (const Series* series : {&force, &torque}) {
         const PlotAxis value = valueAxis(*series);
-        drawFrameAndGrid(picture, *series, time, value, series == &torque);
-        frameTicks = drawFrameTicks(picture, history, time, series->panel) || frameTicks;
-        limits = drawLimit(picture, *series, value) || limits;
-        traceLine(picture, history, *series, time, value);
-        drawPeak(picture, *series, time, value);
+        drawFrameAndGrid(image, *series, time, value, series == &torque);
+        frameTicks = drawFrameTicks(image, history, time, series->panel) || frameTicks;
+        limits = drawLimit(image, *series, value) || limits;
+        traceLine(image, history, *series, time, value);
+        drawPeak(image, *series, time, value);
     }
-    picture.text(0.5 * (kLeft + kRight), kTorqueBottom + 54.0, "time [s]", 17.0, kInk, Align::Centre, true);
-    drawLegend(picture, seen, frameTicks, limits, remark(history));
-    picture.writePng(file);
+    image.text(0.5 * (kLeft + kRight), kTorqueBottom + 54.0, "time [s]", 17.0, kInk, Align::Centre, true);
+    drawLegend(image, seen, frameTicks, limits, remark(history));
+    image.writePng(file);
 }
 
 } // namespace fathom

@@ -2,7 +2,7 @@
 // Colours and places of traces.png.
 #pragma once
 
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 
 namespace fathom::traces {
 

@@ -12,12 +12,12 @@ EscapeFigures escape(LockstepRig& rig, const Pose& hand, int limit,
     figures.depth = depth;
     const auto done = [&] { return depth <= 0.0 && (!right || right(rig.pose())); };
     for (int k = 1; k <= limit && !done(); ++k) {
-        const TurnRecord record = rig.turn(hand);
+        const StepRecord record = rig.step(hand);
         const double now = rig.depth();
         figures.growth = std::max(figures.growth, now - std::max(0.0, depth));
-        figures.trapped += record.state == TurnState::Trapped ? 1 : 0;
+        figures.trapped += record.state == StepState::Trapped ? 1 : 0;
         depth = now;
-        figures.turns = k;
+        figures.ticks = k;
     }
     figures.out = done();
     return figures;

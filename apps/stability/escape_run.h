@@ -10,7 +10,7 @@ namespace fathom::stability {
 
 struct EscapeFigures {
     double depth = 0.0; // [m] deepest leaf when the data came
-    int turns = 0;      // until nothing overlaps; the limit when it never ends
+    int ticks = 0;      // until nothing overlaps; the limit when it never ends
     bool out = false;
     double growth = 0.0;  // [m] largest growth of the deepest depth from one turn to the next
     uint64_t trapped = 0; // turns

@@ -36,10 +36,10 @@ Outcome coincidingCase(Effort effort) {
         const Pose start{at + off * dice.direction(), kUpright};
         LockstepRig rig(ballTool(leaf), start);
         rig.show(oneSphere(at + dvec3(10, 0, 0), radius));
-        rig.turn(start);
+        rig.step(start);
         rig.show(oneSphere(at, radius));
         const EscapeFigures f = escape(rig, start, 400);
-        worst = std::max(worst, f.turns / (std::ceil((radius + leaf) / kPerTurn) + 1.0));
+        worst = std::max(worst, f.ticks / (std::ceil((radius + leaf) / kPerTurn) + 1.0));
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
         bad += rig.figures.notFinite;
@@ -72,7 +72,7 @@ Outcome zeroGapCase(Effort effort) {
         LockstepRig rig(ballTool(leaf), {centre, kUpright});
         rig.show(oneSphere(dvec3(0.0), radius));
         for (int k = 0; k < 12; ++k) {
-            rig.turn({centre - dice.logUniform(1e-9, 1.0) * glm::normalize(centre + 0.1 * dice.direction()),
+            rig.step({centre - dice.logUniform(1e-9, 1.0) * glm::normalize(centre + 0.1 * dice.direction()),
                       dice.rotation()});
         }
         all.add(rig);
@@ -100,11 +100,11 @@ Outcome insideManyCase(Effort effort) {
         LockstepRig rig(
             toolOf({{dvec3(0.0), 0.01}, {dvec3(0, 0, 0.005), 0.008}, {dvec3(0.005, 0, 0), 0.006}}), start);
         rig.show(oneSphere(dvec3(10, 0, 0), radius));
-        rig.turn(start);
+        rig.step(start);
         rig.show(std::move(set));
         const EscapeFigures f = escape(rig, start, 1000);
         // The farthest way out of the union is along `up`: R + r + leaf offset of travel at most.
-        worst = std::max(worst, f.turns * kPerTurn / (radius + 0.02 + 0.005));
+        worst = std::max(worst, f.ticks * kPerTurn / (radius + 0.02 + 0.005));
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
     }
@@ -181,7 +181,7 @@ Outcome storms(const World& world, Effort effort, int full, const std::string& w
     StormFigures all;
     for (uint64_t seed = 1; seed <= 3; ++seed) {
         Storm storm;
-        storm.turns = some(effort, full, std::max(60, full / 50));
+        storm.ticks = some(effort, full, std::max(60, full / 50));
         storm.seed = seed;
         storm.setup = setup;
         storm.manner.speed = seed == 3 ? 5.0 : 0.3;
@@ -202,14 +202,14 @@ Outcome farCase(Effort effort, double distance) {
     b.show(far.fixtures);
     WildHand hand(near.start, near.focus, near.arena, {0.3, 3.0, 0.0, 0.0, 0.0, 0.0}, 5);
     double apart = 0.0;
-    const int turns = some(effort, 20000, 1000);
+    const int ticks = some(effort, 20000, 1000);
     Outcome::Curve curve{"difference of the tool's way", "turn", "difference [m]", {}, {}, false, true};
-    for (int k = 0; k < turns; ++k) {
+    for (int k = 0; k < ticks; ++k) {
         const Pose wanted = hand.next(0.001);
-        const dvec3 here = a.turn(wanted).tool.position;
-        const dvec3 there = b.turn({wanted.position + way, wanted.rotation}).tool.position - way;
+        const dvec3 here = a.step(wanted).tool.position;
+        const dvec3 there = b.step({wanted.position + way, wanted.rotation}).tool.position - way;
         apart = std::max(apart, glm::distance(here, there));
-        if (k % (turns / 200) == 0) {
+        if (k % (ticks / 200) == 0) {
             curve.x.push_back(k);
             curve.y.push_back(std::max(glm::distance(here, there), 1e-17));
         }
@@ -219,7 +219,7 @@ Outcome farCase(Effort effort, double distance) {
     Outcome out = outcomeOf(
         b.audit().maxPenetration(), kNanometre, "m",
         "Deepest penetration beyond the allowance in rubble " + num(distance / 1000.0) +
-            " km from the base origin over " + num(uint64_t(turns)) + " turns, " + num(b.figures.contact) +
+            " km from the base origin over " + num(uint64_t(ticks)) + " turns, " + num(b.figures.contact) +
             " in contact; the way differs from the same run at the origin by at most " + num(apart) +
             " m (rounding of the base frame is " + num(distance * 2.2e-16) + " m).");
     demand(out, b.figures.contact > 0, "the tool never touched");

@@ -3,7 +3,7 @@
 
 #include "apps/stability/case_text.h"
 #include "apps/stability/escape_run.h"
-#include "apps/stability/picture_fixtures.h"
+#include "apps/stability/image_fixtures.h"
 #include "apps/stability/storm.h"
 #include "devices/simulated/simulated_camera.h"
 
@@ -19,12 +19,12 @@ constexpr double kBall = 0.01;     // [m] radius of the tool
 constexpr double kUnit = 0.0001;   // [m] of the depth picture
 constexpr double kBudget = 0.0001; // [m] error budget of thinning
 
-struct TruthPicture {
+struct TruthImage {
     AnalyticScene scene;
     Fixtures set;
 };
 
-TruthPicture pictureOf(AnalyticScene scene, double radius, double edge, uint32_t width) {
+TruthImage imageOf(AnalyticScene scene, double radius, double edge, uint32_t width) {
     SimulatedCameraOptions options;
     options.width = width;
     options.height = width * 3 / 4;
@@ -34,14 +34,14 @@ TruthPicture pictureOf(AnalyticScene scene, double radius, double edge, uint32_t
     Scene red = redScene(radius);
     red.filter.radius = 0;
     red.filter.edge = edge;
-    PictureFixtures make(red, camera.info(), false);
+    ImageFixtures make(red, camera.info(), false);
     return {std::move(scene), make.make(*camera.next().value())};
 }
 
 // Pressed on a ball from all over the camera's side: the tool stands where the region's skin is.
 Outcome ballTruthCase(Effort effort) {
     const double region = 0.04;
-    const TruthPicture p = pictureOf(analyticScene("sphere").value(), region, 0.03, 320);
+    const TruthImage p = imageOf(analyticScene("sphere").value(), region, 0.03, 320);
     const dvec3 centre(0.0, 0.0, 0.7);
     const double wanted = 0.1 + region + kBall;
     double above = 0.0, below = 0.0;
@@ -53,7 +53,7 @@ Outcome ballTruthCase(Effort effort) {
         LockstepRig rig(ballTool(kBall), {centre + (wanted + 0.004) * way, kUpright});
         rig.show(p.set);
         for (int k = 0; k < 120; ++k) {
-            rig.turn({centre + (wanted - 0.005) * way, kUpright});
+            rig.step({centre + (wanted - 0.005) * way, kUpright});
         }
         const double off = glm::distance(rig.pose().position, centre) - wanted;
         above = std::max(above, off);
@@ -84,7 +84,7 @@ Outcome grazingCase(Effort effort) {
         scene.solids.push_back(planeThrough(point, normal, {linearColour(200, 36, 32), 0.1f, 0.0f}));
         scene.solids.back().object = 1;
         const double region = 0.03;
-        const TruthPicture p = pictureOf(scene, region, 0.0, 320);
+        const TruthImage p = imageOf(scene, region, 0.0, 320);
         const int trials = some(effort, 100, 6);
         for (int i = 0; i < trials; ++i) {
             const dvec3 along(0.0, std::cos(tilt), std::sin(tilt));
@@ -93,7 +93,7 @@ Outcome grazingCase(Effort effort) {
             LockstepRig rig(ballTool(kBall), {foot + (region + kBall + 0.003) * normal, kUpright});
             rig.show(p.set);
             for (int k = 0; k < 150; ++k) {
-                rig.turn({foot - 0.02 * normal, kUpright});
+                rig.step({foot - 0.02 * normal, kUpright});
             }
             const double z = rig.pose().position.z, pixel = z * (1.0 + 0.15) / (570.0 / 640.0 * 320.0);
             const double s2 = pixel * pixel * (1.0 + 1.0 / (std::cos(tilt) * std::cos(tilt)));
@@ -111,7 +111,7 @@ Outcome grazingCase(Effort effort) {
 
 // A plate of 2 mm, regions of 10 mm, hands that go straight through it.
 Outcome plateCase(Effort effort) {
-    const TruthPicture p = pictureOf(analyticScene("plate").value(), 0.01, 0.03, 320);
+    const TruthImage p = imageOf(analyticScene("plate").value(), 0.01, 0.03, 320);
     const Solid& plate = p.scene.solids.front();
     double worst = -1.0;
     StormFigures all;
@@ -129,7 +129,7 @@ Outcome plateCase(Effort effort) {
         rig.faults = {static_cast<uint32_t>(dice.below(20)), false, 0.1};
         const double reach = std::min(0.12, 0.6 * speed);
         for (double s = 0.0; s < reach; s += speed * 0.001) {
-            const TurnRecord record = rig.turn({start + s * way, kUpright});
+            const StepRecord record = rig.step({start + s * way, kUpright});
             worst = std::max(worst, kBall - signedDistance(plate, record.tool.position));
         }
         all.add(rig);
@@ -159,7 +159,7 @@ Outcome restCase(Effort effort, const std::vector<World>& worlds, const std::str
                             rotationExp(0.3 * dice.direction())};
             for (int k = 0; k < 1500; ++k) {
                 const dvec3 before = rig.pose().position;
-                rig.turn(hand);
+                rig.step(hand);
                 jitter = k >= 1400 ? std::max(jitter, glm::distance(before, rig.pose().position)) : jitter;
             }
             all.add(rig);
@@ -182,7 +182,7 @@ Outcome cameraOriginCase(Effort effort) {
         const double radius = dice.logUniform(0.001, 0.05);
         const Pose start{dvec3(0.0, 0.0, i % 3 == 0 ? 0.0 : -dice.logUniform(1e-12, 1e-6)), kUpright};
         LockstepRig rig(ballTool(kBall), start);
-        const auto withPicture = [](Fixtures set, uint16_t depth) {
+        const auto withImage = [](Fixtures set, uint16_t depth) {
             set.camera.depth.width = 16, set.camera.depth.height = 12;
             set.camera.depth.fx = set.camera.depth.fy = 14.0;
             set.camera.depth.cx = 7.5, set.camera.depth.cy = 5.5;
@@ -196,11 +196,11 @@ Outcome cameraOriginCase(Effort effort) {
             const dvec3 off = k == 0 ? dvec3(0.0) : glm::normalize(dice.direction() + dvec3(0, 0, 1.5));
             addSphere(second, 1e-3 * radius * off, radius);
         }
-        rig.show(withPicture(std::move(first), 500));
-        rig.turn(start);
-        rig.show(withPicture(std::move(second), static_cast<uint16_t>(i % 2)));
+        rig.show(withImage(std::move(first), 500));
+        rig.step(start);
+        rig.show(withImage(std::move(second), static_cast<uint16_t>(i % 2)));
         const EscapeFigures f = escape(rig, start, 400);
-        worst = std::max(worst, f.turns / (std::ceil((radius + kBall) / 1e-3) + 2.0));
+        worst = std::max(worst, f.ticks / (std::ceil((radius + kBall) / 1e-3) + 2.0));
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
         bad += rig.figures.notFinite;

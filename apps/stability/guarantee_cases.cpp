@@ -35,12 +35,12 @@ Outcome anyHand(const World& world, Effort effort, const std::string& what) {
             storm.manner.spin = s == 2 ? kTwentyTurns : 20.0;
             storm.manner.turnOvers = 2.0;
             storm.faults = {kLate[late], false, late % 2 == 1 ? 0.3 : 0.0};
-            storm.turns = turnsOf(effort, 30000);
+            storm.ticks = turnsOf(effort, 30000);
             storm.seed = 100 * late + s;
             rage(world, storm, some);
         }
         stalls.x.push_back(kLate[late]);
-        stalls.y.push_back(static_cast<double>(some.rig.stalled) / static_cast<double>(some.rig.turns));
+        stalls.y.push_back(static_cast<double>(some.rig.stalled) / static_cast<double>(some.rig.ticks));
         all.add(some);
     }
     Outcome out = penetrationOutcome(
@@ -61,7 +61,7 @@ Outcome anyWorld(const HandManner& manner, const AnswerFaults& faults, Effort ef
         Storm storm;
         storm.manner = manner;
         storm.faults = faults;
-        storm.turns = turnsOf(effort, 30000);
+        storm.ticks = turnsOf(effort, 30000);
         storm.seed = w + 1;
         rage(worlds[w], storm, all);
     }

@@ -80,11 +80,11 @@ Outcome flicker(Effort effort) {
                     poses[1].present = !poses[0].present || dice.chance(0.5);
                 }
             }
-            TurnInput input;
+            StepInput input;
             input.time = i * 0.001;
             input.guidance = poses;
             input.buttons = i > 100 ? kGuidanceButton : 0;
-            const TurnRecord record = cycle.turn(input);
+            const StepRecord record = cycle.step(input);
             largest = std::max(largest, glm::distance(record.wrench.force, before));
             before = record.wrench.force;
             changes += !oneClass && chosen >= 0 && record.guidanceClass != chosen && record.guidanceClass >= 0

@@ -80,11 +80,11 @@ std::unique_ptr<ContactSet> LockstepRig::arrived() {
     return offered;
 }
 
-TurnRecord LockstepRig::turn(const Pose& hand) {
+StepRecord LockstepRig::step(const Pose& hand) {
     ask();
     std::unique_ptr<ContactSet> offered = arrived();
     const Pose before = cycle_->pose();
-    TurnInput input;
+    StepInput input;
     input.time = static_cast<double>(now_) * options_.period;
     input.deviceThandle = hand;
     input.contacts = inForce_.get();
@@ -94,7 +94,7 @@ TurnRecord LockstepRig::turn(const Pose& hand) {
         input.generation = generation_;
         input.captureTime = fresh_ ? input.time : captured_;
     }
-    const TurnRecord record = cycle_->turn(input);
+    const StepRecord record = cycle_->step(input);
     if (record.adopted) {
         std::swap(inForce_, offered);
     } else if (offered) {
@@ -117,7 +117,7 @@ const LockstepRig::Published* LockstepRig::published(uint64_t generation) const 
     throw Error("stability: a contact set names a fixture set that is gone");
 }
 
-void LockstepRig::judge(const Pose& before, const TurnRecord& record) {
+void LockstepRig::judge(const Pose& before, const StepRecord& record) {
     if (inForce_) {
         std::vector<uint32_t> behind;
         for (const ContactSet::Behind& flag : inForce_->behind) {
@@ -126,11 +126,11 @@ void LockstepRig::judge(const Pose& before, const TurnRecord& record) {
         const Published& obeyed = *published(inForce_->generation);
         audit_.tick(obeyed.set, obeyed.grid, before, record.tool, behind);
     }
-    ++figures.turns;
+    ++figures.ticks;
     figures.contact += record.contacts > 0 ? 1 : 0;
     figures.stalled += record.stalled ? 1 : 0;
-    figures.trapped += record.state == TurnState::Trapped ? 1 : 0;
-    figures.escape += record.state == TurnState::Escape ? 1 : 0;
+    figures.trapped += record.state == StepState::Trapped ? 1 : 0;
+    figures.escape += record.state == StepState::Escape ? 1 : 0;
     figures.notFinite += record.finite ? 0 : 1;
     figures.path += glm::distance(before.position, record.tool.position);
     figures.force = std::max(figures.force, glm::length(record.wrench.force));

@@ -23,7 +23,7 @@ struct AnswerFaults {
 };
 
 struct RigFigures {
-    uint64_t turns = 0, contact = 0, stalled = 0, trapped = 0, escape = 0, refused = 0, notFinite = 0;
+    uint64_t ticks = 0, contact = 0, stalled = 0, trapped = 0, escape = 0, refused = 0, notFinite = 0;
     double path = 0.0;                        // [m] of the tool's centre
     double force = 0.0, torque = 0.0;         // largest [N], [N m]
     double forceStep = 0.0, torqueStep = 0.0; // largest between two turns [N], [N m]
@@ -50,7 +50,7 @@ public:
     // From now on the set shown ages; otherwise every turn counts as a fresh picture of the same.
     void freeze() { fresh_ = false; }
 
-    TurnRecord turn(const Pose& hand);
+    StepRecord step(const Pose& hand);
 
     AnswerFaults faults;
     RigFigures figures;
@@ -77,7 +77,7 @@ private:
     std::unique_ptr<ContactSet> arrived();
     std::unique_ptr<ContactSet> spare();
     const Published* published(uint64_t generation) const;
-    void judge(const Pose& before, const TurnRecord& record);
+    void judge(const Pose& before, const StepRecord& record);
     void forgetOldSets();
 
     Tool tool_;

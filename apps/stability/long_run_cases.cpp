@@ -2,7 +2,7 @@
 // Group long-run: one million turns in lockstep, with frames, guidance, dead-man and a hand that roams:
 // nothing drifts, nothing grows, and the same run gives the same digest.
 #include "apps/replay/digest.h"
-#include "apps/replay/turn_to_tick.h"
+#include "apps/replay/step_to_tick.h"
 #include "apps/stability/case_text.h"
 #include "apps/stability/dice.h"
 #include "apps/stability/loop_rig.h"
@@ -69,11 +69,11 @@ struct LongRun {
     Outcome::Curve memory{"resident memory", "turn", "MiB", {}, {}, false, false};
 };
 
-void judge(const TurnRecord& record, LongRun& run, Digest& digest) {
+void judge(const StepRecord& record, LongRun& run, Digest& digest) {
     run.norm = std::max({run.norm, std::abs(glm::length(record.tool.rotation) - 1.0),
                          std::abs(glm::length(record.device.rotation) - 1.0)});
     run.contacts += record.contacts > 0;
-    run.escapes += record.state == TurnState::Escape;
+    run.escapes += record.state == StepState::Escape;
     run.guided += record.guidance > 0.0;
     digest.add(tickOf(record, {}, 0.0, false));
 }

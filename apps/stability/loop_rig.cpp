@@ -81,10 +81,10 @@ void LoopRig::account(const Wrench& felt, const Pose& before, double period) {
     pathLength_ += std::sqrt(square);
 }
 
-const TurnRecord& LoopRig::tick() {
+const StepRecord& LoopRig::tick() {
     const double period = measured_ > 0.0 ? measured_ : options_.period;
     const HandSample sample = hand_.read(time_);
-    TurnInput input;
+    StepInput input;
     input.time = time_;
     input.deviceThandle = sample.deviceThandle;
     input.buttons = sample.buttons;
@@ -98,7 +98,7 @@ const TurnRecord& LoopRig::tick() {
         input.generation = spec_.fixtures->generation;
         input.captureTime = time_;
     }
-    record_ = cycle_->turn(input);
+    record_ = cycle_->step(input);
     if (record_.adopted) {
         std::swap(inForce_, offered_);
         hasSet_ = true;

@@ -63,7 +63,7 @@ class LoopRig {
 public:
     explicit LoopRig(const LoopSpec& spec);
 
-    const TurnRecord& tick();
+    const StepRecord& tick();
     void run(double seconds);
     void show(Fixtures fixtures); // a new frame
     // Turns take this long [s] from now on and the cycle is told so; 0 = as planned.
@@ -73,7 +73,7 @@ public:
     HapticCycle& cycle() { return *cycle_; }
     const HapticOptions& options() const { return options_; }
     double time() const { return time_; }
-    const TurnRecord& last() const { return record_; }
+    const StepRecord& last() const { return record_; }
 
     // Since the start, at the hand [J]: what the wrench did on it, exactly (it is constant over a turn), and
     // at least what the device's own damping took.
@@ -100,7 +100,7 @@ private:
     uint64_t ticks_ = 0;
     double time_ = 0.0, measured_ = 0.0;
     double energyOut_ = 0.0, dissipated_ = 0.0, pathLength_ = 0.0;
-    TurnRecord record_;
+    StepRecord record_;
 };
 
 // Shapes and sets that the cases share. A wall: the half-space below `height` along `normal` (unit).

@@ -33,7 +33,7 @@ struct JumpFigures {
     double forceStep = 0.0;  // [N]
     double torqueStep = 0.0; // [N m]
     uint64_t runs = 0, stuck = 0, flagged = 0;
-    double turns = 0.0; // most
+    double ticks = 0.0; // most
 };
 
 // Rests on the wall (pressed or not), then the wall stands `jump` nearer.
@@ -49,7 +49,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     rig.faults.late = late;
     rig.show(camera.look({kWall, noise, 0.0}));
     for (uint32_t k = 0; k < 100 + 3 * late; ++k) {
-        rig.turn(hand);
+        rig.step(hand);
     }
     const double resting = rig.pose().position.z;
     rig.show(camera.look({kWall - jump, noise, 0.0}));
@@ -57,8 +57,8 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     const double way = std::max(0.0, resting - (kWall - jump - kStand)) + 3.0 * noise;
     // A late answer is certified for 10 mm about the pose it was asked at: one wait for each.
     const double waits = late > 0 ? (std::ceil(way / 0.00999) + 2.0) * (late + 1.0) : 0.0;
-    f.ratio = std::max(f.ratio, e.turns / (std::ceil(way / kPerTurn) + kTurnsAside + waits));
-    f.turns = std::max(f.turns, static_cast<double>(e.turns));
+    f.ratio = std::max(f.ratio, e.ticks / (std::ceil(way / kPerTurn) + kTurnsAside + waits));
+    f.ticks = std::max(f.ticks, static_cast<double>(e.ticks));
     f.growth = std::max(f.growth, rig.audit().maxPenetration());
     f.front = std::min(f.front, kWall - jump - rig.pose().position.z);
     f.forceStep = std::max(f.forceStep, rig.figures.forceStep);
@@ -75,7 +75,7 @@ void demandJump(Outcome& out, const JumpFigures& f) {
 }
 
 std::string wordsOf(const JumpFigures& f) {
-    return num(f.runs) + " runs, " + num(f.flagged) + " of them flagged behind; at most " + num(f.turns) +
+    return num(f.runs) + " runs, " + num(f.flagged) + " of them flagged behind; at most " + num(f.ticks) +
            " turns; ends at least " + num(f.front * 1e3) +
            " mm in front of the new surface; force step at most " + num(f.forceStep) + " N.";
 }
@@ -107,7 +107,7 @@ Outcome lateJumpCase(Effort effort, uint32_t late) {
     for (const double jump : {0.01, 0.055}) {
         const JumpFigures f = jumps(effort, jump, late);
         all.ratio = std::max(all.ratio, f.ratio);
-        all.turns = std::max(all.turns, f.turns);
+        all.ticks = std::max(all.ticks, f.ticks);
         all.growth = std::max(all.growth, f.growth);
         all.front = std::min(all.front, f.front);
         all.forceStep = std::max(all.forceStep, f.forceStep);
@@ -161,18 +161,18 @@ Outcome sweepCase(Effort effort, double speed) {
                         kUpright};
         LockstepRig rig(ballTool(kTool), hand);
         const auto frames = static_cast<int>(std::ceil(sweep / (speed * WallCamera::kFrame)));
-        int turn = 0;
+        int tick = 0;
         double z = 0.6;
         for (int frame = 0; frame <= frames; ++frame) {
             z = std::max(0.6 - sweep, 0.6 - speed * WallCamera::kFrame * frame);
             rig.show(camera.look({z, noise, 0.0}));
-            for (; frame < frames && turn < (frame + 1) * 1000 / 30; ++turn) {
-                rig.turn(hand);
+            for (; frame < frames && tick < (frame + 1) * 1000 / 30; ++tick) {
+                rig.step(hand);
             }
         }
         const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(z));
         const double way = sweep, swept = frames * WallCamera::kFrame * 1000.0;
-        ratio = std::max(ratio, (turn + e.turns) /
+        ratio = std::max(ratio, (tick + e.ticks) /
                                     (std::max(std::ceil(way / kPerTurn), swept) + 34.0 + kTurnsAside));
         front = std::min(front, z - rig.pose().position.z);
         growth = std::max(growth, rig.audit().maxPenetration());

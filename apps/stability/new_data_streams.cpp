@@ -28,7 +28,7 @@ void demandSound(Outcome& out, const LockstepRig& rig) {
 }
 
 std::string wordsOf(const LockstepRig& rig) {
-    return num(rig.figures.turns) + " turns, force step at most " + num(rig.figures.forceStep) +
+    return num(rig.figures.ticks) + " turns, force step at most " + num(rig.figures.forceStep) +
            " N, force up to " + num(rig.figures.force) + " N, " + num(rig.figures.escape) +
            " turns escaping, " + num(rig.figures.trapped) + " trapped, deepest beyond the allowance " +
            num(rig.audit().maxPenetration()) + " m.";
@@ -42,7 +42,7 @@ Outcome flickerCase(Effort effort, bool hold) {
     LockstepRig rig(ballTool(kStreamBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
     rig.show(camera.look({kStreamWall, 0.0, 0.0}));
     for (int k = 0; k < 200; ++k) {
-        rig.turn(hand);
+        rig.step(hand);
     }
     const double resting = rig.pose().position.z;
     double deepest = resting, hole = 0.0;
@@ -58,7 +58,7 @@ Outcome flickerCase(Effort effort, bool hold) {
         rig.show(camera.look({kStreamWall, 0.0, 0.24}));
         hole = std::max(hole, camera.largestHole(rig.pose().position.x, rig.pose().position.y));
         for (int k = 0; k < 33; ++k) {
-            rig.turn(hand);
+            rig.step(hand);
             deepest = std::max(deepest, rig.pose().position.z);
         }
         curve.x.push_back(frame * WallCamera::kFrame);
@@ -89,20 +89,20 @@ Outcome dropoutCase(Effort effort, bool hold) {
     for (int round = 0; round < rounds; ++round) {
         rig.show(camera.look({kStreamWall, 0.0, 0.0}));
         for (int k = 0; k < 200; ++k) {
-            rig.turn(hand);
+            rig.step(hand);
         }
         const double resting = rig.pose().position.z;
         for (int blind = 0; blind < 5; ++blind) {
             rig.show(camera.look({kStreamWall, 0.0, 1.0}));
             for (int k = 0; k < 33; ++k) {
-                rig.turn(hand);
+                rig.step(hand);
             }
         }
         const double sunk = rig.pose().position.z - resting;
         rig.show(camera.look({kStreamWall, 0.0, 0.0}));
         const EscapeFigures e = escape(rig, hand, 400);
         stuck += e.out ? 0 : 1;
-        worst = std::max(worst, hold ? sunk : e.turns / (std::ceil(std::max(0.0, sunk) / 1e-3) + 3.0));
+        worst = std::max(worst, hold ? sunk : e.ticks / (std::ceil(std::max(0.0, sunk) / 1e-3) + 3.0));
     }
     Outcome out = hold ? outcomeOf(worst, 1e-6, "m",
                                    "How far a pressed tool sinks in five blind frames (0.17 s) with a hold "
@@ -127,7 +127,7 @@ Outcome restlessCase(Effort effort, double noise, double leap, int turnsEach, co
     for (int frame = 0; frame < frames; ++frame) {
         rig.show(camera.look({kStreamWall - (frame % 2 == 1 ? leap : 0.0), noise, 0.0}));
         for (int k = 0; k < turnsEach; ++k) {
-            rig.turn(hand);
+            rig.step(hand);
         }
     }
     Outcome out = outcomeOf(rig.figures.forceStep, kSlewStep, "N",
@@ -156,13 +156,13 @@ ViceRun closeVice(LockstepRig& rig, double overlap, const Pose& hand) {
     ViceRun run;
     rig.show(vice(-0.003));
     for (int k = 0; k < 100; ++k) {
-        rig.turn(hand);
+        rig.step(hand);
     }
     rig.show(vice(overlap));
     const dvec3 held = rig.pose().position;
     for (int k = 1; k <= 400; ++k) {
-        const TurnRecord record = rig.turn(hand);
-        if (run.recognised < 0 && record.state == TurnState::Trapped) {
+        const StepRecord record = rig.step(hand);
+        if (run.recognised < 0 && record.state == StepState::Trapped) {
             run.recognised = k;
         }
         run.moved = std::max(run.moved, glm::distance(record.tool.position, held));
@@ -189,9 +189,9 @@ Outcome viceCase(Effort effort, ViceFigure what) {
         const Pose hand{0.0005 * dice.direction() + dvec3(0.012 * (i % 2), 0, 0), kUpright};
         LockstepRig rig(ballTool(kStreamBall), {hand.position, kUpright});
         const ViceRun run = closeVice(rig, overlap, hand);
-        const double turns = run.recognised < 0 ? 1e9 : run.recognised;
-        const double left = run.left.turns / (std::ceil((overlap + 0.001) / 1e-3) + 3.0);
-        worst = std::max(worst, what == ViceFigure::Recognised ? turns
+        const double ticks = run.recognised < 0 ? 1e9 : run.recognised;
+        const double left = run.left.ticks / (std::ceil((overlap + 0.001) / 1e-3) + 3.0);
+        worst = std::max(worst, what == ViceFigure::Recognised ? ticks
                                 : what == ViceFigure::ForceOut ? run.forceAfter
                                                                : left);
         moved = std::max(moved, run.moved);
@@ -225,7 +225,7 @@ Outcome recordingCase(Effort effort, const std::string& file, const std::string&
     const World world = recordedWorld(file, folder).value();
     const Scene scene = loadScene(file);
     RecordedCamera camera(recordingFolder(folder));
-    PictureFixtures make(scene, camera.info(), true);
+    ImageFixtures make(scene, camera.info(), true);
     LockstepRig rig(toolOf(world.leaves), world.start);
     const int frames = some(effort, 60, 4);
     Dice dice(7);
@@ -237,7 +237,7 @@ Outcome recordingCase(Effort effort, const std::string& file, const std::string&
         rig.show(make.make(**next));
         const Pose hand{world.focus + 0.05 * dice.direction(), rotationExp(0.2 * dice.direction())};
         for (int k = 0; k < (frame == 0 ? 300 : 33); ++k) {
-            rig.turn(hand);
+            rig.step(hand);
         }
     }
     Outcome out = outcomeOf(rig.audit().maxPenetration(), 1e-5, "m",

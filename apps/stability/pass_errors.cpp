@@ -17,7 +17,7 @@ void PassError::add(const PassError& other) {
 }
 
 PassError classifyError(const PrecisionRig& rig) {
-    const reference::CellPicture cells = rig.plan().occlusion ? rig.cells() : reference::CellPicture{};
+    const reference::CellImage cells = rig.plan().occlusion ? rig.cells() : reference::CellImage{};
     const auto twin = reference::classify(rig.view(), rig.plan().occlusion ? &cells : nullptr);
     const std::vector<uint32_t> masks = rig.masks();
     PassError e;
@@ -31,7 +31,7 @@ PassError classifyError(const PrecisionRig& rig) {
 
 PassError surfaceError(const PrecisionRig& rig, double range) {
     const auto twin = reference::surface(rig.view(), rig.masks());
-    const reference::PointPicture points = rig.points();
+    const reference::PointImage points = rig.points();
     PassError e;
     for (size_t i = 0; i < points.z.size(); ++i) {
         const bool here = points.z[i] != 0.0, there = twin.points.z[i] != 0.0;
@@ -171,7 +171,7 @@ PassError guidanceError(const PrecisionRig& rig) {
 
 PassError occlusionError(const PrecisionRig& rig, double range) {
     const reference::CellBounds twin = reference::occlusion(rig.view(), 1e-3);
-    const reference::CellPicture cells = rig.cells();
+    const reference::CellImage cells = rig.cells();
     PassError e;
     e.wrong += cells.nearest.size() != twin.sure.nearest.size();
     for (size_t i = 0; i < std::min(cells.nearest.size(), twin.sure.nearest.size()); ++i) {

@@ -39,7 +39,7 @@ Sweep overRanges(const DeviceSource& device, Effort effort, const std::vector<do
         PrecisionRig rig(device(), scene, camera);
         PassError here;
         for (const double noise : noises) {
-            rig.run(pictureFor(camera, range, noise, static_cast<uint64_t>(1e4 * noise) + 5));
+            rig.run(imageFor(camera, range, noise, static_cast<uint64_t>(1e4 * noise) + 5));
             here.add(measure(rig, range));
         }
         sweep.curve.x.push_back(range);
@@ -129,7 +129,7 @@ Outcome hold(const DeviceSource& device, Effort effort) {
         reference::HoldMemory twin;
         PassError here;
         for (int frame = 0; frame < 6; ++frame) {
-            rig.run(pictureFor(rig.camera(), range, 0.002, static_cast<uint64_t>(frame) + 40), frame / 30.0);
+            rig.run(imageFor(rig.camera(), range, 0.002, static_cast<uint64_t>(frame) + 40), frame / 30.0);
             here.add(holdError(rig, twin, frame / 30.0, std::max(0, frame - 1) / 30.0, range));
         }
         sweep.curve.x.push_back(range);
@@ -175,7 +175,7 @@ Outcome filterWidths(const DeviceSource& device, Effort effort) {
             scene.filter.radius = radius;
             PrecisionRig rig(device(), scene, cameraFor(1.0));
             for (const double noise : {0.0, 0.005}) {
-                rig.run(pictureFor(rig.camera(), 1.0, noise, 3));
+                rig.run(imageFor(rig.camera(), 1.0, noise, 3));
                 here.add(surfaceError(rig, 1.0));
             }
         }
@@ -203,7 +203,7 @@ Outcome tinyWeights(const DeviceSource& device, Effort effort) {
         PrecisionRig rig(device(), scene, cameraFor(1.0));
         PassError here;
         for (const double noise : {0.0, 0.0005}) {
-            rig.run(pictureFor(rig.camera(), 1.0, noise, 4));
+            rig.run(imageFor(rig.camera(), 1.0, noise, 4));
             here.add(surfaceError(rig, 1.0));
         }
         sweep.curve.x.push_back(std::exp(-exponent));

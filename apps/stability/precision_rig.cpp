@@ -38,9 +38,9 @@ Scene sceneFor(double range) {
     return scene;
 }
 
-Picture pictureFor(const CameraInfo& camera, double range, double noise, uint64_t seed) {
+Image imageFor(const CameraInfo& camera, double range, double noise, uint64_t seed) {
     Dice dice(seed);
-    Picture picture;
+    Image image;
     const uint32_t w = camera.depth.width, h = camera.depth.height;
     for (uint32_t v = 0; v < h; ++v) {
         for (uint32_t u = 0; u < w; ++u) {
@@ -49,16 +49,16 @@ Picture pictureFor(const CameraInfo& camera, double range, double noise, uint64_
             z -= std::hypot(x - 0.6, y - 0.45) < 0.2 ? 0.3 : 0.0;
             z *= 1.0 + noise * dice.normal();
             const bool none = noise > 0.0 && dice.chance(0.04);
-            picture.depth.push_back(none ? uint16_t{0}
-                                         : static_cast<uint16_t>(std::clamp(
-                                               std::round(z * range / camera.metresPerUnit), 0.0, 65535.0)));
+            image.depth.push_back(none ? uint16_t{0}
+                                       : static_cast<uint16_t>(std::clamp(
+                                             std::round(z * range / camera.metresPerUnit), 0.0, 65535.0)));
         }
     }
     for (uint32_t i = 0; i < camera.colour.pixels(); ++i) {
         const uint32_t column = i % camera.colour.width;
-        picture.colour.push_back(column % 16 < 11 ? 0xff2020c0u : 0xff808080u);
+        image.colour.push_back(column % 16 < 11 ? 0xff2020c0u : 0xff808080u);
     }
-    return picture;
+    return image;
 }
 
 } // namespace fathom::stability

@@ -6,7 +6,7 @@
 
 namespace fathom::stability {
 
-using verify::Picture;
+using verify::Image;
 
 // With a tree of bounds, whether a query walks it or not: it is looked at, too.
 struct PrecisionRig : verify::PassRig {
@@ -23,6 +23,6 @@ Scene sceneFor(double range);
 
 // A slope with a step and waves in it, scaled to the range; noise: 0 or the relative standard deviation of a
 // depth. Some pixels have none.
-Picture pictureFor(const CameraInfo& camera, double range, double noise, uint64_t seed);
+Image imageFor(const CameraInfo& camera, double range, double noise, uint64_t seed);
 
 } // namespace fathom::stability

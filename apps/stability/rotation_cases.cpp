@@ -4,7 +4,7 @@
 #include "apps/stability/case_text.h"
 #include "apps/stability/dice.h"
 #include "apps/stability/pressing.h"
-#include "apps/stability/turner.h"
+#include "apps/stability/step_timer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,14 +32,14 @@ Outcome halfTurn(Effort effort) {
     const int ticks = effort == Effort::Full ? 20000 : 4000;
     for (const double heading : {0.0, 0.7, 2.9}) {
         const Shape axis = axisShape();
-        Turner turner("ideal", true, {&axis, 1}, {});
-        allowed = turner.options().slewTorque * turner.options().period;
+        StepTimer stepTimer("ideal", true, {&axis, 1}, {});
+        allowed = stepTimer.options().slewTorque * stepTimer.options().period;
         const dvec3 about(std::cos(heading), std::sin(heading), 0.0);
         dvec3 before(0.0);
         for (int i = 0; i < ticks; ++i) {
             const double angle =
                 kPi * (1.0 + 0.06 * std::sin(40.0 * kPi * i / ticks)) * std::min(1.0, 4.0 * i / ticks);
-            const TurnRecord& record = turner.turn(turned(angle * about));
+            const StepRecord& record = stepTimer.step(turned(angle * about));
             step = std::max(step, glm::distance(record.wrench.torque, before));
             torque = std::max(torque, glm::length(record.wrench.torque));
             sound = sound && record.finite && std::abs(glm::length(record.tool.rotation) - 1.0) < 1e-12;
@@ -63,19 +63,19 @@ Outcome wholeTurns(Effort effort) {
     double drawn = -1e9, stored = 1.0;
     for (const double heading : {0.0, 1.1, 2.5}) {
         const Shape axis = axisShape();
-        Turner turner("ideal", false, {&axis, 1}, {});
+        StepTimer stepTimer("ideal", false, {&axis, 1}, {});
         for (int i = 0; i < 300; ++i) {
-            turner.turn({}); // ramp
+            stepTimer.step({}); // ramp
         }
         const dvec3 about(std::cos(heading), std::sin(heading), 0.0);
         dvec3 before(0.0);
         double work = 0.0;
         for (int i = 1; i <= ticks; ++i) {
-            const TurnRecord& record = turner.turn(turned(2.0 * kPi * i / ticks * about));
+            const StepRecord& record = stepTimer.step(turned(2.0 * kPi * i / ticks * about));
             work += glm::dot(0.5 * (record.wrench.torque + before), 2.0 * kPi / ticks * about);
             before = record.wrench.torque;
         }
-        stored = 0.5 * turner.options().springs.rotationalStiffness * kPi * kPi;
+        stored = 0.5 * stepTimer.options().springs.rotationalStiffness * kPi * kPi;
         drawn = std::max(drawn, work);
     }
     return outcomeOf(
@@ -100,11 +100,11 @@ Outcome noRoll(Effort effort) {
         if (n % 5 == 0) { // points the very other way
             hand.rotation = target.target.rotation * rotationExp({kPi, 0.0, 0.0});
         }
-        Turner turner("ideal", true, {}, hand);
-        turner.guidance = {target};
+        StepTimer stepTimer("ideal", true, {}, hand);
+        stepTimer.guidance = {target};
         const dvec3 aimed = target.target.rotation * dvec3(0.0, 0.0, 1.0);
         for (int i = 0; i < 800; ++i) {
-            const TurnRecord& record = turner.turn(hand);
+            const StepRecord& record = stepTimer.step(hand);
             worst = std::max(worst, std::abs(glm::dot(record.wrench.torque, aimed)));
             felt = std::max(felt, glm::length(record.wrench.torque));
         }
@@ -123,8 +123,8 @@ Outcome fastSpin(Effort effort) {
     double norm = 0.0, step = 0.0;
     bool sound = true;
     const Shape axis = axisShape();
-    Turner turner("ideal", true, {&axis, 1}, {});
-    const double allowed = turner.options().slewTorque * turner.options().period;
+    StepTimer stepTimer("ideal", true, {&axis, 1}, {});
+    const double allowed = stepTimer.options().slewTorque * stepTimer.options().period;
     dvec3 before(0.0);
     Dice dice(5);
     dvec3 about = dice.direction();
@@ -132,7 +132,7 @@ Outcome fastSpin(Effort effort) {
     for (int i = 0; i < (effort == Effort::Full ? 100000 : 10000); ++i) {
         about = i % 500 == 0 ? dice.direction() : about;
         hand = glm::normalize(rotationExp(40.0 * kPi * 0.001 * about) * hand);
-        const TurnRecord& record = turner.turn({dvec3(0.0), hand});
+        const StepRecord& record = stepTimer.step({dvec3(0.0), hand});
         norm = std::max({norm, std::abs(glm::length(record.tool.rotation) - 1.0),
                          std::abs(glm::length(record.device.rotation) - 1.0)});
         step = std::max(step, glm::distance(record.wrench.torque, before) / allowed);

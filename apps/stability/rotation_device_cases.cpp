@@ -2,7 +2,7 @@
 // Group rotation, devices: quaternions of any length, no torque, a dead axis.
 #include "apps/stability/case_text.h"
 #include "apps/stability/dice.h"
-#include "apps/stability/turner.h"
+#include "apps/stability/step_timer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,14 +21,14 @@ Outcome anyLength(Effort effort) {
         for (const double length : {1e-6, 1e-3, 0.5, 1.001, 1e3, 1e6}) {
             const Shape wall = wallShape({0.0, 0.0, 1.0}, 0.0);
             const Pose start{{0.0, 0.0, 0.03}, dquat(1.0, 0.0, 0.0, 0.0)};
-            Turner unit(device, true, {&wall, 1}, start), scaled(device, true, {&wall, 1}, start);
+            StepTimer unit(device, true, {&wall, 1}, start), scaled(device, true, {&wall, 1}, start);
             for (int i = 0; i < ticks; ++i) {
                 const double s = static_cast<double>(i) / ticks;
                 Pose pose{{0.0, 0.0, 0.03 - 0.03 * s},
                           rotationExp({1.2 * std::sin(9.0 * s), 0.8 * s, 3.0 * s})};
-                const TurnRecord a = unit.turn(pose);
+                const StepRecord a = unit.step(pose);
                 pose.rotation = pose.rotation * (length * dice.uniform(0.9, 1.1));
-                const TurnRecord b = scaled.turn(pose);
+                const StepRecord b = scaled.step(pose);
                 worst = std::max({worst, glm::distance(a.deviceWrench.force, b.deviceWrench.force),
                                   glm::distance(a.deviceWrench.torque, b.deviceWrench.torque),
                                   glm::distance(a.tool.position, b.tool.position)});
@@ -50,13 +50,13 @@ Leak leakOf(const char* device, const std::function<dvec3(const Wrench&, const P
     Leak leak;
     Dice dice(17);
     const Shape wall = wallShape({0.0, 0.0, 1.0}, 0.0);
-    Turner turner(device, true, {&wall, 1}, {{0.0, 0.0, 0.02}, dquat(1.0, 0.0, 0.0, 0.0)});
+    StepTimer stepTimer(device, true, {&wall, 1}, {{0.0, 0.0, 0.02}, dquat(1.0, 0.0, 0.0, 0.0)});
     const dvec3 a = dice.direction(), b = dice.direction();
     for (int i = 0; i < ticks; ++i) {
         const double s = 6.0 * i / 1000.0;
         const Pose raw{{0.01 * std::sin(s), 0.0, 0.01 * std::cos(0.7 * s)},
                        rotationExp(1.5 * std::sin(s) * a) * rotationExp(s * b)};
-        const TurnRecord& record = turner.turn(raw);
+        const StepRecord& record = stepTimer.step(raw);
         leak.wrong = std::max(leak.wrong, glm::length(absent(record.deviceWrench, raw)));
         leak.broken = std::max(
             {leak.broken,

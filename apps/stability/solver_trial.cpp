@@ -113,12 +113,12 @@ bool SolverTrial::undecidable(const RowSet& set, SolveStatus status, const Neare
     if (status == SolveStatus::Optimal) {
         return checkKkt(set.problem(), x_, solver_.multipliers()).worst() < kWorthALook;
     }
-    bool turns = false;
+    bool ticks = false;
     for (uint64_t seed = 1; seed <= 4; ++seed) {
         const std::optional<NearestPoint> other = reference(rounded(set, seed));
-        turns = turns || !other || other->feasible != truth.feasible;
+        ticks = ticks || !other || other->feasible != truth.feasible;
     }
-    return turns;
+    return ticks;
 }
 
 // How far rounding the rows moves the exact optimum: no float64 method can be expected to come nearer.

@@ -2,7 +2,7 @@
 #include "apps/stability/stability_plots.h"
 
 #include "apps/replay/curve_plot.h"
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 #include "apps/replay/plot_axis.h"
 
 #include <algorithm>
@@ -33,27 +33,27 @@ double shareOfLimit(const Outcome& o) {
     return whole > 0.0 ? part / whole : 10.0;
 }
 
-void drawAxis(const fathom::Picture& picture, const PlotAxis& axis, double bottom) {
+void drawAxis(const fathom::Image& image, const PlotAxis& axis, double bottom) {
     for (int decade = static_cast<int>(kLeast); decade <= static_cast<int>(kMost); ++decade) {
         const double x = axis.at(decade);
-        picture.setColour(decade == 0 ? kBroken : kGrid);
-        cairo_set_line_width(picture.cr(), decade == 0 ? 2.0 : 1.0);
-        cairo_move_to(picture.cr(), x, kTop - 6.0);
-        cairo_line_to(picture.cr(), x, bottom);
-        cairo_stroke(picture.cr());
-        picture.text(x, kTop - 12.0, decade == 0 ? "limit" : roundNumber(std::pow(10.0, decade)), 12.0,
-                     kQuiet, Align::Centre);
+        image.setColour(decade == 0 ? kBroken : kGrid);
+        cairo_set_line_width(image.cr(), decade == 0 ? 2.0 : 1.0);
+        cairo_move_to(image.cr(), x, kTop - 6.0);
+        cairo_line_to(image.cr(), x, bottom);
+        cairo_stroke(image.cr());
+        image.text(x, kTop - 12.0, decade == 0 ? "limit" : roundNumber(std::pow(10.0, decade)), 12.0, kQuiet,
+                   Align::Centre);
     }
 }
 
-void drawBar(const fathom::Picture& picture, const PlotAxis& axis, double y, const CaseResult& r) {
+void drawBar(const fathom::Image& image, const PlotAxis& axis, double y, const CaseResult& r) {
     const double share = shareOfLimit(r.outcome);
     const double end = axis.at(std::clamp(share > 0.0 ? std::log10(share) : kLeast, kLeast + 0.03, kMost));
-    picture.setColour(r.outcome.holds() ? kBar : kBroken);
-    cairo_rectangle(picture.cr(), axis.from, y - 10.0, end - axis.from, 11.0);
-    cairo_fill(picture.cr());
-    picture.text(kLeft - 8.0, y, r.name, 12.0, kInk, Align::Right);
-    picture.text(kRight + 10.0, y, comparison(r.outcome), 12.0, r.outcome.holds() ? kQuiet : kBroken);
+    image.setColour(r.outcome.holds() ? kBar : kBroken);
+    cairo_rectangle(image.cr(), axis.from, y - 10.0, end - axis.from, 11.0);
+    cairo_fill(image.cr());
+    image.text(kLeft - 8.0, y, r.name, 12.0, kInk, Align::Right);
+    image.text(kRight + 10.0, y, comparison(r.outcome), 12.0, r.outcome.holds() ? kQuiet : kBroken);
 }
 
 void writeMargins(const std::filesystem::path& file, const std::vector<CaseResult>& results) {
@@ -63,26 +63,26 @@ void writeMargins(const std::filesystem::path& file, const std::vector<CaseResul
     }
     const double height =
         kTop + kRow * (static_cast<double>(results.size()) + 1.6 * static_cast<double>(groups)) + 30.0;
-    const fathom::Picture picture(kWidth, static_cast<int>(height), kPaper);
+    const fathom::Image image(kWidth, static_cast<int>(height), kPaper);
     const PlotAxis axis{kLeast, kMost, kLeft, kRight};
-    picture.text(24.0, 36.0, "Stability suite: how much of its limit each case uses", 20.0, kInk, Align::Left,
-                 true);
-    picture.text(24.0, 60.0,
-                 "figure / limit (limit / figure where the figure must be large), pure number; figure and "
-                 "limit at the right",
-                 13.0, kQuiet);
-    drawAxis(picture, axis, height - 20.0);
+    image.text(24.0, 36.0, "Stability suite: how much of its limit each case uses", 20.0, kInk, Align::Left,
+               true);
+    image.text(24.0, 60.0,
+               "figure / limit (limit / figure where the figure must be large), pure number; figure and "
+               "limit at the right",
+               13.0, kQuiet);
+    drawAxis(image, axis, height - 20.0);
     double y = kTop;
     for (size_t i = 0; i < results.size(); ++i) {
         if (i == 0 || results[i].group != results[i - 1].group) {
             y += 1.6 * kRow;
-            picture.text(24.0, y - 2.0, kGroupNames[static_cast<size_t>(results[i].group)], 14.0, kInk,
-                         Align::Left, true);
+            image.text(24.0, y - 2.0, kGroupNames[static_cast<size_t>(results[i].group)], 14.0, kInk,
+                       Align::Left, true);
         }
         y += kRow;
-        drawBar(picture, axis, y, results[i]);
+        drawBar(image, axis, y, results[i]);
     }
-    picture.writePng(file);
+    image.writePng(file);
 }
 
 bool sameAxes(const Outcome::Curve& a, const Outcome::Curve& b) {

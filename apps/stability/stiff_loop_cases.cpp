@@ -19,12 +19,12 @@ constexpr double kTwoPi = 6.28318530717958647692;
 // A path of the hand in all six ways that comes back to where it began.
 struct ClosedPath {
     dvec3 focus{0.0};
-    std::array<dvec3, 2> way{}, turn{}; // [m], [rad]
+    std::array<dvec3, 2> way{}, tick{}; // [m], [rad]
 
     Pose at(double phase) const {
         const double a = kTwoPi * phase;
         const dvec3 moved = way[0] * std::sin(a) + way[1] * (std::cos(a) - 1.0);
-        return {focus + moved, rotationExp(turn[0] * std::sin(2.0 * a) + turn[1] * (1.0 - std::cos(a)))};
+        return {focus + moved, rotationExp(tick[0] * std::sin(2.0 * a) + tick[1] * (1.0 - std::cos(a)))};
     }
 };
 
@@ -49,25 +49,25 @@ public:
     double once(int ticks) {
         double drawn = 0.0;
         for (int i = 0; i <= ticks; ++i) {
-            drawn += turn(path_.at(static_cast<double>(i) / ticks), i > 0);
+            drawn += step(path_.at(static_cast<double>(i) / ticks), i > 0);
         }
         return drawn;
     }
     // Until the forces have ramped up.
     void warmUp() {
         for (double t = 0.0; t < 1.1 * HapticCycle::kRampTime; t += options_.period) {
-            turn(path_.at(0.0), false);
+            step(path_.at(0.0), false);
         }
     }
     double stored() const { return stored_; }
 
 private:
-    double turn(const Pose& device, bool count) {
-        TurnInput input;
+    double step(const Pose& device, bool count) {
+        StepInput input;
         input.time = time_;
         input.deviceThandle = device;
         time_ += options_.period;
-        const Wrench now = cycle_.turn(input).wrench;
+        const Wrench now = cycle_.step(input).wrench;
         const dvec3 moved = device.position - was_.position;
         const dvec3 turned = rotationLog(device.rotation * glm::conjugate(was_.rotation));
         const double work = 0.5 * (glm::dot(now.force + before_.force, moved) +
@@ -140,7 +140,7 @@ Drawn walkLoops(Effort effort, double metricError) {
             path.focus = scenery.focus;
             for (size_t i = 0; i < 2; ++i) {
                 path.way[i] = 0.012 * dice.direction();
-                path.turn[i] = 0.3 * dice.direction();
+                path.tick[i] = 0.3 * dice.direction();
             }
             LoopWalk walk(tool, scenery.shapes, quietOptions(tool, metricError), path);
             walk.warmUp();

@@ -15,7 +15,7 @@ void StormFigures::add(const StormFigures& other) {
     const RigFigures& f = other.rig;
     penetration = std::max(penetration, other.penetration);
     runs += other.runs;
-    rig.turns += f.turns;
+    rig.ticks += f.ticks;
     rig.contact += f.contact;
     rig.stalled += f.stalled;
     rig.trapped += f.trapped;
@@ -30,7 +30,7 @@ void StormFigures::add(const StormFigures& other) {
 }
 
 std::string StormFigures::words() const {
-    return num(runs) + " runs, " + num(rig.turns) + " turns, " + num(rig.contact) + " in contact, " +
+    return num(runs) + " runs, " + num(rig.ticks) + " turns, " + num(rig.contact) + " in contact, " +
            num(rig.stalled) + " stalled, " + num(rig.trapped) + " trapped, " + num(rig.refused) +
            " answers refused, path " + num(rig.path) + " m.";
 }
@@ -40,8 +40,8 @@ void rage(const World& world, const Storm& storm, StormFigures& figures) {
     rig.show(world.fixtures);
     rig.faults = storm.faults;
     WildHand hand(world.start, world.focus, world.arena, storm.manner, storm.seed);
-    for (int k = 0; k < storm.turns; ++k) {
-        rig.turn(hand.next(rig.options().period));
+    for (int k = 0; k < storm.ticks; ++k) {
+        rig.step(hand.next(rig.options().period));
     }
     figures.add(rig);
 }

@@ -21,7 +21,7 @@ struct StormFigures {
 struct Storm {
     HandManner manner;
     AnswerFaults faults;
-    int turns = 2000;
+    int ticks = 2000;
     uint64_t seed = 1;
     RigSetup setup;
 };

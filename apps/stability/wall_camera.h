@@ -4,7 +4,7 @@
 #pragma once
 
 #include "apps/stability/dice.h"
-#include "apps/stability/picture_fixtures.h"
+#include "apps/stability/image_fixtures.h"
 
 #include <cstdint>
 #include <vector>
@@ -33,7 +33,7 @@ private:
     static Scene scene();
     static CameraInfo camera();
     CameraInfo camera_;
-    PictureFixtures make_;
+    ImageFixtures make_;
     Dice dice_;
     std::vector<uint16_t> depth_;
     double z_ = 0.0, time_ = 0.0;

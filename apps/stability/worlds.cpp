@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/worlds.h"
 
-#include "apps/stability/picture_fixtures.h"
+#include "apps/stability/image_fixtures.h"
 #include "devices/recorded/recorded_camera.h"
 #include "devices/simulated/simulated_camera.h"
 #include "engine/reference/contact_oracle.h"
@@ -165,7 +165,7 @@ World analyticWorld(const std::string& scene, double radius, bool noise) {
     options.motion = false;
     SimulatedCamera camera(analyticScene(scene).value(), options);
     World world = emptyWorld(scene.c_str(), crossLeaves(0.007), dvec3(0.0));
-    PictureFixtures make(redScene(radius), camera.info(), false);
+    ImageFixtures make(redScene(radius), camera.info(), false);
     world.fixtures = make.make(*camera.next().value());
     settle(world, world.fixtures.baseTcamera);
     return world;
@@ -185,7 +185,7 @@ std::optional<World> recordedWorld(const std::string& sceneFile, const std::stri
     for (const auto& s : scene.tool.spheres) {
         world.leaves.push_back({dvec3(s[0], s[1], s[2]), s[3]});
     }
-    PictureFixtures make(scene, camera.info(), false);
+    ImageFixtures make(scene, camera.info(), false);
     world.fixtures = make.make(*camera.next().value());
     settle(world, world.fixtures.baseTcamera);
     return world;

@@ -23,9 +23,9 @@ std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, cons
     return out;
 }
 
-reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle) {
+reference::CellImage cellsOf(gpu::Device& device, const FrameCycle& cycle) {
     const cloud::WorkBuffers& work = cycle.work();
-    reference::CellPicture out{work.cellEdge, work.cellsAcross, work.cellsDown, {}};
+    reference::CellImage out{work.cellEdge, work.cellsAcross, work.cellsDown, {}};
     const auto bits = readBack<uint32_t>(device, work.nearest);
     for (size_t i = 0; i < static_cast<size_t>(out.across) * out.down; ++i) {
         out.nearest.push_back(bits[i] == 0xffffffffu ? HUGE_VAL
@@ -34,11 +34,11 @@ reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle) {
     return out;
 }
 
-reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
-                                 const CameraInfo& camera) {
+reference::PointImage pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
+                               const CameraInfo& camera) {
     const auto slots = readBack<glm::vec4>(device, cycle.work().points);
     const auto listed = set.device.listed.as<uint32_t>();
-    reference::PointPicture out;
+    reference::PointImage out;
     for (uint32_t v = 0; v < camera.depth.height; ++v) {
         for (uint32_t u = 0; u < camera.depth.width; ++u) {
             const uint32_t slot = slotOfPixel(u, v, cycle.layout().across);
@@ -62,21 +62,21 @@ PassRig::PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, con
     cycle_ = std::make_unique<FrameCycle>(device_, scene_, camera_, plan_, readers);
 }
 
-FrameReport PassRig::run(Picture picture, double captureTime, const std::optional<Pose>& pose) {
+FrameReport PassRig::run(Image image, double captureTime, const std::optional<Pose>& pose) {
     lease_ = {};
-    picture_ = std::move(picture);
+    image_ = std::move(image);
     pose_ = pose.value_or(scene_.baseTcamera);
     Frame::Content content;
     content.index = frames_;
     content.captureTime = captureTime < 0.0 ? frames_ / 30.0 : captureTime;
     content.sourceNumber = frames_++;
-    content.depth = picture_.depth;
+    content.depth = image_.depth;
     if (camera_.yuyv) {
-        yuyv_.resize(picture_.colour.size() / 2);
-        packYuyv(picture_.colour, yuyv_);
-        unpackYuyv(yuyv_, picture_.colour);
+        yuyv_.resize(image_.colour.size() / 2);
+        packYuyv(image_.colour, yuyv_);
+        unpackYuyv(yuyv_, image_.colour);
     }
-    (camera_.yuyv ? content.yuyv : content.colour) = camera_.yuyv ? yuyv_ : picture_.colour;
+    (camera_.yuyv ? content.yuyv : content.colour) = camera_.yuyv ? yuyv_ : image_.colour;
     content.baseTcamera = pose;
     FrameReport report = cycle_->process(Frame(content, nullptr));
     lease_ = cycle_->sets().newest();
@@ -84,7 +84,7 @@ FrameReport PassRig::run(Picture picture, double captureTime, const std::optiona
 }
 
 reference::FrameView PassRig::view() const {
-    return {scene_, camera_, pose_, picture_.depth, picture_.colour};
+    return {scene_, camera_, pose_, image_.depth, image_.colour};
 }
 
 std::vector<uint32_t> PassRig::listed() const {
@@ -96,7 +96,7 @@ std::vector<uint32_t> PassRig::masks() const {
     return masksOf(device_, *cycle_, camera_);
 }
 
-reference::PointPicture PassRig::points() const {
+reference::PointImage PassRig::points() const {
     return pointsOf(device_, *cycle_, set(), camera_);
 }
 
@@ -194,7 +194,7 @@ shared::FrameCounters PassRig::counters() const {
     return set().device.counters.as<shared::FrameCounters>()[0];
 }
 
-reference::CellPicture PassRig::cells() const {
+reference::CellImage PassRig::cells() const {
     return cellsOf(device_, *cycle_);
 }
 

@@ -16,7 +16,7 @@
 namespace fathom::verify {
 
 // Row-major, as a Frame holds them.
-struct Picture {
+struct Image {
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour; // 0xAABBGGRR
 };
@@ -24,10 +24,10 @@ struct Picture {
 // What the passes left of the last frame: class bits a pixel, and points in the base frame, none in patches
 // that are not listed. set: that frame's.
 std::vector<uint32_t> masksOf(gpu::Device& device, const FrameCycle& cycle, const CameraInfo& camera);
-reference::PointPicture pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
-                                 const CameraInfo& camera);
+reference::PointImage pointsOf(gpu::Device& device, const FrameCycle& cycle, const cloud::FixtureSet& set,
+                               const CameraInfo& camera);
 // Depths of the occlusion cells [m]; needs Plan::occlusion.
-reference::CellPicture cellsOf(gpu::Device& device, const FrameCycle& cycle);
+reference::CellImage cellsOf(gpu::Device& device, const FrameCycle& cycle);
 
 // One frame cycle. Everything below run() speaks of the last frame; positions are in the base frame. The
 // device must outlive it. One thread.
@@ -41,7 +41,7 @@ public:
 
     // captureTime < 0: 1/30 s after the one before. No pose: the scene's. The colours are packed for a camera
     // that sends YUYV; view() then has what they unpack to.
-    FrameReport run(Picture picture, double captureTime = -1.0, const std::optional<Pose>& pose = {});
+    FrameReport run(Image image, double captureTime = -1.0, const std::optional<Pose>& pose = {});
 
     const Scene& scene() const { return scene_; }
     const CameraInfo& camera() const { return camera_; }
@@ -58,8 +58,8 @@ public:
 
     std::vector<uint32_t> listed() const; // a patch
     std::vector<uint32_t> masks() const;
-    reference::PointPicture points() const; // none in patches that are not listed
-    std::vector<int> forbidden() const;     // class of the forbidden point, -1 = none
+    reference::PointImage points() const; // none in patches that are not listed
+    std::vector<int> forbidden() const;   // class of the forbidden point, -1 = none
     std::vector<reference::CellThinning> thinning() const;
     // A pixel, as published: of points seen now, or of those held for their pixels.
     std::vector<reference::RegionSphere> spheres(bool held = false) const;
@@ -68,7 +68,7 @@ public:
     std::vector<reference::RegionSphere> slotSpheres(bool held = false) const;
     std::vector<std::vector<reference::Bound>> tree() const; // needs Plan::tree
     shared::FrameCounters counters() const;
-    reference::CellPicture cells() const; // of occlusion
+    reference::CellImage cells() const; // of occlusion
 
 private:
     std::vector<glm::vec4> slots(bool held) const;
@@ -82,7 +82,7 @@ private:
     Plan plan_;
     std::unique_ptr<FrameCycle> cycle_;
     cloud::FixturePool::Lease lease_;
-    Picture picture_;
+    Image image_;
     std::vector<uint32_t> yuyv_;
     Pose pose_;
     uint32_t frames_ = 0;

@@ -101,15 +101,15 @@ int main(int argc, char** argv) {
     }
     signal(SIGPIPE, SIG_IGN); /* nobody reads what it prints: no reason to leave a force on */
     strcpy(address.sun_path, argv[1]);
-    const int door = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
+    const int endpoint = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
     unlink(argv[1]); /* the permission is set before anybody can connect */
-    if (bind(door, (struct sockaddr*)&address, sizeof address) != 0 || chmod(argv[1], 0600) != 0 ||
-        listen(door, 1) != 0) {
+    if (bind(endpoint, (struct sockaddr*)&address, sizeof address) != 0 || chmod(argv[1], 0600) != 0 ||
+        listen(endpoint, 1) != 0) {
         perror(argv[1]);
         return 1;
     }
     while (!stopped) {
-        const int engine = accept(door, NULL, NULL);
+        const int engine = accept(endpoint, NULL, NULL);
         if (engine >= 0) {
             exchange(engine);
             drive((double[3]){0, 0, 0}, 0.0);

@@ -21,7 +21,7 @@ constexpr const char* kName = "fathom";
 HaplyGuard::HaplyGuard(const Options& options)
     : options_(options)
     , device_(options.device)
-    , door_({options.door, "inverse3", "Haply Inverse3", kForceLimit, kNoTorque}) {
+    , endpoint_({options.endpoint, "inverse3", "Haply Inverse3", kForceLimit, kNoTorque}) {
     connect();
 }
 
@@ -84,7 +84,7 @@ bool HaplyGuard::answered(std::chrono::microseconds most) {
 }
 
 void HaplyGuard::exchange() {
-    door_.poll();
+    endpoint_.poll();
     const auto now = Clock::now();
     if (awaiting_ && now - askedAt_ > kReplyTime) {
         awaiting_ = false;
@@ -96,12 +96,12 @@ void HaplyGuard::exchange() {
     if (!awaiting_) {
         if (const auto since = now - askedAt_; since < kPeriod) {
             std::this_thread::sleep_for(kPeriod - since);
-            door_.poll();
+            endpoint_.poll();
         }
-        ask(there_ ? door_.wrench().force : dvec3(0.0));
+        ask(there_ ? endpoint_.wrench().force : dvec3(0.0));
     }
     if (answered(kWait)) {
-        door_.send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
+        endpoint_.send(sample_, there_ ? FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED : 0);
     }
 }
 
@@ -122,8 +122,8 @@ void HaplyGuard::close() noexcept {
 void HaplyGuard::waitForService(const std::atomic<bool>& stop) {
     const auto until = Clock::now() + kSearchPause;
     while (!stop.load() && Clock::now() < until) {
-        door_.poll();
-        door_.send(sample_, 0);
+        endpoint_.poll();
+        endpoint_.send(sample_, 0);
         std::this_thread::sleep_for(2 * kWait);
     }
     try {

@@ -3,7 +3,7 @@
 // becomes of the engine, the service is told zero force.
 #pragma once
 
-#include "devices/bridge/door_server.h"
+#include "devices/bridge/socket_server.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
 
@@ -26,7 +26,7 @@ class HaplyGuard {
 public:
     // Where the door is made, and where the service listens.
     struct Options {
-        std::filesystem::path door;
+        std::filesystem::path endpoint;
         std::string host = "localhost";
         uint16_t port = 10001;
         std::string device; // device_id; empty = the first Inverse3
@@ -42,7 +42,7 @@ public:
     std::string place() const { return device_ + " at " + place_; }
     const HaplyFigures& figures() const noexcept { return figures_; }
     uint64_t losses() const noexcept { return figures_.losses; }
-    const DoorServer& door() const noexcept { return door_; }
+    const SocketServer& endpoint() const noexcept { return endpoint_; }
 
     static constexpr double kForceLimit = 5.0; // [N] of the preset "inverse3"
     static constexpr auto kReplyTime = std::chrono::milliseconds(20);
@@ -65,7 +65,7 @@ private:
     Clock::time_point askedAt_{}, heardAt_{};
     HandSample sample_;
     HaplyFigures figures_;
-    DoorServer door_;
+    SocketServer endpoint_;
 };
 
 } // namespace fathom

@@ -52,7 +52,7 @@ RecordedCamera::RecordedCamera(const fs::path& folder)
         checkColourSize();
     }
     const Intrinsics& lens = info().depth;
-    for (uint32_t i = 0; intrinsics_.rangePictures && i < lens.pixels(); ++i) {
+    for (uint32_t i = 0; intrinsics_.rangeImages && i < lens.pixels(); ++i) {
         const uint32_t column = i % lens.width, row = i / lens.width;
         const dvec3 ray(lens.ray(column, row), 1.0);
         axisShare_.push_back(static_cast<float>(1.0 / glm::length(ray)));
@@ -154,21 +154,21 @@ bool RecordedCamera::seek(uint32_t index) {
 // Words that lead out are a fault (readIndex); links are used, for whoever has made them wants them, but may
 // have come with the recording.
 void RecordedCamera::tellOfLinks(const IndexLine& line) {
-    for (const fs::path& picture : {line.depth, line.colour}) {
-        if (!toldOfLinks_ && !picture.empty() && leadsOut(picture)) {
-            log::warn("{}: a link leads out of the recording's folder", picture.string());
+    for (const fs::path& image : {line.depth, line.colour}) {
+        if (!toldOfLinks_ && !image.empty() && leadsOut(image)) {
+            log::warn("{}: a link leads out of the recording's folder", image.string());
             toldOfLinks_ = true;
         }
     }
 }
 
 // A folder of pictures is looked at once, where it leads.
-bool RecordedCamera::leadsOut(const fs::path& picture) {
+bool RecordedCamera::leadsOut(const fs::path& image) {
     std::error_code unknown;
-    if (fs::is_symlink(picture, unknown)) {
-        return !liesInside(picture, folder_);
+    if (fs::is_symlink(image, unknown)) {
+        return !liesInside(image, folder_);
     }
-    const fs::path parent = picture.parent_path();
+    const fs::path parent = image.parent_path();
     return judged_.insert(parent.string()).second && !liesInside(parent, folder_);
 }
 

@@ -30,7 +30,7 @@ public:
     // alive.
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
-    uint32_t pictures() const override { return static_cast<uint32_t>(index_.size()); }
+    uint32_t images() const override { return static_cast<uint32_t>(index_.size()); }
     bool seek(uint32_t index) override;
     std::string description() const override { return "recorded " + folder_.string(); }
 
@@ -40,7 +40,7 @@ private:
     void toDepth(std::span<uint16_t> ranges) const;
     Frame lease(uint32_t index, FrameSlot& slot) const;
     void tellOfLinks(const IndexLine& line);
-    bool leadsOut(const std::filesystem::path& picture);
+    bool leadsOut(const std::filesystem::path& image);
     void skip(uint32_t index, const std::string& fault);
     void nameSkipped();
 

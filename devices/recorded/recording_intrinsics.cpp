@@ -137,7 +137,7 @@ void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
         root.at("projection").refuse("no distortion and beams within 85 degrees of the axis");
     }
     intrinsics.camera.colour.fan = intrinsics.camera.registered && lens.fan;
-    intrinsics.rangePictures = readWord(root, "depth_is", "z", "range");
+    intrinsics.rangeImages = readWord(root, "depth_is", "z", "range");
     if (const auto beam = root.find("beam")) {
         BeamSigma sigma;
         sigma.width = kRadian * beam->at("width_deg").finite();

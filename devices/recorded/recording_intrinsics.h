@@ -18,7 +18,7 @@ struct RecordingIntrinsics {
     // Only when the file lists them: capture times [s] of the files in depth/ and rgb/ in order of their
     // names.
     std::vector<double> depthStamps, colourStamps;
-    bool rangePictures = false; // depth/ holds ranges along the rays, not z
+    bool rangeImages = false; // depth/ holds ranges along the rays, not z
     double pairWithin =
         0.02; // [s] largest distance of a depth stamp from its colour stamp: half a frame at nominal_fps
 };

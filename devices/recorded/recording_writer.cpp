@@ -60,12 +60,12 @@ RecordingWriter::~RecordingWriter() {
 }
 
 void RecordingWriter::add(const Frame& frame) {
-    Picture picture{frame->captureTime, {frame->depth.begin(), frame->depth.end()}, {}, frame->baseTcamera};
-    readColours(*frame, picture.colour);
-    add(std::move(picture));
+    Image image{frame->captureTime, {frame->depth.begin(), frame->depth.end()}, {}, frame->baseTcamera};
+    readColours(*frame, image.colour);
+    add(std::move(image));
 }
 
-void RecordingWriter::add(Picture picture) {
+void RecordingWriter::add(Image image) {
     std::unique_lock lock(mutex_);
     const auto begin = std::chrono::steady_clock::now();
     room_.wait(lock, [this] { return waiting_.size() < kWaiting || failure_; });
@@ -74,7 +74,7 @@ void RecordingWriter::add(Picture picture) {
     if (failure_) {
         std::rethrow_exception(failure_);
     }
-    waiting_.push_back({added_++, std::move(picture)});
+    waiting_.push_back({added_++, std::move(image)});
     work_.notify_one();
 }
 
@@ -117,23 +117,23 @@ void RecordingWriter::encode() {
 
 void RecordingWriter::write(const Job& job) const {
     const auto size = [](const Intrinsics& lens) { return PngSize{lens.width, lens.height}; };
-    writeDepthPng(folder_ / numbered("depth", job.number), size(camera_.depth), job.picture.depth);
+    writeDepthPng(folder_ / numbered("depth", job.number), size(camera_.depth), job.image.depth);
     if (camera_.hasColour) {
-        writeColourPng(folder_ / numbered("rgb", job.number), size(camera_.colour), job.picture.colour);
+        writeColourPng(folder_ / numbered("rgb", job.number), size(camera_.colour), job.image.colour);
     }
 }
 
 // Lines go out in order, each once all before it are there.
 void RecordingWriter::done(const Job& job) {
-    const std::string depth = text(job.picture.stamp) + " " + numbered("depth", job.number);
+    const std::string depth = text(job.image.stamp) + " " + numbered("depth", job.number);
     const std::string line =
-        camera_.hasColour ? text(job.picture.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
+        camera_.hasColour ? text(job.image.stamp) + " " + numbered("rgb", job.number) + " " + depth : depth;
     const std::lock_guard lock(mutex_);
     indexLines_[job.number] = line;
-    if (job.picture.pose) {
-        const dvec3& t = job.picture.pose->position;
-        const dquat& q = job.picture.pose->rotation;
-        std::string pose = text(job.picture.stamp);
+    if (job.image.pose) {
+        const dvec3& t = job.image.pose->position;
+        const dquat& q = job.image.pose->rotation;
+        std::string pose = text(job.image.stamp);
         for (const double value : {t.x, t.y, t.z, q.x, q.y, q.z, q.w}) {
             char digits[40];
             std::snprintf(digits, sizeof digits, " %.17g", value);

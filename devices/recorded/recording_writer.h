@@ -32,7 +32,7 @@ public:
     ~RecordingWriter();
 
     // One depth picture with its colour picture, row by row, as the camera's info describes them.
-    struct Picture {
+    struct Image {
         double stamp = 0.0; // [s]
         std::vector<uint16_t> depth;
         std::vector<uint32_t> colour;
@@ -40,7 +40,7 @@ public:
     };
     // Returns at once, or when there is room again while kWaiting frames wait. Throws what an encoder threw.
     void add(const Frame& frame);
-    void add(Picture picture);
+    void add(Image image);
     // Whether add() would wait now.
     bool full() const;
     // No more will come: returns at once, while what waits is written.
@@ -56,7 +56,7 @@ public:
 private:
     struct Job {
         uint32_t number = 0;
-        Picture picture;
+        Image image;
     };
     void encode();
     void write(const Job& job) const;

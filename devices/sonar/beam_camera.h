@@ -22,7 +22,7 @@ public:
     const CameraInfo& info() const override { return info_; }
     std::optional<Frame> next() override { return source_->next(); }
     uint32_t skipped() const override { return source_->skipped(); }
-    uint32_t pictures() const override { return source_->pictures(); }
+    uint32_t images() const override { return source_->images(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }

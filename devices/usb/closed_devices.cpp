@@ -9,13 +9,13 @@ namespace fathom {
 
 namespace {
 
-constexpr const char* kDoor =
+constexpr const char* kEndpoint =
     "its protocol is closed; a program on the maker's own library can be a bridge to the "
     "door (devices/bridge/README.md)";
 constexpr const char* kOpenNi = "";
 
 constexpr std::array kClosed{
-    ClosedDevice{0x1451, 0, 0, "Force Dimension haptic device", kDoor},
+    ClosedDevice{0x1451, 0, 0, "Force Dimension haptic device", kEndpoint},
     ClosedDevice{0x1d27, 0, 0, "PrimeSense depth camera (Xtion, Carmine)", kOpenNi},
     ClosedDevice{0x2bc5, 0x0400, 0xff00, "Orbbec depth camera (Astra)", kOpenNi},
     ClosedDevice{

@@ -20,7 +20,7 @@ constexpr double kNoTorque = 0.0; // the knob only translates
 FalconGuard::FalconGuard(const Options& options)
     : firmware_(options.firmware.empty() ? std::vector<uint8_t>() : readFalconFirmware(options.firmware))
     , device_(std::make_unique<Device>())
-    , door_({options.door, "falcon", "Novint Falcon", FalconDrive::kForceLimit, kNoTorque})
+    , endpoint_({options.endpoint, "falcon", "Novint Falcon", FalconDrive::kForceLimit, kNoTorque})
     , place_(device_->port.place()) {
     device_->link.start(firmware_);
 }
@@ -61,25 +61,25 @@ void FalconGuard::tellHoming(bool homed) {
 }
 
 void FalconGuard::exchange() {
-    door_.poll();
+    endpoint_.poll();
     FalconCommand command;
-    command.motor = placed_ ? drive_.motors(door_.wrench().force) : command.motor;
+    command.motor = placed_ ? drive_.motors(endpoint_.wrench().force) : command.motor;
     command.red = !placed_;
     command.green = placed_;
-    command.blue = placed_ && door_.hasEngine();
+    command.blue = placed_ && endpoint_.hasEngine();
     if (device_->link.exchange(command, kWait)) {
         const FalconState& state = device_->link.state();
         placed_ = drive_.place(state, sample_);
         tellHoming(state.allHomed());
-        door_.send(sample_, FATHOM_DOOR_PRESENT | (placed_ ? FATHOM_DOOR_HOMED : 0));
+        endpoint_.send(sample_, FATHOM_DOOR_PRESENT | (placed_ ? FATHOM_DOOR_HOMED : 0));
     }
 }
 
 void FalconGuard::waitForDevice(const std::atomic<bool>& stop) {
     const auto until = std::chrono::steady_clock::now() + kSearchPause;
     while (!stop.load() && std::chrono::steady_clock::now() < until) {
-        door_.poll();
-        door_.send(sample_, 0);
+        endpoint_.poll();
+        endpoint_.send(sample_, 0);
         std::this_thread::sleep_for(2 * kWait);
     }
     try {

@@ -3,7 +3,7 @@
 // door; whatever becomes of the engine, the device gets zero force.
 #pragma once
 
-#include "devices/bridge/door_server.h"
+#include "devices/bridge/socket_server.h"
 #include "devices/usb/falcon_drive.h"
 #include "devices/usb/falcon_link.h"
 #include "devices/usb/usb_ftdi.h"
@@ -20,7 +20,7 @@ class FalconGuard {
 public:
     // Where the door is made, and what a device that has just been switched on is given.
     struct Options {
-        std::filesystem::path door;
+        std::filesystem::path endpoint;
         std::filesystem::path firmware; // empty = none: a device that was just switched on is refused
     };
     // Opens device and door. Throws BadInput, Error, DeviceLost.
@@ -34,7 +34,7 @@ public:
     const std::string& place() const noexcept { return place_; } // "usb 1-1"
     const FalconFigures& figures() const noexcept { return figures_; }
     uint64_t losses() const noexcept { return losses_; }
-    const DoorServer& door() const noexcept { return door_; }
+    const SocketServer& endpoint() const noexcept { return endpoint_; }
 
     static constexpr uint16_t kVendor = 0x0403, kProduct = 0xcb48;
 
@@ -51,7 +51,7 @@ private:
 
     std::vector<uint8_t> firmware_;
     std::unique_ptr<Device> device_;
-    DoorServer door_;
+    SocketServer endpoint_;
     FalconDrive drive_;
     HandSample sample_;
     bool placed_ = false;

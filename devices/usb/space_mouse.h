@@ -15,7 +15,7 @@ namespace fathom {
 
 // Deflection and buttons after the reports so far.
 struct SpaceMouseState {
-    std::array<int16_t, 3> shift{}, turn{}; // raw, about +-350; device axes
+    std::array<int16_t, 3> shift{}, tick{}; // raw, about +-350; device axes
     uint32_t buttons = 0;                   // bit i: button i
 };
 

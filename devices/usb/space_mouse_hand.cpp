@@ -137,14 +137,14 @@ HandSample SpaceMouseHand::read(double t) noexcept {
     }
     takeReports(t);
     if (t - heard_ > kSilence) {
-        state_.shift = state_.turn = {};
+        state_.shift = state_.tick = {};
     }
     const double step = started_ ? std::clamp(t - before_, 0.0, kMostStep) : 0.0;
     before_ = t;
     started_ = true;
     pose_.position += step * options_.speed * spaceMouseAxes(state_.shift);
     pose_.rotation =
-        glm::normalize(rotationExp(step * options_.turnSpeed * spaceMouseAxes(state_.turn)) * pose_.rotation);
+        glm::normalize(rotationExp(step * options_.turnSpeed * spaceMouseAxes(state_.tick)) * pose_.rotation);
     HandSample sample{pose_, 0};
     if (descriptor_ < 0) {
         sample.buttons = kDeadManOpen | options_.clutchBit;

@@ -93,7 +93,7 @@ bool isYuyv(uint32_t fourcc) {
     return fourcc == kYuyv || fourcc == kUyvy;
 }
 
-size_t pictureBytes(uint32_t fourcc, VideoSize size, uint32_t stride) {
+size_t imageBytes(uint32_t fourcc, VideoSize size, uint32_t stride) {
     const size_t row = leastStride(fourcc, size.width);
     if (row == 0 || size.height == 0) {
         return 0;
@@ -126,7 +126,7 @@ namespace {
 
 // What is wrong with it; empty when it is whole.
 std::string shortColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes) {
-    const size_t wanted = pictureBytes(fourcc, size, stride);
+    const size_t wanted = imageBytes(fourcc, size, stride);
     if (wanted == 0 || depthLayout(fourcc)) {
         return "no colour format: " + fourccName(fourcc);
     }

@@ -31,9 +31,9 @@ std::span<const uint32_t> declaredDepthFormats();
 std::span<const uint32_t> colourFormats(); // best first: no loss, little work
 
 // Bytes that a whole picture has; 0 for a compressed format.
-size_t pictureBytes(uint32_t fourcc, VideoSize size, uint32_t stride);
+size_t imageBytes(uint32_t fourcc, VideoSize size, uint32_t stride);
 
-// The depth part as rows of 16 bits without gaps. bytes: at least pictureBytes().
+// The depth part as rows of 16 bits without gaps. bytes: at least imageBytes().
 void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std::span<const std::byte> bytes,
                  std::span<uint16_t> out);
 

@@ -18,14 +18,14 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMs = 50;
-constexpr double kFirstPicture = 5.0; // [s] that a camera may take to start
+constexpr double kFirstFrame = 5.0; // [s] that a camera may take to start
 
 double secondsSince(Clock::time_point t) {
     return std::chrono::duration<double>(Clock::now() - t).count();
 }
 
 Clock::time_point grace() {
-    return Clock::now() + std::chrono::milliseconds(static_cast<int>(1e3 * kFirstPicture));
+    return Clock::now() + std::chrono::milliseconds(static_cast<int>(1e3 * kFirstFrame));
 }
 
 } // namespace

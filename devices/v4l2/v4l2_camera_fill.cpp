@@ -42,7 +42,7 @@ std::string V4l2Camera::fillColour(const CapturedBuffer& colour, FrameSlot& slot
 // False when bytes are missing.
 bool V4l2Camera::fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::Content& content) {
     const uint32_t stride = streams_->depth.stride();
-    if (depth.bytes.size() < pictureBytes(depthRequest_.fourcc, depthRequest_.size, stride)) {
+    if (depth.bytes.size() < imageBytes(depthRequest_.fourcc, depthRequest_.size, stride)) {
         return false;
     }
     const DepthLayout layout = *depthLayout(depthRequest_.fourcc);

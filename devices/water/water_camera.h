@@ -23,7 +23,7 @@ public:
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return source_->skipped(); }
     std::string description() const override { return source_->description() + " behind a flat port"; }
-    uint32_t pictures() const override { return source_->pictures(); }
+    uint32_t images() const override { return source_->images(); }
     bool seek(uint32_t index) override { return source_->seek(index); }
     bool live() const override { return source_->live(); }
     uint64_t lost() const override { return source_->lost(); }

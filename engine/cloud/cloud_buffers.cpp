@@ -76,14 +76,14 @@ UploadBuffers::UploadBuffers(const gpu::Device& device, const Plan& plan, const 
     if (!plan.cloud) {
         return;
     }
-    const auto picture = [&](const std::shared_ptr<const void>& memory, uint64_t bytes, const char* name) {
+    const auto image = [&](const std::shared_ptr<const void>& memory, uint64_t bytes, const char* name) {
         return memory ? Buffer(device, gpu::HostPages{memory, bytes}, name)
                       : Buffer(device, bytes, MemoryKind::Upload, name);
     };
     params = Buffer(device, sizeof(shared::FrameParams), MemoryKind::Upload, "params");
-    depth = picture(depthMemory, 2ull * camera.depth.pixels(), "depth");
+    depth = image(depthMemory, 2ull * camera.depth.pixels(), "depth");
     if (plan.colour) {
-        colour = picture(colourMemory, camera.colourBytes(), "colour");
+        colour = image(colourMemory, camera.colourBytes(), "colour");
         yuyv = plan.yuyv;
     }
     if (plan.selfFilter) {

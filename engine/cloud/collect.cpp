@@ -6,7 +6,7 @@
 #include "engine/cloud/guidance_points.h"
 #include "engine/cloud/guidance_pose.h"
 #include "engine/contact/clones.h"
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 
 #include <algorithm>
 #include <atomic>
@@ -104,14 +104,14 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
 
 } // namespace
 
-uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, Crew* crew) {
+uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
     // Beyond what the sensor can say nothing is near enough.
     const auto least = static_cast<uint16_t>(lo <= hi ? lo : 1),
                most = static_cast<uint16_t>(lo <= hi ? hi : 0);
     host.depth.resize(depth.size());
     std::atomic<uint32_t> valid{0};
-    inParts(crew, depth.size(), kLeastReadings, [&](size_t begin, size_t end) {
+    inParts(workers, depth.size(), kLeastReadings, [&](size_t begin, size_t end) {
         std::copy_n(&depth[begin], end - begin, &host.depth[begin]);
         valid += countWithin(&host.depth[begin], end - begin, least, most);
     });
@@ -135,13 +135,13 @@ FrameCounts countsOf(const shared::FrameCounters& c, size_t classes) {
 // All that a forbidden class needs, and the guidance, shared: guidance first, for it may take longest.
 void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
                     const Plan& plan, const std::vector<uint32_t>& rows, const PatchLayout& layout,
-                    Crew& crew, FrameCounts& counts) {
+                    ThreadPool& workers, FrameCounts& counts) {
     set.host.forbiddenBits.assign((set.host.camera.depth.pixels() + 31) / 32, 0);
-    SphereCollector spheres(set, work, seen, plan, rows, layout, crew);
+    SphereCollector spheres(set, work, seen, plan, rows, layout, workers);
     const uint32_t guidance = plan.moments ? 1 : 0, pairs = (layout.down + 1) / 2, runs = (pairs + 3) / 4;
     std::atomic<uint32_t> forbidden{0};
     std::exception_ptr failed; // of the one part that takes memory: a job must not throw
-    crew.run(guidance + spheres.parts() + runs, [&](uint32_t part) {
+    workers.run(guidance + spheres.parts() + runs, [&](uint32_t part) {
         if (part < guidance) {
             try {
                 takeGuidance(set, scene, rows, layout);
@@ -172,7 +172,7 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
 } // namespace
 
 FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
-                    const Plan& plan, const PatchLayout& layout, Crew& crew) {
+                    const Plan& plan, const PatchLayout& layout, ThreadPool& workers) {
     const std::vector<uint32_t> rows = classRows(scene);
     set.host.guidance.clear();
     set.host.forbiddenBits.clear();
@@ -186,7 +186,7 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
     FrameCounts counts = countsOf(c, rows.size());
     counts.nodes = c.nodes;
     if (plan.spheres) {
-        collectSpheres(set, work, seen, scene, plan, rows, layout, crew, counts);
+        collectSpheres(set, work, seen, scene, plan, rows, layout, workers, counts);
     } else {
         takeGuidance(set, scene, rows, layout);
     }

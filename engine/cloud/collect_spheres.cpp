@@ -3,7 +3,7 @@
 
 #include "engine/cloud/sphere_run.h"
 #include "engine/contact/clones.h"
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 
 #include <algorithm>
 #include <bit>
@@ -48,7 +48,7 @@ void add(SphereCounts& to, const SphereCounts& more) {
 
 SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen,
                                  const Plan& plan, const std::vector<uint32_t>& rows,
-                                 const PatchLayout& layout, Crew& crew)
+                                 const PatchLayout& layout, ThreadPool& workers)
     : set_(set)
     , work_(work)
     , seen_(seen)
@@ -56,14 +56,14 @@ SphereCollector::SphereCollector(FixtureSet& set, const WorkBuffers& work, const
     , rows_(rows)
     , layout_(layout)
     , begins_(layout.patches() + 1) {
-    const uint32_t count = placePatches(crew);
+    const uint32_t count = placePatches(workers);
     set.host.spheres.resize(count);
     set.keys.resize(plan.query == Plan::Query::Gpu ? count : 0);
-    counts_.resize(partsOf(&crew, count, kLeastPart));
+    counts_.resize(partsOf(&workers, count, kLeastPart));
 }
 
-uint32_t SphereCollector::placePatches(Crew& crew) {
-    inParts(&crew, layout_.patches(), kLeastPatches, [&](size_t begin, size_t end) {
+uint32_t SphereCollector::placePatches(ThreadPool& workers) {
+    inParts(&workers, layout_.patches(), kLeastPatches, [&](size_t begin, size_t end) {
         for (size_t patch = begin; patch < end; ++patch) {
             begins_[patch] = spheresOf(static_cast<uint32_t>(patch));
         }

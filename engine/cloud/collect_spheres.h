@@ -6,7 +6,7 @@
 #include "engine/cloud/sphere_columns.h"
 
 namespace fathom {
-class Crew;
+class ThreadPool;
 }
 
 namespace fathom::cloud {
@@ -17,7 +17,7 @@ class SphereCollector {
 public:
     // seen: of the picture's frame; null where the plan packs no depths.
     SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Plan& plan,
-                    const std::vector<uint32_t>& rows, const PatchLayout& layout, Crew& crew);
+                    const std::vector<uint32_t>& rows, const PatchLayout& layout, ThreadPool& workers);
 
     uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
     void take(uint32_t part) noexcept; // each once, in any order, on any thread
@@ -26,7 +26,7 @@ public:
     uint32_t nodesAbove() const;
 
 private:
-    uint32_t placePatches(Crew& crew);
+    uint32_t placePatches(ThreadPool& workers);
     uint32_t spheresOf(uint32_t patch) const noexcept;
     void takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept;
     void takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept;

@@ -12,45 +12,45 @@ UploadSlots::UploadSlots(const gpu::Device& device, const Plan& plan, const Came
     : device_(device)
     , plan_(plan)
     , camera_(camera)
-    , pictures_(kCopied) {
+    , images_(kCopied) {
     for (uint32_t i = 0; i < kCopied; ++i) {
         slots_.push_back(std::make_unique<UploadBuffers>(device, plan, camera));
     }
 }
 
 UploadSlots::Choice UploadSlots::choose(const Frame& frame, std::optional<uint32_t> inFlight) {
-    const Pictures pictures = inPlace(frame);
-    if (!pictures.depth && !pictures.colour) {
+    const Images images = inPlace(frame);
+    if (!images.depth && !images.colour) {
         return {copied(inFlight), false};
     }
-    if (const std::optional<uint32_t> known = find(pictures)) {
+    if (const std::optional<uint32_t> known = find(images)) {
         return {*known == inFlight ? copied(inFlight) : *known, false}; // the device reads it at this moment
     }
     const std::optional<uint32_t> slot = room(inFlight);
-    return slot && import(*slot, pictures) ? Choice{*slot, true} : Choice{copied(inFlight), false};
+    return slot && import(*slot, images) ? Choice{*slot, true} : Choice{copied(inFlight), false};
 }
 
 // A block counts only when it begins where the picture does: a picture may have been replaced by another.
-UploadSlots::Pictures UploadSlots::inPlace(const Frame& frame) const {
-    Pictures pictures;
+UploadSlots::Images UploadSlots::inPlace(const Frame& frame) const {
+    Images images;
     if (!plan_.inPlace || refused_) {
-        return pictures;
+        return images;
     }
     if (!depthRefused_ && frame->depthMemory.get() == frame->depth.data() &&
         frame->depth.size() >= camera_.depth.pixels()) {
-        pictures.depth = frame->depthMemory;
+        images.depth = frame->depthMemory;
     }
     const auto colours = std::as_bytes(frame->colours(plan_.yuyv));
     if (plan_.colour && frame->colourMemory.get() == colours.data() &&
         colours.size() >= camera_.colourBytes()) {
-        pictures.colour = frame->colourMemory;
+        images.colour = frame->colourMemory;
     }
-    return pictures;
+    return images;
 }
 
-std::optional<uint32_t> UploadSlots::find(const Pictures& pictures) const {
-    for (uint32_t i = kCopied; i < pictures_.size(); ++i) {
-        if (pictures_[i].depth == pictures.depth && pictures_[i].colour == pictures.colour) {
+std::optional<uint32_t> UploadSlots::find(const Images& images) const {
+    for (uint32_t i = kCopied; i < images_.size(); ++i) {
+        if (images_[i].depth == images.depth && images_[i].colour == images.colour) {
             return i;
         }
     }
@@ -61,31 +61,30 @@ std::optional<uint32_t> UploadSlots::room(std::optional<uint32_t> inFlight) cons
     // Held by each slot of it here and by that slot's buffer; more by a camera that is still there, or its
     // frames. A pair of which either is gone never comes again.
     const auto gone = [this](const std::shared_ptr<const void>& memory) {
-        const auto slots = std::count_if(pictures_.begin(), pictures_.end(), [&](const Pictures& p) {
+        const auto slots = std::count_if(images_.begin(), images_.end(), [&](const Images& p) {
             return p.depth == memory || p.colour == memory;
         });
         return memory && memory.use_count() <= 2 * slots;
     };
-    for (uint32_t i = kCopied; i < pictures_.size(); ++i) {
-        if (i != inFlight && (gone(pictures_[i].depth) || gone(pictures_[i].colour))) {
+    for (uint32_t i = kCopied; i < images_.size(); ++i) {
+        if (i != inFlight && (gone(images_[i].depth) || gone(images_[i].colour))) {
             return i;
         }
     }
     return slots_.size() < kMost ? std::optional(static_cast<uint32_t>(slots_.size())) : std::nullopt;
 }
 
-bool UploadSlots::import(uint32_t slot, const Pictures& pictures) {
+bool UploadSlots::import(uint32_t slot, const Images& images) {
     try {
-        auto buffers =
-            std::make_unique<UploadBuffers>(device_, plan_, camera_, pictures.depth, pictures.colour);
+        auto buffers = std::make_unique<UploadBuffers>(device_, plan_, camera_, images.depth, images.colour);
         if (slot == slots_.size()) {
-            slots_.emplace_back(), pictures_.emplace_back();
+            slots_.emplace_back(), images_.emplace_back();
         }
         slots_[slot] = std::move(buffers);
-        pictures_[slot] = pictures;
+        images_[slot] = images;
         return true;
     } catch (const Error& e) {
-        refused_ = depthRefused_ || !pictures.depth || !pictures.colour;
+        refused_ = depthRefused_ || !images.depth || !images.colour;
         depthRefused_ = true;
         log::debug("{} copied: {}", refused_ ? "pictures are" : "depth is", e.what());
         return false;

@@ -34,20 +34,20 @@ public:
     const UploadBuffers& operator[](uint32_t slot) const { return *slots_[slot]; }
 
 private:
-    struct Pictures {
+    struct Images {
         std::shared_ptr<const void> depth, colour; // null: copied
     };
-    Pictures inPlace(const Frame& frame) const;
-    std::optional<uint32_t> find(const Pictures& pictures) const;
+    Images inPlace(const Frame& frame) const;
+    std::optional<uint32_t> find(const Images& images) const;
     std::optional<uint32_t> room(std::optional<uint32_t> inFlight) const;
-    bool import(uint32_t slot, const Pictures& pictures);
+    bool import(uint32_t slot, const Images& images);
     uint32_t copied(std::optional<uint32_t> inFlight);
 
     const gpu::Device& device_;
     const Plan& plan_;
     const CameraInfo& camera_;
     std::vector<std::unique_ptr<UploadBuffers>> slots_;
-    std::vector<Pictures> pictures_; // a slot
+    std::vector<Images> images_; // a slot
     uint32_t nextCopied_ = 0;
     bool depthRefused_ = false, refused_ = false;
 };

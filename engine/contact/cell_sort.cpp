@@ -18,13 +18,13 @@ constexpr size_t kLeastBlocks = 8;      // whose places one thread works out
 
 // Of each part, things in each cell and in each block of cells. Neighbours among things are neighbours among
 // cells, so that a part has things in few blocks: of the others no counts are cleared, and none are read.
-void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, Crew& crew) {
+void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, ThreadPool& workers) {
     const size_t blocks = blocksOf(cells);
     if (next_.size() < parts * blocks * kBlock) {
         next_.resize(parts * blocks * kBlock);
     }
     inBlock_.assign(parts * blocks, 0);
-    crew.run(parts, [&](uint32_t part) {
+    workers.run(parts, [&](uint32_t part) {
         uint32_t* const counts = &next_[part * blocks * kBlock];
         uint32_t* const inBlock = &inBlock_[part * blocks];
         const size_t from = cell.size() * part / parts, to = cell.size() * (part + 1) / parts;
@@ -45,7 +45,7 @@ void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t
 
 // From those counts each part knows where its first thing of each cell goes: behind those of all cells before
 // and of the parts before in this one.
-void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& crew) {
+void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, ThreadPool& workers) {
     const size_t blocks = blocksOf(begins.size());
     first_.resize(blocks);
     uint32_t sum = 0;
@@ -55,7 +55,7 @@ void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& c
             sum += inBlock_[part * blocks + block];
         }
     }
-    inParts(&crew, blocks, kLeastBlocks, [&](size_t begin, size_t end) {
+    inParts(&workers, blocks, kLeastBlocks, [&](size_t begin, size_t end) {
         for (size_t block = begin; block < end; ++block) {
             placesInBlock(block, begins, parts);
         }
@@ -98,12 +98,12 @@ void CellSort::chooseBuckets(size_t things, uint32_t cells) {
 }
 
 // Each part counts its things, and knows from all counts where its first of each bucket goes.
-void CellSort::toBuckets(std::span<const uint32_t> cell, uint32_t parts, Crew& crew) {
+void CellSort::toBuckets(std::span<const uint32_t> cell, uint32_t parts, ThreadPool& workers) {
     next_.assign(size_t{parts} * buckets_, 0);
     placed_.resize(cell.size());
     Placed* const placed = placed_.data();
     const auto inEachPart = [&](auto&& each) {
-        crew.run(parts, [&](uint32_t part) {
+        workers.run(parts, [&](uint32_t part) {
             uint32_t* const next = &next_[size_t{part} * buckets_];
             const uint32_t shift = shift_;
             const size_t from = cell.size() * part / parts, to = cell.size() * (part + 1) / parts;

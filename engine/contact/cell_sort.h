@@ -4,7 +4,7 @@
 // things, they fall into buckets of neighbouring cells first, and each bucket is sorted by whoever is free.
 #pragma once
 
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -23,7 +23,7 @@ public:
     // cell for each member of the crew, and 8 a thing.
     template <class Put>
     void sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins, const Put& put,
-              Crew* crew);
+              ThreadPool* workers);
 
 private:
     static constexpr size_t kLeastPart = 2048;  // things
@@ -40,16 +40,16 @@ private:
                            uint32_t* begins) noexcept;
     template <class Put>
     void sortParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, const Put& put, uint32_t parts,
-                   Crew& crew);
+                   ThreadPool& workers);
     template <class Put>
     void sortBucket(uint32_t bucket, std::span<uint32_t> begins, const Put& put) const noexcept;
 
     static size_t blocksOf(size_t cells) noexcept { return (cells + kBlock - 1) / kBlock; }
-    void countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, Crew& crew);
-    void placesOfParts(std::span<uint32_t> begins, uint32_t parts, Crew& crew);
+    void countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, ThreadPool& workers);
+    void placesOfParts(std::span<uint32_t> begins, uint32_t parts, ThreadPool& workers);
     void placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t parts) noexcept;
     void chooseBuckets(size_t things, uint32_t cells);
-    void toBuckets(std::span<const uint32_t> cell, uint32_t parts, Crew& crew);
+    void toBuckets(std::span<const uint32_t> cell, uint32_t parts, ThreadPool& workers);
     void placesOfBuckets(uint32_t parts);
 
     uint32_t shift_ = 0, buckets_ = 0; // bucket = cell >> shift
@@ -62,9 +62,9 @@ private:
 
 template <class Put>
 void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins,
-                    const Put& put, Crew* crew) {
+                    const Put& put, ThreadPool* workers) {
     const auto things = static_cast<uint32_t>(cell.size());
-    const size_t members = crew == nullptr ? 1 : crew->members();
+    const size_t members = workers == nullptr ? 1 : workers->members();
     const auto parts = static_cast<uint32_t>(std::clamp<size_t>(things / kLeastPart, 1, members));
     begins[cells] = things;
     if (parts < 2) {
@@ -74,11 +74,11 @@ void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<ui
             put(i, --begins[cell[i]]);
         }
     } else if (cells <= things) {
-        sortParts(cell, begins.first(cells), put, parts, *crew);
+        sortParts(cell, begins.first(cells), put, parts, *workers);
     } else {
         chooseBuckets(things, cells);
-        toBuckets(cell, parts, *crew);
-        inParts(crew, buckets_, kLeastBuckets, [&](size_t begin, size_t end) {
+        toBuckets(cell, parts, *workers);
+        inParts(workers, buckets_, kLeastBuckets, [&](size_t begin, size_t end) {
             for (size_t bucket = begin; bucket < end; ++bucket) {
                 sortBucket(static_cast<uint32_t>(bucket), begins.first(cells), put);
             }
@@ -105,10 +105,10 @@ void CellSort::countCells(uint32_t begin, uint32_t end, const Cell& at, uint32_t
 
 template <class Put>
 void CellSort::sortParts(std::span<const uint32_t> cell, std::span<uint32_t> begins, const Put& put,
-                         uint32_t parts, Crew& crew) {
-    countParts(cell, begins.size(), parts, crew);
-    placesOfParts(begins, parts, crew);
-    crew.run(parts, [&](uint32_t part) {
+                         uint32_t parts, ThreadPool& workers) {
+    countParts(cell, begins.size(), parts, workers);
+    placesOfParts(begins, parts, workers);
+    workers.run(parts, [&](uint32_t part) {
         uint32_t* const next = &next_[part * blocksOf(begins.size()) * kBlock];
         const size_t from = cell.size() * part / parts, to = cell.size() * (part + 1) / parts;
         for (size_t i = from; i < to; ++i) {

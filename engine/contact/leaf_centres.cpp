@@ -89,7 +89,7 @@ double straightWays(const LeafCentres& from, const LeafCentres& to, std::span<do
     return largestKernel(ways.data(), from.size());
 }
 
-double farthestWay(const LeafCentres& from, const LeafCentres& to) noexcept {
+double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept {
     return std::sqrt(farthestKernel(from.x.data(), from.y.data(), from.z.data(), to.x.data(), to.y.data(),
                                     to.z.data(), from.size()));
 }

@@ -32,7 +32,7 @@ struct LeafCentres {
 double straightWays(const LeafCentres& from, const LeafCentres& to, std::span<double> ways) noexcept;
 
 // Farthest of those ways [m].
-double farthestWay(const LeafCentres& from, const LeafCentres& to) noexcept;
+double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept;
 
 // Whether every one of those ways is at most `limit` [m], but for the rounding of their squares; one that is
 // no number is not.

@@ -2,7 +2,7 @@
 #include "engine/contact/region_grid.h"
 
 #include "engine/contact/clones.h"
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 
 #include <algorithm>
 #include <array>
@@ -94,16 +94,16 @@ FATHOM_CLONES void addAxis(const float* v, size_t n, double lo, double perMetre,
 
 } // namespace
 
-void RegionGrid::build(const RegionSpheres& spheres, Crew* crew) {
-    build(spheres.x, spheres.y, spheres.z, spheres.radius, crew);
+void RegionGrid::build(const RegionSpheres& spheres, ThreadPool* workers) {
+    build(spheres.x, spheres.y, spheres.z, spheres.radius, workers);
 }
 
 void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-                       std::span<const float> radius, Crew* crew) {
-    measure({x, y, z, radius}, crew);
+                       std::span<const float> radius, ThreadPool* workers) {
+    measure({x, y, z, radius}, workers);
     const auto placeless = [](const Extent& e) { return e.placeless > 0; };
     if (std::none_of(extents_.begin(), extents_.end(), placeless)) {
-        buildOf({x, y, z, radius}, crew);
+        buildOf({x, y, z, radius}, workers);
         return;
     }
     std::array<std::vector<float>, 4> kept;
@@ -124,10 +124,10 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
 }
 
 // By runs of a fixed length, so that sums are the same whoever takes which.
-void RegionGrid::measure(const Columns& columns, Crew* crew) {
+void RegionGrid::measure(const Columns& columns, ThreadPool* workers) {
     const size_t n = columns[0].size();
     extents_.resize((n + kRun - 1) / kRun);
-    inParts(crew, extents_.size(), 1, [&](size_t begin, size_t end) {
+    inParts(workers, extents_.size(), 1, [&](size_t begin, size_t end) {
         for (size_t run = begin; run < end; ++run) {
             const size_t first = run * kRun, count = std::min(kRun, n - first);
             std::array<const float*, 4> v;
@@ -142,7 +142,7 @@ void RegionGrid::measure(const Columns& columns, Crew* crew) {
     });
 }
 
-void RegionGrid::buildOf(const Columns& columns, Crew* crew) {
+void RegionGrid::buildOf(const Columns& columns, ThreadPool* workers) {
     const size_t n = columns[0].size();
     for (std::vector<float>* column : {&x_, &y_, &z_, &radius_}) {
         column->resize(n);
@@ -165,7 +165,7 @@ void RegionGrid::buildOf(const Columns& columns, Crew* crew) {
     hi_ = dvec3(all.hi[0], all.hi[1], all.hi[2]);
     maxRadius_ = std::max(0.0f, all.hi[3]);
     chooseCells(all.radii / static_cast<double>(n));
-    layOut(columns, crew);
+    layOut(columns, workers);
 }
 
 void RegionGrid::chooseCells(double meanRadius) {
@@ -183,13 +183,13 @@ void RegionGrid::chooseCells(double meanRadius) {
     nz_ = cellsAlong(extent.z, size_);
 }
 
-void RegionGrid::layOut(const Columns& columns, Crew* crew) {
+void RegionGrid::layOut(const Columns& columns, ThreadPool* workers) {
     const size_t n = columns[0].size();
     const auto cells = static_cast<uint32_t>(nx_ * ny_ * nz_);
     cellBegin_.resize(size_t{cells} + 1);
     cell_.resize(n);
     uint32_t* const cell = cell_.data();
-    inParts(crew, n, kRun, [&](size_t first, size_t end) {
+    inParts(workers, n, kRun, [&](size_t first, size_t end) {
         for (size_t at = first; at < end; at += kRun) { // what one axis wrote is near when the next one comes
             const size_t count = std::min(kRun, end - at);
             std::fill_n(cell + at, count, 0);
@@ -209,7 +209,7 @@ void RegionGrid::layOut(const Columns& columns, Crew* crew) {
             order[slot] = i;
             toX[slot] = x[i], toY[slot] = y[i], toZ[slot] = z[i], toRadius[slot] = radius[i];
         },
-        crew);
+        workers);
 }
 
 } // namespace fathom

@@ -22,10 +22,10 @@ namespace fathom {
 class RegionGrid {
 public:
     // crew: who shares the work; the grid is the same whoever does. Null: the caller alone.
-    void build(const RegionSpheres& spheres, Crew* crew = nullptr);
+    void build(const RegionSpheres& spheres, ThreadPool* workers = nullptr);
     // The same over plain arrays of equal length.
     void build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
-               std::span<const float> radius, Crew* crew = nullptr);
+               std::span<const float> radius, ThreadPool* workers = nullptr);
 
     size_t size() const { return x_.size(); }
     double maxRadius() const { return maxRadius_; } // [m], 0 when empty
@@ -77,10 +77,10 @@ private:
         double radii;                // their sum
         uint32_t placeless;          // spheres that are not finite
     };
-    void measure(const Columns& columns, Crew* crew);
-    void buildOf(const Columns& columns, Crew* crew);
+    void measure(const Columns& columns, ThreadPool* workers);
+    void buildOf(const Columns& columns, ThreadPool* workers);
     void chooseCells(double meanRadius);
-    void layOut(const Columns& columns, Crew* crew);
+    void layOut(const Columns& columns, ThreadPool* workers);
 
     std::vector<float> x_, y_, z_, radius_;
     std::vector<uint32_t> order_;

@@ -150,7 +150,7 @@ std::vector<Sphere> ArmRig::aboutTip(const ArmPosture& posture) const {
     return spheres;
 }
 
-cloud::LinkSpheres ArmRig::inPicture(const ArmPosture& posture) const {
+cloud::LinkSpheres ArmRig::inImage(const ArmPosture& posture) const {
     const ArmFrames frames = framesAt(posture);
     cloud::LinkSpheres arm;
     for (size_t i = 0; i < model.leaves.size(); ++i) {

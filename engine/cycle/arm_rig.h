@@ -32,7 +32,7 @@ struct ArmRig {
     // The same spheres about the tip, for pictures. Allocates.
     std::vector<Sphere> aboutTip(const ArmPosture& posture) const;
     // The same spheres in the base frame, grown by the padding: what the self-filter takes out. Allocates.
-    cloud::LinkSpheres inPicture(const ArmPosture& posture) const;
+    cloud::LinkSpheres inImage(const ArmPosture& posture) const;
     // What the last joint and the fingers carry at the start, about the tip: the hand's tool, that the
     // springs' lever and the built-in path go by. All leaves where nothing hangs there.
     Tool heldTool() const;

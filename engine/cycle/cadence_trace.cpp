@@ -38,7 +38,7 @@ void CadenceTrace::query(TraceTime begin, TraceTime end, size_t spheres) noexcep
     contact_.frequentSpan("query", begin, end, {"spheres", static_cast<double>(spheres)});
 }
 
-void CadenceTrace::turn(TraceTime begin, TraceTime end, double lateSeconds) noexcept {
+void CadenceTrace::step(TraceTime begin, TraceTime end, double lateSeconds) noexcept {
     haptic_.frequentSpan("turn", begin, end, {"woken_late_us", lateSeconds * 1e6});
 }
 

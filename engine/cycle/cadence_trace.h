@@ -20,7 +20,7 @@ public:
     void frame(const FrameReport& report) noexcept;
     void query(TraceTime begin, TraceTime end, size_t spheres) noexcept;
     // lateSeconds: from when the turn was due to its start.
-    void turn(TraceTime begin, TraceTime end, double lateSeconds) noexcept;
+    void step(TraceTime begin, TraceTime end, double lateSeconds) noexcept;
 
     Trace& file() { return trace_; }
 

@@ -32,7 +32,7 @@ void ContactCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout&
     }
 }
 
-void ContactCycle::query(const cloud::FixtureSet& set, const ToolPlace& place, ContactSet& out) {
+void ContactCycle::query(const cloud::FixtureSet& set, const ToolState& place, ContactSet& out) {
     if (arm_ != nullptr) { // its leaves are in the base frame already
         ask(arm_->toolAt(place.arm), set, Pose{}, out);
     } else {

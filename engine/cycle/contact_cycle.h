@@ -7,7 +7,7 @@
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"
 #include "engine/cycle/arm_rig.h"
-#include "engine/cycle/turn_record.h"
+#include "engine/cycle/step_record.h"
 
 #include <optional>
 
@@ -30,9 +30,9 @@ public:
 
     // Without forbidden points the set is empty and its reach unlimited.
     void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
-        query(set, ToolPlace{baseTtool, {}}, out);
+        query(set, ToolState{baseTtool, {}}, out);
     }
-    void query(const cloud::FixtureSet& set, const ToolPlace& place, ContactSet& out);
+    void query(const cloud::FixtureSet& set, const ToolState& place, ContactSet& out);
 
     QueryStatistics statistics() const;
 

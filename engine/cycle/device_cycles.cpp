@@ -19,7 +19,7 @@ DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
 std::unique_ptr<FrameCycle> DeviceCycles::openFrames(gpu::Device& device) const {
     auto frames =
         std::make_unique<FrameCycle>(device, parts_.scene, parts_.camera, plan_, parts_.readers + 1);
-    frames->goOnFrom(mark_);
+    frames->resumeFrom(mark_);
     return frames;
 }
 
@@ -73,7 +73,7 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
     return stale_.has_value();
 }
 
-bool DeviceCycles::answer(const ToolPlace& place, ContactSet& out) {
+bool DeviceCycles::answer(const ToolState& place, ContactSet& out) {
     const std::lock_guard lock(mutex_);
     const auto newest = frames_ ? frames_->sets().newest() : cloud::FixturePool::Lease();
     if (newest) {

@@ -47,7 +47,7 @@ public:
 
     // Fills `out` for the newest fixture set; false when there was none yet. A device that is lost or has no
     // memory left for the query is no error here: the CPU answers from then on, until renew().
-    bool answer(const ToolPlace& place, ContactSet& out);
+    bool answer(const ToolState& place, ContactSet& out);
 
     // Copies of the newest fixture set, also of a device that is gone; false when there was none yet.
     bool newestSet(Fixtures& set, RegionGrid& grid);

@@ -28,7 +28,7 @@ std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
 
 // Beside a device of its own the crew looks out while the passes run, which take less than a millisecond; a
 // CPU device needs its processors for them.
-std::chrono::microseconds lookOutOf(const Plan& plan) {
+std::chrono::microseconds spinTimeOf(const Plan& plan) {
     return std::chrono::microseconds(plan.pack ? 1000 : 100);
 }
 
@@ -47,7 +47,7 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
     , setBuffers_(buffersOf(pool_))
     , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, setBuffers_})
     , timeline_(device)
-    , crew_(plan.publishers, lookOutOf(plan))
+    , workers_(plan.publishers, spinTimeOf(plan))
     , leakWarned_(shared::kMaxClasses, 0) {
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
         passes_.bind(slot, uploads_[slot]);
@@ -68,7 +68,7 @@ FrameCycle::~FrameCycle() {
     }
 }
 
-void FrameCycle::goOnFrom(const Mark& mark) {
+void FrameCycle::resumeFrom(const Mark& mark) {
     generation_ = mark.generation;
     frozen_ = mark.frozen;
     if (mark.scene) {
@@ -227,9 +227,10 @@ FrameReport FrameCycle::finish() {
     report.uploadMs = f.uploadMs;
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
-        Crew* const meanwhile = plan_.pack ? &crew_ : nullptr; // a CPU device works on its processors
-        if (meanwhile != nullptr && crew_.members() > 1) {
-            crew_.call();
+        ThreadPool* const meanwhile =
+            plan_.pack ? &workers_ : nullptr; // a CPU device works on its processors
+        if (meanwhile != nullptr && workers_.members() > 1) {
+            workers_.call();
         }
         fillHost(f); // while the device works
         if (seenPoints_) {
@@ -242,15 +243,15 @@ FrameReport FrameCycle::finish() {
         }
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
-        lastCounts_ =
-            cloud::collect(set, work_, seenPoints_ ? &*seenPoints_ : nullptr, scene_, plan_, layout_, crew_);
+        lastCounts_ = cloud::collect(set, work_, seenPoints_ ? &*seenPoints_ : nullptr, scene_, plan_,
+                                     layout_, workers_);
         lastCounts_.valid = valid;
         if (plan_.query != Plan::Query::Gpu) {
             frozen_.apply(set.host, scene_);
         }
         f.times.collected = Clock::now();
         if (plan_.spheres) {
-            set.grid.build(set.host.spheres, &crew_);
+            set.grid.build(set.host.spheres, &workers_);
         }
         pool_.publish();
         f.times.published = Clock::now();

@@ -10,8 +10,8 @@
 #include "engine/cloud/upload_slots.h"
 #include "engine/cycle/frame_passes.h"
 #include "engine/gpu/device.h"
-#include "engine/types/crew.h"
 #include "engine/types/frame.h"
+#include "engine/types/thread_pool.h"
 
 #include <atomic>
 #include <chrono>
@@ -54,7 +54,7 @@ public:
         cloud::FrozenClasses frozen;
     };
     Mark mark() const { return {generation_, origin_, scene_, frozen_}; }
-    void goOnFrom(const Mark& mark); // before the first frame
+    void resumeFrom(const Mark& mark); // before the first frame
 
     // One frame through, start to end.
     FrameReport process(Frame frame);
@@ -116,7 +116,7 @@ private:
     std::vector<cloud::SetBuffers*> setBuffers_;
     FramePasses passes_;
     gpu::Timeline timeline_;
-    Crew crew_; // shares the layout of a set
+    ThreadPool workers_; // shares the layout of a set
 
     cloud::LinkSpheres arm_;
     cloud::FrozenClasses frozen_;

@@ -11,8 +11,8 @@ namespace {
 
 // Up by the nominal period and down by the measured one: turns that come late put no fading off, and none
 // makes a force grow faster.
-void step(double& ramp, bool up, double nominal, double measured, double whole) {
-    ramp = std::clamp(ramp + (up ? nominal : -measured) / whole, 0.0, 1.0);
+void ramp(double& value, bool up, double nominal, double measured, double whole) {
+    value = std::clamp(value + (up ? nominal : -measured) / whole, 0.0, 1.0);
 }
 
 PassivityOptions passivityOf(const HapticOptions& options) {
@@ -66,8 +66,8 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
     springEnd_ = deviceBefore_ = device_ = arm != nullptr ? device_ : tool_;
 }
 
-TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
-    TurnRecord out;
+StepRecord HapticCycle::step(const StepInput& input) noexcept {
+    StepRecord out;
     out.t = input.time;
     Situation now;
     now.sane = isFinite(input.deviceThandle) && std::isfinite(input.time);
@@ -86,7 +86,7 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
                    now.off || !now.running || now.held, options_.period);
 
-    ProxyTurn moved;
+    ProxyStep moved;
     moved.minGap = kNotKnown;
     springEnd_ = device_;
     out.arm.posture = place().arm;
@@ -107,8 +107,8 @@ TurnRecord HapticCycle::turn(const TurnInput& input) noexcept {
     return out;
 }
 
-void HapticCycle::report(const Situation& now, const ProxyTurn& moved, bool hasSet,
-                         TurnRecord& out) const noexcept {
+void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasSet,
+                         StepRecord& out) const noexcept {
     out.device = device_;
     out.tool = tool_;
     out.contacts = static_cast<uint32_t>(moved.active.size());
@@ -126,9 +126,9 @@ void HapticCycle::stepRamps(const Situation& now, bool trapped, double measured)
     const bool on = now.running && !now.off && !now.clutch;
     arming_ = (arming_ || now.off) && ramps_.power < 1.0;
     const double nominal = options_.period;
-    step(ramps_.power, on, nominal, measured, on && arming_ ? options_.armTime : kRampTime);
-    step(ramps_.free, !trapped, nominal, measured, kRampTime);
-    step(ramps_.fresh, !now.stale, nominal, measured, kFadeTime);
+    ramp(ramps_.power, on, nominal, measured, on && arming_ ? options_.armTime : kRampTime);
+    ramp(ramps_.free, !trapped, nominal, measured, kRampTime);
+    ramp(ramps_.fresh, !now.stale, nominal, measured, kFadeTime);
 }
 
 Wrench HapticCycle::springWrench() noexcept {
@@ -169,14 +169,14 @@ Wrench HapticCycle::passivityWrench(const Wrench& spring, const Wrench& pull, do
     if (!options_.passivityController) {
         return {};
     }
-    PassivityTurn turn;
-    turn.device = device_;
-    turn.end = springEnd_;
-    turn.contact = onActuatedAxes({spring.force - pull.force, spring.torque - pull.torque});
-    turn.share = ramps_.product();
-    turn.springs = watch_.springs();
-    turn.period = period;
-    return passivity_.step(turn);
+    PassivityStep tick;
+    tick.device = device_;
+    tick.end = springEnd_;
+    tick.contact = onActuatedAxes({spring.force - pull.force, spring.torque - pull.torque});
+    tick.share = ramps_.product();
+    tick.springs = watch_.springs();
+    tick.period = period;
+    return passivity_.step(tick);
 }
 
 // Guidance has its share of the delivered wrench taken out, at what the size limit left of it.
@@ -192,7 +192,7 @@ void HapticCycle::tellPassivity(const Wrench& pull, const Wrench& damper, const 
 }
 
 void HapticCycle::finishWrench(const Wrench& spring, double period, const Situation& now,
-                               TurnRecord& out) noexcept {
+                               StepRecord& out) noexcept {
     smooth_ = lowPass(scaled(spring, ramps_.product()), smooth_, options_.lowPassGain);
     const Wrench pull = guidancePull();
     const Wrench damper = passivityWrench(spring, pull, period);
@@ -213,28 +213,28 @@ void HapticCycle::finishWrench(const Wrench& spring, double period, const Situat
     tellPassivity(pull, damper, asked, sized, projected.delivered);
 }
 
-TurnState HapticCycle::stateOf(const Situation& now, const ProxyTurn& moved) const noexcept {
+StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved) const noexcept {
     if (!now.running) {
-        return TurnState::Off;
+        return StepState::Off;
     }
     if (now.off || now.held) {
-        return ramps_.power > 0.0 ? TurnState::Fading : TurnState::Off;
+        return ramps_.power > 0.0 ? StepState::Fading : StepState::Off;
     }
     if (moved.trapped) {
-        return TurnState::Trapped;
+        return StepState::Trapped;
     }
     if (now.stale) {
-        return TurnState::Fading;
+        return StepState::Fading;
     }
     if (moved.escape) {
-        return TurnState::Escape;
+        return StepState::Escape;
     }
-    return moved.contact ? TurnState::Contact : TurnState::Free;
+    return moved.contact ? StepState::Contact : StepState::Free;
 }
 
 // An arm stands still while anything is wrong, and after that until tool and hand have met again or were
 // re-indexed. Where one follows, the tool never left it.
-void HapticCycle::holdArm(const Situation& now, bool trapped, TurnRecord& out) noexcept {
+void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept {
     const bool wrong =
         !now.sane || !now.running || now.off || now.stale || trapped || !out.finite || now.held;
     const bool met =
@@ -243,7 +243,7 @@ void HapticCycle::holdArm(const Situation& now, bool trapped, TurnRecord& out) n
     out.armHold = armHold_;
 }
 
-void HapticCycle::fillMargins(const TurnInput& input, TurnRecord& out) const noexcept {
+void HapticCycle::fillMargins(const StepInput& input, StepRecord& out) const noexcept {
     CouplingOptions live = options_.coupling;
     if (input.measuredPeriod > 0.0) {
         live.period = input.measuredPeriod;

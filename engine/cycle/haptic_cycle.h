@@ -4,7 +4,7 @@
 
 #include "engine/cycle/arm_rig.h"
 #include "engine/cycle/haptic_options.h"
-#include "engine/cycle/turn_record.h"
+#include "engine/cycle/step_record.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/haptics/passivity.h"
 #include "engine/haptics/stiffness_watch.h"
@@ -41,7 +41,7 @@ public:
     HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
                 const Pose& start, const Pose* tool0 = nullptr, const ArmRig* arm = nullptr);
 
-    TurnRecord turn(const TurnInput& input) noexcept;
+    StepRecord step(const StepInput& input) noexcept;
 
     // Before a turn, where a real arm follows; from the first call on the rules above hold. True when the
     // tool was put where the arm is: then pose() and place() are new.
@@ -55,7 +55,7 @@ public:
 
     const Pose& pose() const { return tool_; } // base_T_tool: what the next contact query asks about
     // Pose and, on an arm, posture.
-    ToolPlace place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
+    ToolState place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
     bool onArm() const { return arm_.has_value(); }
     const Springs& springs() const {
         return watch_.springs();
@@ -84,12 +84,12 @@ private:
         bool held = false; // a real arm stands still
     };
 
-    const ContactSet* chooseSet(const TurnInput& input, TurnRecord& out) noexcept;
-    double sceneAge(const TurnInput& input, const ContactSet* set) noexcept;
+    const ContactSet* chooseSet(const StepInput& input, StepRecord& out) noexcept;
+    double sceneAge(const StepInput& input, const ContactSet* set) noexcept;
     bool covers(const ContactSet& set) noexcept;
-    ProxyTurn moveTool(const TurnInput& input, const ContactSet* set, TurnRecord& out) noexcept;
+    ProxyStep moveTool(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept;
     void freeDirection() noexcept;
-    ProxyTurn moveArm(const TurnInput& input, const ProxyInput& wanted, TurnRecord& out) noexcept;
+    ProxyStep moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept;
     std::span<const Shape> shapes() const noexcept { return arm_ ? arm_->shapes() : proxy_->shapes(); }
     double leafRadius(uint32_t leaf) const noexcept {
         return arm_ ? arm_->leafRadius(leaf) : leafRadius_[leaf];
@@ -99,14 +99,14 @@ private:
     Wrench guidancePull() const noexcept;
     Wrench passivityWrench(const Wrench& spring, const Wrench& pull, double period) noexcept;
     Wrench onActuatedAxes(const Wrench& wrench) const noexcept;
-    void finishWrench(const Wrench& spring, double period, const Situation& now, TurnRecord& out) noexcept;
+    void finishWrench(const Wrench& spring, double period, const Situation& now, StepRecord& out) noexcept;
     void tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked, const Wrench& sized,
                        const Wrench& delivered) noexcept;
-    void recordTouches(const ContactSet* set, const ProxyTurn& moved, TurnRecord& out) const noexcept;
-    void report(const Situation& now, const ProxyTurn& moved, bool hasSet, TurnRecord& out) const noexcept;
-    TurnState stateOf(const Situation& now, const ProxyTurn& moved) const noexcept;
-    void holdArm(const Situation& now, bool trapped, TurnRecord& out) noexcept;
-    void fillMargins(const TurnInput& input, TurnRecord& out) const noexcept;
+    void recordTouches(const ContactSet* set, const ProxyStep& moved, StepRecord& out) const noexcept;
+    void report(const Situation& now, const ProxyStep& moved, bool hasSet, StepRecord& out) const noexcept;
+    StepState stateOf(const Situation& now, const ProxyStep& moved) const noexcept;
+    void holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept;
+    void fillMargins(const StepInput& input, StepRecord& out) const noexcept;
 
     HapticOptions options_;
     HandMap map_;

@@ -11,7 +11,7 @@ bool HapticCycle::covers(const ContactSet& set) noexcept {
     return arm_ ? arm_->covers(set) : proxy_->covers(set);
 }
 
-const ContactSet* HapticCycle::chooseSet(const TurnInput& input, TurnRecord& out) noexcept {
+const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out) noexcept {
     const ContactSet* offered = input.offered;
     if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
         out.adopted = true;
@@ -36,7 +36,7 @@ bool HapticCycle::follow(const ArmFollow& told) noexcept {
     return true;
 }
 
-double HapticCycle::sceneAge(const TurnInput& input, const ContactSet* set) noexcept {
+double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noexcept {
     // The set in force may be older than the newest fixture set; while it is the same one, the picture may be
     // newer.
     const bool newest = set == nullptr || set->generation == input.generation;
@@ -46,7 +46,7 @@ double HapticCycle::sceneAge(const TurnInput& input, const ContactSet* set) noex
     return age_;
 }
 
-ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set, TurnRecord& out) noexcept {
+ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept {
     ProxyInput wanted;
     wanted.target = device_;
     wanted.metricRadius = watch_.springs().metricRadius;
@@ -65,7 +65,7 @@ ProxyTurn HapticCycle::moveTool(const TurnInput& input, const ContactSet* set, T
     if (arm_) {
         return moveArm(input, wanted, out);
     }
-    const ProxyTurn moved = proxy_->turn(wanted);
+    const ProxyStep moved = proxy_->step(wanted);
     tool_ = moved.pose;
     return moved;
 }
@@ -79,7 +79,7 @@ void HapticCycle::freeDirection() noexcept {
 }
 
 // The arm's tip in place of the tool.
-ProxyTurn HapticCycle::moveArm(const TurnInput& input, const ProxyInput& wanted, TurnRecord& out) noexcept {
+ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept {
     const bool button = (input.buttons & rig_->graspButton) != 0;
     ArmInput asked;
     asked.target = wanted.target;
@@ -87,25 +87,25 @@ ProxyTurn HapticCycle::moveArm(const TurnInput& input, const ProxyInput& wanted,
     asked.contacts = wanted.contacts;
     asked.grasp = button ? 1.0 : 0.0;
     asked.deadline = wanted.deadline;
-    const ArmTurn turn = arm_->turn(asked);
-    tool_ = turn.tip;
-    out.arm = {{turn.q, turn.grasp}, turn.residual,  turn.manipulability,
-               turn.atLimits,        turn.graspHeld, turn.singular};
-    ProxyTurn moved;
-    moved.pose = turn.tip;
-    moved.active = turn.active;
-    moved.minGap = turn.minGap;
-    moved.contact = turn.contacts > 0 || turn.atLimits > 0;
-    moved.escape = turn.escape;
-    moved.trapped = turn.trapped;
-    moved.stalled = turn.stalled;
-    moved.solves = turn.solves;
-    moved.infeasible = turn.infeasible;
+    const ArmStep tick = arm_->step(asked);
+    tool_ = tick.tip;
+    out.arm = {{tick.q, tick.grasp}, tick.residual,  tick.manipulability,
+               tick.atLimits,        tick.graspHeld, tick.singular};
+    ProxyStep moved;
+    moved.pose = tick.tip;
+    moved.active = tick.active;
+    moved.minGap = tick.minGap;
+    moved.contact = tick.contacts > 0 || tick.atLimits > 0;
+    moved.escape = tick.escape;
+    moved.trapped = tick.trapped;
+    moved.stalled = tick.stalled;
+    moved.solves = tick.solves;
+    moved.infeasible = tick.infeasible;
     return moved;
 }
 
-void HapticCycle::recordTouches(const ContactSet* set, const ProxyTurn& moved,
-                                TurnRecord& out) const noexcept {
+void HapticCycle::recordTouches(const ContactSet* set, const ProxyStep& moved,
+                                StepRecord& out) const noexcept {
     for (const ActiveContact& active : moved.active) {
         const ContactRow& row = active.row;
         if (out.touchCount == kMostTouches) {

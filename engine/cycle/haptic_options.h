@@ -20,7 +20,7 @@ struct HapticOptions {
     bool paperGuidance = false; // mode `paper`, else `target`
     dquat baseRdevice{1.0, 0.0, 0.0, 0.0};
     double handScale = 1.0;                      // tool over hand, of lengths
-    uint32_t clutchBit = 4;                      // mask of TurnInput::buttons; 0 = none
+    uint32_t clutchBit = 4;                      // mask of StepInput::buttons; 0 = none
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] at the tool: the hand's torque limit counts too
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     double lowPassGain = 1.0;                     // limits.h; 1 = off

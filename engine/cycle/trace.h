@@ -3,7 +3,7 @@
 // tracks.
 #pragma once
 
-#include "engine/types/ring.h"
+#include "engine/types/spsc_queue.h"
 
 #include <chrono>
 #include <cstdint>
@@ -59,7 +59,7 @@ public:
 private:
     friend class Trace;
     std::string name_;
-    Ring<TraceEvent> ring_;
+    SpscQueue<TraceEvent> ring_;
 };
 
 // Tracks are added before their threads start; drain() and finish() belong to one other thread (or the same

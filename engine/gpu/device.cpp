@@ -108,21 +108,21 @@ uint32_t Device::memoryType(MemoryKind kind, uint32_t typeBits) const {
     constexpr VkMemoryPropertyFlags kShared =
         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     constexpr VkMemoryPropertyFlags kCached = VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    std::vector<VkMemoryPropertyFlags> wishes; // best first
+    std::vector<VkMemoryPropertyFlags> setpoints; // best first
     switch (kind) {
     case MemoryKind::Device:
-        wishes = {kLocal, 0};
+        setpoints = {kLocal, 0};
         break;
     case MemoryKind::Upload:
-        wishes = {kLocal | kShared, kShared};
+        setpoints = {kLocal | kShared, kShared};
         break;
     case MemoryKind::Readback:
-        wishes = {kShared | kCached, kShared};
+        setpoints = {kShared | kCached, kShared};
         break;
     }
-    for (VkMemoryPropertyFlags wish : wishes) {
+    for (VkMemoryPropertyFlags setpoint : setpoints) {
         for (uint32_t t = 0; t < memory_.memoryTypeCount; ++t) {
-            if ((typeBits >> t & 1u) != 0 && (memory_.memoryTypes[t].propertyFlags & wish) == wish) {
+            if ((typeBits >> t & 1u) != 0 && (memory_.memoryTypes[t].propertyFlags & setpoint) == setpoint) {
                 return t;
             }
         }

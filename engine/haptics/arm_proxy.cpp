@@ -89,7 +89,7 @@ bool ArmProxy::covers(const ContactSet& contacts) noexcept {
     return TrustRegion::covers(contacts, leaves_);
 }
 
-ArmProxy::Goal ArmProxy::aim(const ArmInput& input, ArmTurn& out) noexcept {
+ArmProxy::Goal ArmProxy::aim(const ArmInput& input, ArmStep& out) noexcept {
     const Pose now = tip();
     const double k = input.metricRadius;
     // A target far away bends the way there: only what a solve can go is asked for, or a stretched arm
@@ -118,7 +118,7 @@ ArmProxy::Goal ArmProxy::aim(const ArmInput& input, ArmTurn& out) noexcept {
 }
 
 // The fingers go first, by themselves: what they may do is looked at as exactly as any motion.
-void ArmProxy::moveGrasp(const ArmInput& input, ArmTurn& out) noexcept {
+void ArmProxy::moveGrasp(const ArmInput& input, ArmStep& out) noexcept {
     if (!std::isfinite(input.grasp) || arm_.fingers.empty()) {
         return;
     }
@@ -134,7 +134,8 @@ void ArmProxy::moveGrasp(const ArmInput& input, ArmTurn& out) noexcept {
     for (int tries = 0; tries < 6 && out.graspHeld; ++tries, change *= 0.5) {
         size_t violating = 0;
         tryPosture(q_, grasp_ + change);
-        if (farthestWay(leaves_, nextLeaves_) <= options_.stepCap && allowed(input.contacts, violating)) {
+        if (leafDisplacement(leaves_, nextLeaves_) <= options_.stepCap &&
+            allowed(input.contacts, violating)) {
             out.graspHeld = tries > 0;
             take();
             return;
@@ -142,8 +143,8 @@ void ArmProxy::moveGrasp(const ArmInput& input, ArmTurn& out) noexcept {
     }
 }
 
-ArmTurn ArmProxy::turn(const ArmInput& asked) noexcept {
-    ArmTurn out;
+ArmStep ArmProxy::step(const ArmInput& asked) noexcept {
+    ArmStep out;
     start_ = q_;
     escapeLeft_ = options_.escapePerTurn;
     activeCount_ = 0;
@@ -170,7 +171,7 @@ ArmTurn ArmProxy::turn(const ArmInput& asked) noexcept {
     return out;
 }
 
-void ArmProxy::report(const ArmInput& input, bool usable, ArmTurn& out) noexcept {
+void ArmProxy::report(const ArmInput& input, bool usable, ArmStep& out) noexcept {
     out.q = q_;
     out.grasp = grasp_;
     out.tip = tip();

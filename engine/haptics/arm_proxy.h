@@ -43,12 +43,12 @@ struct ArmInput {
 };
 
 // What became of it.
-struct ArmTurn {
+struct ArmStep {
     JointVector q{};           // after the turn
     double grasp = 0.0;        // after the turn
     Pose tip;                  // base_T_tip after the turn
     double residual = 0.0;     // [m] |what is left to the target|_M: what the pilot feels as the arm's limit
-    double minGap = 0.0;       // [m] over the set, as ProxyTurn::minGap
+    double minGap = 0.0;       // [m] over the set, as ProxyStep::minGap
     double manipulability = 0; // [m/rad] smallest singular value of M^1/2 J at the start
     uint32_t contacts = 0;     // rows of leaves that pushed in the last solve
     uint32_t atLimits = 0;     // rows of joint limits or speeds that did
@@ -74,9 +74,9 @@ public:
     ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOptions& options,
              const JointVector& start, std::span<const Shape> shapes = {});
 
-    ArmTurn turn(const ArmInput& input) noexcept;
-    ArmTurn turn(const Pose& target, double metricRadius, const ContactSet* contacts) noexcept {
-        return turn({target, metricRadius, contacts, grasp_, {}});
+    ArmStep step(const ArmInput& input) noexcept;
+    ArmStep step(const Pose& target, double metricRadius, const ContactSet* contacts) noexcept {
+        return step({target, metricRadius, contacts, grasp_, {}});
     }
 
     bool covers(const ContactSet& contacts) noexcept;
@@ -107,29 +107,29 @@ private:
     };
 
     // arm_proxy.cpp
-    Goal aim(const ArmInput& input, ArmTurn& out) noexcept;
-    void moveGrasp(const ArmInput& input, ArmTurn& out) noexcept;
-    void report(const ArmInput& input, bool usable, ArmTurn& out) noexcept;
+    Goal aim(const ArmInput& input, ArmStep& out) noexcept;
+    void moveGrasp(const ArmInput& input, ArmStep& out) noexcept;
+    void report(const ArmInput& input, bool usable, ArmStep& out) noexcept;
 
     // arm_proxy_rows.cpp: the conditions on the next joint increments.
-    void collectRows(const ContactSet* contacts, bool anew, ArmTurn& out) noexcept;
+    void collectRows(const ContactSet* contacts, bool anew, ArmStep& out) noexcept;
     void gather(const ContactSet& contacts, bool anew) noexcept;
     void addPairRows(const ContactSet& contacts) noexcept;
     void addBehindRows(const ContactSet& contacts) noexcept;
-    void addShapeRows(ArmTurn& out) noexcept;
+    void addShapeRows(ArmStep& out) noexcept;
     void addEqualityRows(const Shape& shape, uint32_t index) noexcept;
     void addJointRows() noexcept;
     void addLeafRow(const ContactRow& row, double offset) noexcept;
     void addRow(const JointVector& normal, double offset, const SolverRow& what) noexcept;
-    bool strengthen(size_t violating, double share) noexcept;
-    bool strengthenShapes(double share) noexcept;
-    bool strengthenEqualities(double share) noexcept;
-    void recordActive(ArmTurn& out) noexcept;
+    bool tighten(size_t violating, double share) noexcept;
+    bool tightenShapes(double share) noexcept;
+    bool tightenEqualities(double share) noexcept;
+    void recordActive(ArmStep& out) noexcept;
 
     // arm_proxy_step.cpp: solve, cut, check, and only then move.
-    bool step(const ArmInput& input, ArmTurn& out) noexcept;
-    bool solveRows(const Goal& goal, JointVector& dq, ArmTurn& out) noexcept;
-    double fit(JointVector& dq, const Goal& goal, const ContactSet* contacts, ArmTurn& out) noexcept;
+    bool step(const ArmInput& input, ArmStep& out) noexcept;
+    bool solveRows(const Goal& goal, JointVector& dq, ArmStep& out) noexcept;
+    double fit(JointVector& dq, const Goal& goal, const ContactSet* contacts, ArmStep& out) noexcept;
     double bisect(const JointVector& dq, double most, const ContactSet* contacts) noexcept;
     double shareToCap(const JointVector& dq) noexcept;
     void tryPosture(const JointVector& q, double grasp) noexcept;

@@ -41,11 +41,11 @@ void ArmProxy::addLeafRow(const ContactRow& row, double offset) noexcept {
     }
     // No more than half of what the joints can do in what is left of the turn.
     double possible = 0.0;
-    for (size_t k = 0; k < leaf.joint && offset > proxy::kAsks; ++k) {
+    for (size_t k = 0; k < leaf.joint && offset > proxy::kEscapeThreshold; ++k) {
         const double low = clampedJoint(k, -1e9) - q_[k], high = clampedJoint(k, 1e9) - q_[k];
         possible += std::max(normal[k] * low, normal[k] * high);
     }
-    offset = offset > proxy::kAsks ? std::min(offset, 0.5 * possible) : offset;
+    offset = offset > proxy::kEscapeThreshold ? std::min(offset, 0.5 * possible) : offset;
     addRow(normal, offset, {row, false});
 }
 
@@ -73,7 +73,7 @@ void ArmProxy::gather(const ContactSet& contacts, bool anew) noexcept {
     trust_.set(contacts, narrow_.moved(), narrow_.farthest());
 }
 
-void ArmProxy::collectRows(const ContactSet* contacts, bool anew, ArmTurn& out) noexcept {
+void ArmProxy::collectRows(const ContactSet* contacts, bool anew, ArmStep& out) noexcept {
     solver_.clearRows();
     addJointRows();
     if (contacts != nullptr) {
@@ -118,7 +118,7 @@ void ArmProxy::addBehindRows(const ContactSet& contacts) noexcept {
     }
 }
 
-void ArmProxy::addShapeRows(ArmTurn& out) noexcept {
+void ArmProxy::addShapeRows(ArmStep& out) noexcept {
     for (uint32_t s = 0; s < shapes_.size(); ++s) {
         const Shape& shape = shapes_[s];
         if (shape.isEquality()) {
@@ -180,7 +180,7 @@ void ArmProxy::addEqualityRows(const Shape& shape, uint32_t index) noexcept {
 }
 
 // Asks more of the pairs that a motion took in too deep. False when nothing could be asked for.
-bool ArmProxy::strengthen(size_t violating, double share) noexcept {
+bool ArmProxy::tighten(size_t violating, double share) noexcept {
     const size_t before = solver_.rows();
     bool changed = false;
     for (size_t v = 0; v < std::min(violating, violations_.size()); ++v) {
@@ -201,7 +201,7 @@ bool ArmProxy::strengthen(size_t violating, double share) noexcept {
     return changed;
 }
 
-bool ArmProxy::strengthenShapes(double share) noexcept {
+bool ArmProxy::tightenShapes(double share) noexcept {
     bool changed = false;
     for (size_t at = 0; at < solver_.rows(); ++at) {
         const ContactRow& row = rows_[at].row;
@@ -225,7 +225,7 @@ bool ArmProxy::strengthenShapes(double share) noexcept {
 
 // The arcs that joints go on carry the tip off a line by more than its rows can tell: what they were wrong by
 // is asked for the other way.
-bool ArmProxy::strengthenEqualities(double share) noexcept {
+bool ArmProxy::tightenEqualities(double share) noexcept {
     bool changed = false;
     for (size_t at = 0; at < solver_.rows(); ++at) {
         const ContactRow& row = rows_[at].row;
@@ -249,7 +249,7 @@ bool ArmProxy::strengthenEqualities(double share) noexcept {
     return changed;
 }
 
-void ArmProxy::recordActive(ArmTurn& out) noexcept {
+void ArmProxy::recordActive(ArmStep& out) noexcept {
     out.contacts = out.atLimits = 0;
     activeCount_ = 0;
     const auto multipliers = solver_.multipliers();

@@ -37,7 +37,7 @@ double ArmProxy::shareToCap(const JointVector& dq) noexcept {
     double share = 1.0;
     for (int k = 0; k < 12; ++k) {
         tryStep(dq, share);
-        const double travel = farthestWay(leaves_, nextLeaves_);
+        const double travel = leafDisplacement(leaves_, nextLeaves_);
         if (travel <= options_.stepCap) {
             return share;
         }
@@ -88,7 +88,7 @@ double ArmProxy::bisect(const JointVector& dq, double most, const ContactSet* co
 
 // Solves, cuts to the caps, checks exactly; strengthens and solves again; at last shortens. Returns the
 // share.
-double ArmProxy::fit(JointVector& dq, const Goal& goal, const ContactSet* contacts, ArmTurn& out) noexcept {
+double ArmProxy::fit(JointVector& dq, const Goal& goal, const ContactSet* contacts, ArmStep& out) noexcept {
     double share = 1.0;
     bool cut = false; // by the trust region
     for (int round = 0; round < proxy::kRounds; ++round) {
@@ -97,8 +97,8 @@ double ArmProxy::fit(JointVector& dq, const Goal& goal, const ContactSet* contac
         if (allowed(contacts, violating)) {
             return share;
         }
-        const bool pairs = strengthen(violating, share), sides = strengthenShapes(share);
-        const bool shapes = strengthenEqualities(share) || sides;
+        const bool pairs = tighten(violating, share), sides = tightenShapes(share);
+        const bool shapes = tightenEqualities(share) || sides;
         cut = violating == 0 && !shapes;
         JointVector other{};
         if (!(pairs || shapes) || solver_.solve(std::span(goal.wanted.data(), n_),
@@ -112,7 +112,7 @@ double ArmProxy::fit(JointVector& dq, const Goal& goal, const ContactSet* contac
 }
 
 // Where rows that ask for motion contradict each other, they ask for no worse than now.
-bool ArmProxy::solveRows(const Goal& goal, JointVector& dq, ArmTurn& out) noexcept {
+bool ArmProxy::solveRows(const Goal& goal, JointVector& dq, ArmStep& out) noexcept {
     const std::span<const double> wanted(goal.wanted.data(), n_);
     if (solver_.solve(wanted, std::span(dq.data(), n_)) == SolveStatus::Optimal) {
         return true;
@@ -125,7 +125,7 @@ bool ArmProxy::solveRows(const Goal& goal, JointVector& dq, ArmTurn& out) noexce
 }
 
 // One linearisation. True when another one may bring the tip nearer.
-bool ArmProxy::step(const ArmInput& input, ArmTurn& out) noexcept {
+bool ArmProxy::step(const ArmInput& input, ArmStep& out) noexcept {
     collectRows(input.contacts, out.solves == 0, out);
     const Goal goal = aim(input, out);
     ++out.solves;
@@ -147,7 +147,7 @@ bool ArmProxy::step(const ArmInput& input, ArmTurn& out) noexcept {
         return false;
     }
     escapeLeft_ *= 1.0 - share;
-    const double travel = farthestWay(leaves_, nextLeaves_);
+    const double travel = leafDisplacement(leaves_, nextLeaves_);
     take();
     return travel > proxy::kNothing;
 }

@@ -31,13 +31,13 @@ Pose HandMap::map(const Pose& deviceThandle, bool clutch) noexcept {
     }
     started_ = true; // a clutch that is down from the start holds the first pose
     held_.position = offset_ + scale_ * (baseRdevice_ * deviceThandle.position);
-    held_.rotation = glm::normalize(baseRhandle(deviceThandle) * turn_);
+    held_.rotation = glm::normalize(baseRhandle(deviceThandle) * tick_);
     return held_;
 }
 
 void HandMap::align(const Pose& deviceThandle, const Pose& pose) noexcept {
     offset_ = pose.position - scale_ * (baseRdevice_ * deviceThandle.position);
-    turn_ = glm::normalize(glm::conjugate(baseRhandle(deviceThandle)) * pose.rotation);
+    tick_ = glm::normalize(glm::conjugate(baseRhandle(deviceThandle)) * pose.rotation);
     held_ = pose;
 }
 

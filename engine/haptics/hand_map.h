@@ -44,7 +44,7 @@ private:
     dquat baseRdevice_;
     double scale_;
     dvec3 offset_{0.0};
-    dquat turn_{1.0, 0.0, 0.0, 0.0}; // C
+    dquat tick_{1.0, 0.0, 0.0, 0.0}; // C
     Pose held_;                      // last mapped pose
     bool clutched_ = false;
     bool started_ = false;

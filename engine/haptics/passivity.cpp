@@ -56,30 +56,30 @@ void PassivityController::reset() noexcept {
     started_ = false;
 }
 
-double PassivityController::storedIn(const PassivityTurn& turn) const noexcept {
-    return energyOf(glm::length(turn.contact.force), turn.springs.stiffness, turn.share,
+double PassivityController::storedIn(const PassivityStep& tick) const noexcept {
+    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, tick.share,
                     options_.forceLimit) +
-           energyOf(glm::length(turn.contact.torque), turn.springs.rotationalStiffness, turn.share,
+           energyOf(glm::length(tick.contact.torque), tick.springs.rotationalStiffness, tick.share,
                     options_.torqueLimit);
 }
 
-void PassivityController::observe(const PassivityTurn& turn) noexcept {
-    const dvec3 endMoved = turn.end.position - end_.position, endTurned = turnBetween(end_, turn.end);
-    moved_ = turn.device.position - device_.position;
-    turned_ = turnBetween(device_, turn.device);
+void PassivityController::observe(const PassivityStep& tick) noexcept {
+    const dvec3 endMoved = tick.end.position - end_.position, endTurned = turnBetween(end_, tick.end);
+    moved_ = tick.device.position - device_.position;
+    turned_ = turnBetween(device_, tick.device);
     // The oldest of the ring: what reached the hand in the interval that ends now.
     const Applied& held = applied_[writes_ % (options_.delayTicks + 1)];
     const double damped = -workOf(held.damper, moved_, turned_);
-    const double stored = storedIn(turn);
+    const double stored = storedIn(tick);
     const double credit = (options_.damping * glm::dot(endMoved, endMoved) +
                            options_.rotationalDamping * glm::dot(endTurned, endTurned)) /
-                          turn.period;
+                          tick.period;
     const double spring = workOf(held.contact, endMoved, endTurned) + stored - stored_ - credit;
     generated_ += std::max(0.0, spring);
     taken_ += damped;
     stored_ = stored;
 
-    double& slot = credit_[turns_++ % kWindow];
+    double& slot = credit_[ticks_++ % kWindow];
     slot = credit;
     recent_ = 0.0;
     for (const double c :
@@ -87,15 +87,15 @@ void PassivityController::observe(const PassivityTurn& turn) noexcept {
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);
-    debt_ *= debt_ > 0.0 ? std::exp(-turn.period / kForget) : 1.0;
+    debt_ *= debt_ > 0.0 ? std::exp(-tick.period / kForget) : 1.0;
 }
 
-Wrench PassivityController::control(const PassivityTurn& turn) const noexcept {
+Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     const double owed = debt_ - kTolerance;
     if (!(owed > 0.0)) {
         return {};
     }
-    dvec3 v = moved_ / turn.period, w = turned_ / turn.period;
+    dvec3 v = moved_ / tick.period, w = turned_ / tick.period;
     v = glm::length(v) < kSlow ? dvec3(0.0) : v;
     w = glm::length(w) < kSlowTurn ? dvec3(0.0) : w;
     const double kk = options_.metricRadius * options_.metricRadius;
@@ -104,26 +104,26 @@ Wrench PassivityController::control(const PassivityTurn& turn) const noexcept {
         return {};
     }
     const double most = std::min(kMostDamping * std::min(options_.damping, options_.rotationalDamping / kk),
-                                 kMostImpulse / (turn.period * (1.0 + 2.0 * options_.delayTicks)));
-    const double alpha = turn.share * std::min(owed / (turn.period * speed), most);
+                                 kMostImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
+    const double alpha = tick.share * std::min(owed / (tick.period * speed), most);
     return {-alpha * v, -alpha * kk * w};
 }
 
-Wrench PassivityController::step(const PassivityTurn& turn) noexcept {
-    if (!(turn.share > 0.0) || !(turn.period > 0.0) || !isFinite(turn.device) || !isFinite(turn.end)) {
+Wrench PassivityController::step(const PassivityStep& tick) noexcept {
+    if (!(tick.share > 0.0) || !(tick.period > 0.0) || !isFinite(tick.device) || !isFinite(tick.end)) {
         reset();
         return {};
     }
     Wrench damper;
     if (started_) {
-        observe(turn);
-        damper = control(turn);
+        observe(tick);
+        damper = control(tick);
     } else {
-        stored_ = storedIn(turn);
+        stored_ = storedIn(tick);
     }
     started_ = true;
-    device_ = turn.device;
-    end_ = turn.end;
+    device_ = tick.device;
+    end_ = tick.end;
     if (!std::isfinite(debt_) || !std::isfinite(stored_)) {
         reset();
         return {};

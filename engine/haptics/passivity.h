@@ -37,7 +37,7 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
                                const CouplingOptions& coupling, double forceLimit, double torqueLimit);
 
 // What the observer sees of one turn, after the proxy has moved.
-struct PassivityTurn {
+struct PassivityStep {
     Pose device;           // base_T_tool that the hand commands
     Pose end;              // hand's end of the spring: device, led by guidance
     Wrench contact;        // of the springs between end and proxy, unscaled, on actuated axes
@@ -55,7 +55,7 @@ public:
     // Observes the interval that ends now and returns what to add to the wrench: -alpha v and -alpha k^2 w
     // with alpha = debt / (T (v.v + k^2 w.w)), capped (kMostDamping, kMostImpulse); zero below kSlow,
     // kSlowTurn.
-    Wrench step(const PassivityTurn& turn) noexcept;
+    Wrench step(const PassivityStep& tick) noexcept;
     // What the device gets from now on: the part of the springs and the part that step() asked for.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
     void reset() noexcept;
@@ -81,14 +81,14 @@ private:
     };
     static constexpr size_t kMostDelay = 64;
 
-    double storedIn(const PassivityTurn& turn) const noexcept;
-    void observe(const PassivityTurn& turn) noexcept;
-    Wrench control(const PassivityTurn& turn) const noexcept;
+    double storedIn(const PassivityStep& tick) const noexcept;
+    void observe(const PassivityStep& tick) noexcept;
+    Wrench control(const PassivityStep& tick) const noexcept;
 
     PassivityOptions options_;
     std::array<Applied, kMostDelay + 1> applied_{};
     std::array<double, kWindow> credit_{}; // [J] dissipated by b, a turn
-    size_t writes_ = 0, turns_ = 0;
+    size_t writes_ = 0, ticks_ = 0;
     double recent_ = 0.0; // sum of credit_
     bool started_ = false;
     Pose device_, end_;              // at the turn before

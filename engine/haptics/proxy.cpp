@@ -18,7 +18,7 @@ Proxy::Proxy(const Tool& tool, std::span<const Shape> shapes, const ProxyOptions
     , trust_(tool.leafCount())
     , solver_(6, proxy::kMostRows)
     , rows_(proxy::kMostRows)
-    , lacks_(proxy::kMostRows)
+    , rowViolations_(proxy::kMostRows)
     , loaded_(proxy::kMostRows)
     , isLoaded_(proxy::kMostRows, 0)
     , violations_(proxy::kMostViolations)
@@ -64,8 +64,8 @@ void Proxy::setMetric(double radius) noexcept {
     solver_.setMetric(metric);
 }
 
-ProxyTurn Proxy::turn(const ProxyInput& input) noexcept {
-    ProxyTurn out;
+ProxyStep Proxy::step(const ProxyInput& input) noexcept {
+    ProxyStep out;
     activeCount_ = 0;
     setMetric(input.metricRadius);
     const ContactSet* contacts = input.contacts;

@@ -61,7 +61,7 @@ struct ActiveContact {
 };
 
 // What became of it.
-struct ProxyTurn {
+struct ProxyStep {
     Pose pose;                             // base_T_tool after the turn
     std::span<const ActiveContact> active; // valid until the next turn
     double minGap = 0.0;                   // [m] over the contact set; its certified reach if none is nearer
@@ -85,7 +85,7 @@ class Proxy {
 public:
     Proxy(const Tool& tool, std::span<const Shape> shapes, const ProxyOptions& options, const Pose& start);
 
-    ProxyTurn turn(const ProxyInput& input) noexcept;
+    ProxyStep step(const ProxyInput& input) noexcept;
 
     // May this set be put in force for the tool as it stands?
     bool covers(const ContactSet& contacts) noexcept;
@@ -123,19 +123,19 @@ private:
     void addEqualityRows(const Shape& shape, uint32_t index, const Budget& budget) noexcept;
     bool addRow(ContactRow row) noexcept;
     double offsetFor(double gap, const Budget& budget) const noexcept;
-    bool strengthen(const Motion& tried, size_t violating, double share) noexcept;
-    bool strengthenShapes(double share) noexcept;
+    bool tighten(const Motion& tried, size_t violating, double share) noexcept;
+    bool tightenShapes(double share) noexcept;
 
     // proxy_step.cpp: one linearisation.
-    bool step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexcept;
-    bool solveRows(const Motion& wanted, Step& step, ProxyTurn& out) noexcept;
-    SolveStatus solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out) noexcept;
+    bool step(const ProxyInput& input, Budget& budget, ProxyStep& out) noexcept;
+    bool solveRows(const Motion& wanted, Step& step, ProxyStep& out) noexcept;
+    SolveStatus solveFor(const Motion& wanted, Motion& answer, ProxyStep& out) noexcept;
     // proxy_solve.cpp: the rows that the solver gets.
     void loadSolver(const Motion& wanted) noexcept;
     void loadRow(size_t row) noexcept;
     double offsetOf(size_t row) const noexcept;
-    double lackAt(size_t row, const Motion& motion) const noexcept;
-    bool loadLacking(const Motion& answer) noexcept;
+    double violationAt(size_t row, const Motion& motion) const noexcept;
+    bool loadViolated(const Motion& answer) noexcept;
     bool relax() noexcept;
     void fit(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step) noexcept;
     static double answered(const Step& step) noexcept;
@@ -145,7 +145,7 @@ private:
     bool isAllowed(const ContactSet* contacts, size_t& violating) noexcept;
     bool shapesAllow() noexcept;
     bool fitsExactly(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step,
-                     ProxyTurn& out) noexcept;
+                     ProxyStep& out) noexcept;
     double bisect(const ProxyInput& input, const Step& step) noexcept;
     bool comesNearer(const Pose& target, const Motion& taken) const noexcept;
     void recordActive() noexcept;
@@ -165,13 +165,13 @@ private:
 
     std::vector<ContactRow> rows_;
     size_t rowCount_ = 0;
-    struct Lack {
+    struct RowViolation {
         double amount; // [m]
         uint32_t row;
     };
-    std::vector<Lack> lacks_;       // room to choose rows in
-    std::vector<uint32_t> loaded_;  // row of the solver -> row
-    std::vector<uint8_t> isLoaded_; // a row
+    std::vector<RowViolation> rowViolations_; // room to choose rows in
+    std::vector<uint32_t> loaded_;            // row of the solver -> row
+    std::vector<uint8_t> isLoaded_;           // a row
     size_t loadedCount_ = 0;
     bool relaxed_ = false;      // rows that ask for no motion ask only to stay
     bool escaping_ = false;     // some row asks for motion

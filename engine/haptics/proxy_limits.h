@@ -10,7 +10,7 @@ namespace fathom::proxy {
 // reaches the exact check, which has no tolerance at all.
 inline constexpr double kSkin = 1e-9; // [m]
 // Rows that ask for more than this ask for motion: an escape. Well above the skin.
-inline constexpr double kAsks = 4e-9;    // [m]
+inline constexpr double kEscapeThreshold = 4e-9; // [m]
 inline constexpr double kNothing = 1e-9; // [m], [rad] a step this short moved nothing worth another solve
 inline constexpr double kEqualityRest = 1e-9; // [m], [rad] lines and axes: rounding about this is at rest
 inline constexpr size_t kMostPairRows = 512;

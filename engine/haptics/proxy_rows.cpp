@@ -30,7 +30,7 @@ bool Proxy::addRow(ContactRow row) noexcept {
     if (rowCount_ == rows_.size()) {
         return false;
     }
-    if (row.offset > proxy::kAsks) {
+    if (row.offset > proxy::kEscapeThreshold) {
         escaping_ = true;
         largestAsked_ = std::max(largestAsked_, row.offset);
     }
@@ -155,7 +155,7 @@ void Proxy::addEqualityRows(const Shape& shape, uint32_t index, const Budget& bu
 // included, falls short of the pair's tangent plane. A way that stays on the free side of that plane cannot
 // enter the sphere, so one round is enough for a pair unless others push it back. share: of the solver's
 // answer that was tried. False when nothing could be asked for.
-bool Proxy::strengthen(const Motion& tried, size_t violating, double share) noexcept {
+bool Proxy::tighten(const Motion& tried, size_t violating, double share) noexcept {
     bool changed = false;
     const double scale = 1.0 / std::max(share, 1e-9); // the row speaks of the whole answer
     for (size_t v = 0; v < std::min(violating, violations_.size()); ++v) {
@@ -182,7 +182,7 @@ bool Proxy::strengthen(const Motion& tried, size_t violating, double share) noex
     return changed;
 }
 
-bool Proxy::strengthenShapes(double share) noexcept {
+bool Proxy::tightenShapes(double share) noexcept {
     bool changed = false;
     const double scale = 1.0 / std::max(share, 1e-9);
     for (size_t at = 0; at < rowCount_; ++at) {

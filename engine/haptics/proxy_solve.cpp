@@ -11,18 +11,19 @@ namespace fathom {
 
 namespace {
 
-constexpr double kLack = 1e-12; // [m] a row that lacks less is obeyed: far below the skin that rows ask for
+constexpr double kViolation =
+    1e-12; // [m] a row that lacks less is obeyed: far below the skin that rows ask for
 
 } // namespace
 
 // What the row asks for now.
 double Proxy::offsetOf(size_t row) const noexcept {
-    const bool stays = relaxed_ && rows_[row].gap >= 0.0 && rows_[row].offset <= proxy::kAsks;
+    const bool stays = relaxed_ && rows_[row].gap >= 0.0 && rows_[row].offset <= proxy::kEscapeThreshold;
     return stays ? std::min(0.0, rows_[row].offset) : rows_[row].offset;
 }
 
 // [m] by which a motion falls short of a row; > 0 violates it.
-double Proxy::lackAt(size_t row, const Motion& motion) const noexcept {
+double Proxy::violationAt(size_t row, const Motion& motion) const noexcept {
     const ContactRow& r = rows_[row];
     return offsetOf(row) - glm::dot(r.normal, motion.a) -
            glm::dot(glm::cross(r.arm, r.normal) + r.spin, motion.alpha);
@@ -52,21 +53,21 @@ void Proxy::loadSolver(const Motion& wanted) noexcept {
     }
     for (size_t i = 0; i < rowCount_; ++i) {
         isLoaded_[i] = 0;
-        lacks_[i] = {lackAt(i, wanted), static_cast<uint32_t>(i)};
+        rowViolations_[i] = {violationAt(i, wanted), static_cast<uint32_t>(i)};
     }
-    const auto begin = lacks_.begin(), middle = begin + static_cast<std::ptrdiff_t>(first);
+    const auto begin = rowViolations_.begin(), middle = begin + static_cast<std::ptrdiff_t>(first);
     std::nth_element(begin, middle, begin + static_cast<std::ptrdiff_t>(rowCount_),
-                     [](const Lack& a, const Lack& b) {
+                     [](const RowViolation& a, const RowViolation& b) {
                          return a.amount > b.amount || (a.amount == b.amount && a.row < b.row);
                      });
-    std::for_each(begin, middle, [&](const Lack& lack) { loadRow(lack.row); });
+    std::for_each(begin, middle, [&](const RowViolation& rowViolation) { loadRow(rowViolation.row); });
 }
 
 // Takes in every row that the answer violates and the solver did not have. False when there is none.
-bool Proxy::loadLacking(const Motion& answer) noexcept {
+bool Proxy::loadViolated(const Motion& answer) noexcept {
     const size_t before = loadedCount_;
     for (size_t i = 0; before < rowCount_ && i < rowCount_; ++i) {
-        if (isLoaded_[i] == 0 && !(lackAt(i, answer) <= kLack)) {
+        if (isLoaded_[i] == 0 && !(violationAt(i, answer) <= kViolation)) {
             loadRow(i);
         }
     }
@@ -88,7 +89,7 @@ bool Proxy::relax() noexcept {
     return changed;
 }
 
-SolveStatus Proxy::solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out) noexcept {
+SolveStatus Proxy::solveFor(const Motion& wanted, Motion& answer, ProxyStep& out) noexcept {
     const std::array<double, 6> target{wanted.a.x,     wanted.a.y,     wanted.a.z,
                                        wanted.alpha.x, wanted.alpha.y, wanted.alpha.z};
     std::array<double, 6> x{};
@@ -99,12 +100,12 @@ SolveStatus Proxy::solveFor(const Motion& wanted, Motion& answer, ProxyTurn& out
             status = solver_.solve(target, x);
         }
         answer = {dvec3(x[0], x[1], x[2]), dvec3(x[3], x[4], x[5])};
-    } while (status == SolveStatus::Optimal && options_.rows.checked && loadLacking(answer));
+    } while (status == SolveStatus::Optimal && options_.rows.checked && loadViolated(answer));
     out.infeasible += status == SolveStatus::Optimal ? 0 : 1;
     return status;
 }
 
-bool Proxy::solveRows(const Motion& wanted, Step& step, ProxyTurn& out) noexcept {
+bool Proxy::solveRows(const Motion& wanted, Step& step, ProxyStep& out) noexcept {
     loadSolver(wanted);
     Step answer;
     if (escaping_ && solveFor(Motion{}, answer.escape, out) != SolveStatus::Optimal) {

@@ -37,7 +37,7 @@ double Proxy::shareToCap(const Motion& first, const Motion& rest, double firstBo
     const double cap = options_.stepCap;
     const auto travel = [&](double s) {
         places_.place(moved(pose_, first + s * rest), origin_, next_);
-        return farthestWay(leaves_, next_);
+        return leafDisplacement(leaves_, next_);
     };
     if (places_.crudeBound(first + rest) <= cap || travel(1.0) <= cap) {
         return 1.0;
@@ -148,7 +148,7 @@ double Proxy::bisect(const ProxyInput& input, const Step& step) noexcept {
 // Solves and strengthens until the exact check passes. On return `step` holds the last answer; true when it
 // passed as a whole.
 bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Budget& budget, Step& step,
-                        ProxyTurn& out) noexcept {
+                        ProxyStep& out) noexcept {
     for (int round = 0; round < proxy::kRounds; ++round) {
         fit(input, wanted, budget, step);
         size_t violating = 0;
@@ -156,8 +156,8 @@ bool Proxy::fitsExactly(const ProxyInput& input, const Motion& wanted, const Bud
             return true;
         }
         const double share = step.share * answered(step);
-        const bool pairs = strengthen(motionOf(step, 1.0), violating, share);
-        const bool shapes = strengthenShapes(share);
+        const bool pairs = tighten(motionOf(step, 1.0), violating, share);
+        const bool shapes = tightenShapes(share);
         if (round + 1 == proxy::kRounds || !(pairs || shapes)) {
             return false;
         }
@@ -184,7 +184,7 @@ bool Proxy::comesNearer(const Pose& target, const Motion& taken) const noexcept 
 }
 
 // One linearisation. True when another one may bring the tool nearer.
-bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyTurn& out) noexcept {
+bool Proxy::step(const ProxyInput& input, Budget& budget, ProxyStep& out) noexcept {
     collectRows(input.contacts, budget);
     const bool newData = escaping_; // rows raised for arcs ask too, later
     out.escape = out.escape || touching_;

@@ -96,8 +96,8 @@ private:
 
     void add(const urdf::Joint& joint, const Pose& before) {
         const std::string field = "joint " + joint.name;
-        const bool turns = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
-        if (!turns && joint.type != urdf::Joint::PRISMATIC) {
+        const bool ticks = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::CONTINUOUS;
+        if (!ticks && joint.type != urdf::Joint::PRISMATIC) {
             refuse(field, "planar or floating", "revolute, continuous, prismatic or fixed");
         }
         if (model_.joints.size() == kMostJoints) {
@@ -105,7 +105,7 @@ private:
         }
         const dvec3 axis(joint.axis.x, joint.axis.y, joint.axis.z);
         ArmJoint out{joint.name,
-                     !turns,
+                     !ticks,
                      before,
                      axis,
                      -std::numeric_limits<double>::infinity(),

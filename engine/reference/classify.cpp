@@ -67,7 +67,7 @@ struct Seen {
     bool unsure = false;
 };
 
-Seen lookUp(const FrameView& view, const CellPicture* cells, int u, int v, const dvec3& p) {
+Seen lookUp(const FrameView& view, const CellImage* cells, int u, int v, const dvec3& p) {
     const CameraInfo& camera = view.camera();
     if (!camera.hasColour) {
         return {};
@@ -122,9 +122,9 @@ ClearColour withoutWater(uint32_t rgba, const dvec3& attenuation, double range) 
     return clear;
 }
 
-ClassPicture classify(const FrameView& view, const CellPicture* cells) {
+ClassImage classify(const FrameView& view, const CellImage* cells) {
     const std::vector<const FixtureClass*> classes = pointClasses(view.scene());
-    ClassPicture out{std::vector<uint32_t>(view.pixels(), 0), std::vector<uint8_t>(view.pixels(), 0)};
+    ClassImage out{std::vector<uint32_t>(view.pixels(), 0), std::vector<uint8_t>(view.pixels(), 0)};
     for (int v = 0; v < view.height(); ++v) {
         for (int u = 0; u < view.width(); ++u) {
             const double z = view.z(u, v);

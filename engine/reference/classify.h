@@ -21,7 +21,7 @@ struct ClearColour {
 };
 ClearColour withoutWater(uint32_t rgba, const dvec3& attenuation, double range);
 
-struct ClassPicture {
+struct ClassImage {
     std::vector<uint32_t> masks;
     std::vector<uint8_t> unsure; // 1: a coordinate, a depth or a picture position lies within 1e-6 m (1e-3
                                  // pixels) of its threshold
@@ -29,7 +29,7 @@ struct ClassPicture {
 
 // cells: what the occlusion pass found, nullptr when colour is registered to depth or the camera has none.
 // Colour gates are fractions of bytes and never unsure.
-ClassPicture classify(const FrameView& view, const CellPicture* cells);
+ClassImage classify(const FrameView& view, const CellImage* cells);
 
 // Pixels with a depth in near..far.
 uint32_t validPixels(const FrameView& view);

@@ -50,7 +50,7 @@ private:
 };
 
 // Points of a picture, row-major, base frame [m]; z = depth along the optical axis, 0 = no point.
-struct PointPicture {
+struct PointImage {
     std::vector<dvec3> at;
     std::vector<double> z;
 };

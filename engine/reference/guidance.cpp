@@ -82,7 +82,7 @@ GuidancePose guidance(std::span<const dvec3> points, const FixtureClass& fixture
 }
 
 std::vector<uint8_t> largestPart(int width, int height, std::span<const uint32_t> masks,
-                                 const PointPicture& points, size_t c, double edge) {
+                                 const PointImage& points, size_t c, double edge) {
     const auto in = [&](size_t i) { return (masks[i] >> c & 1) != 0 && points.z[i] != 0.0; };
     Parts parts(masks.size());
     for (int v = 0; v < height; ++v) {

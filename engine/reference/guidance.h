@@ -14,7 +14,7 @@ GuidancePose guidance(std::span<const dvec3> points, const FixtureClass& fixture
 // Of the pixels with class bit c and a point: the largest 8-connected part, where neighbours' depths differ
 // by at most edge (relative to either; 0 = any). Marks by pixel; the first in reading order of equals.
 std::vector<uint8_t> largestPart(int width, int height, std::span<const uint32_t> masks,
-                                 const PointPicture& points, size_t c, double edge);
+                                 const PointImage& points, size_t c, double edge);
 
 // Without floor(share x count) of the points that lie farthest from the mean of all.
 std::vector<dvec3> trimmed(std::vector<dvec3> points, double share);

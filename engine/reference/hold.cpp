@@ -30,7 +30,7 @@ HoldMemory::Verdict HoldMemory::stays(const FrameView& view, const Memory& memor
 }
 
 std::vector<RegionSphere> HoldMemory::step(const FrameView& view, double captureTime, double previousTime,
-                                           std::span<const int> classes, const PointPicture& points) {
+                                           std::span<const int> classes, const PointImage& points) {
     last_.resize(view.pixels());
     held_.resize(view.pixels());
     unsure_.resize(view.pixels());

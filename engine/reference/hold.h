@@ -14,7 +14,7 @@ public:
     // stays while it was last seen at most scene.holdSeconds ago and its pixel now shows no depth, or
     // something nearer by more than 3 sigma of depth, or lies outside the picture.
     std::vector<RegionSphere> step(const FrameView& view, double captureTime, double previousTime,
-                                   std::span<const int> classes, const PointPicture& points);
+                                   std::span<const int> classes, const PointImage& points);
 
     // Pixels where some decision so far hung on less than 1e-6 m, 1e-3 pixels or a microsecond.
     const std::vector<uint8_t>& unsure() const { return unsure_; }

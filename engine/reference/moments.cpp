@@ -25,7 +25,7 @@ PointMoments moments(std::span<const dvec3> points) {
     return m;
 }
 
-std::vector<dvec3> pointsOfClass(std::span<const uint32_t> masks, const PointPicture& points, size_t c) {
+std::vector<dvec3> pointsOfClass(std::span<const uint32_t> masks, const PointImage& points, size_t c) {
     std::vector<dvec3> out;
     for (size_t i = 0; i < masks.size(); ++i) {
         if ((masks[i] >> c & 1) != 0 && points.z[i] != 0.0) {

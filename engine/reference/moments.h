@@ -18,6 +18,6 @@ struct PointMoments {
 PointMoments moments(std::span<const dvec3> points);
 
 // The points of class bit c, in order of the picture.
-std::vector<dvec3> pointsOfClass(std::span<const uint32_t> masks, const PointPicture& points, size_t c);
+std::vector<dvec3> pointsOfClass(std::span<const uint32_t> masks, const PointImage& points, size_t c);
 
 } // namespace fathom::reference

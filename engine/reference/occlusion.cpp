@@ -10,7 +10,7 @@ namespace fathom::reference {
 namespace {
 
 // Lowers every cell that the picture position (u, v) +- slack can belong to. Returns how many those are.
-int lowerCells(CellPicture& cells, const Intrinsics& lens, double u, double v, double slack, double z) {
+int lowerCells(CellImage& cells, const Intrinsics& lens, double u, double v, double slack, double z) {
     int touched = 0;
     int last[4][2] = {};
     for (const double du : {-slack, slack}) {
@@ -41,8 +41,8 @@ bool insideBy(const Intrinsics& lens, double u, double v, double slack) {
 
 } // namespace
 
-CellPicture emptyCells(const CameraInfo& camera) {
-    CellPicture cells;
+CellImage emptyCells(const CameraInfo& camera) {
+    CellImage cells;
     const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
     cells.edge = static_cast<uint32_t>(std::max(1.0, std::ceil(1.5 * ratio)));
     cells.across = (camera.colour.width + cells.edge - 1) / cells.edge;

@@ -8,19 +8,19 @@
 namespace fathom::reference {
 
 // Row-major cells of edge x edge colour pixels; infinity where no depth pixel falls.
-struct CellPicture {
+struct CellImage {
     uint32_t edge = 1, across = 1, down = 1;
     std::vector<double> nearest; // [m] along the colour camera's axis
 };
 
 // A cell is half as wide again as the distance between neighbouring depth pixels of a surface that faces both
 // cameras.
-CellPicture emptyCells(const CameraInfo& camera);
+CellImage emptyCells(const CameraInfo& camera);
 
 // A pixel that falls on a border between two cells to within slack [colour pixels] counts for both in
 // `possible` and for neither in `sure`: possible <= truth <= sure in every cell.
 struct CellBounds {
-    CellPicture possible, sure;
+    CellImage possible, sure;
 };
 CellBounds occlusion(const FrameView& view, double slack);
 

@@ -12,12 +12,12 @@ constexpr double kSlack = 5e-6; // [m] float32 at metres, and what the shader's 
 
 } // namespace
 
-void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassPicture& picture) {
+void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassImage& image) {
     for (int v = 0; v < view.height(); ++v) {
         for (int u = 0; u < view.width(); ++u) {
             const double z = view.z(u, v);
             const size_t i = view.index(u, v);
-            if (z == 0.0 || picture.masks[i] == 0) {
+            if (z == 0.0 || image.masks[i] == 0) {
                 continue;
             }
             const dvec3 p = view.baseTcamera().apply(view.point(u, v, z));
@@ -25,9 +25,9 @@ void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassPict
             for (const Sphere& s : spheres) {
                 const double depth = s.radius - glm::distance(p, s.centre);
                 inside = inside || depth >= 0.0;
-                picture.unsure[i] = std::abs(depth) <= kSlack ? 1 : picture.unsure[i];
+                image.unsure[i] = std::abs(depth) <= kSlack ? 1 : image.unsure[i];
             }
-            picture.masks[i] = inside ? 0 : picture.masks[i];
+            image.masks[i] = inside ? 0 : image.masks[i];
         }
     }
 }

@@ -12,6 +12,6 @@ namespace fathom::reference {
 
 // spheres: base frame [m], padding included; every one is looked at. Points within 5e-6 m of a surface become
 // unsure.
-void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassPicture& picture);
+void removeArm(const FrameView& view, std::span<const Sphere> spheres, ClassImage& image);
 
 } // namespace fathom::reference

@@ -19,7 +19,7 @@ int forbiddenClass(const Scene& scene, uint32_t mask) {
 }
 
 std::vector<int> forbiddenClasses(const Scene& scene, std::span<const uint32_t> masks,
-                                  const PointPicture& points) {
+                                  const PointImage& points) {
     std::array<int, 256> ofMask{}; // at most 8 classes
     for (uint32_t mask = 0; mask < 256; ++mask) {
         ofMask[mask] = forbiddenClass(scene, mask);
@@ -35,7 +35,7 @@ double regionRadius(const Scene& scene, int cls) {
     return pointClasses(scene)[static_cast<size_t>(cls)]->radius + 3.0 * scene.registrationSigma;
 }
 
-std::vector<double> beamGrowth(const FrameView& view, const PointPicture& points) {
+std::vector<double> beamGrowth(const FrameView& view, const PointImage& points) {
     std::vector<double> growth(points.z.size(), 0.0);
     for (size_t i = 0; view.camera().beam && i < growth.size(); ++i) {
         growth[i] = 3.0 * view.camera().beam->at(glm::distance(points.at[i], view.baseTcamera().position));
@@ -43,8 +43,8 @@ std::vector<double> beamGrowth(const FrameView& view, const PointPicture& points
     return growth;
 }
 
-std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes,
-                                  const PointPicture& points, std::span<const double> growth) {
+std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes, const PointImage& points,
+                                  std::span<const double> growth) {
     std::vector<double> radii;
     for (const FixtureClass* f : pointClasses(scene)) {
         radii.push_back(f->radius + 3.0 * scene.registrationSigma);
@@ -60,7 +60,7 @@ std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> class
 }
 
 Leaks leaks(const Scene& scene, int width, int height, std::span<const int> classes,
-            const PointPicture& points) {
+            const PointImage& points) {
     Leaks out;
     for (int v = 0; v < height; ++v) {
         for (int u = 0; u < width; ++u) {

@@ -21,18 +21,18 @@ int forbiddenClass(const Scene& scene, uint32_t mask);
 
 // Class of the forbidden point at each pixel; -1 where the pixel has no point or no forbidden class.
 std::vector<int> forbiddenClasses(const Scene& scene, std::span<const uint32_t> masks,
-                                  const PointPicture& points);
+                                  const PointImage& points);
 
 // Radius of a class's region [m]: with 3 sigma of the registration.
 double regionRadius(const Scene& scene, int cls);
 
 // What each point's sphere grows by for its own sigma [m]: three of the beam's at its range; zeros without
 // beams.
-std::vector<double> beamGrowth(const FrameView& view, const PointPicture& points);
+std::vector<double> beamGrowth(const FrameView& view, const PointImage& points);
 
 // One sphere a kept point. growth: what thinning adds to each, -1 = left out; empty = every point is kept.
-std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes,
-                                  const PointPicture& points, std::span<const double> growth);
+std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes, const PointImage& points,
+                                  std::span<const double> growth);
 
 // Neighbours (right, below) of one class on one surface that are at least R apart: largest spacing and range
 // of each class [m], 0 = none. A step in depth of more than 0.7 of the distance (steeper than 45 degrees) is
@@ -41,7 +41,7 @@ struct Leaks {
     std::array<double, 8> spacing{}, range{};
 };
 Leaks leaks(const Scene& scene, int width, int height, std::span<const int> classes,
-            const PointPicture& points);
+            const PointImage& points);
 
 // Bound of spheres: centre = mean, radius = max(|s - centre| + r); radius -1 for none.
 struct Bound {

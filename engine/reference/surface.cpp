@@ -85,8 +85,8 @@ double filteredDepth(const FrameView& view, int u, int v) {
 
 } // namespace
 
-SurfacePicture surface(const FrameView& view, std::span<const uint32_t> masks) {
-    SurfacePicture out;
+SurfaceImage surface(const FrameView& view, std::span<const uint32_t> masks) {
+    SurfaceImage out;
     out.points.at.assign(view.pixels(), dvec3(0.0));
     out.points.z.assign(view.pixels(), 0.0);
     out.unsure.assign(view.pixels(), 0);

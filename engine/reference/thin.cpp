@@ -13,7 +13,7 @@ namespace {
 struct ClassifiedPoints {
     int width, height;
     std::span<const int> classes;
-    const PointPicture& points;
+    const PointImage& points;
 
     size_t index(int u, int v) const {
         return static_cast<size_t>(v) * static_cast<size_t>(width) + static_cast<size_t>(u);
@@ -114,7 +114,7 @@ double lastExit(std::span<const RegionSphere> spheres, const dvec3& from, const 
 } // namespace
 
 std::vector<CellThinning> thin(const Scene& scene, int width, int height, std::span<const int> classes,
-                               const PointPicture& points) {
+                               const PointImage& points) {
     const ClassifiedPoints p{width, height, classes, points};
     const double budget = scene.errorBudget;
     std::vector<CellThinning> cells;

@@ -20,7 +20,7 @@ struct CellThinning {
 // point q with bilinear mean q' = sum l_i p_i, e = |q - q'|, V = sum l_i |p_i - q'|^2 the corners need
 // sqrt((R + e)^2 + V).
 std::vector<CellThinning> thin(const Scene& scene, int width, int height, std::span<const int> classes,
-                               const PointPicture& points);
+                               const PointImage& points);
 
 // What every pixel's sphere grows by; -1 = left out. Kept are: every corner of a 4x4 cell; a corner of a 2x2
 // cell unless all 4x4 cells that contain it are thinned as one; any other pixel unless the cell that owns it

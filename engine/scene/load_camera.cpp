@@ -17,8 +17,8 @@ CameraSource simulatedSource(const YamlNode& node, const YamlNode& simulated) {
     if (source.showsArm && sonar) {
         arm->refuse("false: the simulated sonar draws none");
     }
-    if (const auto pictures = node.find("pictures")) {
-        source.pictures = static_cast<uint32_t>(pictures->integer(1, 100'000));
+    if (const auto images = node.find("pictures")) {
+        source.images = static_cast<uint32_t>(images->integer(1, 100'000));
     }
     const auto colour = node.find("colour");
     source.yuyv = colour && colour->oneOf(kFormats) == 1;
@@ -41,8 +41,8 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
     if (const auto arm = node.find("arm")) {
         arm->refuse("nothing: only a simulated camera draws an arm");
     }
-    if (const auto pictures = node.find("pictures")) {
-        pictures->refuse("nothing: only a simulated camera has as many as one likes");
+    if (const auto images = node.find("pictures")) {
+        images->refuse("nothing: only a simulated camera has as many as one likes");
     }
     if (const auto colour = node.find("colour")) {
         colour->refuse("nothing: only a simulated camera is told how to send it");

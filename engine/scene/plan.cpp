@@ -160,7 +160,7 @@ void explainBuffer(Plan& plan, const char* name, bool in, uint64_t bytes, std::s
     plan.items.push_back({"buffer", name, in, std::move(why), in ? bytes : 0});
 }
 
-void explainPictures(Plan& plan, const CameraInfo& camera) {
+void explainImages(Plan& plan, const CameraInfo& camera) {
     const uint64_t pixels = camera.depth.pixels();
     const char* copies = plan.inPlace
                              ? "double-buffered, for pictures not in whole pages of the host's memory"
@@ -266,7 +266,7 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     }
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
-    explainPictures(plan, camera);
+    explainImages(plan, camera);
     explainResults(plan, camera);
     const auto thread = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"thread", name, in, why, 0});

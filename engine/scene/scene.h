@@ -62,7 +62,7 @@ struct FixtureClass {
 struct CameraSource {
     enum class Kind { Simulated, Recorded, V4l2 } kind = Kind::Simulated;
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
-    uint32_t pictures = 0;      // of a simulated camera; 0 = as many as it has by itself
+    uint32_t images = 0;        // of a simulated camera; 0 = as many as it has by itself
     bool showsArm = false;      // a simulated camera draws the scene's arm, in lockstep
     bool yuyv = false;          // a simulated camera sends its colour as a USB camera does
 };

@@ -41,7 +41,7 @@ struct Loop {
         for (double end = now + seconds; now < end; now += kTurn * kTurnsAStep) {
             for (int i = 0; i < kTurnsAStep; ++i) {
                 world.query(model, proxy);
-                proxy.turn(target, 0.0, &world.set);
+                proxy.step(target, 0.0, &world.set);
                 deepestProxy = std::max(deepestProxy, world.depth(model, proxy.frames()));
             }
             ArmCommand command;

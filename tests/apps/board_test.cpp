@@ -24,13 +24,13 @@ double angleBetween(const dquat& a, const dquat& b) {
 
 // 7 x 4 inner corners on a grey wall, before a depth + colour camera with two lenses, a ray through each
 // sixteenth of a pixel.
-struct BoardPicture {
+struct BoardImage {
     CameraInfo info;
     Pose cameraTboard;
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour;
 
-    explicit BoardPicture(double turn, double noise = 0.0, double blot = -1.0)
+    explicit BoardImage(double turn, double noise = 0.0, double blot = -1.0)
         : cameraTboard{{0.0, 0.0, 0.9},
                        rotationExp(dvec3(0.25, -0.35, 0.0)) * rotationExp(dvec3(0, 0, turn))} {
         cameraTboard.position = cameraTboard.position - cameraTboard.rotation * dvec3(0.12, 0.06, 0.0);
@@ -97,16 +97,16 @@ struct BoardPicture {
 TEST_CASE("Corners of a chessboard are found to a fifth of a pixel, in its own order however it is turned") {
     for (const double turn : {0.0, 0.6, 1.6, 3.1, -2.2}) {
         CAPTURE(turn);
-        const BoardPicture picture(turn);
-        const auto corners = boardCorners(picture.grey(), 640, 480, kColumns, kRows);
+        const BoardImage image(turn);
+        const auto corners = boardCorners(image.grey(), 640, 480, kColumns, kRows);
         REQUIRE(corners.size() == kColumns * kRows);
         double worst = 0.0;
         for (size_t i = 0; i < corners.size(); ++i) {
             const auto row = i / kColumns;
             const dvec3 own(kSquare * static_cast<double>(i % kColumns), kSquare * static_cast<double>(row),
                             0.0);
-            const dvec3 p = picture.info.colourTdepth.apply(picture.cameraTboard.apply(own));
-            worst = std::max(worst, glm::distance(corners[i], picture.info.colour.project(p)));
+            const dvec3 p = image.info.colourTdepth.apply(image.cameraTboard.apply(own));
+            worst = std::max(worst, glm::distance(corners[i], image.info.colour.project(p)));
         }
         MESSAGE("turned by " << turn << ": worst corner off by " << worst << " pixels");
         CHECK(worst < 0.2);
@@ -115,9 +115,9 @@ TEST_CASE("Corners of a chessboard are found to a fifth of a pixel, in its own o
 
 TEST_CASE("A chessboard in colour and depth gives the camera's pose to millimetres, noise and all") {
     for (const double noise : {0.0, 0.003}) {
-        const BoardPicture picture(0.3, noise);
-        BoardFinder finder(picture.info, {kColumns, kRows, kSquare, kTruth * picture.cameraTboard});
-        const std::vector<PointPair> pairs = finder.find(picture.frame());
+        const BoardImage image(0.3, noise);
+        BoardFinder finder(image.info, {kColumns, kRows, kSquare, kTruth * image.cameraTboard});
+        const std::vector<PointPair> pairs = finder.find(image.frame());
         REQUIRE(pairs.size() == kColumns * kRows);
         const RigidFit fit = fitRigid(pairs, "test");
         const double shift = glm::length(fit.baseTcamera.position - kTruth.position);
@@ -130,8 +130,8 @@ TEST_CASE("A chessboard in colour and depth gives the camera's pose to millimetr
 }
 
 TEST_CASE("A board that is covered in part, of another size, without depth or not there gives no corner") {
-    CHECK(boardCorners(BoardPicture(0.0, 0.0, 0.02).grey(), 640, 480, kColumns, kRows).empty());
-    const BoardPicture whole(0.0);
+    CHECK(boardCorners(BoardImage(0.0, 0.0, 0.02).grey(), 640, 480, kColumns, kRows).empty());
+    const BoardImage whole(0.0);
     CHECK(boardCorners(whole.grey(), 640, 480, kColumns - 1, kRows + 1).empty());
     CHECK(boardCorners(whole.grey(), 640, 480, kColumns + 1, kRows + 1).empty());
     CHECK(boardCorners(std::vector<uint8_t>(640 * 480, 90), 640, 480, kColumns, kRows).empty());
@@ -142,7 +142,7 @@ TEST_CASE("A board that is covered in part, of another size, without depth or no
         g = static_cast<uint8_t>(random());
     }
     CHECK(boardCorners(noise, 640, 480, kColumns, kRows).empty());
-    BoardPicture blind(0.0);
+    BoardImage blind(0.0);
     std::fill(blind.depth.begin(), blind.depth.end(), uint16_t{0});
     CHECK(BoardFinder(blind.info, {kColumns, kRows, kSquare, Pose{}}).find(blind.frame()).empty());
 }

@@ -10,14 +10,14 @@ namespace {
 ReplaySummary summaryWith(double forbiddenPoints) {
     ReplaySummary s;
     s.frames.latencyMs.p50 = 9.0;
-    s.haptic.turnMicros.p50 = 12.0;
-    s.haptic.turnMicros.p99 = 90.0;
+    s.haptic.stepMicros.p50 = 12.0;
+    s.haptic.stepMicros.p99 = 90.0;
     s.fixtures.push_back({"valve", "forbidden", forbiddenPoints, 0.0, 0.0});
     s.fixtures.push_back({"target", "guidance", 100000.0, 0.0, 0.0});
     return s;
 }
 
-Intrinsics picture(uint32_t width, uint32_t height) {
+Intrinsics image(uint32_t width, uint32_t height) {
     Intrinsics lens;
     lens.width = width;
     lens.height = height;
@@ -27,7 +27,7 @@ Intrinsics picture(uint32_t width, uint32_t height) {
 } // namespace
 
 TEST_CASE("a frame over its budget and a turn over its p99 are told, a turn within its p50 holds") {
-    const auto figures = budgetFigures(summaryWith(20000.0), picture(640, 480), DeviceKind::Cpu, 8);
+    const auto figures = budgetFigures(summaryWith(20000.0), image(640, 480), DeviceKind::Cpu, 8);
     REQUIRE(figures.size() == 3);
     CHECK(figures[0].budget == 8.0);
     CHECK_FALSE(figures[0].holds());
@@ -36,22 +36,22 @@ TEST_CASE("a frame over its budget and a turn over its p99 are told, a turn with
 }
 
 TEST_CASE("the budget follows the share of forbidden pixels, the size and the device") {
-    CHECK(budgetFigures(summaryWith(40000.0), picture(640, 480), DeviceKind::Cpu, 8)[0].budget == 20.0);
-    CHECK(budgetFigures(summaryWith(0.0), picture(640, 480), DeviceKind::Discrete, 8)[0].budget == 0.090);
-    CHECK(budgetFigures(summaryWith(0.0), picture(1280, 720), DeviceKind::Cpu, 8)[0].budget == 60.0);
-    CHECK(budgetFigures(summaryWith(0.0), picture(428, 240), DeviceKind::Cpu, 8).size() == 2);
-    CHECK(budgetFigures(summaryWith(0.0), picture(640, 480), DeviceKind::Other, 8).size() == 2);
+    CHECK(budgetFigures(summaryWith(40000.0), image(640, 480), DeviceKind::Cpu, 8)[0].budget == 20.0);
+    CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Discrete, 8)[0].budget == 0.090);
+    CHECK(budgetFigures(summaryWith(0.0), image(1280, 720), DeviceKind::Cpu, 8)[0].budget == 60.0);
+    CHECK(budgetFigures(summaryWith(0.0), image(428, 240), DeviceKind::Cpu, 8).size() == 2);
+    CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 8).size() == 2);
 }
 
 TEST_CASE("what was not measured has no budget line") {
-    CHECK(budgetFigures(ReplaySummary{}, picture(640, 480), DeviceKind::Cpu, 8).empty());
+    CHECK(budgetFigures(ReplaySummary{}, image(640, 480), DeviceKind::Cpu, 8).empty());
 }
 
 TEST_CASE("a turn's figure says how many leaves the tool has and for how many the budget is") {
-    const auto figures = budgetFigures(summaryWith(0.0), picture(640, 480), DeviceKind::Other, 8);
+    const auto figures = budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 8);
     REQUIRE(figures.size() == 2);
     CHECK(figures[0].what == "turn p50 (8 leaves; the budget is of 256 in contact with 60 k spheres)");
     CHECK(figures[1].what == "turn p99 (8 leaves; the budget is of 256 in contact with 60 k spheres)");
-    CHECK(budgetFigures(summaryWith(0.0), picture(640, 480), DeviceKind::Other, 1)[0].what.find(
-              "(1 leaf; ") != std::string::npos);
+    CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 1)[0].what.find("(1 leaf; ") !=
+          std::string::npos);
 }

@@ -143,7 +143,7 @@ TEST_CASE("the digest of a run changes with the last bit of any column and with 
     const TickRecord tick = someTick();
     const std::string same = digestOf({tick});
     TickRecord timed = tick;
-    timed.turnMicros = 12.5, timed.late = true, timed.solves = 4, timed.infeasible = true;
+    timed.stepMicros = 12.5, timed.late = true, timed.solves = 4, timed.infeasible = true;
     CHECK(digestOf({timed}) == same);
     const auto nudged = [&](auto&& change) {
         TickRecord other = tick;

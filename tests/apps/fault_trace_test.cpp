@@ -14,14 +14,14 @@ using namespace fathom::testing;
 namespace {
 
 struct Nothing final : RunSink {
-    uint64_t turns = 0;
+    uint64_t ticks = 0;
     void frame(const PublishedFrame&, const Fixtures&) override {}
     void query(const QueryNote&) override {}
-    void turn(const TurnRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override { ++turns; }
+    void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override { ++ticks; }
 };
 
-TurnRow turnAt(double t, bool finite = true) {
-    TurnRow row;
+TickRow turnAt(double t, bool finite = true) {
+    TickRow row;
     row.record.t = t;
     row.record.finite = finite;
     row.record.device.position.x = finite ? t : kUnknown;
@@ -32,10 +32,10 @@ struct Traced {
     explicit Traced(const std::filesystem::path& folder)
         : trace(folder, 0.001, next) {}
     // One turn a millisecond over [from, to), `broken` among them.
-    void turns(double from, double to, double broken = -1.0) {
+    void ticks(double from, double to, double broken = -1.0) {
         for (auto i = static_cast<int>(std::lround(from * 1000.0)); i < std::lround(to * 1000.0); ++i) {
             const double t = 0.001 * i;
-            trace.turn(turnAt(t, std::abs(t - broken) > 1e-6), nullptr, false, {});
+            trace.step(turnAt(t, std::abs(t - broken) > 1e-6), nullptr, false, {});
         }
     }
     Nothing next;
@@ -56,8 +56,8 @@ std::vector<std::string> linesOf(const std::filesystem::path& file) {
 TEST_CASE("A turn that is not finite leaves the turns of the two seconds before it, and itself as the last") {
     const ScratchFolder folder;
     Traced run(folder.path());
-    run.turns(0.0, 5.0, 4.5);
-    CHECK(run.next.turns == 5000);
+    run.ticks(0.0, 5.0, 4.5);
+    CHECK(run.next.ticks == 5000);
     REQUIRE(folder.files() == 1);
     const auto lines = linesOf(folder.path() / "fault-4.500.csv");
     REQUIRE(lines.size() == 2001); // the ring's, below the header
@@ -74,11 +74,11 @@ TEST_CASE(
     "A run that was shorter leaves what there was of it, and one with pauses no more than two seconds") {
     const ScratchFolder folder;
     Traced run(folder.path());
-    run.turns(0.0, 0.1, 0.05);
+    run.ticks(0.0, 0.1, 0.05);
     CHECK(linesOf(folder.path() / "fault-0.050.csv").size() == 52);
     Traced paused(folder.path());
-    paused.turns(0.0, 0.5);
-    paused.turns(2.1, 3.0, 2.2);
+    paused.ticks(0.0, 0.5);
+    paused.ticks(2.1, 3.0, 2.2);
     const auto lines = linesOf(folder.path() / "fault-2.200.csv");
     REQUIRE(lines.size() > 390);
     CHECK(lines.size() <= 1 + 300 + 101);
@@ -88,12 +88,12 @@ TEST_CASE(
 TEST_CASE("Turns that are not finite leave one file a minute, and a run on a clock of its own begins anew") {
     const ScratchFolder folder;
     Traced run(folder.path());
-    run.turns(1.0, 1.1, 1.05);
-    run.turns(60.0, 61.1, 61.0);
+    run.ticks(1.0, 1.1, 1.05);
+    run.ticks(60.0, 61.1, 61.0);
     CHECK(folder.files() == 1);
-    run.turns(61.1, 61.2, 61.1);
+    run.ticks(61.1, 61.2, 61.1);
     CHECK(folder.files() == 2);
-    run.turns(0.0, 0.2, 0.1);
+    run.ticks(0.0, 0.2, 0.1);
     CHECK(folder.files() == 3);
     CHECK(linesOf(folder.path() / "fault-0.100.csv").size() == 102); // nothing of the run before
 }
@@ -101,9 +101,9 @@ TEST_CASE("Turns that are not finite leave one file a minute, and a run on a clo
 TEST_CASE("A run whose turns are all finite leaves no file, and one that cannot be written ends nothing") {
     const ScratchFolder folder;
     Traced run(folder.path());
-    run.turns(0.0, 3.0);
+    run.ticks(0.0, 3.0);
     CHECK(folder.files() == 0);
     Traced nowhere(folder.path() / "none");
-    CHECK_NOTHROW(nowhere.turns(0.0, 0.1, 0.05));
-    CHECK(nowhere.next.turns == 100);
+    CHECK_NOTHROW(nowhere.ticks(0.0, 0.1, 0.05));
+    CHECK(nowhere.next.ticks == 100);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `fathom devices` prints of hands, cameras and doors: on a made-up /sys and /dev, with real sockets.
 #include "apps/devices/hand_devices.h"
-#include "devices/bridge/door_server.h"
+#include "devices/bridge/socket_server.h"
 #include "tests/apps/scratch_folder.h"
 #include "tests/support/sanitized.h"
 
@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string printed(const fs::path& root, const fs::path& doors) {
+std::string printed(const fs::path& root, const fs::path& endpoints) {
     std::ostringstream out;
-    printHandDevices(out, root, doors);
+    printHandDevices(out, root, endpoints);
     return out.str();
 }
 
@@ -52,28 +52,28 @@ void usbDevice(const fs::path& root, const std::string& vendor, const std::strin
 
 TEST_CASE(
     "A door with a bridge behind it is offered, one whose bridge is gone is refused, and a file is none") {
-    const testing::ScratchFolder root, doors;
-    CHECK(printed(root.path(), doors.path()) == "no camera, haptic device or door found\n");
+    const testing::ScratchFolder root, endpoints;
+    CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or door found\n");
     CHECK(printed(root.path(), "") == "no camera, haptic device or door found\n");
-    testing::put(doors.path() / "file.door", "no socket");
-    CHECK(printed(root.path(), doors.path()) == "no camera, haptic device or door found\n");
-    const DoorServer server({doors.path() / "live.door", "falcon", "test device", 8.0, 0.2});
-    leaveSocket(doors.path() / "gone.door");
-    const std::string gone = (doors.path() / "gone.door").string(),
-                      live = (doors.path() / "live.door").string();
-    CHECK(printed(root.path(), doors.path()) ==
+    testing::put(endpoints.path() / "file.door", "no socket");
+    CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or door found\n");
+    const SocketServer server({endpoints.path() / "live.door", "falcon", "test device", 8.0, 0.2});
+    leaveSocket(endpoints.path() / "gone.door");
+    const std::string gone = (endpoints.path() / "gone.door").string(),
+                      live = (endpoints.path() / "live.door").string();
+    CHECK(printed(root.path(), endpoints.path()) ==
           "door    " + gone + "\n          REFUSED: the bridge that made it is gone\n" + "door    " + live +
               "\n          a bridge listens; --hand-device " + live + "\n");
 }
 
 TEST_CASE("A camera that cannot be asked says why, and doors are listed after devices") {
-    const testing::ScratchFolder root, doors;
+    const testing::ScratchFolder root, endpoints;
     fs::create_directories(root.path() / "sys/class/video4linux/video3");
     testing::put(root.path() / "sys/class/video4linux/video3/name", "a camera\n");
     fs::create_directories(root.path() / "dev");
     testing::put(root.path() / "dev/video3", "");
-    leaveSocket(doors.path() / "gone.door");
-    const std::string text = printed(root.path(), doors.path());
+    leaveSocket(endpoints.path() / "gone.door");
+    const std::string text = printed(root.path(), endpoints.path());
     CHECK(
         holds(text, "camera  " + (root.path() / "dev/video3").string() + "  a camera\n          REFUSED: "));
     CHECK(holds(text, "no video device"));

@@ -56,10 +56,10 @@ TEST_CASE("Between two recorded pictures the hand's path runs as it ran between 
     {
         HandLog log(std::make_unique<Clockwork>(pushed), folder.path() / "hand.csv");
         awaitSamples(log, 3); // before the first picture: left out
-        for (const uint64_t turns : {5u, 40u, 12u}) {
+        for (const uint64_t ticks : {5u, 40u, 12u}) {
             captured.push_back(now());
             log.frame(captured.back());
-            awaitSamples(log, turns);
+            awaitSamples(log, ticks);
         }
         log.finish();
     }

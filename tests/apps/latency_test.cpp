@@ -71,7 +71,7 @@ TEST_CASE(
     CHECK_FALSE(soakHolds(part)); // nothing ran
     part.frames = 1800;
     part.seconds = 60.2;
-    part.turn.add(10.0);
+    part.tick.add(10.0);
     CHECK_FALSE(soakHolds(part)); // nobody looked at memory
     for (int i = 0; i < 100; ++i) {
         part.memory.push_back(200.0 + (i == 50 ? 100.0 : 0.0) + (i > 95 ? kMostGrowth : 0.0));
@@ -103,20 +103,20 @@ TEST_CASE("The report has every turn in a row of its table and in a bin of its f
     std::mt19937_64 random(3);
     for (int i = 0; i < 777; ++i) {
         parts[0].late.add(static_cast<double>(random() % 30'000));
-        parts[1].turn.add(static_cast<double>(random() % 300));
+        parts[1].tick.add(static_cast<double>(random() % 300));
     }
     std::ostringstream text;
     printHistograms(text, parts);
-    uint64_t late = 0, turn = 0;
+    uint64_t late = 0, tick = 0;
     std::istringstream lines(text.str());
     std::string line;
     std::getline(lines, line);
     for (uint64_t from, a, b, c, d; lines >> from >> a >> b >> c >> d;) {
         late += a;
-        turn += d;
+        tick += d;
     }
     CHECK(late == 777);
-    CHECK(turn == 777);
+    CHECK(tick == 777);
     const auto file = std::filesystem::temp_directory_path() / "fathom-latency-test.json";
     writeLatency(file, parts, 1000.0, "none");
     const auto read = nlohmann::json::parse(std::ifstream(file));

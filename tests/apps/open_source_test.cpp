@@ -40,13 +40,13 @@ TEST_CASE("A recording of what a camera saw is corrected for the port, one of wh
     port.distance = 0.03, port.index = 1.34;
     scene.port = port;
     record(folder.path() / "raw", plainCamera());
-    const auto corrected = openCamera(scene, folder.path() / "raw", Pictures::Newest);
+    const auto corrected = openCamera(scene, folder.path() / "raw", Images::Newest);
     const CameraInfo used = corrected->info();
     CHECK(used.inWater);
     CHECK(used.sigma > 0.0);
     CHECK(used.depth.fx > 1.2 * 60.0);
     record(folder.path() / "used", used);
-    const auto again = openCamera(scene, folder.path() / "used", Pictures::Newest);
+    const auto again = openCamera(scene, folder.path() / "used", Images::Newest);
     CHECK(again->info().inWater);
     CHECK(again->info().sigma == doctest::Approx(used.sigma).epsilon(1e-9));
     CHECK(again->info().depth.fx == doctest::Approx(used.depth.fx).epsilon(1e-9));

@@ -19,12 +19,12 @@ namespace {
 struct NoSink final : RunSink {
     void frame(const PublishedFrame&, const Fixtures&) override {}
     void query(const QueryNote&) override {}
-    void turn(const TurnRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override {}
+    void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override {}
 };
 
 // A run whose turns a test makes.
 struct ViewedRun {
-    TurnRow row;
+    TickRow row;
     NoSink nothing;
     SnapshotSink sink{nothing};
     RunView view{sink};
@@ -36,10 +36,10 @@ struct ViewedRun {
     ViewedRun() {
         row.record.finite = true;
         row.record.sceneAge = 0.0;
-        row.record.state = TurnState::Free;
+        row.record.state = StepState::Free;
         row.record.marginPassive = 1.0;
     }
-    void turn(double dt) {
+    void step(double dt) {
         row.record.t += dt;
         view.take(row);
     }
@@ -49,10 +49,10 @@ struct ViewedRun {
         row.record.touches[0].leaf = leaf;
         row.record.touches[0].normal = {0.0, 0.0, -1.0};
         row.record.device.position = {0.0, 0.0, beyond};
-        turn(0.001);
+        step(0.001);
     }
     std::vector<std::string> step(const Health& health = {}) {
-        turn(0.001);
+        step(0.001);
         alarms.step(console, view, haptics, scene, health);
         return alarms.inWords();
     }
@@ -65,16 +65,16 @@ using Words = std::vector<std::string>;
 TEST_CASE("Rates are those of the last second, its longest period among them") {
     ViewedRun run;
     for (int i = 0; i < 500; ++i) {
-        run.turn(0.010); // long ago
+        run.step(0.010); // long ago
     }
     for (int i = 0; i < 1100; ++i) {
-        run.turn(i == 800 ? 0.005 : 0.001);
+        run.step(i == 800 ? 0.005 : 0.001);
     }
     CHECK(run.view.rates().worstPeriodMs == doctest::Approx(5.0));
     CHECK(run.view.rates().hapticHz == doctest::Approx(996.0).epsilon(0.002));
-    CHECK(run.view.turns() == 1600);
+    CHECK(run.view.ticks() == 1600);
     for (int i = 0; i < 20; ++i) {
-        run.turn(1.0);
+        run.step(1.0);
     }
     CHECK(run.view.trace().size() == 11); // ten seconds
     run.view.rewind();
@@ -93,7 +93,7 @@ TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins ane
     CHECK(run.view.blocks().size() == 2);
     CHECK(run.view.blocks()[0].touch.leaf == 4);
     run.row.record.touchCount = 0;
-    run.turn(0.3);
+    run.step(0.3);
     run.touch(3, 0.001);
     REQUIRE(run.view.blocks().size() == 3);
     CHECK(run.view.blocks()[0].deepest == doctest::Approx(0.001));
@@ -106,45 +106,45 @@ TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins ane
 
 TEST_CASE("The mode says what forces do, in words") {
     ViewedRun run;
-    const auto mode = [&](TurnState state, double guidance = 0.0) {
+    const auto mode = [&](StepState state, double guidance = 0.0) {
         run.row.record.state = state;
         run.row.record.guidance = guidance;
-        run.turn(0.001);
+        run.step(0.001);
         return std::string(modeOf(run.console, run.view).word);
     };
-    CHECK(mode(TurnState::Free) == "FORCES OFF");
-    CHECK(mode(TurnState::Contact) == "FORCES OFF");
-    CHECK(mode(TurnState::Fading) == "FORCES FADING"); // they end over a while
+    CHECK(mode(StepState::Free) == "FORCES OFF");
+    CHECK(mode(StepState::Contact) == "FORCES OFF");
+    CHECK(mode(StepState::Fading) == "FORCES FADING"); // they end over a while
     run.console.forces = true;
-    CHECK(mode(TurnState::Off) == "WAITING");
-    CHECK(mode(TurnState::Free) == "ARMED");
-    CHECK(mode(TurnState::Contact) == "CONTACT");
-    CHECK(mode(TurnState::Contact, 0.5) == "GUIDANCE");
-    CHECK(mode(TurnState::Fading, 0.5) == "FADING");
-    CHECK(mode(TurnState::Escape, 0.5) == "ESCAPE");
-    CHECK(mode(TurnState::Trapped, 0.5) == "TRAPPED");
+    CHECK(mode(StepState::Off) == "WAITING");
+    CHECK(mode(StepState::Free) == "ARMED");
+    CHECK(mode(StepState::Contact) == "CONTACT");
+    CHECK(mode(StepState::Contact, 0.5) == "GUIDANCE");
+    CHECK(mode(StepState::Fading, 0.5) == "FADING");
+    CHECK(mode(StepState::Escape, 0.5) == "ESCAPE");
+    CHECK(mode(StepState::Trapped, 0.5) == "TRAPPED");
 }
 
 TEST_CASE("An alarm stays until it is over and acknowledged, and is latched anew when it comes again") {
     ViewedRun run;
     CHECK(run.step().empty());
-    run.row.record.state = TurnState::Trapped;
+    run.row.record.state = StepState::Trapped;
     CHECK(run.step() == Words{"WARNING active trapped"});
-    run.row.record.state = TurnState::Free;
+    run.row.record.state = StepState::Free;
     CHECK(run.step() == Words{"WARNING latched trapped"});
     CHECK(run.step() == Words{"WARNING latched trapped"});
     run.console.acknowledge = true;
     CHECK(run.step().empty());
     CHECK_FALSE(run.console.acknowledge);
 
-    run.row.record.state = TurnState::Trapped;
+    run.row.record.state = StepState::Trapped;
     run.step();
     run.console.acknowledge = true;
     CHECK(run.step() == Words{"WARNING active acknowledged trapped"}); // it is not over
     CHECK(run.alarms.worst() == nullptr);
-    run.row.record.state = TurnState::Free;
+    run.row.record.state = StepState::Free;
     CHECK(run.step().empty());
-    run.row.record.state = TurnState::Trapped;
+    run.row.record.state = StepState::Trapped;
     CHECK(run.step() == Words{"WARNING active trapped"});
 }
 

@@ -2,7 +2,7 @@
 // What the window records, when the disk is full or the process is killed.
 #include "apps/operate/recorder.h"
 
-#include "apps/operate/turn_log.h"
+#include "apps/operate/tick_log.h"
 #include "devices/recorded/hand_csv.h"
 #include "devices/recorded/recorded_camera.h"
 #include "engine/types/error.h"
@@ -34,11 +34,11 @@ CameraInfo someCamera() {
 // Pictures a 30th of a second apart, each with turns of one touch after it.
 class Session {
 public:
-    explicit Session(Recorder& recorder, int turns = 33)
+    explicit Session(Recorder& recorder, int ticks = 33)
         : recorder_(recorder)
-        , turns_(turns) {}
+        , ticks_(ticks) {}
 
-    void picture() {
+    void image() {
         PublishedFrame frame;
         frame.t = static_cast<double>(frames_) / 30.0;
         frame.report.index = frames_++;
@@ -49,41 +49,41 @@ public:
             depth = static_cast<uint16_t>(noise_ >> 16 | 1u);
         }
         recorder_.frame(frame, set);
-        for (int k = 0; k < turns_; ++k) {
-            TurnRow row;
+        for (int k = 0; k < ticks_; ++k) {
+            TickRow row;
             row.record.t = frame.t + 0.001 * k;
             row.record.touchCount = 1;
             row.record.touches[0].multiplier = 1.0 / 3.0;
-            recorder_.turn(row, nullptr, false, {});
+            recorder_.step(row, nullptr, false, {});
         }
     }
 
 private:
     Recorder& recorder_;
-    int turns_;
+    int ticks_;
     uint32_t frames_ = 0, noise_ = 1;
 };
 
-uint32_t picturesIn(const std::filesystem::path& folder) {
+uint32_t imagesIn(const std::filesystem::path& folder) {
     RecordedCamera camera(folder);
-    uint32_t pictures = 0;
+    uint32_t images = 0;
     while (camera.next()) {
-        ++pictures;
+        ++images;
     }
     CHECK(camera.skipped() == 0);
-    return pictures;
+    return images;
 }
 
 // All of it can be read, and no line is cut.
-void checkWhole(const std::filesystem::path& folder, size_t turns) {
+void checkWhole(const std::filesystem::path& folder, size_t ticks) {
     for (const char* name : {"hand.csv", "wrench.csv", "touches.csv"}) {
         CAPTURE(name);
         const std::string text = textOf(folder / name);
         REQUIRE_FALSE(text.empty());
         CHECK(text.back() == '\n');
     }
-    const TurnLog log = readTurnLog(folder);
-    CHECK(log.moments.size() >= turns);
+    const TickLog log = readTickLog(folder);
+    CHECK(log.moments.size() >= ticks);
     CHECK(readHandCsv(folder / "hand.csv").size() >= log.moments.size());
 }
 
@@ -113,43 +113,43 @@ TEST_CASE("A recording that is stopped is whole: every picture, every turn until
     const auto folder = scratch.path() / "rec";
     Recorder recorder;
     Session session(recorder);
-    session.picture(); // before it records
+    session.image(); // before it records
     recorder.start(folder, "camera: {}\n", someCamera());
     CHECK(recorder.recording());
     for (int i = 0; i < 10; ++i) {
-        session.picture();
+        session.image();
     }
     recorder.stop();
     CHECK_FALSE(recorder.recording());
     recorder.finish();
     CHECK_FALSE(recorder.writing());
     CHECK(recorder.failure() == "");
-    CHECK(recorder.pictures() == 10);
-    CHECK(picturesIn(folder) == 10);
+    CHECK(recorder.images() == 10);
+    CHECK(imagesIn(folder) == 10);
     checkWhole(folder, 9 * 33 + 30);
     CHECK(textOf(folder / "scene.yaml") == "camera: {}\n");
     CHECK_THROWS_AS(recorder.start(folder, "", someCamera()), BadInput); // is not written over
-    CHECK(picturesIn(folder) == 10);
+    CHECK(imagesIn(folder) == 10);
 }
 
 TEST_CASE("A disk that is full ends a recording by name, and what had room can be read") {
     const ScratchFolder scratch;
     struct Case {
         rlim_t bytes;
-        int turns; // a picture
+        int ticks; // a picture
         const char* file;
     };
-    for (const auto& [bytes, turns, file] : {Case{30000, 33, "wrench.csv"}, Case{3000, 0, "000000.png"}}) {
+    for (const auto& [bytes, ticks, file] : {Case{30000, 33, "wrench.csv"}, Case{3000, 0, "000000.png"}}) {
         const std::string named = file;
         CAPTURE(named);
         const auto folder = scratch.path() / std::to_string(bytes);
         Recorder recorder;
         {
             const SmallDisk disk(bytes);
-            Session session(recorder, turns);
+            Session session(recorder, ticks);
             recorder.start(folder, "camera: {}\n", someCamera());
             for (int i = 0; i < 4000 && recorder.recording(); ++i) {
-                session.picture();
+                session.image();
                 std::this_thread::sleep_for(std::chrono::milliseconds(1));
             }
             CHECK_FALSE(recorder.recording());
@@ -159,12 +159,12 @@ TEST_CASE("A disk that is full ends a recording by name, and what had room can b
         CHECK_MESSAGE(recorder.failure().find(folder.string()) == 0, recorder.failure());
         CHECK_MESSAGE(recorder.failure().find(std::string(file) + ": cannot be written") != std::string::npos,
                       recorder.failure());
-        if (turns > 0) {
+        if (ticks > 0) {
             checkWhole(folder, 33);
         }
         recorder.start(scratch.path() / (std::string("after ") + file), "", someCamera()); // there is room
         CHECK(recorder.failure() == "");
-        Session(recorder).picture();
+        Session(recorder).image();
         recorder.stop();
         recorder.finish();
         CHECK(recorder.failure() == "");
@@ -181,7 +181,7 @@ TEST_CASE("A process that is killed while it records leaves a recording up to th
         Session session(recorder);
         recorder.start(folder, "camera: {}\n", someCamera());
         for (;;) {
-            session.picture();
+            session.image();
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }
     }
@@ -190,6 +190,6 @@ TEST_CASE("A process that is killed while it records leaves a recording up to th
     }
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    CHECK(picturesIn(folder) >= 29);
+    CHECK(imagesIn(folder) >= 29);
     checkWhole(folder, 29 * 33);
 }

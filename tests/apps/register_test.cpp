@@ -39,13 +39,13 @@ std::vector<PointPair> somePairs(size_t count, double noise) {
 
 // Tag 7 of 0.2 m, tilted, 1 m before a depth + colour camera with two lenses, drawn by casting a ray through
 // each pixel.
-struct TagPicture {
+struct TagImage {
     CameraInfo info;
     Pose cameraTtag{{0.03, -0.02, 1.0}, glm::normalize(dquat(1.0, 0.12, -0.2, 0.05))};
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour;
 
-    explicit TagPicture(double noise) {
+    explicit TagImage(double noise) {
         info.depth = {.width = 320, .height = 240, .fx = 280, .fy = 281, .cx = 161, .cy = 119};
         info.colour = {.width = 640, .height = 480, .fx = 600, .fy = 601, .cx = 318, .cy = 243};
         info.registered = false;
@@ -125,10 +125,10 @@ TEST_CASE("Too few points, or points on a line, are refused") {
 
 TEST_CASE("A tag in colour and depth of two lenses gives the camera's pose to millimetres, noise and all") {
     for (const double noise : {0.0, 0.003}) {
-        const TagPicture picture(noise);
-        const Pose baseTtag = kTruth * picture.cameraTtag;
-        TagFinder finder(picture.info, {{7, {0.2, baseTtag}}, {8, {0.2, Pose{}}}});
-        const std::vector<PointPair> pairs = finder.find(picture.frame());
+        const TagImage image(noise);
+        const Pose baseTtag = kTruth * image.cameraTtag;
+        TagFinder finder(image.info, {{7, {0.2, baseTtag}}, {8, {0.2, Pose{}}}});
+        const std::vector<PointPair> pairs = finder.find(image.frame());
         REQUIRE(pairs.size() == 4);
         const RigidFit fit = fitRigid(pairs, "test");
         const double shift = glm::length(fit.baseTcamera.position - kTruth.position);
@@ -141,18 +141,18 @@ TEST_CASE("A tag in colour and depth of two lenses gives the camera's pose to mi
 }
 
 TEST_CASE("A tag that is not listed, or whose depth is missing or no plane, is left out") {
-    TagPicture picture(0.0);
-    CHECK(TagFinder(picture.info, {{8, {0.2, Pose{}}}}).find(picture.frame()).empty());
-    TagFinder finder(picture.info, {{7, {0.2, Pose{}}}});
-    const std::vector<uint16_t> good = picture.depth;
-    for (size_t i = 0; i < picture.depth.size(); i += 2) {
-        picture.depth[i] = static_cast<uint16_t>(picture.depth[i] + 200); // every second pixel 0.1 m behind
+    TagImage image(0.0);
+    CHECK(TagFinder(image.info, {{8, {0.2, Pose{}}}}).find(image.frame()).empty());
+    TagFinder finder(image.info, {{7, {0.2, Pose{}}}});
+    const std::vector<uint16_t> good = image.depth;
+    for (size_t i = 0; i < image.depth.size(); i += 2) {
+        image.depth[i] = static_cast<uint16_t>(image.depth[i] + 200); // every second pixel 0.1 m behind
     }
-    CHECK(finder.find(picture.frame()).empty());
-    std::fill(picture.depth.begin(), picture.depth.end(), uint16_t{0});
-    CHECK(finder.find(picture.frame()).empty());
-    picture.depth = good;
-    CHECK(finder.find(picture.frame()).size() == 4);
+    CHECK(finder.find(image.frame()).empty());
+    std::fill(image.depth.begin(), image.depth.end(), uint16_t{0});
+    CHECK(finder.find(image.frame()).empty());
+    image.depth = good;
+    CHECK(finder.find(image.frame()).size() == 4);
 }
 
 TEST_CASE("Lists of tags and points are read, and a wrong line is refused with its number") {

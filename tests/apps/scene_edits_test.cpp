@@ -43,10 +43,10 @@ struct Pilot {
         return info;
     }
     // edit: of the changes so far, the newest that it obeys.
-    void picture(uint64_t edit, bool still = false) {
+    void image(uint64_t edit, bool still = false) {
         PublishedFrame frame;
-        frame.t = pictures / 30.0;
-        frame.report.index = pictures++;
+        frame.t = images / 30.0;
+        frame.report.index = images++;
         frame.edit = edit;
         frame.still = still;
         Fixtures set;
@@ -70,7 +70,7 @@ struct Pilot {
     Scene scene;
     Recorder recorder;
     uint64_t changes = 0;
-    uint32_t pictures = 0;
+    uint32_t images = 0;
     FixtureEditor editor{scene, [this](const Scene&, const std::vector<Shape>&) {
                              recorder.edit(++changes, recordedScene(editor));
                          }};
@@ -100,46 +100,46 @@ TEST_CASE(
     "A recording has each change of fixtures from the picture on that obeyed it, in the rows that classes "
     "had") {
     Pilot pilot;
-    pilot.picture(0);
-    pilot.picture(0);
+    pilot.image(0);
+    pilot.image(0);
     FixtureClass wide = pilot.editor.scene().fixtures[1];
     wide.radius = 0.05;
     wide.frozen = true;
     pilot.editor.remove(0);       // change 1: red goes, its row is spare
-    pilot.picture(0);             // was on its way already
+    pilot.image(0);               // was on its way already
     pilot.editor.change(1, wide); // change 2
-    pilot.picture(2);
-    pilot.picture(2, true);
-    pilot.picture(2);
+    pilot.image(2);
+    pilot.image(2, true);
+    pilot.image(2);
     pilot.editor.undo(); // change 3
     const SceneEdits edits = pilot.end();
     REQUIRE_FALSE(edits.empty());
     using Names = std::vector<std::string>;
     const Names all{"red", "yellow", "", "", "wall"}, fewer{"", "yellow", "", "", "wall"};
-    for (uint32_t picture : {0u, 1u, 2u}) {
-        CHECK(namesOf(edits.at(picture).scene) == all);
-        CHECK_FALSE(edits.at(picture).still);
+    for (uint32_t image : {0u, 1u, 2u}) {
+        CHECK(namesOf(edits.at(image).scene) == all);
+        CHECK_FALSE(edits.at(image).still);
     }
-    for (uint32_t picture : {3u, 4u, 5u, 900u}) {
-        const SceneEdit& edit = edits.at(picture);
+    for (uint32_t image : {3u, 4u, 5u, 900u}) {
+        const SceneEdit& edit = edits.at(image);
         CHECK(namesOf(edit.scene) == fewer);
         CHECK(edit.scene.fixtures[1].radius == 0.05);
         CHECK(edit.scene.fixtures[1].frozen);
-        CHECK(edit.still == (picture == 4));
+        CHECK(edit.still == (image == 4));
     }
     CHECK(cloud::classRows(edits.at(0).scene) == cloud::classRows(edits.at(3).scene));
 }
 
 TEST_CASE("A recording without changes has none, and neither has one that is played with another scene") {
     Pilot pilot;
-    pilot.picture(0);
-    pilot.picture(0);
+    pilot.image(0);
+    pilot.image(0);
     CHECK(pilot.end().empty());
     CHECK_FALSE(std::filesystem::exists(pilot.folder.path() / "rec" / SceneEdits::kFile));
     Pilot changed;
-    changed.picture(0);
+    changed.image(0);
     changed.editor.remove(0);
-    changed.picture(1);
+    changed.image(1);
     CHECK_FALSE(changed.end().empty());
     Scene other = changed.scene;
     CHECK(takeEdits(other, changed.folder.path() / "rec").empty());
@@ -152,9 +152,9 @@ TEST_CASE("A recording without changes has none, and neither has one that is pla
 
 TEST_CASE("Damaged edits are refused with file, line, column and what is allowed") {
     Pilot pilot;
-    pilot.picture(0);
+    pilot.image(0);
     pilot.editor.remove(0);
-    pilot.picture(1);
+    pilot.image(1);
     REQUIRE_FALSE(pilot.end().empty());
     const auto folder = pilot.folder.path() / "rec";
     const auto refused = [&](const std::string& rows) {

@@ -115,7 +115,7 @@ TEST_CASE(
     tick.state = TickState::Escape;
     tick.marginPassive = 0.4;
     tick.solves = 3;
-    tick.turnMicros = 10.0;
+    tick.stepMicros = 10.0;
     totals.add(tick);
     tick.wrench.force = {3, 0, -2};
     tick.wrench.torque = {kNan, 0, 0};
@@ -131,7 +131,7 @@ TEST_CASE(
     tick.marginPassive = kNan;
     tick.solves = 0;
     tick.late = true;
-    tick.turnMicros = kNan;
+    tick.stepMicros = kNan;
     totals.add(tick);
     ReplaySummary::Haptic haptic;
     haptic.stiffness = 800.0;
@@ -149,7 +149,7 @@ TEST_CASE(
     CHECK(*haptic.solvesMean == 2.0);
     CHECK(haptic.infeasible == 2);
     CHECK(haptic.notFiniteTicks == 1);
-    CHECK(*haptic.turnMicros.max == 10.0);
+    CHECK(*haptic.stepMicros.max == 10.0);
     CHECK(*haptic.stiffness == 800.0);
     ReplaySummary::Haptic none;
     none.take(TickTotals{});

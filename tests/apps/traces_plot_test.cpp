@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/traces_plot.h"
 
-#include "apps/replay/picture.h"
+#include "apps/replay/image.h"
 #include "apps/replay/plot_axis.h"
 #include "apps/replay/trace_phases.h"
 #include "apps/replay/traces_style.h"
@@ -29,12 +29,12 @@ TickRecord tickAt(int i, double force, TickState state = TickState::Free) {
 }
 
 // A PNG read back as 0xAARRGGBB.
-struct Image {
-    explicit Image(const std::filesystem::path& file)
+struct PngImage {
+    explicit PngImage(const std::filesystem::path& file)
         : surface(cairo_image_surface_create_from_png(file.c_str())) {}
-    Image(const Image&) = delete;
-    Image& operator=(const Image&) = delete;
-    ~Image() { cairo_surface_destroy(surface); }
+    PngImage(const PngImage&) = delete;
+    PngImage& operator=(const PngImage&) = delete;
+    ~PngImage() { cairo_surface_destroy(surface); }
     int width() const { return cairo_image_surface_get_width(surface); }
     int height() const { return cairo_image_surface_get_height(surface); }
     uint32_t at(int u, int v) const {
@@ -163,7 +163,7 @@ TEST_CASE("the force trace lies where its axis says, over 1 tick, 1 s and 1 h") 
             history.add(tickAt(i, 2 * i < count - 1 ? 4.0 : i % 2 == 0 ? 8.0 : 6.0)); // axis up to 10 N
         }
         writeTraces(path, history, {"title", "subtitle", 20.0, 0.9});
-        const Image image(path);
+        const PngImage image(path);
         REQUIRE(image.width() == traces::kWidth);
         REQUIRE(image.height() == traces::kHeight);
         const int top = static_cast<int>(traces::kForceTop), bottom = static_cast<int>(traces::kForceBottom);
@@ -191,7 +191,7 @@ TEST_CASE("an empty run, a run of zeros and a run of NaN draw a picture and say 
     for (const TraceHistory& history : {TraceHistory{}, zeros, nothing}) {
         const auto path = folder.path() / "traces.png";
         writeTraces(path, history, {"t", "bad \xff byte", std::nullopt, std::nan("")});
-        const Image image(path);
+        const PngImage image(path);
         CHECK(image.width() == 1600);
         CHECK(image.topInk(static_cast<int>(traces::kLeft) + 300, 160, 300) == -1);
     }

@@ -63,7 +63,7 @@ TEST_CASE("A fan's points lie on its beams and each sphere grows by three sigma 
                 plan.pack = plan.pack && byPixel;
             });
             CHECK_FALSE(rig.plan().thin);
-            rig.run(stressPicture(rig.camera(), width));
+            rig.run(stressImage(rig.camera(), width));
             compare(rig, worst);
         }
     }
@@ -86,7 +86,7 @@ TEST_CASE(
     for (const CameraInfo& camera : {fanCamera(65, 33), pinholeCamera(65, 33)}) {
         CloudRig rig(scene, camera);
         CHECK(rig.plan().range);
-        rig.run(stressPicture(camera, 7));
+        rig.run(stressImage(camera, 7));
         const auto twin = reference::classify(rig.view(), nullptr);
         const auto masks = rig.masks();
         uint32_t wrong = 0, inside = 0, outside = 0;
@@ -103,7 +103,7 @@ TEST_CASE(
     CameraInfo one = fanCamera(1, 1);
     one.depth.cx = one.depth.cy = 0.0;
     CloudRig rig(scene, one);
-    rig.run(drawnPicture(one, [](int, int) { return 0.8; }));
+    rig.run(drawnImage(one, [](int, int) { return 0.8; }));
     CHECK((rig.masks()[0] & 1u) == 1);
 }
 
@@ -118,9 +118,9 @@ TEST_CASE("A point that a moving fan no longer sees keeps the size that it was s
     double worst = 0.0, before = 0.0;
     for (int k = 0; k < 8; ++k) {
         const Pose pose{{0.02 * k, 0.0, -0.05 * k}, rotationExp({0.0, 0.03 * k, 0.0})};
-        const auto picture = drawnPicture(
+        const auto image = drawnImage(
             camera, [k](int u, int v) { return (u + 3 * k) % 9 < 4 && v > 3 ? 0.0 : 0.9 + 0.01 * v; });
-        rig.run(picture, k / 30.0, pose);
+        rig.run(image, k / 30.0, pose);
         const auto twin = memory.step(rig.view(), k / 30.0, before, rig.forbidden(), rig.points());
         before = k / 30.0;
         const auto here = rig.spheres(true);

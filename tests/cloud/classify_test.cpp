@@ -19,8 +19,8 @@ struct Agreement {
 
 Agreement compareMasks(const CloudRig& rig) {
     const bool look = rig.plan().occlusion;
-    const reference::CellPicture cells = look ? rig.cells() : reference::CellPicture{};
-    const reference::ClassPicture twin = reference::classify(rig.view(), look ? &cells : nullptr);
+    const reference::CellImage cells = look ? rig.cells() : reference::CellImage{};
+    const reference::ClassImage twin = reference::classify(rig.view(), look ? &cells : nullptr);
     const std::vector<uint32_t> masks = rig.masks();
     Agreement a;
     for (size_t i = 0; i < masks.size(); ++i) {
@@ -64,17 +64,17 @@ void checkList(CloudRig& rig) {
 }
 
 // One picture that holds every colour with channels in steps, and greys, at one depth.
-Picture allColours(CameraInfo& camera) {
+Image allColours(CameraInfo& camera) {
     camera = pinholeCamera(512, 128);
-    Picture picture = drawnPicture(camera, [](int, int) { return 1.0; });
-    for (size_t i = 0; i < picture.colour.size(); ++i) {
+    Image image = drawnImage(camera, [](int, int) { return 1.0; });
+    for (size_t i = 0; i < image.colour.size(); ++i) {
         // 40 x 40 x 40 grid of channel values with uneven steps, then greys
         const auto channel = [](size_t k) { return static_cast<uint32_t>(k * 255 / 39); };
         const size_t k = i % 65536;
-        picture.colour[i] = k < 64000 ? channel(k % 40) | channel(k / 40 % 40) << 8 | channel(k / 1600) << 16
-                                      : static_cast<uint32_t>(k % 256) * 0x010101u;
+        image.colour[i] = k < 64000 ? channel(k % 40) | channel(k / 40 % 40) << 8 | channel(k / 1600) << 16
+                                    : static_cast<uint32_t>(k % 256) * 0x010101u;
     }
-    return picture;
+    return image;
 }
 
 struct Bounds {
@@ -111,7 +111,7 @@ TEST_CASE("Class bits equal the twin's at every pixel away from thresholds, for 
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera);
-        const FrameReport report = rig.run(c.picture);
+        const FrameReport report = rig.run(c.image);
         const Agreement a = compareMasks(rig);
         CHECK(a.wrong == 0);
         CHECK(a.different <= 2);
@@ -127,7 +127,7 @@ TEST_CASE("Class bits equal the twin's at every pixel away from thresholds, for 
 TEST_CASE(
     "Colour bounds are inclusive to the last bit, wrap through 0, and grey, black and white have no hue") {
     CameraInfo camera;
-    const Picture picture = allColours(camera);
+    const Image image = allColours(camera);
     uint32_t pixels = 0;
     for (size_t first = 0; first < kBounds.size(); first += 8) {
         Scene scene = plainScene();
@@ -138,7 +138,7 @@ TEST_CASE(
             scene.fixtures.push_back(f);
         }
         CloudRig rig(scene, camera);
-        rig.run(picture);
+        rig.run(image);
         const Agreement a = compareMasks(rig);
         CHECK(a.different == 0);
         pixels += a.marked;
@@ -148,16 +148,16 @@ TEST_CASE(
 
 TEST_CASE("A hue band of zero width takes exactly the pixels whose hue is that fraction") {
     const CameraInfo camera = pinholeCamera(256, 64);
-    Picture picture = drawnPicture(camera, [](int, int) { return 1.0; });
+    Image image = drawnImage(camera, [](int, int) { return 1.0; });
     // Spreads whose sixtieths have at most three decimals: hue = 60 k / spread.
     constexpr std::array<uint32_t, 6> kSpreads{125, 160, 200, 240, 250, 96};
-    for (size_t i = 0; i < picture.colour.size(); ++i) {
+    for (size_t i = 0; i < image.colour.size(); ++i) {
         const uint32_t d = kSpreads[i % 6], k = static_cast<uint32_t>(i / 6) % (6 * d), rest = k % d;
         const uint32_t lo = 5, hi = lo + d, up = lo + rest, down = hi - rest;
         const std::array<std::array<uint32_t, 3>, 6> sectors{
             {{hi, up, lo}, {down, hi, lo}, {lo, hi, up}, {lo, down, hi}, {up, lo, hi}, {hi, lo, down}}};
         const auto& c = sectors[k / d];
-        picture.colour[i] = c[0] | c[1] << 8 | c[2] << 16;
+        image.colour[i] = c[0] | c[1] << 8 | c[2] << 16;
     }
     uint32_t marked = 0;
     for (uint32_t rigs = 0; rigs < 4; ++rigs) {
@@ -170,7 +170,7 @@ TEST_CASE("A hue band of zero width takes exactly the pixels whose hue is that f
             scene.fixtures.back().hue = Band{hue, hue};
         }
         CloudRig rig(scene, camera);
-        const FrameReport report = rig.run(picture);
+        const FrameReport report = rig.run(image);
         CHECK(compareMasks(rig).different == 0);
         for (const uint32_t pixels : report.counts.classPixels) {
             CHECK(pixels > 0);
@@ -182,15 +182,15 @@ TEST_CASE("A hue band of zero width takes exactly the pixels whose hue is that f
 
 TEST_CASE("The hue gate alone lets no grey pixel through, and a class without gates takes every valid one") {
     const CameraInfo camera = pinholeCamera(48, 3);
-    Picture picture = drawnPicture(camera, [](int u, int) { return u % 3 == 2 ? 0.0 : 0.8; });
-    for (size_t i = 0; i < picture.colour.size(); ++i) {
-        picture.colour[i] = i % 4 == 0 ? 0u : i % 4 == 1 ? 0xffffffu : i % 4 == 2 ? 0x808080u : 0x2020c0u;
+    Image image = drawnImage(camera, [](int u, int) { return u % 3 == 2 ? 0.0 : 0.8; });
+    for (size_t i = 0; i < image.colour.size(); ++i) {
+        image.colour[i] = i % 4 == 0 ? 0u : i % 4 == 1 ? 0xffffffu : i % 4 == 2 ? 0x808080u : 0x2020c0u;
     }
     Scene scene = plainScene();
     scene.fixtures = {forbiddenClass("red", 0.01), forbiddenClass("all", 0.02)};
     scene.fixtures[0].hue = Band{0, 360};
     CloudRig rig(scene, camera);
-    const FrameReport report = rig.run(picture);
+    const FrameReport report = rig.run(image);
     CHECK(report.counts.valid == 96);
     CHECK(report.counts.classPixels[1] == 96);
     CHECK(report.counts.classPixels[0] == 24);
@@ -203,13 +203,13 @@ TEST_CASE("Near and far that fall on a depth unit are inclusive at every unit, a
         const CameraInfo camera = pinholeCamera(64, 40, unit);
         Scene scene = plainScene();
         scene.nearZ = 700 * unit, scene.farZ = 2300 * unit;
-        Picture picture = drawnPicture(camera, [](int, int) { return 0.0; });
-        for (size_t i = 0; i < picture.depth.size(); ++i) {
-            picture.depth[i] = static_cast<uint16_t>(i + 200); // 200 .. 2759
+        Image image = drawnImage(camera, [](int, int) { return 0.0; });
+        for (size_t i = 0; i < image.depth.size(); ++i) {
+            image.depth[i] = static_cast<uint16_t>(i + 200); // 200 .. 2759
         }
-        picture.depth[5] = 0, picture.depth[6] = 65535;
+        image.depth[5] = 0, image.depth[6] = 65535;
         CloudRig rig(scene, camera);
-        const FrameReport report = rig.run(picture);
+        const FrameReport report = rig.run(image);
         CHECK(report.counts.valid == 1601);
         CHECK(report.counts.classPixels[0] == 1601);
         CHECK(compareMasks(rig).different == 0);
@@ -221,8 +221,8 @@ TEST_CASE("A class that asks for a colour takes nothing of a camera without colo
           "takes all") {
     CameraInfo camera = pinholeCamera(37, 21);
     camera.hasColour = false;
-    Picture picture = drawnPicture(camera, [](int, int) { return 0.8; });
-    picture.colour.clear();
+    Image image = drawnImage(camera, [](int, int) { return 0.8; });
+    image.colour.clear();
     Scene scene = plainScene();
     scene.fixtures = {forbiddenClass("dark", 0.01), forbiddenClass("grey", 0.01),
                       forbiddenClass("any hue", 0.01), forbiddenClass("all", 0.02)};
@@ -230,7 +230,7 @@ TEST_CASE("A class that asks for a colour takes nothing of a camera without colo
     scene.fixtures[1].saturation = Band{0, 0.5};
     scene.fixtures[2].hue = Band{0, 360};
     CloudRig rig(scene, camera);
-    const FrameReport report = rig.run(picture);
+    const FrameReport report = rig.run(image);
     CHECK(report.counts.classPixels[0] == 0);
     CHECK(report.counts.classPixels[1] == 0);
     CHECK(report.counts.classPixels[2] == 0);
@@ -240,12 +240,12 @@ TEST_CASE("A class that asks for a colour takes nothing of a camera without colo
 
 TEST_CASE("A range that holds no depth unit takes no pixel") {
     const CameraInfo camera = pinholeCamera(37, 21, 0.001);
-    const Picture picture = drawnPicture(camera, [](int u, int) { return 0.5 + 0.001 * (u % 3); });
+    const Image image = drawnImage(camera, [](int u, int) { return 0.5 + 0.001 * (u % 3); });
     Scene scene = plainScene();
     scene.fixtures = {forbiddenClass("all", 0.01)};
     scene.nearZ = 0.5002, scene.farZ = 0.5008; // between 500 and 501 units
     CloudRig rig(scene, camera);
-    CHECK(rig.run(picture).counts.classPixels[0] == 0);
+    CHECK(rig.run(image).counts.classPixels[0] == 0);
     CHECK(compareMasks(rig).different == 0);
 }
 
@@ -264,7 +264,7 @@ TEST_CASE("A box takes the points that lie exactly on its faces") {
             scene.fixtures[0].box = Box{offset + dvec3(-0.1 * metres, -0.05 * metres, metres),
                                         offset + dvec3(0.07 * metres, 0.05 * metres, metres)};
             CloudRig rig(scene, camera);
-            const FrameReport report = rig.run(drawnPicture(camera, [&](int, int) { return metres; }));
+            const FrameReport report = rig.run(drawnImage(camera, [&](int, int) { return metres; }));
             CHECK(report.counts.classPixels[0] == 18 * 11);
         }
     }
@@ -276,16 +276,16 @@ TEST_CASE("Pictures without a depth, with all pixels selected and with none sele
     scene.fixtures[0] = forbiddenClass("all", 0.03);
     scene.fixtures[1].hue = Band{100, 110};
     CloudRig rig(scene, camera);
-    const FrameReport none = rig.run(drawnPicture(camera, [](int, int) { return 0.0; }));
+    const FrameReport none = rig.run(drawnImage(camera, [](int, int) { return 0.0; }));
     CHECK(none.counts.valid == 0);
     CHECK(none.counts.spheres == 0);
     CHECK(rig.counters().patchGroups.x == 0);
     CHECK(rig.host().guidance[0].count == 0);
-    const FrameReport all = rig.run(drawnPicture(camera, [](int, int) { return 1.0; }));
+    const FrameReport all = rig.run(drawnImage(camera, [](int, int) { return 1.0; }));
     CHECK(all.counts.forbidden == 5000);
     CHECK(all.counts.spheres == 5000);
     CHECK(all.counts.classPixels[1] == 0);
-    const FrameReport far = rig.run(drawnPicture(camera, [](int, int) { return 20.0; }));
+    const FrameReport far = rig.run(drawnImage(camera, [](int, int) { return 20.0; }));
     CHECK(far.counts.valid == 0);
     CHECK(far.counts.spheres == 0);
     CHECK(rig.host().spheres.size() == 0);

@@ -64,7 +64,7 @@ TEST_CASE("The host gets each frame's own counters and marks, and the device kee
             checkCleared(rig);                                // before the first frame
             for (const double share : {1.0, 0.3, 0.0, 0.6}) { // full, some, empty
                 const auto depth = [&](int u, int) { return u < share * width ? 1.0 : 0.0; };
-                rig.run(drawnPicture(camera, depth));
+                rig.run(drawnImage(camera, depth));
                 checkDelivered(rig);
                 checkCleared(rig);
             }

@@ -55,7 +55,7 @@ TEST_CASE("The largest connected part and the trimmed mean leave out what the tw
                 Scene scene = sceneOfChosen(f);
                 scene.filter.edge = edge;
                 CloudRig rig(scene, camera);
-                rig.run(drawnPicture(camera, depth));
+                rig.run(drawnImage(camera, depth));
                 CHECK(static_cast<bool>(rig.set().device.points) == (largest || trim > 0.0));
                 auto masks = rig.masks();
                 const auto all = rig.points();
@@ -88,7 +88,7 @@ TEST_CASE("The largest part of scattered pixels is the twin's, however it winds"
         scene.filter.edge = seed % 2 == 0 ? 0.02 : 0.0;
         scene.filter.radius = 0;
         CloudRig rig(scene, camera);
-        rig.run(drawnPicture(camera, [&](int u, int v) { return depth[static_cast<size_t>(v * 131 + u)]; }));
+        rig.run(drawnImage(camera, [&](int u, int v) { return depth[static_cast<size_t>(v * 131 + u)]; }));
         const auto part = reference::largestPart(131, 77, rig.masks(), rig.points(), 0, scene.filter.edge);
         const std::vector<uint32_t> masks(part.begin(), part.end());
         const auto points = reference::pointsOfClass(masks, rig.points(), 0);
@@ -103,7 +103,7 @@ TEST_CASE("Of parts as large as each other the one that begins first is taken") 
         FixtureClass f = chosenClass();
         f.largestPart = true;
         CloudRig rig(sceneOfChosen(f), camera);
-        rig.run(drawnPicture(camera, [&](int u, int v) { // the left one ends last
+        rig.run(drawnImage(camera, [&](int u, int v) { // the left one ends last
             const bool left = u >= 8 && u < 24 && v >= top && v < top + 24,
                        right = u >= 50 && u < 74 && v >= 10 && v < 26;
             return left || right ? 0.6 : 0.0;

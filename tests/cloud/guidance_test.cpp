@@ -79,7 +79,7 @@ TEST_CASE("A plane seen at any angle gives its normal towards the camera, the ta
             Scene scene = goalScene(goal());
             scene.baseTcamera = pose;
             CloudRig rig(scene, camera);
-            rig.run(drawnPicture(camera, [&](int u, int v) {
+            rig.run(drawnImage(camera, [&](int u, int v) {
                 return u > 50 && u < 110 && v > 40 && v < 80
                            ? planeDepth(camera, u, v, normal, 0.6 * normal.z)
                            : 0.0;
@@ -115,10 +115,10 @@ TEST_CASE("The long axis gives the roll, a square leaves it to the scene") {
                        ? 0.5
                        : 0.0;
         };
-        rig.run(drawnPicture(camera, bar));
+        rig.run(drawnImage(camera, bar));
         CHECK_FALSE(rig.host().guidance[0].rollFree);
         CHECK(angleBetween(rig.host().guidance[0].target.rotation * kX, along) < 0.3);
-        rig.run(drawnPicture(
+        rig.run(drawnImage(
             camera, [&](int u, int v) { return glm::length(camera.depth.ray(u, v)) < 0.15 ? 0.5 : 0.0; }));
         CHECK(rig.host().guidance[0].rollFree);
         CHECK(angleBetween(rig.host().guidance[0].target.rotation * kX, kX) < 0.3);

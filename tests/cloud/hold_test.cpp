@@ -28,18 +28,18 @@ bool inTarget(int u, int v) {
 constexpr uint32_t kTarget = 24; // pixels
 
 // A grey wall with a red target, whose depth and colour the script sets.
-Picture script(const CameraInfo& camera, double targetDepth, uint32_t targetColour = kRed) {
-    Picture picture = drawnPicture(
+Image script(const CameraInfo& camera, double targetDepth, uint32_t targetColour = kRed) {
+    Image image = drawnImage(
         camera, [&](int u, int v) { return inTarget(u, v) ? targetDepth : kWall; }, kGrey);
     for (int v = 0; v < static_cast<int>(camera.depth.height); ++v) {
         for (int u = 0; u < static_cast<int>(camera.depth.width); ++u) {
             if (inTarget(u, v)) {
-                picture.colour[static_cast<size_t>(v) * camera.depth.width + static_cast<size_t>(u)] =
+                image.colour[static_cast<size_t>(v) * camera.depth.width + static_cast<size_t>(u)] =
                     targetColour;
             }
         }
     }
-    return picture;
+    return image;
 }
 
 uint32_t countOf(const std::vector<reference::RegionSphere>& spheres) {
@@ -48,7 +48,7 @@ uint32_t countOf(const std::vector<reference::RegionSphere>& spheres) {
 }
 
 // Shows the red target once at t = 0, then `later` at 30 Hz. Number of spheres held in each of those frames.
-std::vector<uint32_t> heldAfter(CloudRig& rig, const Picture& later, int frames) {
+std::vector<uint32_t> heldAfter(CloudRig& rig, const Image& later, int frames) {
     rig.run(script(rig.camera(), kWall), 0.0);
     REQUIRE(countOf(rig.spheres()) == kTarget);
     const auto seen = rig.spheres();
@@ -70,14 +70,14 @@ std::vector<uint32_t> heldAfter(CloudRig& rig, const Picture& later, int frames)
 }
 
 // A frame through which a bar sweeps, nearer than everything.
-Picture sweptPicture(const Frame& frame, uint32_t width) {
-    Picture picture{{frame->depth.begin(), frame->depth.end()}, {frame->colour.begin(), frame->colour.end()}};
-    for (size_t i = 0; i < picture.depth.size(); ++i) {
+Image sweptImage(const Frame& frame, uint32_t width) {
+    Image image{{frame->depth.begin(), frame->depth.end()}, {frame->colour.begin(), frame->colour.end()}};
+    for (size_t i = 0; i < image.depth.size(); ++i) {
         if (i % width / 12 == frame->index % 13) {
-            picture.depth[i] = 300;
+            image.depth[i] = 300;
         }
     }
-    return picture;
+    return image;
 }
 
 struct HoldAgreement {
@@ -163,7 +163,7 @@ TEST_CASE(
     const auto seen = rig.spheres();
     for (int k = 1; k <= 6; ++k) {
         const Pose aside{{0.8 * k, 0.0, 0.0}, rotationExp({0.0, 0.02 * k, 0.0})}; // far off the first view
-        rig.run(drawnPicture(
+        rig.run(drawnImage(
                     kCamera, [](int, int) { return kWall; }, kGrey),
                 k / 30.0, scene.baseTcamera * aside);
         const auto held = rig.spheres(true);
@@ -173,7 +173,7 @@ TEST_CASE(
         }
     }
     // Back in view where a hole shows the wall behind: contradicted.
-    rig.run(drawnPicture(
+    rig.run(drawnImage(
                 kCamera, [](int, int) { return 1.5; }, kGrey),
             6 / 30.0 + 0.001, scene.baseTcamera);
     CHECK(countOf(rig.spheres(true)) == 0);
@@ -210,7 +210,7 @@ TEST_CASE(
         double before = 0.0;
         while (const std::optional<Frame> frame = camera.next()) {
             const double now = (*frame)->index / 30.0;
-            rig.run(sweptPicture(*frame, options.width), now, (*frame)->baseTcamera);
+            rig.run(sweptImage(*frame, options.width), now, (*frame)->baseTcamera);
             const auto expected = twin.step(rig.view(), now, before, rig.forbidden(), rig.points());
             compareHeld(rig.spheres(true), expected, twin.unsure(), a);
             before = now;

@@ -85,16 +85,16 @@ void checkLists(const CloudRig& rig, const Lists& expected) {
 }
 
 // A forbidden band and a guiding one, of which `share` of the rows are forbidden; nothing in row `hidden`.
-Picture bands(const CameraInfo& camera, double share, int hidden) {
+Image bands(const CameraInfo& camera, double share, int hidden) {
     const auto rows = static_cast<int>(camera.depth.height);
     const int last = static_cast<int>(share * rows);
-    Picture picture = drawnPicture(
+    Image image = drawnImage(
         camera, [&](int, int v) { return v / 8 == hidden ? 0.0 : 0.6; }, 0xff808080);
-    for (size_t i = 0; i < picture.colour.size(); ++i) {
+    for (size_t i = 0; i < image.colour.size(); ++i) {
         const int v = static_cast<int>(i / camera.depth.width);
-        picture.colour[i] = v < last ? 0xff2020c0 : v < last + 3 ? 0xff20c0c0 : 0xff808080;
+        image.colour[i] = v < last ? 0xff2020c0 : v < last + 3 ? 0xff20c0c0 : 0xff808080;
     }
-    return picture;
+    return image;
 }
 
 Scene bandScene(bool guidance, double hold) {

@@ -31,7 +31,7 @@ double covarianceError(const cloud::Moments& here, const reference::PointMoments
 
 // Points of one class in one patch, or in the whole picture (patch < 0).
 std::vector<dvec3> pointsIn(const CloudRig& rig, const std::vector<uint32_t>& masks,
-                            const reference::PointPicture& points, size_t c, int patch) {
+                            const reference::PointImage& points, size_t c, int patch) {
     std::vector<dvec3> out;
     const int across = static_cast<int>(rig.cycle().layout().across);
     for (size_t i = 0; i < masks.size(); ++i) {
@@ -52,7 +52,7 @@ cloud::Moments momentsOf(const shared::PatchMoments& m) {
 
 void comparePatches(const CloudRig& rig, size_t c, size_t k, MomentsAgreement& a) {
     const std::vector<uint32_t> masks = rig.masks(), listed = rig.listed();
-    const reference::PointPicture points = rig.points();
+    const reference::PointImage points = rig.points();
     const auto all = verify::readBack<shared::PatchMoments>(vulkan().device, rig.set().device.moments);
     std::vector<cloud::Moments> parts;
     for (uint32_t patch = 0; patch < rig.cycle().layout().patches(); ++patch) {
@@ -113,7 +113,7 @@ TEST_CASE("Counts are equal, means within 1 um, covariances within 1e-6 of their
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera);
-        rig.run(c.picture);
+        rig.run(c.image);
         if (!rig.plan().moments) {
             continue;
         }
@@ -139,7 +139,7 @@ TEST_CASE("A small far guidance class keeps its covariance") {
         scene.farZ = 6.0;
         scene.fixtures = {guidanceClass("goal")};
         CloudRig rig(scene, camera);
-        rig.run(drawnPicture(camera, [&](int u, int v) {
+        rig.run(drawnImage(camera, [&](int u, int v) {
             return u >= 79 && v >= 47 && u < 79 + edge && v < 47 + edge ? 2.0 + 0.001 * u + 0.0005 * v : 0.0;
         }));
         const MomentsAgreement a = compareMoments(rig);
@@ -159,7 +159,7 @@ TEST_CASE("Guidance classes that share pixels with each other and with forbidden
         scene.fixtures.back().box = Box{{-0.02 * i, -1, 0}, {0.5, 1, 3}};
     }
     CloudRig rig(scene, camera);
-    const FrameReport report = rig.run(stressPicture(camera, 61));
+    const FrameReport report = rig.run(stressImage(camera, 61));
     const MomentsAgreement a = compareMoments(rig);
     CHECK(a.classes == 7);
     CHECK(a.wrong == 0);

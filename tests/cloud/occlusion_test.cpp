@@ -49,8 +49,8 @@ struct Plate {
     }
 };
 
-Picture plateBeforeWall(const CameraInfo& camera, const Plate& plate) {
-    Picture picture = drawnPicture(camera, [&](int u, int v) {
+Image plateBeforeWall(const CameraInfo& camera, const Plate& plate) {
+    Image image = drawnImage(camera, [&](int u, int v) {
         const dvec3 along(camera.depth.ray(u, v), 1.0);
         return plate.inside(dvec3(0.0), along) >= 0.0 ? plate.meet(dvec3(0.0), along).z : kBack;
     });
@@ -59,11 +59,11 @@ Picture plateBeforeWall(const CameraInfo& camera, const Plate& plate) {
     for (uint32_t v = 0; v < camera.colour.height; ++v) {
         for (uint32_t u = 0; u < camera.colour.width; ++u) {
             const dvec3 along = depthTcolour.rotation * dvec3(camera.colour.ray(u, v), 1.0);
-            picture.colour[v * camera.colour.width + u] =
+            image.colour[v * camera.colour.width + u] =
                 plate.inside(depthTcolour.position, along) >= 0.0 ? kRedBytes : kBlue;
         }
     }
-    return picture;
+    return image;
 }
 
 struct LookCounts {
@@ -142,7 +142,7 @@ struct OcclusionAgreement {
 
 OcclusionAgreement compareWithTwins(const CloudRig& rig) {
     const reference::CellBounds twin = reference::occlusion(rig.view(), 1e-3);
-    const reference::CellPicture cells = rig.cells();
+    const reference::CellImage cells = rig.cells();
     OcclusionAgreement a;
     REQUIRE(cells.edge == twin.sure.edge);
     REQUIRE(cells.nearest.size() == twin.sure.nearest.size());
@@ -154,7 +154,7 @@ OcclusionAgreement compareWithTwins(const CloudRig& rig) {
             a.worst = std::max({a.worst, below, above}) / 1.0;
         }
     }
-    const reference::ClassPicture classes = reference::classify(rig.view(), &cells);
+    const reference::ClassImage classes = reference::classify(rig.view(), &cells);
     const std::vector<uint32_t> masks = rig.masks();
     for (size_t i = 0; i < masks.size(); ++i) {
         const bool different = masks[i] != classes.masks[i];
@@ -179,7 +179,7 @@ TEST_CASE("Occlusion cells and looked-up class bits equal the twins' for several
                 CAPTURE(distorted);
                 const CameraInfo camera = parallaxCamera(ratio, baseline, distorted);
                 CloudRig rig(colourScene(), camera);
-                rig.run(stressPicture(camera, 31));
+                rig.run(stressImage(camera, 31));
                 const OcclusionAgreement a = compareWithTwins(rig);
                 CHECK(a.worst < 1e-6);
                 CHECK(a.masks == 0);
@@ -235,7 +235,7 @@ TEST_CASE("Two-plane and empty pictures of one pixel run through the occlusion p
     camera.depth.cx = camera.depth.cy = 0.0;
     for (const double z : {0.0, 0.8}) {
         CloudRig rig(colourScene(), camera);
-        const FrameReport report = rig.run(drawnPicture(
+        const FrameReport report = rig.run(drawnImage(
             camera, [&](int, int) { return z; }, kRedBytes));
         CHECK(report.counts.valid == (z > 0.0));
         CHECK(report.counts.classPixels[0] == (z > 0.0));
@@ -246,7 +246,7 @@ TEST_CASE("Two-plane and empty pictures of one pixel run through the occlusion p
 TEST_CASE("The unregistered D435 frame: twins agree, and what lies behind a nearer point of the same colour "
           "pixel is unclassified") {
     const RecordedShots shots = recordedShots("realsense_bag", {0});
-    if (shots.pictures.empty()) {
+    if (shots.images.empty()) {
         return;
     }
     Scene scene = plainScene();
@@ -256,7 +256,7 @@ TEST_CASE("The unregistered D435 frame: twins agree, and what lies behind a near
     scene.fixtures[0].lightness = Band{0.1, 0.7};
     scene.fixtures[1].lightness = Band{0.0, 0.999};
     CloudRig rig(scene, shots.camera);
-    const FrameReport report = rig.run(shots.pictures[0]);
+    const FrameReport report = rig.run(shots.images[0]);
     REQUIRE(rig.plan().occlusion);
     const OcclusionAgreement a = compareWithTwins(rig);
     CHECK(a.worst < 1e-5); // up to 10 m away

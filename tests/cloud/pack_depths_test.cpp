@@ -22,7 +22,7 @@ TEST_CASE(
         }
         for (int frame = 0; frame < 2; ++frame) {
             const Pose pose{{0.1 * frame, 0.02, -0.3}, rotationExp({0.1, 0.2 * frame, -0.1})};
-            rig.run(frame == 0 ? c.picture : stressPicture(c.camera, 7), -1.0, pose);
+            rig.run(frame == 0 ? c.image : stressImage(c.camera, 7), -1.0, pose);
             checkPacked(rig);
             const RegionSpheres& s = rig.host().spheres;
             for (size_t i = 0; i < s.size(); ++i) {
@@ -45,11 +45,11 @@ TEST_CASE("A picture in flight keeps the radii and the pose that its passes read
         CAPTURE(pack);
         CloudRig rig(plainScene(), camera, packing(pack));
         FrameCycle& cycle = rig.cycle();
-        const Picture picture = drawnPicture(camera, [](int, int) { return 0.8; });
+        const Image image = drawnImage(camera, [](int, int) { return 0.8; });
         const auto frame = [&](uint32_t index) {
             Frame::Content content;
             content.index = index, content.sourceNumber = index, content.captureTime = index / 30.0;
-            content.depth = picture.depth, content.colour = picture.colour;
+            content.depth = image.depth, content.colour = image.colour;
             content.baseTcamera = Pose{{0.1 * index, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}};
             return Frame(content, nullptr);
         };
@@ -86,8 +86,8 @@ TEST_CASE("Spheres that have grown are packed in 24 bits a depth, and in 32 wher
     // A step within the second patch of each row: away by a little, by less than a half, by much, and nearer.
     for (const double behind : {0.61, 0.85, 1.3, 2.5, 0.29}) {
         CAPTURE(behind);
-        const Picture step =
-            drawnPicture(camera, [&](int u, int v) { return u < 24 ? 0.6 + 0.0001 * v : behind; });
+        const Image step =
+            drawnImage(camera, [&](int u, int v) { return u < 24 ? 0.6 + 0.0001 * v : behind; });
         rig.run(step);
         checkPacked(rig);
         const auto runs = rig.set().device.runs.as<glm::uvec2>();

@@ -19,7 +19,7 @@ TEST_CASE("What the host reads has every sphere of every slot once, in order, at
         const CameraInfo camera = pinholeCamera(width, height);
         for (const bool pack : {false, true}) {
             CloudRig rig(plainScene(), camera, packing(pack));
-            rig.run(stressPicture(camera, width));
+            rig.run(stressImage(camera, width));
             checkPacked(rig);
         }
     }
@@ -36,10 +36,10 @@ TEST_CASE("Held spheres follow the seen ones of their patch, thinned ones are le
         pack = true;
     }
     CloudRig rig(scene, camera, packing(pack));
-    const Picture whole = drawnPicture(camera, [](int u, int) { return 1.0 + 0.001 * u; });
+    const Image whole = drawnImage(camera, [](int u, int) { return 1.0 + 0.001 * u; });
     rig.run(whole);
     checkPacked(rig);
-    Picture holes = whole;
+    Image holes = whole;
     for (size_t p = 0; p < holes.depth.size(); p += 3) {
         holes.depth[p] = 0;
     }
@@ -54,7 +54,7 @@ TEST_CASE("A picture without one point, with few over the corner of four patches
     for (const int points : {0, 16, 66 * 50}) {
         CAPTURE(points);
         CloudRig rig(plainScene(), camera, packing(true));
-        rig.run(drawnPicture(camera, [&](int u, int v) {
+        rig.run(drawnImage(camera, [&](int u, int v) {
             return points > 16 || (points == 16 && (u + 2) / 4 == 12 && (v + 2) / 4 == 8) ? 1.0 : 0.0;
         }));
         CHECK(rig.host().spheres.size() == static_cast<size_t>(points));
@@ -79,11 +79,11 @@ TEST_CASE("A set that several threads lay out is the one that a single thread la
     scene.holdSeconds = 1.0;
     CloudRig one(scene, camera, shared(1)), three(scene, camera, shared(3));
     for (uint64_t seed = 1; seed <= 6; ++seed) {
-        Picture picture = stressPicture(camera, seed);
-        for (size_t p = seed; seed > 1 && p < picture.depth.size(); p += 5) { // held ones, too
-            picture.depth[p] = 0;
+        Image image = stressImage(camera, seed);
+        for (size_t p = seed; seed > 1 && p < image.depth.size(); p += 5) { // held ones, too
+            image.depth[p] = 0;
         }
-        const FrameReport a = one.run(picture), b = three.run(picture);
+        const FrameReport a = one.run(image), b = three.run(image);
         checkPacked(three);
         const RegionSpheres &s = one.host().spheres, &t = three.host().spheres;
         CHECK(s.size() > 8192); // more than two parts
@@ -104,13 +104,13 @@ TEST_CASE("Slots that a GPU query keeps for itself are packed the same, and each
         plan.query = Plan::Query::Gpu;
         packing(true)(plan);
     });
-    Picture picture = stressPicture(camera, 5);
-    rig.run(picture);
+    Image image = stressImage(camera, 5);
+    rig.run(image);
     checkPacked(rig);
-    for (size_t p = 0; p < picture.depth.size(); p += 3) { // held from now on
-        picture.depth[p] = 0;
+    for (size_t p = 0; p < image.depth.size(); p += 3) { // held from now on
+        image.depth[p] = 0;
     }
-    rig.run(picture);
+    rig.run(image);
     checkPacked(rig);
     const RegionSpheres& host = rig.host().spheres;
     REQUIRE(rig.set().keys.size() == host.size());
@@ -136,11 +136,11 @@ TEST_CASE("Packed spheres have the class that they have in their slots, in patch
         std::map<uint32_t, std::set<uint8_t>> ofPatch;
         bool held = false;
         for (const uint64_t seed : {3, 4, 5}) {
-            Picture picture = stressPicture(camera, 3);
-            for (size_t p = 0; seed > 3 && p < picture.depth.size(); p += seed) { // held ones, too
-                picture.depth[p] = 0;
+            Image image = stressImage(camera, 3);
+            for (size_t p = 0; seed > 3 && p < image.depth.size(); p += seed) { // held ones, too
+                image.depth[p] = 0;
             }
-            const FrameReport one = packed.run(picture), other = slots.run(picture);
+            const FrameReport one = packed.run(image), other = slots.run(image);
             CHECK(one.counts.classSpheres == other.counts.classSpheres);
             CHECK(one.counts.classPatches == other.counts.classPatches);
             const RegionSpheres &a = packed.host().spheres, &b = slots.host().spheres;

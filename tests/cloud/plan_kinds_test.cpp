@@ -44,8 +44,8 @@ void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
         plan.keepDepth = plan.cloud && c.camera.depth.width % 4 == 0;
     });
     for (uint64_t frame = 0; frame < 3; ++frame) {
-        const Picture picture = frame == 0 ? c.picture : stressPicture(c.camera, 70 + frame);
-        const FrameReport one = cpu.run(picture), other = gpu.run(picture);
+        const Image image = frame == 0 ? c.image : stressImage(c.camera, 70 + frame);
+        const FrameReport one = cpu.run(image), other = gpu.run(image);
         CHECK(one.counts.classPixels == other.counts.classPixels);
         CHECK(cpu.masks() == gpu.masks());
         const Fixtures &a = cpu.host(), &b = gpu.host();

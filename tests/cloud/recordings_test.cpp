@@ -66,7 +66,7 @@ struct Count {
 };
 
 Count countOf(const CloudRig& rig) {
-    const reference::ClassPicture twin = reference::classify(rig.view(), nullptr);
+    const reference::ClassImage twin = reference::classify(rig.view(), nullptr);
     Count count{reference::validPixels(rig.view()), 0, std::vector<uint32_t>(rig.scene().fixtures.size(), 0)};
     for (const uint32_t mask : twin.masks) {
         count.forbidden += reference::forbiddenClass(rig.scene(), mask) >= 0;
@@ -86,15 +86,15 @@ TEST_CASE("Valid, forbidden and class pixels of every recorded frame equal a pla
             break;
         }
         const RecordedShots shots = recordedShots(recording.folder, recording.frames);
-        if (shots.pictures.empty()) {
+        if (shots.images.empty()) {
             continue;
         }
         CAPTURE(recording.folder);
         CloudRig rig(sceneOf(recording), shots.camera);
         uint64_t marked = 0;
-        for (uint32_t k = 0; k < shots.pictures.size(); ++k) {
+        for (uint32_t k = 0; k < shots.images.size(); ++k) {
             CAPTURE(k);
-            const FrameReport report = rig.run(shots.pictures[k]);
+            const FrameReport report = rig.run(shots.images[k]);
             const Count count = countOf(rig);
             CHECK(report.counts.valid == count.valid);
             CHECK(report.counts.forbidden == count.forbidden);
@@ -111,7 +111,7 @@ TEST_CASE("Valid, forbidden and class pixels of every recorded frame equal a pla
             }
             marked += count.forbidden;
         }
-        MESSAGE(recording.folder, ": ", shots.pictures.size(), " frames, ", marked,
+        MESSAGE(recording.folder, ": ", shots.images.size(), " frames, ", marked,
                 " forbidden pixels, all counts equal");
         CHECK(marked > 5000);
     }

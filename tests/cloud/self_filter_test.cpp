@@ -22,8 +22,8 @@ CloudRig filteredRig(uint32_t width, uint32_t height) {
 }
 
 // A wall at 1 m, and nearer than it a ball wherever the ray meets one of these (camera frame, near side).
-Picture wallAndBalls(const CameraInfo& camera, std::span<const Sphere> balls) {
-    return drawnPicture(camera, [&](int u, int v) {
+Image wallAndBalls(const CameraInfo& camera, std::span<const Sphere> balls) {
+    return drawnImage(camera, [&](int u, int v) {
         const dvec3 ray(camera.depth.ray(u, v), 1.0);
         double z = 1.0;
         for (const Sphere& ball : balls) {
@@ -41,7 +41,7 @@ struct Agreement {
 };
 
 Agreement compare(const CloudRig& rig, std::span<const Sphere> spheres) {
-    reference::ClassPicture twin = reference::classify(rig.view(), nullptr);
+    reference::ClassImage twin = reference::classify(rig.view(), nullptr);
     const std::vector<uint32_t> unfiltered = twin.masks;
     reference::removeArm(rig.view(), spheres, twin);
     const std::vector<uint32_t> masks = rig.masks();
@@ -101,7 +101,7 @@ TEST_CASE("An arm is taken out of a picture whose camera is off by three sigma o
         scene.arm->selfFilter = 0.002;
         scene.arm->baseTarm.position = middle;
         const auto arm = makeArmRig(scene, {});
-        rig.cycle().setArm(arm->inPicture(arm->startPosture()));
+        rig.cycle().setArm(arm->inImage(arm->startPosture()));
         const std::vector<Sphere> seen{{middle + off, 0.05}};
         rig.run(wallAndBalls(rig.camera(), seen));
         size_t left = 0;
@@ -130,7 +130,7 @@ TEST_CASE("Two thousand spheres on twenty links, at a pose far from the base ori
     }
     CloudRig rig = filteredRig(160, 120);
     rig.cycle().setArm(linksOf(arm, ends));
-    rig.run(stressPicture(rig.camera(), 3), -1.0, pose);
+    rig.run(stressImage(rig.camera(), 3), -1.0, pose);
     const Agreement a = compare(rig, arm);
     MESSAGE(a.removed << " points of the arm taken out, " << a.marked << " left");
     CHECK(a.wrong == 0);
@@ -141,7 +141,7 @@ TEST_CASE("Two thousand spheres on twenty links, at a pose far from the base ori
 TEST_CASE(
     "An arm that moves is taken out where each picture shows it, and one that is nowhere takes nothing") {
     CloudRig rig = filteredRig(64, 48);
-    const Picture wall = wallAndBalls(rig.camera(), {});
+    const Image wall = wallAndBalls(rig.camera(), {});
     rig.run(wall);
     const uint32_t all = compare(rig, {}).marked;
     CHECK(all == 64 * 48);

@@ -88,7 +88,7 @@ TEST_CASE("Sphere centres and radii lie within 1 um of the twin's, classes and f
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera, withSlots);
-        const FrameReport report = rig.run(c.picture);
+        const FrameReport report = rig.run(c.image);
         const SpheresAgreement a = compareSpheres(rig);
         CHECK(a.wrong == 0);
         CHECK(a.centre < 1e-6);
@@ -117,7 +117,7 @@ TEST_CASE(
                       boxed(forbiddenClass("second", 0.03), -0.1, 9)};
     scene.fixtures[0].shape = ShapeKind::Sphere;
     CloudRig rig(scene, camera, withSlots);
-    const FrameReport report = rig.run(drawnPicture(camera, [](int, int) { return 0.7; }));
+    const FrameReport report = rig.run(drawnImage(camera, [](int, int) { return 0.7; }));
     CHECK(report.counts.classPixels ==
           std::vector<uint32_t>{3072, 3072, report.counts.classPixels[2], report.counts.classPixels[3]});
     CHECK(report.counts.forbidden == 3072);
@@ -138,7 +138,7 @@ TEST_CASE("A class with a smaller radius first in the file wins only where it is
     for (uint32_t count = 1; count <= 8; ++count) {
         CAPTURE(count);
         CloudRig rig(classesScene(count), camera, withSlots);
-        const FrameReport report = rig.run(stressPicture(camera, 40 + count));
+        const FrameReport report = rig.run(stressImage(camera, 40 + count));
         CHECK(compareSpheres(rig).wrong == 0);
         checkHost(rig, report);
         CHECK(report.counts.classPixels.size() == count);
@@ -154,7 +154,7 @@ TEST_CASE("Leaks are reported with the largest spacing and range of the class, a
     scene.fixtures[1].box = Box{{-9, 0.0001, 0}, {9, 9, 9}};
     CloudRig rig(scene, camera);
     const FrameReport report =
-        rig.run(drawnPicture(camera, [](int u, int v) { return v < 20 && u > 60 && u < 63 ? 2.0 : 0.4; }));
+        rig.run(drawnImage(camera, [](int u, int v) { return v < 20 && u > 60 && u < 63 ? 2.0 : 0.4; }));
     const reference::Leaks twin =
         reference::leaks(scene, rig.width(), rig.height(), rig.forbidden(), rig.points());
     CHECK(twin.spacing[0] > 0.0015);
@@ -165,7 +165,7 @@ TEST_CASE("Leaks are reported with the largest spacing and range of the class, a
     }
     Scene coarse = classesScene(8);
     CloudRig stress(coarse, camera);
-    const FrameReport rough = stress.run(stressPicture(camera, 77));
+    const FrameReport rough = stress.run(stressImage(camera, 77));
     const reference::Leaks rougher =
         reference::leaks(coarse, stress.width(), stress.height(), stress.forbidden(), stress.points());
     for (size_t c = 0; c < 8; ++c) {
@@ -182,7 +182,7 @@ TEST_CASE("1920x1080 and 3840x2160 with every pixel selected run through and cou
         scene.errorBudget = width == 3840 ? 0.0005 : 0.0;
         CloudRig rig(scene, camera, {}, 0);
         const FrameReport report =
-            rig.run(drawnPicture(camera, [](int u, int v) { return 0.5 + 0.00005 * u + 0.0001 * v; }));
+            rig.run(drawnImage(camera, [](int u, int v) { return 0.5 + 0.00005 * u + 0.0001 * v; }));
         const uint32_t pixels = width * height;
         CHECK(report.counts.valid == pixels);
         CHECK(report.counts.forbidden == pixels);

@@ -18,8 +18,8 @@ struct SurfaceAgreement {
 
 inline SurfaceAgreement comparePoints(const CloudRig& rig) {
     const std::vector<uint32_t> masks = rig.masks();
-    const reference::SurfacePicture twin = reference::surface(rig.view(), masks);
-    const reference::PointPicture points = rig.points();
+    const reference::SurfaceImage twin = reference::surface(rig.view(), masks);
+    const reference::PointImage points = rig.points();
     SurfaceAgreement a;
     for (size_t i = 0; i < masks.size(); ++i) {
         const bool here = points.z[i] != 0.0, there = twin.points.z[i] != 0.0;

@@ -16,13 +16,13 @@ TEST_CASE("Two pixels an invocation give the points of one, and a patch that has
             Scene scene = edgeScene(edge);
             scene.filter.radius = 2;
             scene.fixtures[0].hue = Band{20, 200}; // some pixels are of no class
-            const Picture picture = stressPicture(camera, width);
+            const Image image = stressImage(camera, width);
             CloudRig one(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
             CloudRig two(scene, camera,
                          [](Plan& plan) { plan.tiled = plan.manyPatches = true, plan.filterBlock = false; });
             CHECK_FALSE(one.plan().filterPairs());
             CHECK(two.plan().filterPairs());
-            one.run(picture), two.run(picture);
+            one.run(image), two.run(image);
             CHECK((!onCpu() || (one.points().z == two.points().z && one.points().at == two.points().at)));
             const SurfaceAgreement agreement = comparePoints(two);
             CHECK((width == 1 || agreement.points > 300));

@@ -24,7 +24,7 @@ TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixe
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera);
-        rig.run(c.picture);
+        rig.run(c.image);
         const SurfaceAgreement a = comparePoints(rig);
         CHECK(a.wrong == 0);
         CHECK(a.worst < 1e-6);
@@ -49,17 +49,17 @@ TEST_CASE("Windows from shared memory, direct reads and blocks in registers give
                                                       : freiburgCamera(edge > 0.0 ? 68 : 67, 41);
             Scene scene = edgeScene(edge);
             scene.filter.radius = radius;
-            const Picture picture = stressPicture(camera, radius + 20);
+            const Image image = stressImage(camera, radius + 20);
             CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterBlock = false; });
             CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
             CloudRig blocks(scene, camera, [&](Plan& plan) { plan.filterBlock = radius <= 2; });
-            direct.run(picture), tiled.run(picture), blocks.run(picture);
+            direct.run(image), tiled.run(image), blocks.run(image);
             CHECK((!onCpu() ||
                    (blocks.points().z == direct.points().z && blocks.points().at == direct.points().at)));
             const SurfaceAgreement ofBlocks = comparePoints(blocks);
             CHECK(ofBlocks.wrong == 0);
             CHECK(ofBlocks.worst < 1e-6);
-            const reference::PointPicture a = direct.points(), b = tiled.points();
+            const reference::PointImage a = direct.points(), b = tiled.points();
             CHECK(a.z == b.z);
             CHECK(a.at == b.at);
             const SurfaceAgreement agreement = comparePoints(tiled);
@@ -74,8 +74,8 @@ TEST_CASE("Polynomial weights follow their own twin and stay within 3 % of the n
     const auto noise = [](int u, int v) {
         return 0.001 * std::sin(u * 12.9898 + v * 78.233) * std::cos(u * 3.1 - v * 7.7);
     };
-    const Picture picture =
-        drawnPicture(camera, [&](int u, int v) { return (u < 30 ? 0.6 : 0.9) + 0.001 * v + noise(u, v); });
+    const Image image =
+        drawnImage(camera, [&](int u, int v) { return (u < 30 ? 0.6 : 0.9) + 0.001 * v + noise(u, v); });
     for (const uint32_t radius : {1u, 2u, 5u}) {
         CAPTURE(radius);
         Scene scene = plainScene();
@@ -85,7 +85,7 @@ TEST_CASE("Polynomial weights follow their own twin and stay within 3 % of the n
         CloudRig direct(scene, camera, [](Plan& plan) { plan.tiled = plan.filterBlock = false; });
         CloudRig tiled(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
         CloudRig blocks(scene, camera, [&](Plan& plan) { plan.filterBlock = radius <= 2; });
-        exact.run(picture), direct.run(picture), tiled.run(picture), blocks.run(picture);
+        exact.run(image), direct.run(image), tiled.run(image), blocks.run(image);
         const SurfaceAgreement agreement = comparePoints(blocks);
         CHECK(agreement.points == 67 * 41);
         CHECK(agreement.wrong == 0);
@@ -106,8 +106,8 @@ TEST_CASE(
     "Unfiltered points of a distorted lens project back onto their pixels by Brown and Conrady's formula") {
     const CameraInfo camera = freiburgCamera(428, 240);
     CloudRig rig(plainScene(), camera);
-    rig.run(drawnPicture(camera, [](int u, int v) { return 0.5 + 0.004 * u + 0.002 * v; }));
-    const reference::PointPicture points = rig.points();
+    rig.run(drawnImage(camera, [](int u, int v) { return 0.5 + 0.004 * u + 0.002 * v; }));
+    const reference::PointImage points = rig.points();
     double worst = 0.0;
     const Intrinsics& lens = camera.depth;
     for (int v = 0; v < rig.height(); ++v) {
@@ -136,13 +136,13 @@ TEST_CASE("A base frame 100 km away and a camera that moves there cost no precis
     const Pose far{near.position + dvec3(1e5, -1e5, 2e4), near.rotation};
     const Pose step{{0.05, 0.02, -0.03}, rotationExp({0.02, -0.03, 0.05})};
     CloudRig here(scene, shot.camera), there(scene, shot.camera);
-    here.run(shot.picture, 0.0, near), there.run(shot.picture, 0.0, far);
+    here.run(shot.image, 0.0, near), there.run(shot.image, 0.0, far);
     CHECK(here.host().spheres.x == there.host().spheres.x);
     CHECK(here.host().spheres.y == there.host().spheres.y);
     CHECK(here.host().spheres.z == there.host().spheres.z);
     CHECK(here.origin() == near.position);
     CHECK(there.origin() == far.position);
-    here.run(shot.picture, 0.1, near * step), there.run(shot.picture, 0.1, far * step);
+    here.run(shot.image, 0.1, near * step), there.run(shot.image, 0.1, far * step);
     const SurfaceAgreement a = comparePoints(there);
     CHECK(a.points > 1000);
     CHECK(a.wrong == 0);
@@ -163,7 +163,7 @@ TEST_CASE(
         return 0.8 + 0.004 * u;
     };
     CloudRig on(edgeScene(0.03), camera), off(edgeScene(0.0), camera);
-    on.run(drawnPicture(camera, depth)), off.run(drawnPicture(camera, depth));
+    on.run(drawnImage(camera, depth)), off.run(drawnImage(camera, depth));
     CHECK_FALSE(keeps(on, 20, 5));
     CHECK(keeps(off, 20, 5));
     for (const int u : {19, 21}) {
@@ -186,7 +186,7 @@ TEST_CASE("A speck of up to two pixels is rejected as marine snow, three pixels 
         return one || two || three || third || gap ? 0.6 : u == 10 && v == 31 ? 0.65 : 0.0;
     };
     CloudRig rig(edgeScene(0.03), camera);
-    const FrameReport report = rig.run(drawnPicture(camera, depth));
+    const FrameReport report = rig.run(drawnImage(camera, depth));
     CHECK(report.counts.forbidden == 9);
     CHECK_FALSE(keeps(rig, 10, 10));
     CHECK_FALSE(keeps(rig, 30, 10));
@@ -207,8 +207,8 @@ TEST_CASE("The filter flattens noise on a plane by what its weights promise and 
     const auto spread = [&](uint32_t radius) {
         scene.filter.radius = radius;
         CloudRig rig(scene, camera);
-        rig.run(drawnPicture(camera, depth));
-        const reference::PointPicture points = rig.points();
+        rig.run(drawnImage(camera, depth));
+        const reference::PointImage points = rig.points();
         double sum = 0.0;
         for (int v = 5; v < 55; ++v) {
             for (int u = 30; u < 90; ++u) {

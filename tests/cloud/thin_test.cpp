@@ -104,7 +104,7 @@ TEST_CASE("Thinning decides as the twin does and asks for the same growth, for e
             plan.pixelGroup = i % 4 == 1 ? 256 : 64;
         });
         CHECK(rig.plan().thins() != within);
-        rig.run(c.picture);
+        rig.run(c.image);
         const ThinAgreement a = compareCells(rig);
         CHECK(a.wrong == 0);
         CHECK(a.worst < 1e-6);
@@ -128,11 +128,10 @@ TEST_CASE("Each of a cell's 25 points is asked: one that is unlike the rest deci
     scene.fixtures[0].hue = Band{330, 30}, scene.fixtures[1].hue = Band{200, 260};
     // Nearer, within the budget and beyond it; not there at all; of the other class.
     for (const double out : {0.0003, 0.001, 0.6, 0.0}) {
-        Picture picture =
-            drawnPicture(camera, [&](int u, int v) { return isUnlike(u, v) ? 0.6 - out : 0.6; });
-        for (size_t i = 0; i < picture.colour.size(); ++i) {
+        Image image = drawnImage(camera, [&](int u, int v) { return isUnlike(u, v) ? 0.6 - out : 0.6; });
+        for (size_t i = 0; i < image.colour.size(); ++i) {
             const bool blue = out == 0.0 && isUnlike(static_cast<int>(i % 68), static_cast<int>(i / 68));
-            picture.colour[i] = blue ? 0xffc02020 : 0xff2020c0;
+            image.colour[i] = blue ? 0xffc02020 : 0xff2020c0;
         }
         for (const uint32_t group : {0u, 64u, 128u, 256u}) {
             CAPTURE(out);
@@ -141,7 +140,7 @@ TEST_CASE("Each of a cell's 25 points is asked: one that is unlike the rest deci
                 plan.byPixel = plan.pack = group != 0;
                 plan.pixelGroup = group != 0 ? group : plan.pixelGroup;
             });
-            rig.run(picture);
+            rig.run(image);
             const ThinAgreement a = compareCells(rig);
             CHECK(a.wrong == 0);
             CHECK(a.unsure == 0);
@@ -160,11 +159,11 @@ TEST_CASE("Kept spheres are those of the rule that the twin states, and no other
         Scene scene = budgetScene(0.0003);
         scene.filter.radius = 2;
         CloudRig rig(scene, shot.camera);
-        rig.run(shot.picture);
+        rig.run(shot.image);
         const std::vector<double> growth = reference::keptGrowth(rig.width(), rig.height(), rig.thinning());
         const auto twin = reference::spheres(scene, rig.forbidden(), rig.points(), growth);
         const auto kept = rig.spheres();
-        const reference::PointPicture points = rig.points();
+        const reference::PointImage points = rig.points();
         uint32_t wrong = 0, left = 0;
         for (size_t i = 0; i < kept.size(); ++i) {
             wrong += (kept[i].radius >= 0.0) != (twin[i].radius >= 0.0);
@@ -195,7 +194,7 @@ TEST_CASE("The kept spheres cover every point of the whole region and none grows
         scene.fixtures[0].radius = row.radius;
         scene.filter.radius = 2;
         CloudRig rig(scene, shot.camera);
-        rig.run(shot.picture);
+        rig.run(shot.image);
         const Kept k = checkCoverage(rig, 6000);
         CHECK(k.coverage.holes == 0);
         CHECK(k.largestGrowth <= row.budget + 1e-8);
@@ -215,7 +214,7 @@ TEST_CASE("Overlapping classes with other radii keep their cover class by class"
     scene.fixtures[0].box = Box{{-1, -1, 0}, {0.05, 1, 3}};
     scene.fixtures[3].box = Box{{0.0, -0.05, 0}, {1, 0.1, 3}};
     CloudRig rig(scene, camera);
-    rig.run(drawnPicture(camera, [](int u, int v) {
+    rig.run(drawnImage(camera, [](int u, int v) {
         return u % 37 == 5 && v % 11 == 3 ? 0.0 : 0.6 + 0.0005 * u + 0.005 * std::sin(v * 0.05);
     }));
     const Kept k = checkCoverage(rig, 20000);
@@ -231,7 +230,7 @@ TEST_CASE(
     for (const double angle : {0.0, 30.0, 50.0}) {
         CAPTURE(angle);
         const dvec3 normal(std::sin(angle * 0.0174532925), 0.0, std::cos(angle * 0.0174532925));
-        const Picture plane = drawnPicture(
+        const Image plane = drawnImage(
             camera, [&](int u, int v) { return planeDepth(camera, u, v, normal, 0.5 * normal.z); });
         CloudRig thinned(budgetScene(0.0005), camera), whole(budgetScene(0.0), camera);
         const FrameReport few = thinned.run(plane), all = whole.run(plane);
@@ -249,7 +248,7 @@ TEST_CASE("A point whose cell is not full of its class is always kept: edges, ho
     const CameraInfo camera = longLens(48, 48);
     const auto depth = [](int u, int v) { return u == 21 && v == 21 ? 0.0 : u >= 30 ? 0.9 : 0.6; };
     CloudRig rig(budgetScene(0.0002), camera);
-    rig.run(drawnPicture(camera, depth));
+    rig.run(drawnImage(camera, depth));
     const auto kept = rig.spheres();
     const auto has = [&](int u, int v) { return kept[static_cast<size_t>(v * 48 + u)].radius >= 0.0; };
     for (int k = 0; k < 48; ++k) {
@@ -269,7 +268,7 @@ TEST_CASE("A point whose cell is not full of its class is always kept: edges, ho
 TEST_CASE("The coverage oracle itself finds a region that shrank") {
     const CameraInfo camera = longLens(64, 64);
     CloudRig rig(budgetScene(0.0005), camera);
-    rig.run(drawnPicture(camera, [](int, int) { return 0.5; }));
+    rig.run(drawnImage(camera, [](int, int) { return 0.5; }));
     const auto all = reference::spheres(rig.scene(), rig.forbidden(), rig.points(), {});
     auto kept = rig.spheres();
     CHECK(reference::coverage(all, kept, 4000, kTolerance, 3).holes == 0);

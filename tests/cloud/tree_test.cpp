@@ -96,7 +96,7 @@ TEST_CASE("Every leaf sphere lies inside its sub-patch, every child inside its p
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig rig(c.scene, c.camera, withTree);
-        const FrameReport report = rig.run(c.picture);
+        const FrameReport report = rig.run(c.image);
         const TreeAgreement a = checkTree(rig, report);
         CHECK(a.centre < 1e-6);
         CHECK(a.radius < 2e-6); // rounded outward by 1e-6 of itself
@@ -118,8 +118,8 @@ TEST_CASE("The tree holds for tall, wide and odd pictures with held points in it
         scene.holdSeconds = 0.5;
         scene.errorBudget = 0.0002;
         CloudRig rig(scene, camera, withTree);
-        rig.run(stressPicture(camera, 50));
-        const FrameReport report = rig.run(stressPicture(camera, 51)); // other dropouts: some points are held
+        rig.run(stressImage(camera, 50));
+        const FrameReport report = rig.run(stressImage(camera, 51)); // other dropouts: some points are held
         checkTree(rig, report);
         const auto held = rig.spheres(true);
         CHECK(std::any_of(held.begin(), held.end(), [](const auto& s) { return s.radius >= 0.0; }));
@@ -129,15 +129,15 @@ TEST_CASE("The tree holds for tall, wide and odd pictures with held points in it
 TEST_CASE("A set without spheres has an empty root, and old data of unlisted patches never comes back") {
     const CameraInfo camera = pinholeCamera(100, 80);
     CloudRig rig(plainScene(), camera, withTree);
-    checkTree(rig, rig.run(drawnPicture(camera, [](int, int) { return 0.7; })));
+    checkTree(rig, rig.run(drawnImage(camera, [](int, int) { return 0.7; })));
     for (int frame = 0; frame < 4; ++frame) { // through all sets of the pool
         const FrameReport corner =
-            rig.run(drawnPicture(camera, [](int u, int v) { return u < 3 && v < 3 ? 0.7 : 0.0; }));
+            rig.run(drawnImage(camera, [](int u, int v) { return u < 3 && v < 3 ? 0.7 : 0.0; }));
         CHECK(corner.counts.spheres == 9);
         CHECK(corner.counts.nodes == rig.cycle().layout().levels.size());
         checkTree(rig, corner);
     }
-    const FrameReport none = rig.run(drawnPicture(camera, [](int, int) { return 0.0; }));
+    const FrameReport none = rig.run(drawnImage(camera, [](int, int) { return 0.0; }));
     CHECK(none.counts.nodes == 0);
     CHECK(rig.tree().back()[0].radius < 0.0);
     checkTree(rig, none);
@@ -147,7 +147,7 @@ TEST_CASE("Where no query walks a tree none is built, and its nodes are counted 
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig with(c.scene, c.camera, withTree), without(c.scene, c.camera);
-        const FrameReport a = with.run(c.picture), b = without.run(c.picture);
+        const FrameReport a = with.run(c.image), b = without.run(c.image);
         CHECK_FALSE((without.plan().tree || without.set().device.nodes));
         CHECK(a.counts.nodes == b.counts.nodes);
         CHECK(with.host().spheres.x == without.host().spheres.x);

@@ -41,21 +41,21 @@ uint32_t marked(const std::vector<uint32_t>& masks) {
 TEST_CASE("Red that water has turned green is red again at every range, in the pass and in its twin") {
     const dvec3 water(0.9, 0.12, 0.08); // [1/m] coastal, red goes first
     const CameraInfo camera = pinholeCamera(123, 77);
-    Picture picture = drawnPicture(camera, [&](int u, int) { return 0.4 + 2.4 * u / 122.0; });
+    Image image = drawnImage(camera, [&](int u, int) { return 0.4 + 2.4 * u / 122.0; });
     Scene scene = redScene();
     scene.farZ = 3.0;
-    const reference::FrameView view(scene, camera, Pose{}, picture.depth, picture.colour);
+    const reference::FrameView view(scene, camera, Pose{}, image.depth, image.colour);
     for (int v = 0; v < 77; ++v) {
         for (int u = 0; u < 123; ++u) {
             const double range = glm::length(view.point(u, v, view.z(u, v)));
-            picture.colour[view.index(u, v)] = seenThrough(kRed, water, range);
+            image.colour[view.index(u, v)] = seenThrough(kRed, water, range);
         }
     }
     CloudRig plain(scene, camera);
-    plain.run(picture);
+    plain.run(image);
     scene.attenuation = water;
     CloudRig cleared(scene, camera);
-    cleared.run(picture);
+    cleared.run(image);
     CHECK_FALSE(plain.plan().water);
     CHECK(cleared.plan().water);
     CHECK(marked(plain.masks()) < 123 * 77 * 3 / 4); // far away red is green
@@ -71,7 +71,7 @@ TEST_CASE("With water the pass marks what its float64 twin marks, but for bytes 
         Scene scene = classesScene(1 + static_cast<uint32_t>(seed));
         scene.attenuation = dvec3(0.2 * static_cast<double>(seed), 0.11, 0.05);
         CloudRig rig(scene, camera);
-        rig.run(stressPicture(camera, seed));
+        rig.run(stressImage(camera, seed));
         const auto twin = reference::classify(rig.view(), nullptr);
         const std::vector<uint32_t> masks = rig.masks();
         size_t wrong = 0, unsure = 0;
@@ -92,8 +92,8 @@ TEST_CASE("Without attenuation, or with one of zero, colours are those of the pi
     CloudRig plain(scene, camera);
     scene.attenuation = dvec3(0.0);
     CloudRig zero(scene, camera);
-    const Picture picture = stressPicture(camera, 3);
-    plain.run(picture), zero.run(picture);
+    const Image image = stressImage(camera, 3);
+    plain.run(image), zero.run(image);
     CHECK(plain.masks() == zero.masks());
     const reference::ClearColour clear = reference::withoutWater(0xff123456u, dvec3(0.0), 2.0);
     CHECK(clear.rgba == 0xff123456u);

@@ -74,12 +74,12 @@ void forGpu(Plan& plan) {
 
 // The words as they are, and what the host unpacks them to.
 void checkSame(const Scene& scene, const CameraInfo& camera) {
-    const Picture picture = drawnPicture(camera, [](int u, int) { return u % 7 == 6 ? 0.0 : 0.9; });
+    const Image image = drawnImage(camera, [](int u, int) { return u % 7 == 6 ? 0.0 : 0.9; });
     const std::vector<uint32_t> words = anyWords(camera);
     std::vector<uint32_t> rgba(camera.colour.pixels());
     unpackYuyv(words, rgba);
     Frame::Content sent, plain;
-    sent.depth = plain.depth = picture.depth;
+    sent.depth = plain.depth = image.depth;
     sent.yuyv = words, plain.colour = rgba;
     const auto masks = masksOf(scene, sendsYuyv(camera), sent);
     CHECK(masks == masksOf(scene, camera, plain));
@@ -99,9 +99,9 @@ TEST_CASE(
         CAPTURE(size.x);
         const CameraInfo camera = sendsYuyv(pinholeCamera(size.x, size.y));
         CloudRig rig(classesScene(8), camera);
-        const Picture picture = stressPicture(camera, size.x);
-        rig.run(picture);
-        const reference::ClassPicture twin = reference::classify(rig.view(), nullptr);
+        const Image image = stressImage(camera, size.x);
+        rig.run(image);
+        const reference::ClassImage twin = reference::classify(rig.view(), nullptr);
         const std::vector<uint32_t> masks = rig.masks();
         uint32_t wrong = 0;
         for (size_t i = 0; i < masks.size(); ++i) {
@@ -157,10 +157,10 @@ TEST_CASE("A camera whose colour has an odd width is refused when it says that i
 TEST_CASE("A frame without the YUYV that its camera promised is refused, and so is one that lacks a row") {
     const CameraInfo camera = sendsYuyv(pinholeCamera(64, 48));
     CloudRig rig(classesScene(3), camera);
-    const Picture picture = stressPicture(camera, 1);
+    const Image image = stressImage(camera, 1);
     const std::vector<uint32_t> words(64 * 47 / 2);
     Frame::Content content;
-    content.depth = picture.depth, content.colour = picture.colour;
+    content.depth = image.depth, content.colour = image.colour;
     CHECK_THROWS_WITH_AS(rig.cycle().process(Frame(content, nullptr)),
                          "frame: YUYV image of 0 bytes, needs 6144", Error);
     content.yuyv = words;
@@ -171,10 +171,10 @@ TEST_CASE("A frame without the YUYV that its camera promised is refused, and so 
 TEST_CASE("YUYV in whole pages is read where it lies, and gives what a copy gives") {
     const CameraInfo camera = sendsYuyv(pinholeCamera(204, 117));
     const std::vector<uint32_t> words = anyWords(camera);
-    const Picture picture = drawnPicture(camera, [](int, int) { return 0.9; });
+    const Image image = drawnImage(camera, [](int, int) { return 0.9; });
     FrameSlots slots(camera.depth.pixels(), true, 1);
     FrameSlot& slot = *slots.acquire();
-    std::ranges::copy(picture.depth, slot.depth().begin());
+    std::ranges::copy(image.depth, slot.depth().begin());
     std::ranges::copy(words, slot.colour().begin());
     Frame::Content content;
     content.depth = slot.depth(), content.yuyv = slot.colour().first(words.size());
@@ -185,7 +185,7 @@ TEST_CASE("YUYV in whole pages is read where it lies, and gives what a copy give
     const auto choice = uploads.choose(slot.lend(content), {});
     CHECK(uploads[choice.slot].colour.imported() == rig.plan().inPlace);
     const auto inPlace = rig.masks();
-    content.depth = picture.depth, content.yuyv = words;
+    content.depth = image.depth, content.yuyv = words;
     CHECK(inPlace == masksOf(gates(), camera, content));
     CHECK(countOf(inPlace) > camera.depth.pixels() / 2);
 }

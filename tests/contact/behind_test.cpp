@@ -2,7 +2,7 @@
 #include "engine/contact/behind.h"
 
 #include "engine/contact/contact_fill.h"
-#include "tests/contact/pictures.h"
+#include "tests/contact/images.h"
 
 #include <doctest/doctest.h>
 
@@ -27,8 +27,8 @@ struct Watch {
 
 TEST_CASE("A leaf that new data puts behind the surface it was in front of is flagged, with the way out") {
     Watch watch;
-    CHECK(watch(wallPicture(0.6, 1), dvec3(0, 0, 0.5)).empty());
-    const auto& flags = watch(wallPicture(0.47, 2), dvec3(0, 0, 0.5));
+    CHECK(watch(wallImage(0.6, 1), dvec3(0, 0, 0.5)).empty());
+    const auto& flags = watch(wallImage(0.47, 2), dvec3(0, 0, 0.5));
     REQUIRE(flags.size() == 1);
     CHECK(flags[0].leaf == 0);
     CHECK(glm::distance(flags[0].towardsCamera, dvec3(0, 0, -1)) < 1e-9);
@@ -38,11 +38,11 @@ TEST_CASE("A leaf that new data puts behind the surface it was in front of is fl
 TEST_CASE(
     "The flag stays while the leaf is under the surface or near it, and goes once it is clear in front") {
     Watch watch;
-    watch(wallPicture(0.6, 1), dvec3(0, 0, 0.5));
-    const Fixtures near = wallPicture(0.47, 2);
+    watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
+    const Fixtures near = wallImage(0.47, 2);
     CHECK(watch(near, dvec3(0, 0, 0.5)).size() == 1);
     CHECK(watch(near, dvec3(0, 0, 0.48)).size() == 1);
-    CHECK(watch(wallPicture(0.47, 3), dvec3(0, 0, 0.48)).size() == 1); // the next frame shows the same
+    CHECK(watch(wallImage(0.47, 3), dvec3(0, 0, 0.48)).size() == 1); // the next frame shows the same
     CHECK(watch(near, dvec3(0, 0, 0.43)).size() == 1);
     CHECK(watch(near, dvec3(0, 0, 0.4199)).empty());
     CHECK(watch(near, dvec3(0, 0, 0.43)).empty()); // back to the surface by itself: in contact, not behind
@@ -50,20 +50,20 @@ TEST_CASE(
 
 TEST_CASE("A leaf that moves behind a surface while the set stays the same is occluded, not behind") {
     Watch watch;
-    const Fixtures wall = wallPicture(0.5, 1);
+    const Fixtures wall = wallImage(0.5, 1);
     CHECK(watch(wall, dvec3(0, 0, 0.4)).empty());
     CHECK(watch(wall, dvec3(0, 0, 0.6)).empty());
-    CHECK(watch(wallPicture(0.5, 2), dvec3(0, 0, 0.6)).empty());
+    CHECK(watch(wallImage(0.5, 2), dvec3(0, 0, 0.6)).empty());
 }
 
 TEST_CASE("Nothing is behind at the first set, behind what is not forbidden, without depth or outside the "
           "picture") {
     Watch watch;
-    CHECK(watch(wallPicture(0.4, 1), dvec3(0, 0, 0.5)).empty());
+    CHECK(watch(wallImage(0.4, 1), dvec3(0, 0, 0.5)).empty());
     for (const int what : {0, 1, 2, 3}) {
         Watch other;
-        other(wallPicture(0.6, 1), what == 3 ? dvec3(5, 0, 0.5) : dvec3(0, 0, 0.5));
-        Fixtures next = wallPicture(0.4, 2);
+        other(wallImage(0.6, 1), what == 3 ? dvec3(5, 0, 0.5) : dvec3(0, 0, 0.5));
+        Fixtures next = wallImage(0.4, 2);
         if (what == 0) {
             std::fill(next.forbiddenBits.begin(), next.forbiddenBits.end(), 0u);
         } else if (what == 1) {
@@ -77,20 +77,20 @@ TEST_CASE("Nothing is behind at the first set, behind what is not forbidden, wit
 
 TEST_CASE("What was in front of something allowed and is now hidden by a region is occluded, not behind") {
     Watch watch;
-    Fixtures open = wallPicture(0.6, 1);
+    Fixtures open = wallImage(0.6, 1);
     std::fill(open.forbiddenBits.begin(), open.forbiddenBits.end(), 0u);
     watch(open, dvec3(0, 0, 0.5));
-    CHECK(watch(wallPicture(0.4, 2), dvec3(0, 0, 0.5)).empty());
+    CHECK(watch(wallImage(0.4, 2), dvec3(0, 0, 0.5)).empty());
 }
 
 TEST_CASE("A flagged leaf keeps its flag while its pixel has no depth, and loses it in a free view") {
     Watch watch;
-    watch(wallPicture(0.6, 1), dvec3(0, 0, 0.5));
-    REQUIRE(watch(wallPicture(0.47, 2), dvec3(0, 0, 0.5)).size() == 1);
-    Fixtures blind = wallPicture(0.47, 3);
+    watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
+    REQUIRE(watch(wallImage(0.47, 2), dvec3(0, 0, 0.5)).size() == 1);
+    Fixtures blind = wallImage(0.47, 3);
     std::fill(blind.depth.begin(), blind.depth.end(), uint16_t{0});
     CHECK(watch(blind, dvec3(0, 0, 0.5)).size() == 1);
-    Fixtures open = wallPicture(0.8, 4);
+    Fixtures open = wallImage(0.8, 4);
     std::fill(open.forbiddenBits.begin(), open.forbiddenBits.end(), 0u);
     CHECK(watch(open, dvec3(0, 0, 0.5)).empty());
 }
@@ -100,9 +100,9 @@ TEST_CASE("Noise of the depth does not flag a small tool that rests on a small r
     watch.tool = ballTool(0.001);
     uint64_t generation = 0;
     for (const double z : {0.505, 0.503, 0.5065, 0.5035, 0.505}) {
-        fillContactSet(watch.tool, {dvec3(0, 0, 0.503), kUpright}, 0.01, wallPicture(z, ++generation), {},
+        fillContactSet(watch.tool, {dvec3(0, 0, 0.503), kUpright}, 0.01, wallImage(z, ++generation), {},
                        watch.set);
-        watch.tracker.update(watch.tool, wallPicture(z, generation), 0.001, watch.set);
+        watch.tracker.update(watch.tool, wallImage(z, generation), 0.001, watch.set);
         CHECK(watch.set.behind.empty());
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/cell_sort.h"
 
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 
 #include <algorithm>
 #include <doctest/doctest.h>
@@ -23,10 +23,10 @@ std::vector<uint32_t> cellsOf(size_t things, uint32_t cells, std::mt19937& rando
     return cell;
 }
 
-void check(CellSort& sort, const std::vector<uint32_t>& cell, uint32_t cells, Crew* crew) {
+void check(CellSort& sort, const std::vector<uint32_t>& cell, uint32_t cells, ThreadPool* workers) {
     std::vector<uint32_t> begins(size_t{cells} + 1, 77), order(cell.size(), 77), expected(cell.size());
     sort.sort(
-        cell, cells, begins, [&](uint32_t thing, uint32_t place) { order[place] = thing; }, crew);
+        cell, cells, begins, [&](uint32_t thing, uint32_t place) { order[place] = thing; }, workers);
     std::iota(expected.begin(), expected.end(), 0u);
     std::ranges::stable_sort(expected, {}, [&](uint32_t i) { return cell[i]; });
     CHECK(order == expected);
@@ -42,7 +42,7 @@ void check(CellSort& sort, const std::vector<uint32_t>& cell, uint32_t cells, Cr
 
 TEST_CASE("Things are sorted by cell and stay in order within one, alone or by a crew, few cells or many") {
     std::mt19937 random(5);
-    Crew crew(3);
+    ThreadPool workers(3);
     CellSort sort; // the same one: what was there before is forgotten
     for (const size_t things : {0, 1, 31, 4095, 8192, 12289, 60'000}) {
         for (const uint32_t cells : {1u, 2u, 511u, 513u, 40'000u, 1u << 20}) {
@@ -50,18 +50,18 @@ TEST_CASE("Things are sorted by cell and stay in order within one, alone or by a
             CAPTURE(cells);
             const std::vector<uint32_t> cell = cellsOf(things, cells, random);
             check(sort, cell, cells, nullptr);
-            check(sort, cell, cells, &crew);
+            check(sort, cell, cells, &workers);
         }
     }
 }
 
 TEST_CASE("Things that are all in one cell, the first or the last, keep their order") {
-    Crew crew(2);
+    ThreadPool workers(2);
     CellSort sort;
     for (const uint32_t cells : {10'000u, 40'000u}) { // fewer than things, and more: in parts, and in buckets
         for (const uint32_t cell : {0u, cells - 1}) {
             CAPTURE(cells);
-            check(sort, std::vector<uint32_t>(20'000, cell), cells, &crew);
+            check(sort, std::vector<uint32_t>(20'000, cell), cells, &workers);
         }
     }
 }

@@ -35,7 +35,7 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
         CHECK(ways == own); // to the last bit
         const double most = *std::max_element(own.begin(), own.end());
         CHECK(farthest == most);
-        CHECK(farthestWay(from, to) == most);
+        CHECK(leafDisplacement(from, to) == most);
         CHECK(waysWithin(from, to, most * (1.0 + 1e-15)));
         CHECK(!waysWithin(from, to, most * (1.0 - 1e-15)));
         CHECK(!waysWithin(from, to, -most));
@@ -45,7 +45,7 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
 TEST_CASE("Of no leaf the farthest way is none and every limit holds") {
     const LeafCentres none;
     CHECK(straightWays(none, none, {}) == 0.0);
-    CHECK(farthestWay(none, none) == 0.0);
+    CHECK(leafDisplacement(none, none) == 0.0);
     CHECK(waysWithin(none, none, -1.0));
 }
 
@@ -60,7 +60,7 @@ TEST_CASE("A way that is no number is within no limit, wherever it is, and not t
         const double farthest = straightWays(from, to, ways);
         CHECK(std::isnan(ways[bad]));
         CHECK(std::isfinite(farthest));
-        CHECK(farthestWay(from, to) == farthest);
+        CHECK(leafDisplacement(from, to) == farthest);
         CHECK(!waysWithin(from, to, std::numeric_limits<double>::infinity()));
     }
 }

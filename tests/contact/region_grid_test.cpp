@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/contact/region_grid.h"
 
-#include "engine/types/crew.h"
+#include "engine/types/thread_pool.h"
 #include "tests/contact/clouds.h"
 
 #include <algorithm>
@@ -102,7 +102,7 @@ TEST_CASE("Spheres that are not finite are left out and the others are found") {
 }
 
 // One of them, in the middle, is not finite the second time.
-void checkSharedGrid(size_t count, double leastRadius, Crew& crew) {
+void checkSharedGrid(size_t count, double leastRadius, ThreadPool& workers) {
     Fixtures set = emptySet();
     for (size_t i = 0; i < count; ++i) {
         const double at = static_cast<double>(i * 7919 % 50'021) / 50'021.0;
@@ -113,7 +113,7 @@ void checkSharedGrid(size_t count, double leastRadius, Crew& crew) {
         set.spheres.y[count / 2] = broken ? std::numeric_limits<float>::quiet_NaN() : 0.1f;
         RegionGrid alone, shared;
         alone.build(set.spheres);
-        shared.build(set.spheres, &crew);
+        shared.build(set.spheres, &workers);
         CHECK(alone.size() == count - (broken ? 1 : 0));
         CHECK(alone.maxRadius() == shared.maxRadius());
         CHECK(std::ranges::equal(alone.order(), shared.order()));
@@ -127,12 +127,12 @@ void checkSharedGrid(size_t count, double leastRadius, Crew& crew) {
 
 TEST_CASE(
     "A grid is the same whether one thread builds it or a crew, also with spheres that are not finite") {
-    Crew crew(3);
+    ThreadPool workers(3);
     for (const size_t count : {size_t{1}, size_t{4097}, size_t{50'000}}) {
         for (const double radius : {0.01, 0.1}) { // more cells than spheres, and fewer
             CAPTURE(count);
             CAPTURE(radius);
-            checkSharedGrid(count, radius, crew);
+            checkSharedGrid(count, radius, workers);
         }
     }
 }

@@ -24,13 +24,13 @@ struct FollowRig {
             std::make_unique<HapticCycle>(ballTool(), std::span<const Shape>{}, options, hand, &hand, &rig);
     }
 
-    TurnRecord turn() {
+    StepRecord step() {
         placed = cycle->follow(told);
         start = cycle->place();
         auto offered = std::make_unique<ContactSet>();
         world.cull.query(rig.toolAt(asked.arm), Pose{}, 0.01, world.fixtures, world.grid, *offered);
         offered->frame = 0;
-        TurnInput input;
+        StepInput input;
         input.time = input.captureTime = time;
         input.deviceThandle = hand;
         input.buttons = buttons;
@@ -39,7 +39,7 @@ struct FollowRig {
         input.frame = 0;
         input.generation = offered->generation;
         input.sourceEnded = true;
-        const TurnRecord record = cycle->turn(input);
+        const StepRecord record = cycle->step(input);
         if (record.adopted) {
             inForce = std::move(offered);
         }
@@ -47,10 +47,10 @@ struct FollowRig {
         time += options.period;
         return record;
     }
-    TurnRecord turns(int count) {
-        TurnRecord record;
+    StepRecord ticks(int count) {
+        StepRecord record;
         for (int i = 0; i < count; ++i) {
-            record = turn();
+            record = step();
         }
         return record;
     }
@@ -61,7 +61,7 @@ struct FollowRig {
     HapticOptions options = makeHapticOptions(handScene(), ballTool());
     Pose hand = at(0, 0, 0);
     ArmFollow told{true, true, {}};
-    ToolPlace asked, start;
+    ToolState asked, start;
     std::unique_ptr<HapticCycle> cycle;
     std::unique_ptr<ContactSet> inForce;
     double time = 0.0;
@@ -72,10 +72,10 @@ struct FollowRig {
 // Until the ball holds it and the hand is 5 mm further.
 FollowRig pressed() {
     FollowRig follow;
-    follow.turns(5);
+    follow.ticks(5);
     for (int i = 0; i < 400; ++i) {
         follow.hand.position.y += 0.0002;
-        follow.turn();
+        follow.step();
     }
     return follow;
 }
@@ -84,8 +84,8 @@ FollowRig pressed() {
 
 TEST_CASE("An arm that follows moves as the tool does, and the pilot feels what bars its way") {
     FollowRig follow = pressed();
-    const TurnRecord record = follow.turns(50);
-    CHECK(record.state == TurnState::Contact);
+    const StepRecord record = follow.ticks(50);
+    CHECK(record.state == StepState::Contact);
     CHECK(forceOf(record) > 2.0);
     CHECK_FALSE(record.armHold);
     CHECK_FALSE(follow.placed);
@@ -95,16 +95,16 @@ TEST_CASE("An arm that follows moves as the tool does, and the pilot feels what 
 TEST_CASE("An arm that stands still holds the tool at once, and the force is gone after 0.2 s") {
     for (const int why : {0, 1}) {
         FollowRig follow = pressed();
-        const double full = forceOf(follow.turns(50));
+        const double full = forceOf(follow.ticks(50));
         const ArmPosture before = follow.cycle->place().arm;
         (why == 0 ? follow.told.follows = false : (follow.buttons = kDeadManOpen) != 0);
         follow.told.known = false; // silent, too
         double last = full;
         for (int i = 0; i < 400; ++i) {
             follow.hand.position += dvec3(0.0005, 0.0005, 0.0);
-            const TurnRecord record = follow.turn();
+            const StepRecord record = follow.step();
             CHECK(record.armHold);
-            CHECK(record.state == (i < 198 ? TurnState::Fading : i > 202 ? TurnState::Off : record.state));
+            CHECK(record.state == (i < 198 ? StepState::Fading : i > 202 ? StepState::Off : record.state));
             CHECK(record.arm.posture.q == before.q);
             CHECK(forceOf(record) <= last + 1e-12);
             CHECK(last - forceOf(record) < 0.05 * full);      // soft
@@ -117,20 +117,20 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
 
 TEST_CASE("Forces off hold an arm that follows, and it does not leap to a hand that went elsewhere") {
     FollowRig follow = pressed();
-    follow.turns(50);
+    follow.ticks(50);
     follow.told.posture = follow.cycle->place().arm;
     follow.buttons = kDeadManOpen;
-    follow.turns(300);
+    follow.ticks(300);
     follow.hand.position += dvec3(-0.2, -0.3, 0.1);
-    CHECK(follow.turns(10).armHold);
+    CHECK(follow.ticks(10).armHold);
     const Pose tool = follow.cycle->pose();
     follow.buttons = 0;
-    const TurnRecord record = follow.turns(300);
+    const StepRecord record = follow.ticks(300);
     CHECK_FALSE(record.armHold);
     CHECK(glm::distance(record.tool.position, tool.position) < 1e-6);
     CHECK(forceOf(record) < 1e-3);
     follow.hand.position.y -= 0.005; // from here on it goes with the hand
-    CHECK(glm::distance(follow.turns(200).tool.position, tool.position) ==
+    CHECK(glm::distance(follow.ticks(200).tool.position, tool.position) ==
           doctest::Approx(0.005).epsilon(0.02));
 }
 
@@ -139,14 +139,14 @@ TEST_CASE("The tool goes on from where the arm was measured, also inside a regio
     follow.told.posture = follow.cycle->place().arm;
     follow.told.posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
     follow.told.follows = false;
-    follow.turns(300);
+    follow.ticks(300);
     CHECK(follow.placed);
     CHECK(follow.cycle->place().arm.q == follow.told.posture.q);
     double deepest = follow.depth();
     CHECK(deepest > 0.004);
     follow.told.follows = true;
     for (int i = 0; i < 500; ++i) {
-        const TurnRecord record = follow.turn();
+        const StepRecord record = follow.step();
         CHECK(follow.depth() <= deepest + 1e-9);
         CHECK(forceOf(record) < 20.0);
         deepest = std::max(0.0, follow.depth());
@@ -157,15 +157,15 @@ TEST_CASE("The tool goes on from where the arm was measured, also inside a regio
 TEST_CASE("A tool put far from where contacts are known waits until they are known there") {
     FollowRig follow = pressed();
     follow.told = {false, true, follow.cycle->place().arm};
-    follow.turns(300);
+    follow.ticks(300);
     CHECK(follow.placed);
     follow.told.posture.q = {-0.6, 0.3, 0.2, -0.1}; // all that is known of contacts is about where it was
     follow.told.follows = true;
-    const TurnRecord first = follow.turn();
+    const StepRecord first = follow.step();
     CHECK_FALSE(first.adopted);
     CHECK(first.armHold);
     CHECK(first.arm.posture.q == follow.told.posture.q);
-    const TurnRecord then = follow.turns(3);
+    const StepRecord then = follow.ticks(3);
     CHECK(follow.inForce != nullptr);
     CHECK_FALSE(then.armHold);
 }
@@ -175,7 +175,7 @@ TEST_CASE("A measured posture that is not finite or beyond the limits leaves the
     const ArmPosture before = follow.cycle->place().arm;
     follow.told = {false, true, {}};
     follow.told.posture.q = {kNotKnown, 9.0, -9.0, 0.1};
-    follow.turns(300);
+    follow.ticks(300);
     const ArmPosture now = follow.cycle->place().arm;
     CHECK(now.q == JointVector{before.q[0], 1.2, -1.2, 0.1});
 }

@@ -88,11 +88,11 @@ size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t 
     ContactCycle gpu(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, reach);
     const auto set = rig.frames.sets().newest();
     std::mt19937 random(seed);
-    std::uniform_real_distribution<double> x(-0.25, 0.25), z(0.6, 1.0), turn(-3.0, 3.0);
+    std::uniform_real_distribution<double> x(-0.25, 0.25), z(0.6, 1.0), step(-3.0, 3.0);
     size_t found = 0;
     for (int i = 0; i < 20; ++i) {
         const Pose pose{{x(random), 0.3 * x(random), z(random)},
-                        rotationExp({turn(random), turn(random), turn(random)})};
+                        rotationExp({step(random), step(random), step(random)})};
         ContactSet a, b;
         cpu.query(*set, pose, a);
         gpu.query(*set, pose, b);

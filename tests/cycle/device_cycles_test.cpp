@@ -13,7 +13,7 @@ using fathom::test::vulkan;
 
 namespace {
 
-constexpr uint32_t kPictures = 4;
+constexpr uint32_t kFrames = 4;
 
 Scene redValve(Scene::Contact::Where where) {
     Scene scene;
@@ -27,7 +27,7 @@ Scene redValve(Scene::Contact::Where where) {
     return scene;
 }
 
-SimulatedCameraOptions pictures(uint32_t count) {
+SimulatedCameraOptions images(uint32_t count) {
     SimulatedCameraOptions o;
     o.width = 160, o.height = 120;
     o.frames = count;
@@ -36,7 +36,7 @@ SimulatedCameraOptions pictures(uint32_t count) {
 
 struct TwinRig {
     Scene scene;
-    SimulatedCamera camera{*analyticScene("tank"), pictures(kPictures)};
+    SimulatedCamera camera{*analyticScene("tank"), images(kFrames)};
     Tool tool{buildSphereTree(std::vector<Sphere>{{dvec3(0.0), 0.01}, {dvec3(0.02, 0.0, 0.0), 0.01}})};
     DeviceCycles cycles;
 
@@ -47,7 +47,7 @@ struct TwinRig {
 
     FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }
     // At the first sphere of the newest set.
-    ToolPlace place() {
+    ToolState place() {
         const auto set = cycles.frames().sets().newest();
         const RegionSpheres& s = set->host.spheres;
         REQUIRE(s.size() > 0);
@@ -60,7 +60,7 @@ struct TwinRig {
 TEST_CASE("A device that is made anew goes on with the origin and the generations, and equal pictures give "
           "equal sets") {
     TwinRig rig(Scene::Contact::Where::Cpu), undisturbed(Scene::Contact::Where::Cpu);
-    for (uint32_t i = 0; i < kPictures; ++i) {
+    for (uint32_t i = 0; i < kFrames; ++i) {
         rig.next();
         undisturbed.next();
         {
@@ -87,7 +87,7 @@ TEST_CASE("Until the first picture on the new device the CPU answers over the la
         ContactSet before, between, after;
         CHECK_FALSE(rig.cycles.answer({}, before)); // no picture yet
         rig.next();
-        const ToolPlace place = rig.place();
+        const ToolState place = rig.place();
         REQUIRE(rig.cycles.answer(place, before));
         REQUIRE(before.size() > 0);
         rig.cycles.renew();

@@ -13,16 +13,16 @@ TEST_CASE("What has forgotten gives the sets of a fresh cycle, held points and a
     scene.holdSeconds = 0.2;
     CloudRig used(scene, camera);
     for (uint64_t seed = 1; seed <= 4; ++seed) {
-        used.run(stressPicture(camera, seed), 5.0 + static_cast<double>(seed) / 30.0);
+        used.run(stressImage(camera, seed), 5.0 + static_cast<double>(seed) / 30.0);
     }
     const size_t withMemory = used.host().spheres.size();
-    used.run(stressPicture(camera, 4), 5.1 + 4.0 / 30.0);
+    used.run(stressImage(camera, 4), 5.1 + 4.0 / 30.0);
     used.cycle().forget();
     CloudRig fresh(scene, camera);
     for (int k = 0; k < 3; ++k) {
-        const Picture picture = stressPicture(camera, 4 + static_cast<uint64_t>(k));
-        fresh.run(picture, k / 30.0);
-        used.run(picture, k / 30.0);
+        const Image image = stressImage(camera, 4 + static_cast<uint64_t>(k));
+        fresh.run(image, k / 30.0);
+        used.run(image, k / 30.0);
         CAPTURE(k);
         CHECK(used.host().spheres.x == fresh.host().spheres.x);
         CHECK(used.host().spheres.radius == fresh.host().spheres.radius);

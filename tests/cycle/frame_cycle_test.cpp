@@ -97,10 +97,10 @@ bool sameBits(const Fixtures& a, const Fixtures& b) {
     return same;
 }
 
-Frame frameOf(const Picture& picture, uint32_t number, double time) {
+Frame frameOf(const Image& image, uint32_t number, double time) {
     Frame::Content content;
     content.index = number, content.sourceNumber = number, content.captureTime = time;
-    content.depth = picture.depth, content.colour = picture.colour;
+    content.depth = image.depth, content.colour = image.colour;
     return Frame(content, nullptr);
 }
 
@@ -117,7 +117,7 @@ TEST_CASE("Passes and dispatches are those that the scene needs and no other") {
             need.dispatches += need.passes.empty() ? 0 : 1; // what is delivered is copied on a CPU device
             need.dispatches -= static_cast<uint32_t>(std::erase(need.passes, "thin"));
         }
-        const FrameReport report = rig.run(stressPicture(need.camera, 5));
+        const FrameReport report = rig.run(stressImage(need.camera, 5));
         CHECK(rig.cycle().passNames() == need.passes);
         CHECK(report.passMs.size() == need.passes.size());
         CHECK(rig.cycle().dispatches() == need.dispatches);
@@ -140,10 +140,10 @@ TEST_CASE("Two cycles give the same bits for the same frames, held points, guida
         b.cycle().sets().back(); // another set of the pool comes first
         uint32_t spheres = 0, held = 0;
         while (const std::optional<Frame> frame = camera.next()) {
-            const Picture picture{{(*frame)->depth.begin(), (*frame)->depth.end()},
-                                  {(*frame)->colour.begin(), (*frame)->colour.end()}};
-            a.run(picture, -1.0, (*frame)->baseTcamera);
-            b.run(picture, -1.0, (*frame)->baseTcamera);
+            const Image image{{(*frame)->depth.begin(), (*frame)->depth.end()},
+                              {(*frame)->colour.begin(), (*frame)->colour.end()}};
+            a.run(image, -1.0, (*frame)->baseTcamera);
+            b.run(image, -1.0, (*frame)->baseTcamera);
             CHECK(sameBits(a.host(), b.host()));
             spheres += static_cast<uint32_t>(a.host().spheres.size());
             for (const uint32_t source : a.host().spheres.source) {
@@ -160,8 +160,8 @@ TEST_CASE("Without times of passes the set is the same and all of them stay zero
     CloudRig timed(fullScene(), camera);
     CloudRig other(fullScene(), camera, [](Plan& plan) { plan.passTimes = false; });
     for (uint64_t seed = 1; seed <= 3; ++seed) {
-        const FrameReport known = timed.run(stressPicture(camera, seed));
-        const FrameReport unknown = other.run(stressPicture(camera, seed));
+        const FrameReport known = timed.run(stressImage(camera, seed));
+        const FrameReport unknown = other.run(stressImage(camera, seed));
         CHECK(std::ranges::count(known.passMs, 0.0) < std::ssize(known.passMs));
         CHECK(unknown.passMs == std::vector<double>(other.cycle().passNames().size(), 0.0));
         CHECK(sameBits(timed.host(), other.host()));
@@ -174,10 +174,10 @@ TEST_CASE("Without hold a frame's set does not depend on the frames before it") 
     scene.holdSeconds = 0.0;
     CloudRig fresh(scene, camera), used(scene, camera);
     for (uint64_t seed = 1; seed <= 5; ++seed) {
-        used.run(stressPicture(camera, seed));
+        used.run(stressImage(camera, seed));
     }
-    const Picture picture = stressPicture(camera, 9);
-    fresh.run(picture), used.run(picture);
+    const Image image = stressImage(camera, 9);
+    fresh.run(image), used.run(image);
     CHECK(sameBits(fresh.host(), used.host()));
     CHECK(used.host().generation == 6);
     CHECK(used.host().frame == 5);
@@ -187,19 +187,19 @@ TEST_CASE(
     "Uploading the next frame while the device works gives the sets that one frame after the other gives") {
     const CameraInfo camera = pinholeCamera(160, 90);
     CloudRig one(fullScene(), camera), overlapped(fullScene(), camera);
-    std::vector<Picture> pictures;
+    std::vector<Image> images;
     for (uint64_t seed = 1; seed <= 6; ++seed) {
-        pictures.push_back(stressPicture(camera, seed));
+        images.push_back(stressImage(camera, seed));
     }
     FrameCycle& cycle = overlapped.cycle();
-    cycle.upload(frameOf(pictures[0], 0, 0.0));
-    for (uint32_t k = 0; k < pictures.size(); ++k) {
+    cycle.upload(frameOf(images[0], 0, 0.0));
+    for (uint32_t k = 0; k < images.size(); ++k) {
         cycle.submit();
-        if (k + 1 < pictures.size()) {
-            cycle.upload(frameOf(pictures[k + 1], k + 1, (k + 1) / 30.0));
+        if (k + 1 < images.size()) {
+            cycle.upload(frameOf(images[k + 1], k + 1, (k + 1) / 30.0));
         }
         CHECK(cycle.finish().index == k);
-        one.run(pictures[k]);
+        one.run(images[k]);
         const auto lease = cycle.sets().newest();
         CHECK(sameBits(one.host(), lease->host));
         CHECK(lease->host.frame == k);
@@ -212,7 +212,7 @@ TEST_CASE("Generations count published sets, a leased set stays whole, an unchan
     CloudRig rig(fullScene(), camera);
     FrameCycle& cycle = rig.cycle();
     CHECK_FALSE(static_cast<bool>(cycle.sets().newest()));
-    const Picture first = stressPicture(camera, 1), second = stressPicture(camera, 2);
+    const Image first = stressImage(camera, 1), second = stressImage(camera, 2);
     cycle.process(frameOf(first, 0, 0.0));
     const auto lease = cycle.sets().newest();
     const Fixtures copy = lease->host;
@@ -232,17 +232,17 @@ TEST_CASE("Generations count published sets, a leased set stays whole, an unchan
 TEST_CASE("A picture smaller than the camera said is refused, and the next good one works") {
     const CameraInfo camera = pinholeCamera(64, 48);
     CloudRig rig(fullScene(), camera);
-    Picture small = stressPicture(camera, 1);
+    Image small = stressImage(camera, 1);
     small.depth.pop_back();
     CHECK_THROWS_AS(rig.cycle().process(frameOf(small, 0, 0.0)), Error);
-    CHECK(rig.cycle().process(frameOf(stressPicture(camera, 2), 1, 0.1)).counts.spheres > 0);
+    CHECK(rig.cycle().process(frameOf(stressImage(camera, 2), 1, 0.1)).counts.spheres > 0);
 }
 
 TEST_CASE("The totals of the report are those of the set") {
     const CameraInfo camera = pinholeCamera(200, 130);
     CloudRig rig(fullScene(), camera);
-    rig.run(stressPicture(camera, 1));
-    const FrameReport report = rig.run(stressPicture(camera, 2));
+    rig.run(stressImage(camera, 1));
+    const FrameReport report = rig.run(stressImage(camera, 2));
     const auto rows = static_cast<uint32_t>(rig.scene().fixtures.size());
     std::vector<uint32_t> spheres(rows, 0);
     std::vector<std::vector<uint8_t>> patches(rows, std::vector<uint8_t>(rig.cycle().layout().patches(), 0));

@@ -12,13 +12,13 @@ using namespace fathom::test;
 namespace {
 
 // Left half red, right half blue, at one depth.
-Picture halves(const CameraInfo& camera, double z) {
-    Picture picture = drawnPicture(
+Image halves(const CameraInfo& camera, double z) {
+    Image image = drawnImage(
         camera, [&](int, int) { return z; }, 0xff2020c0);
-    for (size_t i = 0; i < picture.colour.size(); ++i) {
-        picture.colour[i] = i % camera.depth.width < camera.depth.width / 2 ? 0xff2020c0 : 0xffc02020;
+    for (size_t i = 0; i < image.colour.size(); ++i) {
+        image.colour[i] = i % camera.depth.width < camera.depth.width / 2 ? 0xff2020c0 : 0xffc02020;
     }
-    return picture;
+    return image;
 }
 
 Scene redAndBlue() {

@@ -14,14 +14,14 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-static_assert(noexcept(std::declval<HapticCycle&>().turn(std::declval<const TurnInput&>())));
+static_assert(noexcept(std::declval<HapticCycle&>().step(std::declval<const StepInput&>())));
 
 TEST_CASE("Until the first contact set the tool is held, the wrench is zero and the state is off") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.hand = at(0, 0, -0.05);
     for (int i = 0; i < 300; ++i) {
-        const auto record = rig.turn();
-        CHECK(record.state == TurnState::Off);
+        const auto record = rig.step();
+        CHECK(record.state == StepState::Off);
         CHECK(record.tool.position == dvec3(0, 0, 0.05));
         CHECK(record.device.position == dvec3(0, 0, -0.05));
         CHECK(forceOf(record) == 0.0);
@@ -32,10 +32,10 @@ TEST_CASE("Until the first contact set the tool is held, the wrench is zero and 
     }
     rig.hand = at(0, 0, 0.05);
     rig.show(wallSet(7));
-    const auto record = rig.turn();
+    const auto record = rig.step();
     CHECK(record.adopted);
     CHECK(record.frame == 7);
-    CHECK(record.state == TurnState::Free);
+    CHECK(record.state == StepState::Free);
     CHECK(record.minGap == rig.inForce->reach); // nothing is nearer than the reach of the query
 }
 
@@ -46,8 +46,8 @@ TEST_CASE("In free space the tool is the hand to the last bit and nothing is fel
         rig.hand = {{0.02 * std::sin(0.03 * i), 0.01 * std::cos(0.05 * i), 0.05},
                     rotationExp({0.0, 0.01 * i, 0.1})};
         rig.captured = rig.time;
-        const auto record = rig.turn();
-        CHECK(record.state == TurnState::Free);
+        const auto record = rig.step();
+        CHECK(record.state == StepState::Free);
         CHECK(record.tool.position == record.device.position);
         CHECK(forceOf(record) <= 1e-12);
         CHECK(record.sceneAge == 0.0);
@@ -58,8 +58,8 @@ TEST_CASE("In free space the tool is the hand to the last bit and nothing is fel
 
 TEST_CASE("Pressed into a wall the tool stays outside and the hand feels K times the distance") {
     auto rig = pressedRig();
-    const auto record = rig.turn();
-    CHECK(record.state == TurnState::Contact);
+    const auto record = rig.step();
+    CHECK(record.state == StepState::Contact);
     CHECK(record.contacts >= 1);
     CHECK(rig.gap() >= 0.0);
     CHECK(rig.gap() <= 1e-6);
@@ -82,7 +82,7 @@ TEST_CASE("Force and its change stay within their limits however the hand jumps,
         const int step = i / 50, otherStep = i / 70;
         rig.hand = at(0.03 * std::sin(0.5 * step), 0.02 * std::cos(0.9 * otherStep),
                       i / 100 % 2 == 0 ? -0.08 : 0.03);
-        const auto record = rig.turn();
+        const auto record = rig.step();
         CHECK(glm::distance(record.wrench.force, before) <= 2.0 * (1.0 + 1e-12));
         CHECK(forceOf(record) <= 20.0 * (1.0 + 1e-12));
         CHECK(glm::length(record.wrench.torque) <= 2.0);
@@ -102,25 +102,25 @@ TEST_CASE("Forces off: w is zero at once, the wrench is gone after 0.2 s, the to
         target.target = at(0.01, 0, 0.011);
         rig.guidance = {target};
         rig.buttons = kGuidanceButton;
-        rig.turns(600);
-        REQUIRE(rig.turn().guidance == 1.0);
+        rig.ticks(600);
+        REQUIRE(rig.step().guidance == 1.0);
         rig.buttons |= deadMan ? kDeadManOpen : 0u;
         rig.forcesOff = !deadMan;
-        const double start = forceOf(rig.turns(1));
-        auto record = rig.turn();
+        const double start = forceOf(rig.ticks(1));
+        auto record = rig.step();
         CHECK(record.guidance == 0.0);
-        CHECK(record.state == TurnState::Fading);
+        CHECK(record.state == StepState::Fading);
         CHECK(start > 3.0);
-        rig.turns(97);
-        CHECK(forceOf(rig.turn()) == doctest::Approx(2.5).epsilon(0.06)); // halfway through the ramp
-        rig.turns(100);
-        record = rig.turn();
+        rig.ticks(97);
+        CHECK(forceOf(rig.step()) == doctest::Approx(2.5).epsilon(0.06)); // halfway through the ramp
+        rig.ticks(100);
+        record = rig.step();
         CHECK(forceOf(record) <= 1e-12);
-        CHECK(record.state == TurnState::Off);
+        CHECK(record.state == StepState::Off);
         CHECK(record.armHold);
         rig.hand = at(0.02, 0.01, -0.03); // along and deep inside
-        rig.turns(200);
-        record = rig.turn();
+        rig.ticks(200);
+        record = rig.step();
         CHECK(forceOf(record) == 0.0);
         CHECK(rig.gap() >= 0.0);
         CHECK(record.tool.position.x == doctest::Approx(0.02).epsilon(0.1));
@@ -128,7 +128,7 @@ TEST_CASE("Forces off: w is zero at once, the wrench is gone after 0.2 s, the to
         rig.buttons = 0;
         double before = 0.0;
         for (int i = 0; i < 250; ++i) {
-            const double now = forceOf(rig.turn());
+            const double now = forceOf(rig.step());
             CHECK(now - before <= 2.0);
             before = now;
         }
@@ -138,22 +138,22 @@ TEST_CASE("Forces off: w is zero at once, the wrench is gone after 0.2 s, the to
 
 TEST_CASE("The clutch holds the device pose, ramps the force out and in, and lets go without a jump") {
     auto rig = pressedRig();
-    const auto held = rig.turn();
+    const auto held = rig.step();
     rig.buttons = 4;
     for (int i = 0; i < 300; ++i) {
         rig.hand = at(0.0, 0.0, 0.005 + 0.0005 * i);
-        const auto record = rig.turn();
+        const auto record = rig.step();
         CHECK(record.device.position == held.device.position);
         CHECK(glm::distance(record.tool.position, held.tool.position) <= 1e-8);
         CHECK(forceOf(record) <= std::max(0.0, 5.0 * (1.0 - (i + 1) / 200.0)) * 1.05 + 1e-9);
     }
     rig.buttons = 0;
-    auto record = rig.turn();
+    auto record = rig.step();
     CHECK(glm::distance(record.device.position, held.device.position) <= 1e-12);
-    rig.turns(100);
-    CHECK(forceOf(rig.turn()) == doctest::Approx(forceOf(held) * 0.51).epsilon(0.02));
-    rig.turns(120);
-    CHECK(forceOf(rig.turn()) == doctest::Approx(forceOf(held)).epsilon(1e-6));
+    rig.ticks(100);
+    CHECK(forceOf(rig.step()) == doctest::Approx(forceOf(held) * 0.51).epsilon(0.02));
+    rig.ticks(120);
+    CHECK(forceOf(rig.step()) == doctest::Approx(forceOf(held)).epsilon(1e-6));
 }
 
 TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes back when there is a way") {
@@ -161,7 +161,7 @@ TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes 
     rig.show(emptySet(1));
     rig.age = false;
     rig.hand = at(0, 0, 0.003);
-    rig.turns(250);
+    rig.ticks(250);
     Fixtures shell = emptySet(2); // six spheres about where the tool is: wherever it goes, deeper into one
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
@@ -174,47 +174,47 @@ TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes 
     rig.show(shell);
     rig.age = false;
     rig.hand = at(0, 0, 0.013);
-    auto record = rig.turn();
-    CHECK(record.state == TurnState::Trapped);
+    auto record = rig.step();
+    CHECK(record.state == StepState::Trapped);
     CHECK(record.infeasible >= 1);
     CHECK(record.armHold);
-    rig.turns(99);
-    record = rig.turn();
+    rig.ticks(99);
+    record = rig.step();
     CHECK(record.tool.position == where.position);
     CHECK(forceOf(record) == doctest::Approx(5.0).epsilon(0.02)); // 10 N, half ramped out
-    record = rig.turns(120);
+    record = rig.ticks(120);
     CHECK(forceOf(record) <= 1e-12);
-    CHECK(record.state == TurnState::Trapped);
+    CHECK(record.state == StepState::Trapped);
     rig.show(emptySet(3));
     rig.age = false;
-    record = rig.turn();
-    CHECK(record.state == TurnState::Free);
-    record = rig.turns(250);
+    record = rig.step();
+    CHECK(record.state == StepState::Free);
+    record = rig.ticks(250);
     CHECK(record.tool.position == record.device.position);
 }
 
 TEST_CASE("A scene older than 100 ms fades the force over half a second, says so, and a fresh frame brings "
           "it back") {
     auto rig = pressedRig();
-    const double full = forceOf(rig.turn());
+    const double full = forceOf(rig.step());
     rig.age = true;
     rig.captured = rig.time;
-    auto record = rig.turns(100);
-    CHECK(record.state == TurnState::Contact);
+    auto record = rig.ticks(100);
+    CHECK(record.state == StepState::Contact);
     CHECK(forceOf(record) == doctest::Approx(full));
-    record = rig.turns(252);
-    CHECK(record.state == TurnState::Fading);
+    record = rig.ticks(252);
+    CHECK(record.state == StepState::Fading);
     CHECK(record.sceneAge == doctest::Approx(0.351));
     CHECK(forceOf(record) == doctest::Approx(full / 2.0).epsilon(0.01));
     CHECK(record.armHold);
-    record = rig.turns(260);
+    record = rig.ticks(260);
     CHECK(forceOf(record) <= 1e-12);
-    CHECK(record.state == TurnState::Fading);
+    CHECK(record.state == StepState::Fading);
     rig.captured = rig.time; // the same picture again: only a new capture time
-    record = rig.turn();
-    CHECK(record.state == TurnState::Contact);
+    record = rig.step();
+    CHECK(record.state == StepState::Contact);
     rig.age = false;
-    record = rig.turns(510);
+    record = rig.ticks(510);
     CHECK(forceOf(record) == doctest::Approx(full));
 }
 
@@ -223,10 +223,10 @@ TEST_CASE("A source that has ended does not age in lockstep, and a set that is n
     auto rig = pressedRig();
     rig.age = true;
     rig.captured = rig.time;
-    rig.turns(31);
+    rig.ticks(31);
     rig.sourceEnded = true;
-    auto record = rig.turns(3000);
-    CHECK(record.state == TurnState::Contact);
+    auto record = rig.ticks(3000);
+    CHECK(record.state == StepState::Contact);
     CHECK(record.sceneAge == doctest::Approx(0.030));
     // The set in force stays at frame 1 while frame 2 is already there, captured later.
     rig.sourceEnded = false;
@@ -234,11 +234,11 @@ TEST_CASE("A source that has ended does not age in lockstep, and a set that is n
     Fixtures next = wallSet(2);
     next.captureTime = rig.time;
     rig.show(next);
-    record = rig.turn();
+    record = rig.step();
     CHECK(record.frame == 1);
     CHECK(record.sceneAge == doctest::Approx(rig.time - rig.options.period)); // stamped 0 in this rig
     rig.query = true;
-    record = rig.turn();
+    record = rig.step();
     CHECK(record.frame == 2);
     CHECK(record.sceneAge == doctest::Approx(0.001));
 }
@@ -246,7 +246,7 @@ TEST_CASE("A source that has ended does not age in lockstep, and a set that is n
 TEST_CASE(
     "A sample that is not finite gives a zero wrench in that turn, is counted, and does no lasting harm") {
     auto rig = pressedRig();
-    const double full = forceOf(rig.turn());
+    const double full = forceOf(rig.step());
     const Pose good = rig.hand;
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinite = std::numeric_limits<double>::infinity();
@@ -255,7 +255,7 @@ TEST_CASE(
           Pose{good.position, {1.0, nan, 0.0, 0.0}}, Pose{good.position, {1.0, 0.0, infinite, 0.0}}}) {
         const uint64_t before = rig.cycle->notFinite();
         rig.hand = bad;
-        auto record = rig.turn();
+        auto record = rig.step();
         CHECK_FALSE(record.finite);
         CHECK(forceOf(record) == 0.0);
         CHECK(glm::length(record.deviceWrench.force) == 0.0);
@@ -263,10 +263,10 @@ TEST_CASE(
         CHECK(isFinite(record.tool));
         CHECK(rig.cycle->notFinite() == before + 1);
         rig.hand = good;
-        record = rig.turn();
+        record = rig.step();
         CHECK(record.finite);
         CHECK(forceOf(record) == doctest::Approx(2.0)); // slews up from zero
-        CHECK(forceOf(rig.turns(5)) == doctest::Approx(full));
+        CHECK(forceOf(rig.ticks(5)) == doctest::Approx(full));
     }
 }
 
@@ -274,17 +274,17 @@ TEST_CASE("A rotation that is none, of zeros or without a length, does no lastin
     for (const dquat& none :
          {dquat(0.0, 0.0, 0.0, 0.0), dquat(1e200, 0.0, 1e200, 0.0), dquat(1e-200, 0.0, 0.0, 0.0)}) {
         auto rig = pressedRig();
-        const double full = forceOf(rig.turn());
+        const double full = forceOf(rig.step());
         const Pose good = rig.hand;
         rig.hand.rotation = none;
         for (int i = 0; i < 10; ++i) {
-            const auto record = rig.turn();
+            const auto record = rig.step();
             CHECK(isFinite(record.wrench));
             CHECK(isFinite(record.deviceWrench));
             CHECK(isFinite(record.tool));
         }
         rig.hand = good;
-        CHECK(forceOf(rig.turns(20)) == doctest::Approx(full));
+        CHECK(forceOf(rig.ticks(20)) == doctest::Approx(full));
         CHECK(rig.gap() > -1e-5);
     }
 }

@@ -18,9 +18,9 @@ HapticRig restingRig(bool controller) {
     rig.restart();
     rig.show(wallSet());
     rig.age = false;
-    rig.turns(250);
+    rig.ticks(250);
     rig.hand = at(0, 0, 0.0072);
-    rig.turns(50);
+    rig.ticks(50);
     return rig;
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("Over a static wall the wrench is the same with the passivity controll
         with.hand =
             without.hand = {{0.02 * std::sin(s), 0.01 * std::cos(1.3 * s), 0.008 + 0.012 * std::cos(2.1 * s)},
                             rotationExp({0.3 * std::sin(s), 0.0, s})};
-        const auto a = with.turn(), b = without.turn();
+        const auto a = with.step(), b = without.step();
         REQUIRE(a.wrench.force == b.wrench.force);
         REQUIRE(a.wrench.torque == b.wrench.torque);
         largest = std::max(largest, glm::length(a.wrench.force));
@@ -59,23 +59,23 @@ TEST_CASE("Over a static wall the wrench is the same with the passivity controll
 
 TEST_CASE("A wall that jumps is counted, and the hand is damped while it moves and owes, within all limits") {
     auto rig = restingRig(true), off = restingRig(false);
-    const double force = glm::length(rig.turn().wrench.force);
-    off.turn();
+    const double force = glm::length(rig.step().wrench.force);
+    off.step();
     for (HapticRig* r : {&rig, &off}) {
         r->show(raisedWall());
         r->age = false;
-        r->turns(3); // 1 mm a turn, skin included
+        r->ticks(3); // 1 mm a turn, skin included
     }
     const double p = force / 1000.0;
     CHECK(rig.cycle->passivity().generated() == doctest::Approx(1000.0 * (p * 0.002 + 2e-6)).epsilon(0.01));
     CHECK(off.cycle->passivity().generated() == 0.0);
-    dvec3 before = rig.turn().wrench.force;
-    off.turn();
+    dvec3 before = rig.step().wrench.force;
+    off.step();
     double weaker = 0.0;
     for (int i = 0; i < 60; ++i) { // the hand gives way at 30 mm/s
         rig.hand.position.z += 3e-5;
         off.hand.position.z += 3e-5;
-        const auto a = rig.turn(), b = off.turn();
+        const auto a = rig.step(), b = off.step();
         CHECK(a.tool.position == b.tool.position); // damping is no business of the tool
         CHECK(a.wrench.force.z <= b.wrench.force.z + 1e-12);
         CHECK(glm::distance(a.wrench.force, before) <= 2.0 * (1.0 + 1e-12));
@@ -90,13 +90,13 @@ TEST_CASE("Forces off: nothing is added to the zero, and an old debt is forgotte
     auto rig = restingRig(true);
     rig.show(raisedWall());
     rig.age = false;
-    rig.turns(3);
+    rig.ticks(3);
     REQUIRE(rig.cycle->passivity().debt() > 0.005);
     rig.forcesOff = true;
-    rig.turns(220);
+    rig.ticks(220);
     for (int i = 0; i < 50; ++i) {
         rig.hand.position.x += 1e-4;
-        CHECK(glm::length(rig.turn().wrench.force) == 0.0);
+        CHECK(glm::length(rig.step().wrench.force) == 0.0);
     }
     CHECK(rig.cycle->passivity().debt() == 0.0);
 }
@@ -113,10 +113,10 @@ TEST_CASE("What guidance does to the hand is not taken for generation") {
     target.target = at(0, 0, 0.12);
     rig.guidance = {target};
     rig.buttons = kGuidanceButton;
-    rig.turns(900);
+    rig.ticks(900);
     for (int i = 0; i < 500; ++i) { // the hand is drawn along: 2 N over 50 mm
         rig.hand.position.z += 1e-4;
-        const auto record = rig.turn();
+        const auto record = rig.step();
         CHECK(record.wrench.force.z == doctest::Approx(2.0).epsilon(1e-9));
     }
     CHECK(rig.cycle->passivity().taken() == 0.0);
@@ -126,17 +126,17 @@ TEST_CASE("What guidance does to the hand is not taken for generation") {
 TEST_CASE("Slow turns lower the automatic stiffness smoothly and the margin comes back to 0; lockstep "
           "changes nothing") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
-    TurnInput input;
+    StepInput input;
     input.deviceThandle = rig.hand;
     for (int i = 0; i < 300; ++i) { // nothing measured
-        rig.cycle->turn(input);
+        rig.cycle->step(input);
     }
     CHECK(rig.cycle->springs().stiffness == 1000.0);
     input.measuredPeriod = 0.002;
     double before = 1000.0;
-    TurnRecord record;
+    StepRecord record;
     for (int i = 0; i < 400; ++i) {
-        record = rig.cycle->turn(input);
+        record = rig.cycle->step(input);
         const double now = rig.cycle->springs().stiffness;
         CHECK(now <= before);
         CHECK(before - now <= 10.0 + 1e-9);
@@ -162,7 +162,7 @@ TEST_CASE("An orientation that is not of unit length is the same orientation, an
         unit.hand = {{0.0, 0.0, 0.02 - 4e-5 * i}, rotationExp({0.002 * i, 0.3, 0.004 * i})};
         scaled.hand = unit.hand;
         scaled.hand.rotation = scaled.hand.rotation * (i % 2 == 0 ? 1e-3 : 50.0);
-        const auto a = unit.turn(), b = scaled.turn();
+        const auto a = unit.step(), b = scaled.step();
         REQUIRE(glm::distance(a.deviceWrench.force, b.deviceWrench.force) <= 1e-9);
         REQUIRE(glm::distance(a.deviceWrench.torque, b.deviceWrench.torque) <= 1e-9);
         REQUIRE(glm::distance(b.deviceWrench.force + b.residual.force, b.wrench.force) <= 1e-12);

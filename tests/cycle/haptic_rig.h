@@ -48,8 +48,8 @@ public:
         age = true;
     }
 
-    TurnRecord turn() {
-        TurnInput input;
+    StepRecord step() {
+        StepInput input;
         input.time = time;
         input.deviceThandle = hand;
         input.buttons = buttons;
@@ -71,17 +71,17 @@ public:
         input.guidance = guidance;
         input.sourceEnded = sourceEnded;
         input.measuredPeriod = measured;
-        const TurnRecord record = cycle->turn(input);
+        const StepRecord record = cycle->step(input);
         if (record.adopted) {
             inForce = std::move(offered);
         }
         time += measured > 0.0 ? measured : options.period;
         return record;
     }
-    TurnRecord turns(int count) {
-        TurnRecord record;
+    StepRecord ticks(int count) {
+        StepRecord record;
         for (int i = 0; i < count; ++i) {
-            record = turn();
+            record = step();
         }
         return record;
     }
@@ -105,7 +105,7 @@ public:
 };
 
 // A scene with one forbidden class of points.
-inline double forceOf(const TurnRecord& record) {
+inline double forceOf(const StepRecord& record) {
     return glm::length(record.wrench.force);
 }
 
@@ -122,9 +122,9 @@ inline HapticRig pressedRig(const Scene& scene = handScene()) {
     rig.age = false;
     rig.show(wallSet());
     rig.age = false;
-    rig.turns(250);
+    rig.ticks(250);
     rig.hand = at(0, 0, 0.005);
-    rig.turns(100);
+    rig.ticks(100);
     return rig;
 }
 

@@ -41,9 +41,9 @@ TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, 
     rig.show(wallSet());
     rig.age = false;
     rig.guidance = {targetAt({{0, 0, -0.02}, rotationExp({0, 0, 1.0})})}; // inside the wall
-    rig.turns(250);
+    rig.ticks(250);
     rig.buttons = kGuidanceButton;
-    auto record = rig.turns(600);
+    auto record = rig.ticks(600);
     CHECK(record.guidance == 1.0);
     CHECK(record.guidanceClass == 0);
     CHECK(record.tool.position.z == doctest::Approx(0.028));
@@ -51,12 +51,12 @@ TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, 
     CHECK(glm::length(record.wrench.torque) == doctest::Approx(0.1));
     rig.hand = at(0, 0, 0.0105); // the hand goes along until the tool rests on the wall
     for (int i = 0; i < 300; ++i) {
-        record = rig.turn();
+        record = rig.step();
         CHECK(rig.gap() >= 0.0);
     }
     CHECK(record.wrench.force.z > -1.0); // what pulls is only what is left above the wall
     rig.buttons = 0;
-    record = rig.turns(600);
+    record = rig.ticks(600);
     CHECK(record.guidance == 0.0);
     CHECK(record.wrench.force.z <= 1e-9); // the hand is above the wall: nothing is left
     CHECK(glm::length(record.wrench.force) <= 1e-9);
@@ -70,12 +70,12 @@ TEST_CASE("Guidance in mode paper adds a spring of its own, and both springs kee
     rig.age = false;
     rig.guidance = {targetAt(at(0, 0, 0.033))};
     rig.buttons = kGuidanceButton;
-    auto record = rig.turns(700);
+    auto record = rig.ticks(700);
     CHECK(record.tool.position == record.device.position); // the tool itself follows the hand
     CHECK(record.wrench.force.z == doctest::Approx(200.0 * 0.003));
     CHECK(record.marginPassive == doctest::Approx(0.0));
     rig.guidance = {targetAt(at(0, 0, 0.2))};
-    record = rig.turns(2000);
+    record = rig.ticks(2000);
     CHECK(record.wrench.force.z == doctest::Approx(2.0)); // saturated
 }
 
@@ -89,7 +89,7 @@ TEST_CASE("What the device cannot render stays as residual, in the handle's fram
     rig.age = false;
     rig.guidance = {targetAt({{0.01, 0, 0.03}, rotationExp({0.2, 1.4, 2.0})})};
     rig.buttons = kGuidanceButton;
-    const auto record = rig.turns(900);
+    const auto record = rig.ticks(900);
     const dvec3 roll = rig.hand.rotation * dvec3(0, 0, 1);
     CHECK(glm::length(record.wrench.torque) == doctest::Approx(0.1));
     CHECK(std::abs(glm::dot(record.wrench.torque, roll)) > 1e-3);
@@ -110,9 +110,9 @@ TEST_CASE("A hand map of scale 2 moves the tool twice as far, and halves the sti
     CHECK(rig.cycle->pose().position.z == doctest::Approx(0.03));
     rig.show(wallSet());
     rig.age = false;
-    rig.turns(250);
+    rig.ticks(250);
     rig.hand = at(0.01, 0, 0.0025);
-    const auto record = rig.turns(200);
+    const auto record = rig.ticks(200);
     CHECK(record.device.position.z == doctest::Approx(0.005));
     CHECK(record.wrench.force.z == doctest::Approx(500.0 * (record.tool.position.z - 0.005)));
     CHECK(record.deviceWrench.force.z == doctest::Approx(record.wrench.force.z));
@@ -132,15 +132,15 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
     Shape plane;
     plane.kind = ShapeKind::Plane; // z <= 0 is forbidden
     HapticCycle cycle(tool, {&plane, 1}, options, at(0, 0, 0.03));
-    TurnInput input;
-    TurnRecord record;
+    StepInput input;
+    StepRecord record;
     for (int i = 0; i < 500; ++i) {
         const double z = std::max(-0.01, 0.03 - 0.0001 * i); // 0.1 m/s down
         input.deviceThandle = at(0, 0, z);
-        record = cycle.turn(input);
+        record = cycle.step(input);
         input.time += options.period;
         if (i == 250) { // tool at rest on the plane, hand going on
-            CHECK(record.state == TurnState::Contact);
+            CHECK(record.state == StepState::Contact);
             CHECK(record.wrench.force.z == doctest::Approx(500.0 * (0.01 - z) + 0.1 * 0.1).epsilon(1e-3));
             CHECK(std::isnan(record.sceneAge));
             CHECK(record.frame == -1);
@@ -156,28 +156,28 @@ TEST_CASE("Turns that come late put no fading off, and make no force come back s
     HapticRig rig(scene, at(0.0, 0.0, 0.03));
     rig.show(wallSet());
     rig.age = false;
-    rig.turns(400);
+    rig.ticks(400);
     rig.hand = at(0.0, 0.0, 0.0);
-    const double full = forceOf(rig.turns(200));
+    const double full = forceOf(rig.ticks(200));
     CHECK(full > 5.0);
     rig.measured = 0.005;
     rig.age = true;
     rig.captured = rig.time - 0.1;
-    CHECK(forceOf(rig.turns(51)) == doctest::Approx(full / 2.0).epsilon(0.03));
-    CHECK(forceOf(rig.turns(52)) <= 1e-12); // 0.5 s
+    CHECK(forceOf(rig.ticks(51)) == doctest::Approx(full / 2.0).epsilon(0.03));
+    CHECK(forceOf(rig.ticks(52)) <= 1e-12); // 0.5 s
     rig.age = false;
-    CHECK(forceOf(rig.turns(251)) == doctest::Approx(full / 2.0).epsilon(0.03));
-    CHECK(forceOf(rig.turns(251)) == doctest::Approx(full));
+    CHECK(forceOf(rig.ticks(251)) == doctest::Approx(full / 2.0).epsilon(0.03));
+    CHECK(forceOf(rig.ticks(251)) == doctest::Approx(full));
 }
 
 TEST_CASE("Margins are those of the measured period when there is one, and unknown without a known b") {
     HapticRig rig(handScene(), at(0, 0, 0.03));
-    TurnInput input;
+    StepInput input;
     input.deviceThandle = rig.hand;
     input.measuredPeriod = 0.002;
-    CHECK(rig.cycle->turn(input).marginPassive == doctest::Approx(0.5 - 1000.0 * 0.002 / 2.0));
+    CHECK(rig.cycle->step(input).marginPassive == doctest::Approx(0.5 - 1000.0 * 0.002 / 2.0));
     HapticRig touch(handScene("touch"), at(0, 0, 0.03));
-    CHECK(std::isnan(touch.cycle->turn(input).marginPassive));
+    CHECK(std::isnan(touch.cycle->step(input).marginPassive));
     CHECK(touch.options.springs.stiffness == 400.0);
     CHECK_THROWS_AS(HapticRig(handScene("nothing"), at(0, 0, 0)), BadInput);
 }
@@ -193,9 +193,9 @@ TEST_CASE(
     CHECK(rig.options.springs.stiffness == doctest::Approx(1000.0 / (1.0 + 2.0 * n)));
     rig.show(wallSet());
     rig.age = false;
-    rig.turns(250);
+    rig.ticks(250);
     rig.hand = at(0, 0, -0.05);
-    const auto record = rig.turns(300);
+    const auto record = rig.ticks(300);
     CHECK(glm::length(record.wrench.force) == doctest::Approx(3.0));
     CHECK(record.marginPassive == doctest::Approx(0.0));
 }
@@ -208,7 +208,7 @@ TEST_CASE(
         HapticRig rig(scene, at(0, 0, 0.02));
         CHECK(rig.options.springs.stiffness == doctest::Approx(1000.0 / (1.0 + 2.0 * delay)));
         CHECK(rig.options.deviceDelayTicks == delay);
-        CHECK(std::abs(rig.turn().marginPassive) < 1e-12);
+        CHECK(std::abs(rig.step().marginPassive) < 1e-12);
     }
 }
 
@@ -216,21 +216,21 @@ TEST_CASE("A set that does not cover the tool is refused and the one in force is
     HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.show(wallSet(1));
     rig.age = false;
-    REQUIRE(rig.turn().adopted);
+    REQUIRE(rig.step().adopted);
     ContactSet far;
     rig.cull.query(rig.tool, at(0.05, 0, 0.05), 0.01, wallSet(2), rig.grid, far);
-    TurnInput input;
+    StepInput input;
     input.time = rig.time;
     input.deviceThandle = rig.hand;
     input.contacts = rig.inForce.get();
     input.offered = &far;
-    const auto record = rig.cycle->turn(input);
+    const auto record = rig.cycle->step(input);
     CHECK_FALSE(record.adopted);
     CHECK(record.frame == 1);
 }
 
 TEST_CASE("The same run twice gives the same bits, and turns allocate nothing") {
-    std::vector<TurnRecord> first;
+    std::vector<StepRecord> first;
     for (int run = 0; run < 2; ++run) {
         HapticRig rig(guidedScene(Scene::Haptics::GuidanceMode::Target), at(0, 0, 0.02));
         rig.show(wallSet());
@@ -239,18 +239,18 @@ TEST_CASE("The same run twice gives the same bits, and turns allocate nothing") 
             rig.hand = {{0.01 * std::sin(0.02 * i), 0.0, 0.012 - 0.00005 * i},
                         rotationExp({0.001 * i, 0, 0})};
             rig.buttons = i > 100 && i < 300 ? kGuidanceButton : i == 350 ? 4u : 0u;
-            const auto record = rig.turn();
+            const auto record = rig.step();
             if (run == 0) {
                 first.push_back(record);
                 continue;
             }
-            const TurnRecord& before = first[static_cast<size_t>(i)];
+            const StepRecord& before = first[static_cast<size_t>(i)];
             CHECK(record.tool.position == before.tool.position);
             CHECK(record.tool.rotation == before.tool.rotation);
             CHECK(record.wrench.force == before.wrench.force);
             CHECK(record.wrench.torque == before.wrench.torque);
         }
-        TurnInput input;
+        StepInput input;
         input.time = rig.time;
         input.deviceThandle = rig.hand;
         input.contacts = rig.inForce.get();
@@ -259,7 +259,7 @@ TEST_CASE("The same run twice gives the same bits, and turns allocate nothing") 
         for (int i = 0; i < 200; ++i) {
             input.deviceThandle.position.x += 2e-5;
             input.buttons = static_cast<uint32_t>(i / 25);
-            rig.cycle->turn(input);
+            rig.cycle->step(input);
         }
         CHECK(allocationCount() == before);
     }

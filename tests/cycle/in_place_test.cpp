@@ -17,10 +17,10 @@ public:
     Blocks(const CameraInfo& camera, uint32_t count)
         : slots_(camera.depth.pixels(), true, count) {}
 
-    Frame next(const Picture& picture, uint32_t number = 0) {
+    Frame next(const Image& image, uint32_t number = 0) {
         FrameSlot& slot = *slots_.acquire();
-        std::copy(picture.depth.begin(), picture.depth.end(), slot.depth().begin());
-        std::copy(picture.colour.begin(), picture.colour.end(), slot.colour().begin());
+        std::copy(image.depth.begin(), image.depth.end(), slot.depth().begin());
+        std::copy(image.colour.begin(), image.colour.end(), slot.colour().begin());
         Frame::Content content;
         content.index = number, content.sourceNumber = number, content.captureTime = number / 30.0;
         content.depth = slot.depth(), content.colour = slot.colour();
@@ -44,10 +44,10 @@ struct Slots {
     CameraInfo camera = pinholeCamera(90, 60);
     Plan plan = makePlan(scene, camera, 1, vulkan().device.facts());
     cloud::UploadSlots slots{vulkan().device, plan, camera};
-    Picture picture = stressPicture(camera, 3);
+    Image image = stressImage(camera, 3);
 
     cloud::UploadSlots::Choice choose(Blocks& from, std::optional<uint32_t> inFlight = {}) {
-        return slots.choose(from.next(picture), inFlight);
+        return slots.choose(from.next(image), inFlight);
     }
 };
 
@@ -66,9 +66,9 @@ TEST_CASE(
             if (k == 6) { // new memory, where the old one was for all that anybody knows
                 blocks = std::make_unique<Blocks>(camera, 2);
             }
-            const Picture picture = stressPicture(camera, k + 1);
-            inPlace.cycle().process(blocks->next(picture, k));
-            copied.run(picture);
+            const Image image = stressImage(camera, k + 1);
+            inPlace.cycle().process(blocks->next(image, k));
+            copied.run(image);
             const auto lease = inPlace.cycle().sets().newest();
             CAPTURE(k);
             CHECK(lease->host.forbiddenBits == copied.host().forbiddenBits);
@@ -87,7 +87,7 @@ TEST_CASE(
     for (const bool copies : {false, true}) {
         CloudRig rig(scene, camera, [&](Plan& plan) { plan.inPlace = plan.inPlace && !copies; });
         Blocks blocks(camera, 2);
-        rig.cycle().upload(blocks.next(stressPicture(camera, 3)));
+        rig.cycle().upload(blocks.next(stressImage(camera, 3)));
         std::ranges::fill(blocks.latest().depth(), uint16_t{0});
         rig.cycle().submit();
         rig.cycle().finish();
@@ -119,9 +119,9 @@ TEST_CASE(
 
 TEST_CASE("Pictures elsewhere than in whole pages are copied, by turns and never over the one in flight") {
     Slots rig;
-    const Picture& picture = rig.picture;
+    const Image& image = rig.image;
     Frame::Content content;
-    content.depth = picture.depth, content.colour = picture.colour;
+    content.depth = image.depth, content.colour = image.colour;
     const auto copy = [&](std::optional<uint32_t> inFlight) {
         return rig.slots.choose(Frame(content, nullptr), inFlight).slot;
     };
@@ -132,7 +132,7 @@ TEST_CASE("Pictures elsewhere than in whole pages are copied, by turns and never
     CHECK(copy(7) == 1);
     // A block that is another picture's counts for nothing.
     Blocks blocks(rig.camera, 1);
-    const Frame other = blocks.next(picture);
+    const Frame other = blocks.next(image);
     content.depthMemory = other->depthMemory, content.colourMemory = other->colourMemory;
     CHECK(copy({}) == 0);
     CHECK_FALSE(rig.slots[0].depth.imported());
@@ -144,8 +144,8 @@ TEST_CASE("Colour alone is read in place where depth lies in a driver's memory")
     }
     Slots rig;
     Blocks blocks(rig.camera, 1);
-    Frame::Content content = *blocks.next(rig.picture);
-    content.depth = rig.picture.depth, content.depthMemory = nullptr;
+    Frame::Content content = *blocks.next(rig.image);
+    content.depth = rig.image.depth, content.depthMemory = nullptr;
     const auto [slot, isNew] = rig.slots.choose(Frame(content, nullptr), {});
     CHECK(slot == 2);
     CHECK(isNew);
@@ -160,7 +160,7 @@ TEST_CASE("Memory that its camera has let go makes room, and what finds none is 
     constexpr uint32_t kMost = cloud::UploadSlots::kMost;
     Slots rig;
     auto gone = std::make_unique<Blocks>(rig.camera, 1);
-    const std::weak_ptr<const void> memory = gone->next(rig.picture)->depthMemory;
+    const std::weak_ptr<const void> memory = gone->next(rig.image)->depthMemory;
     CHECK(rig.choose(*gone).slot == 2);
     gone.reset();
     CHECK_FALSE(memory.expired()); // nothing else can be at that address while a slot reads there
@@ -184,7 +184,7 @@ TEST_CASE(
     Blocks colours(rig.camera, 5); // stay: the camera's own
     auto driver = std::make_unique<Blocks>(rig.camera, 4);
     const auto choose = [&] {
-        const Frame depth = driver->next(rig.picture), colour = colours.next(rig.picture);
+        const Frame depth = driver->next(rig.image), colour = colours.next(rig.image);
         Frame::Content content = *depth;
         content.colour = colour->colour, content.colourMemory = colour->colourMemory;
         return rig.slots.choose(Frame(content, nullptr), {});
@@ -207,7 +207,7 @@ TEST_CASE("Where the device cannot import depth it is copied, and colour is read
     Slots rig;
     Blocks blocks(rig.camera, 2);
     const auto choose = [&] {
-        const Frame frame = blocks.next(rig.picture);
+        const Frame frame = blocks.next(rig.image);
         Frame::Content content = *frame;
         // A picture in the middle of a page, as no device takes it.
         content.depth = content.depth.subspan(8);

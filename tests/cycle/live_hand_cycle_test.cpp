@@ -34,11 +34,11 @@ TEST_CASE(
     CHECK(rig.cycle->pose().position == start.position);
     rig.show(wallSet());
     rig.age = false;
-    TurnRecord record = rig.turns(50);
+    StepRecord record = rig.ticks(50);
     CHECK(glm::distance(record.tool.position, start.position) < 1e-12);
     CHECK(glm::length(record.wrench.force) < 1e-9);
     rig.hand.position.x += 0.005;
-    record = rig.turns(50);
+    record = rig.ticks(50);
     CHECK(record.tool.position.x == doctest::Approx(start.position.x + 0.01)); // twice the hand's way
     CHECK(record.tool.rotation.y == doctest::Approx(start.rotation.y));
 }
@@ -47,17 +47,17 @@ TEST_CASE("A device that goes away and comes back elsewhere, with dead-man and c
     HapticRig rig(handScene("falcon"), at(0.0, 0.0, 0.05));
     rig.show(wallSet());
     rig.age = false;
-    rig.turns(300);
+    rig.ticks(300);
     rig.hand = at(0.0, 0.0, 0.008);
-    CHECK(rig.turns(300).wrench.force.z > 1.0); // pressed
+    CHECK(rig.ticks(300).wrench.force.z > 1.0); // pressed
     rig.buttons = 6;
-    const TurnRecord gone = rig.turns(500);
+    const StepRecord gone = rig.ticks(500);
     CHECK(glm::length(gone.deviceWrench.force) == 0.0);
     rig.hand = at(0.05, 0.03, -0.06); // unplugged, homed anew
     rig.buttons = 0;
-    const TurnRecord back = rig.turns(1);
+    const StepRecord back = rig.ticks(1);
     CHECK(glm::distance(back.tool.position, gone.tool.position) < 1e-6);
-    CHECK(glm::distance(rig.turns(500).tool.position, gone.tool.position) < 1e-6);
+    CHECK(glm::distance(rig.ticks(500).tool.position, gone.tool.position) < 1e-6);
 }
 
 TEST_CASE("A device of three axes gets force and no torque, however it is mounted; the torque is left over") {
@@ -70,12 +70,12 @@ TEST_CASE("A device of three axes gets force and no torque, however it is mounte
             std::make_unique<HapticCycle>(rig.tool, std::span<const Shape>{}, rig.options, rig.hand, &start);
         rig.show(wallSet()); // reaches to x = 0.06 only: one end of the bar is over it
         rig.age = false;
-        rig.turns(300);
+        rig.ticks(300);
         const dvec3 down = glm::conjugate(scene.hand.baseRdevice) * dvec3(0.0, 0.0, -0.043);
-        TurnRecord record;
+        StepRecord record;
         for (int i = 1; i <= 400; ++i) {
             rig.hand.position = down * (i / 400.0);
-            record = rig.turn();
+            record = rig.step();
         }
         CHECK(glm::length(record.wrench.torque) > 1e-3);
         CHECK(glm::length(record.deviceWrench.torque) == 0.0);

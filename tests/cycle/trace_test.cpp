@@ -198,7 +198,7 @@ TEST_CASE("A frame's passes lie one after the other from its submission on, on t
     report.unchanged = true;
     trace.frame(report);
     trace.query(t, t + us(3), 12);
-    trace.turn(t, t + us(4), 5e-6);
+    trace.step(t, t + us(4), 5e-6);
     trace.file().finish();
 
     const Json json = file.read();

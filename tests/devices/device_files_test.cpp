@@ -3,7 +3,7 @@
 #include "devices/usb/device_files.h"
 
 #include "devices/usb/udev_rule.h"
-#include "tests/devices/door_rig.h"
+#include "tests/devices/socket_rig.h"
 
 #include <fstream>
 #include <set>
@@ -47,7 +47,7 @@ struct Machine {
         write(root() / "dev" / name, "");
     }
     const fs::path& root() const { return folder.path(); }
-    DoorFolder folder;
+    SocketFolder folder;
 };
 
 } // namespace

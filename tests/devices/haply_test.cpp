@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The guardian of an Inverse3 between an engine and a service that the test plays.
-#include "devices/bridge/door_hand.h"
+#include "devices/bridge/socket_hand.h"
 #include "devices/haply/haply_guard.h"
 #include "engine/types/error.h"
-#include "tests/devices/door_rig.h"
 #include "tests/devices/haply_service.h"
+#include "tests/devices/socket_rig.h"
 
 #include <cmath>
 #include <optional>
@@ -17,9 +17,9 @@ namespace {
 // The guardian on a thread of its own, and an engine that pushes with 2 N along z.
 struct Loop {
     explicit Loop(uint16_t port)
-        : guard({folder.door(), "127.0.0.1", port, ""})
+        : guard({folder.endpoint(), "127.0.0.1", port, ""})
         , thread([this] { guard.run(stop); })
-        , hand(folder.door(), 4) {}
+        , hand(folder.endpoint(), 4) {}
     ~Loop() { end(); }
     void end() {
         stop = true;
@@ -27,21 +27,21 @@ struct Loop {
             thread.join();
         }
     }
-    HandSample turn() {
+    HandSample step() {
         const HandSample sample = hand.read(t += 0.001);
         hand.write({{0.0, 0.0, 2.0}, {}}, 0.001);
         pauseMs(1);
         return sample;
     }
     bool until(const std::function<bool(const HandSample&)>& wanted) {
-        return eventually([&] { return wanted(turn()); });
+        return eventually([&] { return wanted(step()); });
     }
 
-    DoorFolder folder;
+    SocketFolder folder;
     HaplyGuard guard;
     std::atomic<bool> stop{false};
     std::thread thread;
-    DoorHand hand;
+    SocketHand hand;
     double t = 0.0;
 };
 
@@ -85,8 +85,8 @@ TEST_CASE("A VerseGrip gives orientation and buttons, and a device without it tu
     HaplyService service;
     Loop loop(service.port());
     CHECK(loop.until([&](const HandSample& s) { return s.deviceThandle.position.z == 0.1; }));
-    CHECK(loop.turn().deviceThandle.rotation == dquat(1.0, 0.0, 0.0, 0.0));
-    CHECK(loop.turn().buttons == 0);
+    CHECK(loop.step().deviceThandle.rotation == dquat(1.0, 0.0, 0.0, 0.0));
+    CHECK(loop.step().buttons == 0);
     service.grip = service.button = true;
     CHECK(loop.until([](const HandSample& s) {
         return std::abs(s.deviceThandle.rotation.x) > 0.999 && (s.buttons & FATHOM_DOOR_GUIDANCE) != 0;
@@ -121,10 +121,10 @@ TEST_CASE("A device pulled out of the service, and a service that ends, open the
     const uint16_t port = service->port();
     Loop loop(port);
     const auto there = [&](bool wanted) { // and stays so
-        int turns = 0;
+        int ticks = 0;
         return loop.until([&](const HandSample&) {
-            turns = loop.hand.alive() == wanted ? turns + 1 : 0;
-            return turns >= 20;
+            ticks = loop.hand.alive() == wanted ? ticks + 1 : 0;
+            return ticks >= 20;
         });
     };
     REQUIRE(there(true));
@@ -151,9 +151,9 @@ TEST_CASE("A device pulled out of the service, and a service that ends, open the
 
 TEST_CASE(
     "Without a service, without a WebSocket, without an Inverse3 or with another one the guardian says so") {
-    DoorFolder folder;
+    SocketFolder folder;
     const auto said = [&](uint16_t port, const std::string& device = "") {
-        return refusal([&] { HaplyGuard({folder.door(), "127.0.0.1", port, device}); });
+        return refusal([&] { HaplyGuard({folder.endpoint(), "127.0.0.1", port, device}); });
     };
     uint16_t port = 0;
     {
@@ -167,5 +167,5 @@ TEST_CASE(
         CHECK(said(port).find("has no Inverse3") != std::string::npos);
     }
     CHECK(said(port).find("Connection refused") != std::string::npos);
-    CHECK_FALSE(std::filesystem::exists(folder.door()));
+    CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
 }

@@ -246,7 +246,7 @@ TEST_CASE("any picture of a recording can be asked for, and a bad one is counted
     writeSmallRecording(folder, 5);
     std::filesystem::remove(folder.path() / "depth/1.png");
     RecordedCamera camera(folder.path());
-    CHECK(camera.pictures() == 5);
+    CHECK(camera.images() == 5);
     const auto next = [&] {
         const std::optional<Frame> frame = camera.next();
         return frame ? static_cast<int>((*frame)->depth[0]) : 0;

@@ -38,7 +38,7 @@ CameraInfo someCamera(bool registered, bool colour = true) {
     return info;
 }
 
-struct Picture {
+struct Image {
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour;
     Frame frame(uint32_t i, bool pose) const {
@@ -55,10 +55,10 @@ struct Picture {
     }
 };
 
-std::vector<Picture> somePictures(const CameraInfo& info, uint32_t count) {
+std::vector<Image> someImages(const CameraInfo& info, uint32_t count) {
     std::mt19937 random(11);
-    std::vector<Picture> pictures(count);
-    for (Picture& p : pictures) {
+    std::vector<Image> images(count);
+    for (Image& p : images) {
         p.depth.resize(info.depth.pixels());
         p.colour.resize(info.hasColour ? info.colour.pixels() : 0);
         for (uint16_t& d : p.depth) {
@@ -68,16 +68,16 @@ std::vector<Picture> somePictures(const CameraInfo& info, uint32_t count) {
             c = static_cast<uint32_t>(random()) | 0xff000000u;
         }
     }
-    return pictures;
+    return images;
 }
 
 void roundTrip(const CameraInfo& info, uint32_t count, bool poses) {
     const TemporaryFolder folder;
-    const std::vector<Picture> pictures = somePictures(info, count);
+    const std::vector<Image> images = someImages(info, count);
     {
         RecordingWriter writer(folder.path() / "rec", info, 2);
         for (uint32_t i = 0; i < count; ++i) {
-            writer.add(pictures[i].frame(i, poses));
+            writer.add(images[i].frame(i, poses));
         }
         writer.finish();
         CHECK(writer.frames() == count);
@@ -98,9 +98,9 @@ void roundTrip(const CameraInfo& info, uint32_t count, bool poses) {
         const auto frame = camera.next();
         REQUIRE(frame);
         CHECK((*frame)->captureTime == doctest::Approx(86400.125 + i / 30.0).epsilon(1e-14));
-        CHECK(std::equal((*frame)->depth.begin(), (*frame)->depth.end(), pictures[i].depth.begin()));
-        CHECK((*frame)->colour.size() == pictures[i].colour.size());
-        CHECK(std::equal((*frame)->colour.begin(), (*frame)->colour.end(), pictures[i].colour.begin()));
+        CHECK(std::equal((*frame)->depth.begin(), (*frame)->depth.end(), images[i].depth.begin()));
+        CHECK((*frame)->colour.size() == images[i].colour.size());
+        CHECK(std::equal((*frame)->colour.begin(), (*frame)->colour.end(), images[i].colour.begin()));
         CHECK((*frame)->baseTcamera.has_value() == poses);
         if (poses) {
             CHECK((*frame)->baseTcamera->position.x == doctest::Approx(0.1 * i).epsilon(1e-9));
@@ -133,11 +133,11 @@ TEST_CASE(
     "A picture that cannot be written stops the recording with the file's name; what came before stays") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
-    const std::vector<Picture> pictures = somePictures(info, 3);
+    const std::vector<Image> images = someImages(info, 3);
     RecordingWriter writer(folder.path() / "rec", info, 1);
     std::filesystem::create_directory(folder.path() / "rec/depth/000002.png"); // in the way
     for (uint32_t i = 0; i < 3; ++i) {
-        writer.add(pictures[i].frame(i, false));
+        writer.add(images[i].frame(i, false));
     }
     CHECK_THROWS_WITH(writer.finish(), doctest::Contains("000002.png"));
     RecordedCamera camera(folder.path() / "rec");
@@ -149,13 +149,13 @@ TEST_CASE(
 TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording, every picture of it whole") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
-    const std::vector<Picture> pictures = somePictures(info, 40);
+    const std::vector<Image> images = someImages(info, 40);
     const pid_t child = ::fork();
     REQUIRE(child >= 0);
     if (child == 0) {
         RecordingWriter writer(folder.path() / "rec", info, 2);
         for (uint32_t i = 0;; ++i) {
-            writer.add(pictures[i % 40].frame(i, true));
+            writer.add(images[i % 40].frame(i, true));
         }
     }
     const auto index = folder.path() / "rec/associations.txt";
@@ -169,8 +169,7 @@ TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording, every pictur
     RecordedCamera camera(folder.path() / "rec");
     uint32_t frames = 0;
     while (const auto frame = camera.next()) {
-        CHECK(
-            std::equal((*frame)->depth.begin(), (*frame)->depth.end(), pictures[frames % 40].depth.begin()));
+        CHECK(std::equal((*frame)->depth.begin(), (*frame)->depth.end(), images[frames % 40].depth.begin()));
         CHECK((*frame)->baseTcamera.has_value());
         ++frames;
     }
@@ -184,26 +183,26 @@ TEST_CASE(
     CameraInfo info = someCamera(true);
     info.depth.width = info.colour.width = 640;
     info.depth.height = info.colour.height = 480;
-    Picture picture{std::vector<uint16_t>(info.depth.pixels()), std::vector<uint32_t>(info.depth.pixels())};
+    Image image{std::vector<uint16_t>(info.depth.pixels()), std::vector<uint32_t>(info.depth.pixels())};
     std::mt19937 random(3);
     for (uint32_t i = 0; i < info.depth.pixels(); ++i) { // a slope and a wall with a camera's noise
-        picture.depth[i] = static_cast<uint16_t>(900 + i % 640 / 4 + random() % 5);
-        picture.colour[i] = 0xff000000u | static_cast<uint32_t>(120 + i / 640 / 8 + random() % 8) * 0x010101u;
+        image.depth[i] = static_cast<uint16_t>(900 + i % 640 / 4 + random() % 5);
+        image.colour[i] = 0xff000000u | static_cast<uint32_t>(120 + i / 640 / 8 + random() % 8) * 0x010101u;
     }
     const TemporaryFolder folder;
     const auto start = std::chrono::steady_clock::now();
     RecordingWriter writer(folder.path() / "rec", info, 2);
     for (uint32_t i = 0; i < kMany; ++i) {
-        picture.depth[0] = static_cast<uint16_t>(i);
-        writer.add(picture.frame(i, false));
+        image.depth[0] = static_cast<uint16_t>(i);
+        writer.add(image.frame(i, false));
     }
     writer.finish();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
     RecordedCamera camera(folder.path() / "rec");
     uint32_t count = 0;
     while (const auto frame = camera.next()) {
-        picture.depth[0] = static_cast<uint16_t>(count++);
-        CHECK(std::equal(picture.depth.begin(), picture.depth.end(), (*frame)->depth.begin()));
+        image.depth[0] = static_cast<uint16_t>(count++);
+        CHECK(std::equal(image.depth.begin(), image.depth.end(), (*frame)->depth.begin()));
     }
     CHECK(count == kMany);
     const double rate = kMany / took.count();

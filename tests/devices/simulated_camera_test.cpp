@@ -26,11 +26,11 @@ Seen copyOf(const Frame& frame) {
 
 std::vector<Seen> film(SimulatedCameraOptions options, const std::string& scene = "tank") {
     SimulatedCamera camera(*analyticScene(scene), options);
-    std::vector<Seen> pictures;
+    std::vector<Seen> images;
     while (std::optional<Frame> frame = camera.next()) {
-        pictures.push_back(copyOf(*frame));
+        images.push_back(copyOf(*frame));
     }
-    return pictures;
+    return images;
 }
 
 SimulatedCameraOptions small() {

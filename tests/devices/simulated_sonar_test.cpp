@@ -16,7 +16,7 @@ using namespace fathom;
 
 namespace {
 
-SimulatedSonarOptions small() {
+SimulatedSonarOptions smallSonar() {
     SimulatedSonarOptions options;
     options.width = 80, options.height = 60;
     options.step *= 2.0;
@@ -49,7 +49,7 @@ double shareWithin(SimulatedSonar& sonar, const Frame& frame) {
 
 TEST_CASE(
     "What a beam met lies within three sigma of its reading: always without noise, nearly always with") {
-    SimulatedSonarOptions options = small();
+    SimulatedSonarOptions options = smallSonar();
     SimulatedSonar noisy(sonarScene(), options);
     const double share = shareWithin(noisy, *noisy.next());
     CHECK(share > 0.99);
@@ -60,7 +60,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Steel echoes louder than sand and concrete, in a picture of greys") {
-    SimulatedSonar sonar(sonarScene(), small());
+    SimulatedSonar sonar(sonarScene(), smallSonar());
     const auto frame = sonar.next();
     REQUIRE(frame);
     std::vector<std::vector<uint32_t>> levels(3);
@@ -84,7 +84,7 @@ TEST_CASE("Steel echoes louder than sand and concrete, in a picture of greys") {
 }
 
 TEST_CASE("A sonar's frames are numbered, ten a second, end, and depend on nothing but the options") {
-    SimulatedSonar one(sonarScene(), small()), other(sonarScene(), small());
+    SimulatedSonar one(sonarScene(), smallSonar()), other(sonarScene(), smallSonar());
     std::vector<uint16_t> before;
     for (uint32_t k = 0; k < 3; ++k) {
         const auto a = one.next(), b = other.next();
@@ -97,7 +97,7 @@ TEST_CASE("A sonar's frames are numbered, ten a second, end, and depend on nothi
         before.assign((*a)->depth.begin(), (*a)->depth.end());
     }
     CHECK_FALSE(one.next());
-    SimulatedSonarOptions wide = small();
+    SimulatedSonarOptions wide = smallSonar();
     wide.step = 0.1;
     CHECK_THROWS_AS(SimulatedSonar(sonarScene(), wide), Error);
     wide.width = 0;
@@ -106,7 +106,7 @@ TEST_CASE("A sonar's frames are numbered, ten a second, end, and depend on nothi
 
 TEST_CASE("A recorded sonar is read back with its fan, its beam and every picture; ranges become depths") {
     const TemporaryFolder folder;
-    SimulatedSonar sonar(sonarScene(), small());
+    SimulatedSonar sonar(sonarScene(), smallSonar());
     std::vector<std::vector<uint16_t>> seen;
     {
         RecordingWriter writer(folder.path() / "rec", sonar.info(), 1);

@@ -21,7 +21,7 @@ std::vector<std::byte> bytesOf(std::initializer_list<int> values) {
 
 std::vector<uint16_t> unpacked(uint32_t fourcc, VideoSize size, uint32_t stride,
                                const std::vector<std::byte>& in) {
-    REQUIRE(in.size() >= pictureBytes(fourcc, size, stride));
+    REQUIRE(in.size() >= imageBytes(fourcc, size, stride));
     std::vector<uint16_t> out(size.width * size.height);
     unpackDepth(*depthLayout(fourcc), size, stride, in, out);
     return out;
@@ -51,12 +51,12 @@ TEST_CASE("Packed ten-bit pixels are read across byte borders, most significant 
 TEST_CASE("INZI depth is the second plane, behind the infrared one") {
     const auto in = bytesOf({9, 9, 9, 9, 1, 0, 2, 0});
     CHECK(unpacked(fourccOf("INZI"), {2, 1}, 4, in) == std::vector<uint16_t>{1, 2});
-    CHECK(pictureBytes(fourccOf("INZI"), {2, 1}, 4) == 8);
+    CHECK(imageBytes(fourccOf("INZI"), {2, 1}, 4) == 8);
 }
 
 TEST_CASE("INZI rows lie without gaps, though the driver tells a stride of both planes' 32 bits a pixel") {
     const auto in = bytesOf({9, 9, 9, 9, 9, 9, 9, 9, 1, 0, 2, 0, 3, 0, 4, 0}); // 2x2: infrared, then depth
-    CHECK(pictureBytes(fourccOf("INZI"), {2, 2}, 8) == in.size());
+    CHECK(imageBytes(fourccOf("INZI"), {2, 2}, 8) == in.size());
     CHECK(unpacked(fourccOf("INZI"), {2, 2}, 8, in) == std::vector<uint16_t>{1, 2, 3, 4});
     CHECK(depthLayout(fourccOf("INZI"))->rowBytes(2, 8) == 4);
     CHECK(depthLayout(fourccOf("Z16 "))->rowBytes(2, 8) == 8); // padding of a plain format counts

@@ -40,8 +40,8 @@ public:
         constexpr double kPeriod = 0.1; // [s] longer than a driver's own: it sends in every turn
         ArmCommand command;
         command.hold = false;
-        for (size_t turn = 0; turn < kMostTurns && turn * kTurn < input.size(); ++turn) {
-            const Bytes bytes = input.subspan(turn * kTurn, std::min(kTurn, input.size() - turn * kTurn));
+        for (size_t tick = 0; tick < kMostTurns && tick * kTurn < input.size(); ++tick) {
+            const Bytes bytes = input.subspan(tick * kTurn, std::min(kTurn, input.size() - tick * kTurn));
             need(::write(master_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
             pollfd there{port_->descriptor(), POLLIN, 0};
             ::poll(&there, 1, 200);

@@ -87,7 +87,7 @@ void readPng(Bytes input) {
     need(!readDepthPng(file, {size->width + 1, size->height}, depth).empty());
 }
 
-void readJpegPicture(Bytes input) {
+void readJpegImage(Bytes input) {
     std::vector<uint32_t> out(16 * 8);
     const std::string fault = readJpeg(std::as_bytes(input), {16, 8}, out);
     if (!fault.empty()) {

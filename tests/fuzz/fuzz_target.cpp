@@ -21,14 +21,14 @@ namespace {
 constexpr std::array kTargets{
     FuzzTarget{"bag", readBag},
     FuzzTarget{"descriptors", readDescriptors},
-    FuzzTarget{"door", readDoor},
+    FuzzTarget{"door", readEndpoint},
     FuzzTarget{"eca", readEca},
     FuzzTarget{"falcon", readFalcon},
     FuzzTarget{"firmware", readFirmware},
     FuzzTarget{"haply", readHaply},
     FuzzTarget{"index", readIndexFile},
     FuzzTarget{"intrinsics", readIntrinsicsFile},
-    FuzzTarget{"jpeg", readJpegPicture},
+    FuzzTarget{"jpeg", readJpegImage},
     FuzzTarget{"mesh", readMesh, 20}, // a process each
     FuzzTarget{"pairs", readPairs},
     FuzzTarget{"pcd", readPcdFile},

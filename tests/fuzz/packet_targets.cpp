@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets that read what devices and bridges send: descriptors, tables, pictures, packets.
-#include "devices/bridge/door_hand.h"
-#include "devices/bridge/door_socket.h"
+#include "devices/bridge/device_socket.h"
 #include "devices/bridge/force_gate.h"
+#include "devices/bridge/socket_hand.h"
 #include "devices/haply/haply_message.h"
 #include "devices/haply/web_socket.h"
 #include "devices/usb/falcon_kinematics.h"
@@ -77,7 +77,7 @@ void readPixels(Bytes input) {
     const uint32_t fourcc = formats[input[1] % formats.size()];
     const VideoSize size{1u + input[2] % 17, 1u + input[3] % 7};
     const Bytes rest = input.subspan(4);
-    const size_t whole = pictureBytes(fourcc, size, 0);
+    const size_t whole = imageBytes(fourcc, size, 0);
     std::vector<uint32_t> colour(size_t{size.width} * size.height);
     if (const auto layout = depthLayout(fourcc); layout && input[0] % 2 == 0) {
         std::vector<uint16_t> depth(colour.size());
@@ -117,20 +117,20 @@ void readSpaceMouse(Bytes input) {
 
 // As they come out of the socket: a packet for the engine, or a wrench for the device's side. The first byte
 // says which, and whether the header is made right.
-void readDoor(Bytes input) {
+void readEndpoint(Bytes input) {
     if (input.size() < 2) {
         return;
     }
     int ends[2];
     need(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);
-    DoorSocket mine(ends[0]);
-    DoorSocket other(ends[1]);
+    DeviceSocket mine(ends[0]);
+    DeviceSocket other(ends[1]);
     std::vector<uint8_t> packet(input.begin() + 1, input.end());
     const bool hand = input[0] % 2 == 0;
     if (input[0] & 2u) {
         packet.resize(hand ? sizeof(fathom_door_hand) : sizeof(fathom_door_wrench));
         const fathom_door_header header =
-            doorHeader(hand ? FATHOM_DOOR_HAND : FATHOM_DOOR_WRENCH, packet.size(), 1);
+            socketHeader(hand ? FATHOM_DOOR_HAND : FATHOM_DOOR_WRENCH, packet.size(), 1);
         std::memcpy(packet.data(), &header, sizeof header);
     }
     need(::send(ends[1], packet.data(), packet.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(packet.size()));
@@ -138,11 +138,11 @@ void readDoor(Bytes input) {
     fathom_door_wrench wrench{};
     if (hand) {
         Pose pose;
-        const bool whole = mine.receive(sample, FATHOM_DOOR_HAND) == DoorEvent::Packet;
+        const bool whole = mine.receive(sample, FATHOM_DOOR_HAND) == SocketEvent::Packet;
         need(!whole || packet.size() == sizeof sample);
         need(!whole || !soundPose(sample, pose) ||
              (isFinite(pose) && std::abs(glm::length(pose.rotation) - 1.0) < 1e-9));
-    } else if (mine.receive(wrench, FATHOM_DOOR_WRENCH) == DoorEvent::Packet) {
+    } else if (mine.receive(wrench, FATHOM_DOOR_WRENCH) == SocketEvent::Packet) {
         ForceGate gate(8.0, 1.0);
         Wrench w;
         std::memcpy(&w.force, wrench.force, sizeof wrench.force);

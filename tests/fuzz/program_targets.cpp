@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Targets that read what the program's commands take or left: recorded turns, measured points, firmware.
-#include "apps/operate/turn_log.h"
+#include "apps/operate/tick_log.h"
 #include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
 #include "devices/usb/falcon_firmware.h"
@@ -17,7 +17,7 @@ void readTurns(Bytes input) {
     const auto zero = static_cast<size_t>(std::find(input.begin(), input.end(), 0) - input.begin());
     const auto folder = fuzzFile(operate::kWrenchFile, input.first(zero)).parent_path();
     fuzzFile(operate::kTouchesFile, input.subspan(std::min(zero + 1, input.size())));
-    const operate::TurnLog log = operate::readTurnLog(folder);
+    const operate::TickLog log = operate::readTickLog(folder);
     for (size_t i = 0; i < log.moments.size(); ++i) {
         const operate::Moment& moment = log.moments[i];
         need(std::isfinite(moment.t) && (i == 0 || moment.t > log.moments[i - 1].t));

@@ -133,7 +133,7 @@ TEST_CASE("A step against a region is the nearest one in the arm's metric, direc
     const RegionSpheres& s = world.fixtures.spheres;
     const dvec3 between = arm.centre(frames, 3) - world.fixtures.origin - dvec3(s.x[0], s.y[0], s.z[0]);
     const double gap = glm::length(between) - 0.04 - static_cast<double>(s.radius[0]);
-    const dvec3 shift = 4e-4 * towards, turn{2e-4, -3e-4, 4e-4};
+    const dvec3 shift = 4e-4 * towards, tick{2e-4, -3e-4, 4e-4};
     std::vector<double> other;
     for (const double k : {0.05, 0.5}) {
         CAPTURE(k);
@@ -142,11 +142,11 @@ TEST_CASE("A step against a region is the nearest one in the arm's metric, direc
         ArmProxy proxy(arm, Pose{}, options, start);
         world.query(arm, proxy);
         const Pose tip = proxy.tip();
-        const Pose target{tip.position + shift, rotationExp(turn) * tip.rotation};
-        const ArmTurn out = proxy.turn(target, k, &world.set);
+        const Pose target{tip.position + shift, rotationExp(tick) * tip.rotation};
+        const ArmStep out = proxy.step(target, k, &world.set);
         REQUIRE(out.contacts == 1);
         CHECK_FALSE(out.singular);
-        const auto truth = nearestIncrements(arm, frames, k, shift, turn, 3, glm::normalize(between), gap);
+        const auto truth = nearestIncrements(arm, frames, k, shift, tick, 3, glm::normalize(between), gap);
         double apart = 0.0;
         for (size_t j = 0; j < 4; ++j) {
             CHECK(out.q[j] - start[j] == doctest::Approx(truth[j]).epsilon(2e-3).scale(1e-4));
@@ -176,7 +176,7 @@ TEST_CASE(
         }
         world.query(arm, proxy);
         const ArmFrames before = proxy.frames();
-        proxy.turn(target, 0.05, &world.set);
+        proxy.step(target, 0.05, &world.set);
         for (size_t l = 0; l < arm.leaves.size(); ++l) {
             farthest =
                 std::max(farthest, glm::distance(arm.centre(before, l), arm.centre(proxy.frames(), l)));
@@ -196,15 +196,15 @@ TEST_CASE("Six and seven joints bring the tip to a place and a direction that th
         ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
         ArmFrames there;
         arm.place(JointVector{-0.1, 0.6, 0.1, 0.6, 0.4, -0.5, 0.1}, Pose{}, there);
-        ArmTurn turn;
+        ArmStep tick;
         for (int i = 0; i < 6000; ++i) {
-            turn = proxy.turn(arm.tip(there), 0.1, nullptr);
+            tick = proxy.step(arm.tip(there), 0.1, nullptr);
         }
         CAPTURE(joints);
-        CHECK(turn.residual < 1e-6);
-        const dquat apart = glm::conjugate(arm.tip(there).rotation) * turn.tip.rotation;
+        CHECK(tick.residual < 1e-6);
+        const dquat apart = glm::conjugate(arm.tip(there).rotation) * tick.tip.rotation;
         CHECK(2.0 * glm::length(dvec3(apart.x, apart.y, apart.z)) < 1e-5);
-        CHECK(glm::distance(turn.tip.position, arm.tip(there).position) < 1e-6);
+        CHECK(glm::distance(tick.tip.position, arm.tip(there).position) < 1e-6);
     }
 }
 
@@ -231,13 +231,13 @@ TEST_CASE("Joints that have no way to go do not count among an arm's singular va
         Pose target = proxy.tip();
         target.position += dvec3(0.001, 0.002, -0.001);
         const JointVector before = proxy.joints();
-        const ArmTurn turn = proxy.turn(target, 0.1, nullptr);
-        CHECK(turn.manipulability == doctest::Approx(truth).epsilon(1e-6));
-        CHECK(turn.manipulability > 1e-4);
+        const ArmStep tick = proxy.step(target, 0.1, nullptr);
+        CHECK(tick.manipulability == doctest::Approx(truth).epsilon(1e-6));
+        CHECK(tick.manipulability > 1e-4);
         for (size_t k = 0; k < arm.count(); ++k) {
             const bool locked = std::find(moving.begin(), moving.end(), k) == moving.end();
-            CHECK((!locked || turn.q[k] == before[k]));
+            CHECK((!locked || tick.q[k] == before[k]));
         }
-        CHECK(turn.residual < 0.0024); // it did move
+        CHECK(tick.residual < 0.0024); // it did move
     }
 }

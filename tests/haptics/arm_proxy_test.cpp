@@ -55,13 +55,13 @@ TEST_CASE("an arm of four to seven joints brings its tip to a place it can reach
         ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
         ArmFrames frames;
         arm.place(JointVector{-0.3, 0.6, 0.3, 0.5, 0.4, 0.2, -0.1}, Pose{}, frames);
-        ArmTurn turn;
+        ArmStep tick;
         for (int i = 0; i < 4000; ++i) {
-            turn = proxy.turn(arm.tip(frames), 0.0, nullptr);
+            tick = proxy.step(arm.tip(frames), 0.0, nullptr);
         }
-        INFO(joints << " joints, residual " << turn.residual);
-        CHECK(turn.residual < 1e-6);
-        CHECK_FALSE(turn.trapped);
+        INFO(joints << " joints, residual " << tick.residual);
+        CHECK(tick.residual < 1e-6);
+        CHECK_FALSE(tick.trapped);
     }
 }
 
@@ -78,11 +78,11 @@ TEST_CASE("whatever the hand asks for, no joint leaves its limits or goes faster
                 target = {randomIn(random, 2.0), randomRotation(random)};
             }
             const JointVector before = proxy.joints();
-            const ArmTurn turn = proxy.turn(target, 0.1, nullptr);
-            worst = std::max(worst, worstLimit(arm, turn.q));
-            limited += turn.atLimits > 0 ? 1 : 0;
+            const ArmStep tick = proxy.step(target, 0.1, nullptr);
+            worst = std::max(worst, worstLimit(arm, tick.q));
+            limited += tick.atLimits > 0 ? 1 : 0;
             for (size_t k = 0; k < joints; ++k) {
-                fastest = std::max(fastest, std::abs(turn.q[k] - before[k]));
+                fastest = std::max(fastest, std::abs(tick.q[k] - before[k]));
             }
         }
         CHECK(worst == 0.0);
@@ -112,11 +112,11 @@ TEST_CASE("no leaf of any link enters a sphere, among hundreds of them, with a w
                 world.query(arm, proxy); // answers come late, too
             }
             REQUIRE(proxy.covers(world.set));
-            const ArmTurn turn = proxy.turn(target, 0.05, &world.set);
+            const ArmStep tick = proxy.step(target, 0.05, &world.set);
             deepest = std::max(deepest, world.depth(arm, proxy.frames()));
-            worst = std::max(worst, worstLimit(arm, turn.q));
-            touching += turn.contacts > 0 ? 1 : 0;
-            trapped += turn.trapped ? 1 : 0;
+            worst = std::max(worst, worstLimit(arm, tick.q));
+            touching += tick.contacts > 0 ? 1 : 0;
+            trapped += tick.trapped ? 1 : 0;
         }
         MESSAGE(joints << " joints: deepest " << 1e6 * deepest << " um, in contact " << touching
                        << " of 2500 turns");
@@ -134,15 +134,15 @@ TEST_CASE("an elbow that would hit stops the tip although the tip itself is free
     addSphere(world.fixtures, {0.12, 0.2, 0.0}, 0.05); // beside the first link
     world.grid.build(world.fixtures.spheres);
     const Pose target{{0.1, 0.95, 0.0}, kUpright};
-    ArmTurn turn;
+    ArmStep tick;
     double deepest = -1.0;
     for (int i = 0; i < 4000; ++i) {
         world.query(arm, proxy);
-        turn = proxy.turn(target, 0.0, &world.set);
+        tick = proxy.step(target, 0.0, &world.set);
         deepest = std::max(deepest, world.depth(arm, proxy.frames()));
     }
     CHECK(deepest <= 1e-9);
-    CHECK(turn.contacts >= 1);
+    CHECK(tick.contacts >= 1);
     CHECK(world.depth(arm, proxy.frames()) > -1e-5); // it rests on the sphere
     CHECK(proxy.joints()[0] < 1.0);
 }
@@ -159,10 +159,10 @@ TEST_CASE("new data over a link lets it out by a millimetre a turn and never dee
     size_t trapped = 0;
     for (int i = 0; i < 200; ++i) {
         world.query(arm, proxy);
-        const ArmTurn turn = proxy.turn(still, 0.0, &world.set);
+        const ArmStep tick = proxy.step(still, 0.0, &world.set);
         const double now = world.depth(arm, proxy.frames());
         CHECK(now <= std::max(before, 0.0) + 1e-12); // once out, a nanometre of the gap is no depth
-        trapped += turn.trapped ? 1 : 0;
+        trapped += tick.trapped ? 1 : 0;
         before = now;
     }
     CHECK(trapped == 0);
@@ -174,35 +174,35 @@ TEST_CASE("a stretched arm is reported as singular, damped, and comes back") {
     ArmProxy proxy(arm, Pose{}, {}, JointVector{0.1, 0.3, -0.4, 0.5});
     ArmFrames bent;
     arm.place({0.4, 0.5, -0.3, 0.6}, Pose{}, bent);
-    ArmTurn turn;
+    ArmStep tick;
     size_t singular = 0;
     double largest = 0.0;
     for (int i = 0; i < 3000; ++i) {
         const JointVector before = proxy.joints();
-        turn = proxy.turn({{5.0, 0.0, 0.0}, kUpright}, 0.0, nullptr);
-        singular += turn.singular ? 1 : 0;
+        tick = proxy.step({{5.0, 0.0, 0.0}, kUpright}, 0.0, nullptr);
+        singular += tick.singular ? 1 : 0;
         if (i > 2900) {
             for (size_t k = 0; k < 4; ++k) {
-                largest = std::max(largest, std::abs(turn.q[k] - before[k]));
+                largest = std::max(largest, std::abs(tick.q[k] - before[k]));
             }
         }
     }
     CHECK(singular > 100);
     CHECK(largest < 1e-5); // at rest, not dancing
-    CHECK(turn.tip.position.x > 0.99);
+    CHECK(tick.tip.position.x > 0.99);
     for (int i = 0; i < 3000; ++i) {
-        turn = proxy.turn(arm.tip(bent), 0.0, nullptr);
+        tick = proxy.step(arm.tip(bent), 0.0, nullptr);
     }
-    CHECK(turn.residual < 1e-4);
+    CHECK(tick.residual < 1e-4);
 }
 
 TEST_CASE("a target that is not finite holds the arm, and a start outside the limits is brought inside") {
     const ArmModel arm = makeArm(4, 2, 0.5);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{3.0, -3.0, std::numeric_limits<double>::quiet_NaN(), 0.1});
     CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
-    const ArmTurn turn =
-        proxy.turn({dvec3(std::numeric_limits<double>::quiet_NaN()), kUpright}, 0.1, nullptr);
-    CHECK(turn.q == proxy.joints());
+    const ArmStep tick =
+        proxy.step({dvec3(std::numeric_limits<double>::quiet_NaN()), kUpright}, 0.1, nullptr);
+    CHECK(tick.q == proxy.joints());
     CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
     ContactSet other; // of some other tool
     CHECK_FALSE(proxy.covers(other));
@@ -243,7 +243,7 @@ TEST_CASE("a turn of a whole arm allocates nothing; what it costs, by leaf count
             world.query(arm, proxy);
             const uint64_t held = allocationCount();
             const double start = cpuMicros();
-            proxy.turn(target, 0.05, &world.set);
+            proxy.step(target, 0.05, &world.set);
             micros.push_back(cpuMicros() - start);
             allocated += allocationCount() - held;
         }

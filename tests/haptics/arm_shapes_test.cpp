@@ -70,11 +70,11 @@ TEST_CASE("No leaf of any link enters an authored shape or leaves one that keeps
         if (i % 250 == 0) {
             target = {randomIn(random, 1.2), randomRotation(random)};
         }
-        const ArmTurn turn = proxy.turn(target, 0.05, nullptr);
+        const ArmStep tick = proxy.step(target, 0.05, nullptr);
         deepest = std::max(deepest, depthIn(shapes, arm, proxy.frames()));
-        touching += turn.contacts > 0 ? 1 : 0;
-        trapped += turn.trapped ? 1 : 0;
-        for (const ActiveContact& active : turn.active) {
+        touching += tick.contacts > 0 ? 1 : 0;
+        trapped += tick.trapped ? 1 : 0;
+        for (const ActiveContact& active : tick.active) {
             CHECK(active.row.kind == ContactRow::Kind::Shape);
             CHECK(active.multiplier > 0.0);
         }
@@ -94,7 +94,7 @@ TEST_CASE("A shape that comes to lie over a link lets it out by a millimetre a t
     REQUIRE(before > 0.01);
     const Pose stays = proxy.tip();
     for (int i = 0; i < 200; ++i) {
-        proxy.turn(stays, 0.0, nullptr);
+        proxy.step(stays, 0.0, nullptr);
         const double now = depthIn(shapes, arm, proxy.frames());
         CHECK(now <= std::max(before, 0.0) + 1e-12);
         before = now;
@@ -118,7 +118,7 @@ TEST_CASE("A line binds the tip of an arm: it comes to it and then slides along 
     double before = off();
     for (int i = 0; i < 400; ++i) {
         const dvec3 hand = tip + dvec3(0.05, 0.03, i < 200 ? 0.0 : 0.05);
-        proxy.turn({hand, kUpright}, 0.0, nullptr);
+        proxy.step({hand, kUpright}, 0.0, nullptr);
         const double now = off();
         CHECK(now <= std::max(before, 1e-9) + 1e-12);
         before = now;
@@ -147,8 +147,8 @@ TEST_CASE("A leaf that new data put behind a surface is not held there, and come
                 world.set.behind.push_back({leaf, towards, rest - at.y});
             }
         }
-        const ArmTurn turn = proxy.turn(stays, 0.0, &world.set);
-        CHECK_FALSE(turn.trapped);
+        const ArmStep tick = proxy.step(stays, 0.0, &world.set);
+        CHECK_FALSE(tick.trapped);
     }
     CHECK(arm.centre(proxy.frames(), arm.leaves.size() - 1).y > rest - 1e-3); // in front, not through
 }
@@ -161,18 +161,18 @@ TEST_CASE("The grasp goes from open to closed at its own speed, and the finger's
     const size_t tip = arm.leaves.size() - 1;
     CHECK(arm.centre(proxy.frames(), tip).y == doctest::Approx(0.1));
     for (int i = 0; i < 50; ++i) {
-        proxy.turn(still(proxy, nullptr, 1.0));
+        proxy.step(still(proxy, nullptr, 1.0));
     }
     CHECK(proxy.posture().grasp == doctest::Approx(0.5));
     CHECK(arm.centre(proxy.frames(), tip).y == doctest::Approx(0.05));
     for (int i = 0; i < 60; ++i) {
-        proxy.turn(still(proxy, nullptr, 1.0));
+        proxy.step(still(proxy, nullptr, 1.0));
     }
     CHECK(proxy.posture().grasp == doctest::Approx(1.0));
-    proxy.turn(still(proxy, nullptr, std::numeric_limits<double>::quiet_NaN()));
+    proxy.step(still(proxy, nullptr, std::numeric_limits<double>::quiet_NaN()));
     CHECK(proxy.posture().grasp == doctest::Approx(1.0)); // as it is
     for (int i = 0; i < 110; ++i) {
-        proxy.turn(still(proxy, nullptr, -3.0));
+        proxy.step(still(proxy, nullptr, -3.0));
     }
     CHECK(proxy.posture().grasp == doctest::Approx(0.0));
 }
@@ -189,7 +189,7 @@ TEST_CASE("A finger stops at a region and goes on when it has gone") {
     size_t held = 0;
     for (int i = 0; i < 200; ++i) {
         world.query(arm, proxy);
-        held += proxy.turn(still(proxy, &world.set, 1.0)).graspHeld ? 1 : 0;
+        held += proxy.step(still(proxy, &world.set, 1.0)).graspHeld ? 1 : 0;
         deepest = std::max(deepest, world.depth(arm, proxy.frames()));
     }
     CHECK(deepest <= 1e-9);
@@ -197,7 +197,7 @@ TEST_CASE("A finger stops at a region and goes on when it has gone") {
     CHECK(proxy.posture().grasp > 0.1);
     CHECK(proxy.posture().grasp < 0.6);
     for (int i = 0; i < 200; ++i) {
-        proxy.turn(still(proxy, nullptr, 1.0));
+        proxy.step(still(proxy, nullptr, 1.0));
     }
     CHECK(proxy.posture().grasp == doctest::Approx(1.0));
 }

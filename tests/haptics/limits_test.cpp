@@ -36,7 +36,7 @@ TEST_CASE("A slewed wrench moves by at most a step, arrives exactly, and stays i
     Wrench now;
     for (int i = 0; i < 5000; ++i) {
         const Wrench wanted = limitSize({40.0 * random.direction(), 4.0 * random.direction()}, 20.0, 2.0);
-        for (int turn = 0; turn < 25; ++turn) {
+        for (int tick = 0; tick < 25; ++tick) {
             const Wrench next = limitSlew(wanted, now, 2.0, 0.05);
             CHECK(glm::distance(next.force, now.force) <= 2.0 * (1.0 + 1e-12));
             CHECK(glm::distance(next.torque, now.torque) <= 0.05 * (1.0 + 1e-12));

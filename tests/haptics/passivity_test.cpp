@@ -15,7 +15,7 @@
 
 using namespace fathom;
 
-static_assert(noexcept(std::declval<PassivityController&>().step(std::declval<const PassivityTurn&>())));
+static_assert(noexcept(std::declval<PassivityController&>().step(std::declval<const PassivityStep&>())));
 static_assert(noexcept(std::declval<PassivityController&>().delivered(std::declval<const Wrench&>(),
                                                                       std::declval<const Wrench&>())));
 
@@ -47,8 +47,8 @@ struct Loop {
         return s;
     }
     // One turn: observe, then deliver spring (up to the force limit) and damper.
-    Wrench turn(double share = 1.0) {
-        PassivityTurn t;
+    Wrench step(double share = 1.0) {
+        PassivityStep t;
         t.device = t.end = hand;
         t.contact = spring();
         t.share = share;
@@ -86,7 +86,7 @@ TEST_CASE("On a wall that stands still the controller stays out of it, whatever 
             loop.hand.position += step * dvec3(normal(random), normal(random), normal(random));
             loop.hand.position.z = std::clamp(loop.hand.position.z, -0.05, 0.02);
             rest(loop);
-            REQUIRE(isZero(loop.turn()));
+            REQUIRE(isZero(loop.step()));
             REQUIRE(loop.controller.debt() <= 1e-12);
         }
         CHECK(loop.controller.generated() <= 1e-12);
@@ -101,7 +101,7 @@ TEST_CASE("Rotations of any size against a tool that is held generate nothing ei
     for (int i = 0; i < 20000; ++i) {
         loop.hand.rotation = glm::normalize(
             rotationExp(0.05 * dvec3(normal(random), normal(random), normal(random))) * loop.hand.rotation);
-        REQUIRE(isZero(loop.turn()));
+        REQUIRE(isZero(loop.step()));
     }
     CHECK(loop.controller.debt() <= 1e-12);
 }
@@ -111,7 +111,7 @@ TEST_CASE("A spring at its force limit stores less, and that is not taken for ge
     for (int i = 0; i < 2000; ++i) { // to 60 mm: three times the limit, and out again
         loop.hand.position.z = -0.06 * std::sin(3.14159265358979 * i / 2000.0);
         rest(loop);
-        REQUIRE(isZero(loop.turn()));
+        REQUIRE(isZero(loop.step()));
     }
     CHECK(loop.controller.generated() <= 1e-12);
 }
@@ -121,16 +121,16 @@ TEST_CASE("A wall that jumps by delta at penetration p is counted as K p delta +
     for (const double jump : {0.0005, 0.002, 0.005}) {
         Loop loop;
         loop.hand.position.z = -0.003;
-        loop.turn();
+        loop.step();
         loop.tool.position.z = jump;
-        loop.turn();
+        loop.step();
         CHECK(loop.controller.generated() ==
               doctest::Approx(1000.0 * (0.003 * jump + 0.5 * jump * jump)).epsilon(1e-9));
         CHECK(loop.controller.debt() ==
               doctest::Approx(loop.controller.generated()).epsilon(0.003)); // forgetting starts
         const double before = loop.controller.debt();
         loop.tool.position.z = 0.0; // back before the hand could take any of it: nothing is owed
-        loop.turn();
+        loop.step();
         CHECK(loop.controller.debt() <= 0.01 * before);
     }
 }
@@ -138,7 +138,7 @@ TEST_CASE("A wall that jumps by delta at penetration p is counted as K p delta +
 TEST_CASE("The damper works against the hand, is capped, and stops when the debt is paid") {
     Loop loop;
     loop.hand.position.z = -0.003;
-    loop.turn();
+    loop.step();
     loop.tool.position.z = 0.002; // 8 mJ
     double paid = 0.0;
     bool stopped = false;
@@ -146,7 +146,7 @@ TEST_CASE("The damper works against the hand, is capped, and stops when the debt
         const dvec3 moved(1e-4, 0.0, 0.0); // 0.1 m/s along the wall: the spring does no work
         loop.hand.position += moved;
         loop.tool.position.x = loop.hand.position.x;
-        const Wrench damper = loop.turn();
+        const Wrench damper = loop.step();
         CHECK(damper.force.x <= 0.0);
         CHECK(damper.force.x >= -20.0 * 0.1 * (1.0 + 1e-9)); // 0.02 N s^2/m over 1 ms
         CHECK(damper.force.y == 0.0);
@@ -164,15 +164,15 @@ TEST_CASE(
     "Slower than 0.1 mm/s and 1 mrad/s nothing is damped; a turn of the hand is damped by a torque alone") {
     Loop loop;
     loop.hand.position.z = -0.003;
-    loop.turn();
+    loop.step();
     loop.tool.position.z = 0.002;
-    loop.turn();
+    loop.step();
     loop.hand.position.x += 0.9e-7;
     loop.tool.position.x += 0.9e-7;
     loop.hand.rotation = loop.tool.rotation = rotationExp({0.0, 0.9e-6, 0.0});
-    CHECK(isZero(loop.turn()));
+    CHECK(isZero(loop.step()));
     loop.hand.rotation = loop.tool.rotation = rotationExp({0.0, 1e-3, 0.0}) * loop.hand.rotation; // 1 rad/s
-    const Wrench damper = loop.turn();
+    const Wrench damper = loop.step();
     CHECK(damper.force == dvec3(0.0));
     CHECK(damper.torque.y < 0.0);
     CHECK(damper.torque.y >= -20.0 * 0.02 * 0.02 * (1.0 + 1e-9));
@@ -183,13 +183,13 @@ TEST_CASE("Beyond the bound every turn generates (K/2 - b/T) of the square of it
     Loop loop(0.25); // half of what 1000 N/m needs
     loop.hand.position.z = -0.001;
     rest(loop);
-    loop.turn();
+    loop.step();
     double expected = 0.0;
     for (int i = 0; i < 100; ++i) {
         const double step = (i % 2 == 0 ? -1.0 : 1.0) * 4e-5;
         loop.hand.position.z += step;
         rest(loop);
-        loop.turn();
+        loop.step();
         expected += (500.0 - 250.0) * step * step;
         CHECK(loop.controller.generated() == doctest::Approx(expected).epsilon(1e-6));
     }
@@ -200,24 +200,24 @@ TEST_CASE("With a delay the wrench is paired with the motion that it meets, n tu
     Loop early(2.0, 0), late(2.0, 3);
     for (Loop* loop : {&early, &late}) {
         loop->hand.position.z = -0.004;
-        loop->turn();
+        loop->step();
     }
     // The first three wrenches have not reached the hand: a hand that leaves in the meantime got nothing.
     for (Loop* loop : {&early, &late}) {
         loop->hand.position.z = 0.001;
         rest(*loop);
-        loop->turn();
+        loop->step();
     }
     // early: 4 N over 5 mm = 20 mJ out, 8 mJ were stored, 50 mJ damped; late: 0 out.
     CHECK(early.controller.generated() == 0.0);
     CHECK(late.controller.generated() == 0.0);
     for (Loop* loop : {&early, &late}) {
         for (int i = 0; i < 2; ++i) {
-            loop->turn();
+            loop->step();
         }
         loop->hand.position.z += 0.005; // in free space, while the delayed 4 N arrive
         rest(*loop);
-        loop->turn();
+        loop->step();
     }
     CHECK(early.controller.debt() <= 0.0);
     CHECK(late.controller.debt() > early.controller.debt());
@@ -227,22 +227,22 @@ TEST_CASE("Ramped out, or fed with numbers that are not, it forgets everything a
     for (const bool bad : {false, true}) {
         Loop loop;
         loop.hand.position.z = -0.003;
-        loop.turn();
+        loop.step();
         loop.tool.position.z = 0.002;
-        loop.turn();
+        loop.step();
         REQUIRE(loop.controller.debt() > 0.007);
         const Pose good = loop.hand;
         if (bad) {
             loop.hand.position.x = std::numeric_limits<double>::quiet_NaN();
-            CHECK(isZero(loop.turn()));
+            CHECK(isZero(loop.step()));
         } else {
-            CHECK(isZero(loop.turn(0.0)));
+            CHECK(isZero(loop.step(0.0)));
         }
         CHECK(loop.controller.debt() == 0.0);
         loop.hand = good;
-        CHECK(isZero(loop.turn()));
+        CHECK(isZero(loop.step()));
         loop.hand.position.x += 1e-4;
-        CHECK(isZero(loop.turn()));
+        CHECK(isZero(loop.step()));
     }
 }
 
@@ -267,7 +267,7 @@ TEST_CASE("No turn of the controller allocates") {
     for (int i = 0; i < 500; ++i) {
         loop.hand.position.z = -0.002 * (i % 7);
         loop.tool.position.z = 0.001 * (i % 3);
-        loop.turn(i % 100 == 99 ? 0.0 : 1.0);
+        loop.step(i % 100 == 99 ? 0.0 : 1.0);
     }
     CHECK(allocationCount() == before);
 }

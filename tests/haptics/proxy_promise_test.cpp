@@ -130,7 +130,7 @@ struct Figures {
              uncovered = 0;
 };
 
-Figures run(ProxyRig& rig, Hand& hand, int turns, uint32_t slowest, double loss, uint64_t seed) {
+Figures run(ProxyRig& rig, Hand& hand, int ticks, uint32_t slowest, double loss, uint64_t seed) {
     Figures f;
     std::mt19937_64 random(seed);
     std::uniform_int_distribution<uint32_t> late(0, slowest);
@@ -138,23 +138,23 @@ Figures run(ProxyRig& rig, Hand& hand, int turns, uint32_t slowest, double loss,
     LeafCentres before(rig.tool().leafCount()), after(rig.tool().leafCount());
     const LeafPlaces places(rig.tool());
     uint32_t delay = late(random);
-    for (int k = 0; k < turns; ++k) {
+    for (int k = 0; k < ticks; ++k) {
         delay = k % 50 == 0 ? late(random) : delay;
         places.place(rig.proxy().pose(), rig.fixtures().origin, before);
-        const ProxyTurn turn = rig.turn(hand.next(), delay, lost(random));
-        places.place(turn.pose, rig.fixtures().origin, after);
-        const double travel = farthestWay(before, after);
+        const ProxyStep tick = rig.step(hand.next(), delay, lost(random));
+        places.place(tick.pose, rig.fixtures().origin, after);
+        const double travel = leafDisplacement(before, after);
         f.longest = std::max(f.longest, travel);
         f.path += travel;
         f.worst = std::max(f.worst, rig.depth());
-        f.contact += turn.contact ? 1 : 0;
-        f.stalled += turn.stalled ? 1 : 0;
-        f.trapped += turn.trapped ? 1 : 0;
-        f.escape += turn.escape ? 1 : 0;
-        f.uncovered += turn.uncovered ? 1 : 0;
-        f.solves += turn.solves;
-        f.rounds += turn.rounds;
-        f.bisected += turn.bisected;
+        f.contact += tick.contact ? 1 : 0;
+        f.stalled += tick.stalled ? 1 : 0;
+        f.trapped += tick.trapped ? 1 : 0;
+        f.escape += tick.escape ? 1 : 0;
+        f.uncovered += tick.uncovered ? 1 : 0;
+        f.solves += tick.solves;
+        f.rounds += tick.rounds;
+        f.bisected += tick.bisected;
     }
     return f;
 }

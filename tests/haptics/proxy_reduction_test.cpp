@@ -58,8 +58,8 @@ ProxyOptions optionsOf(const RowReduction& rows) {
 }
 
 // A hand that leans into the regions, wanders and turns.
-Pose handAt(const Walls& w, int turn) {
-    const double t = 0.001 * turn;
+Pose handAt(const Walls& w, int tick) {
+    const double t = 0.001 * tick;
     const dvec3 about(std::sin(5.1 * t), std::sin(6.7 * t + 1.0), std::sin(4.3 * t + 2.0));
     return {w.fixtures.origin + w.start - dvec3(0, 0, w.into * std::min(1.0, 4.0 * t)) + w.spread * about,
             rotationExp(dvec3(0.8 * std::sin(3.1 * t), 0.7 * std::sin(2.3 * t), 0.9 * std::sin(1.7 * t)))};
@@ -84,12 +84,12 @@ std::vector<Against> compare(const Walls& w, const std::vector<RowReduction>& re
     for (int k = 0; k < 1200; ++k) {
         const Pose from = all.proxy().pose(), hand = handAt(w, k);
         all.query();
-        const ProxyTurn a = all.turnOnly(hand);
+        const ProxyStep a = all.turnOnly(hand);
         for (size_t i = 0; i < fewer.size(); ++i) {
             ProxyRig& few = *fewer[i];
             few.proxy().setPose(from);
             few.query();
-            const ProxyTurn b = few.turnOnly(hand);
+            const ProxyStep b = few.turnOnly(hand);
             const dvec3 turned = rotationLog(b.pose.rotation * glm::conjugate(a.pose.rotation));
             const double apart =
                 std::hypot(glm::distance(a.pose.position, b.pose.position), 0.05 * glm::length(turned));

@@ -37,7 +37,7 @@ public:
 
     // One turn with an answer of a query asked `delay` turns ago (none yet: the old one stays); lost = no
     // query.
-    ProxyTurn turn(const Pose& target, uint32_t delay = 0, bool lost = false) {
+    ProxyStep step(const Pose& target, uint32_t delay = 0, bool lost = false) {
         if (!lost) {
             pending_.push_back({now_ + delay, std::make_unique<ContactSet>()});
             answer(*pending_.back().set);
@@ -51,12 +51,12 @@ public:
             pending_.pop_front();
         }
         ++now_;
-        return proxy_.turn({target, metricRadius, &inForce_, {}});
+        return proxy_.step({target, metricRadius, &inForce_, {}});
     }
 
     // The two halves of a turn without delay.
     void query() { answer(inForce_); }
-    ProxyTurn turnOnly(const Pose& target) { return proxy_.turn({target, metricRadius, &inForce_, {}}); }
+    ProxyStep turnOnly(const Pose& target) { return proxy_.step({target, metricRadius, &inForce_, {}}); }
 
     // [m] deeper than any sphere of the set allows; < 0 when clear.
     double depth() const { return -oracleSmallestGap(tool_, proxy_.pose(), fixtures_); }

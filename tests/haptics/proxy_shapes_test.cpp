@@ -2,7 +2,7 @@
 // The proxy with authored shapes, and with leaves that a new frame put behind a surface.
 #include "engine/haptics/proxy.h"
 
-#include "tests/contact/pictures.h"
+#include "tests/contact/images.h"
 #include "tests/haptics/proxy_rig.h"
 
 #include <doctest/doctest.h>
@@ -53,10 +53,10 @@ TEST_CASE("No hand pushes the tool into a forbidden shape or out of a keep-in sh
                     const double far = k % 400 == 0 ? 10.0 : 0.3;
                     target = {shape.baseTshape.position + randomIn(random, far), randomRotation(random)};
                 }
-                const ProxyTurn turn = proxy.turn({target, 0.03, nullptr, {}});
-                worst = std::max(worst, deepest(shape, tool, turn.pose));
-                contact += turn.contact ? 1 : 0;
-                bisected += turn.bisected;
+                const ProxyStep tick = proxy.step({target, 0.03, nullptr, {}});
+                worst = std::max(worst, deepest(shape, tool, tick.pose));
+                contact += tick.contact ? 1 : 0;
+                bisected += tick.bisected;
             }
             MESSAGE(static_cast<int>(kind) << std::string(keepIn ? " keep in" : " forbidden") << ": deepest "
                                            << worst << " contact " << contact << " bisected " << bisected);
@@ -73,11 +73,11 @@ TEST_CASE("A shape that already holds the tool lets it out at a millimetre a tur
     Proxy proxy(ballTool(0.01), std::span(&box, 1), {}, at(dvec3(0.085, 0, 0)));
     double depth = 0.025;
     for (int k = 0; k < 30; ++k) {
-        const ProxyTurn turn = proxy.turn({at(dvec3(0.0, 0.05, 0)), 0.03, nullptr, {}});
+        const ProxyStep tick = proxy.step({at(dvec3(0.0, 0.05, 0)), 0.03, nullptr, {}});
         const double now = -gapTo(box, proxy.pose().position, 0.01).gap;
         CHECK(now <= std::max(0.0, depth));
         CHECK(now >= depth - 0.001 - 1e-6);
-        CHECK(turn.escape == (depth > 1e-9));
+        CHECK(tick.escape == (depth > 1e-9));
         depth = now;
     }
     CHECK(depth <= 0.0);
@@ -96,13 +96,13 @@ TEST_CASE("On a line the tool's centre stays on it and follows the hand along it
     for (int k = 1; k <= 1000; ++k) {
         const Pose hand{line.baseTshape.apply(dvec3(0.05 * std::sin(0.01 * k), 0.03, 0.001 * k)),
                         randomRotation(random)};
-        proxy.turn({hand, 0.03, nullptr, {}});
+        proxy.step({hand, 0.03, nullptr, {}});
         const dvec3 offset = proxy.pose().position - line.baseTshape.position;
         worst = std::max(worst, glm::length(offset - glm::dot(offset, along) * along));
     }
     CHECK(worst < 2e-9);
     for (int k = 0; k < 200; ++k) {
-        proxy.turn({at(line.baseTshape.apply(dvec3(0.02, 0.01, 1.0))), 0.03, nullptr, {}});
+        proxy.step({at(line.baseTshape.apply(dvec3(0.02, 0.01, 1.0))), 0.03, nullptr, {}});
     }
     CHECK(glm::distance(proxy.pose().position, line.baseTshape.apply(dvec3(0, 0, 1.0))) < 1e-8);
     CHECK(glm::length(rotationLog(proxy.pose().rotation)) < 1e-6);
@@ -115,9 +115,9 @@ TEST_CASE("A tool off the line or tilted off the axis is drawn back at most a mi
     Proxy proxy(tool, std::span(&axis, 1), {}, {dvec3(0.01, 0, 0), rotationExp(dvec3(0.3, 0.2, 0.4))});
     double off = 0.01;
     for (int k = 0; k < 60; ++k) {
-        const ProxyTurn turn = proxy.turn({at(dvec3(0.3, 0.2, 0.0)), 0.03, nullptr, {}});
-        const double now = std::hypot(turn.pose.position.x, turn.pose.position.y);
-        CHECK(!turn.trapped);
+        const ProxyStep tick = proxy.step({at(dvec3(0.3, 0.2, 0.0)), 0.03, nullptr, {}});
+        const double now = std::hypot(tick.pose.position.x, tick.pose.position.y);
+        CHECK(!tick.trapped);
         CHECK(now <= std::max(off, 2e-9));
         CHECK(now >= off - 0.002);
         off = now;
@@ -129,23 +129,23 @@ TEST_CASE("A tool off the line or tilted off the axis is drawn back at most a mi
 TEST_CASE("A frame that jumps past the tool brings it out on the camera's side, not through the surface") {
     for (const double noise : {0.0, 0.0005}) {
         for (const double jump : {0.03, 0.045, 0.05, 0.052, 0.054, 0.056, 0.0575, 0.06, 0.08, 0.12}) {
-            ProxyRig rig(ballTool(0.01), wallPicture(0.5, 1, 0.04, noise), at(dvec3(0.002, 0.001, 0.445)));
+            ProxyRig rig(ballTool(0.01), wallImage(0.5, 1, 0.04, noise), at(dvec3(0.002, 0.001, 0.445)));
             REQUIRE(rig.depth() < 0.0);
-            rig.turn(rig.proxy().pose());
+            rig.step(rig.proxy().pose());
             const double front = 0.5 - jump;
-            rig.replace(wallPicture(front, 2, 0.04, noise));
-            int turns = 0;
+            rig.replace(wallImage(front, 2, 0.04, noise));
+            int ticks = 0;
             bool flagged = false;
-            while (turns < 400 && !(rig.depth() <= 0.0 && rig.proxy().pose().position.z < front)) {
-                rig.turn(at(dvec3(0.002, 0.001, 0.445)));
+            while (ticks < 400 && !(rig.depth() <= 0.0 && rig.proxy().pose().position.z < front)) {
+                rig.step(at(dvec3(0.002, 0.001, 0.445)));
                 flagged = flagged || !rig.inForce().behind.empty();
-                ++turns;
+                ++ticks;
             }
-            MESSAGE("noise " << noise << " jump " << (jump * 1e3) << " mm: " << turns << " turns, flagged "
+            MESSAGE("noise " << noise << " jump " << (jump * 1e3) << " mm: " << ticks << " turns, flagged "
                              << flagged << ", ends " << (front - rig.proxy().pose().position.z) * 1e3
                              << " mm in front");
-            CHECK(turns < 400);
-            CHECK(turns >= static_cast<int>((jump - 0.012) / 0.002));
+            CHECK(ticks < 400);
+            CHECK(ticks >= static_cast<int>((jump - 0.012) / 0.002));
             CHECK(front - rig.proxy().pose().position.z > 0.045);
         }
     }

@@ -34,14 +34,14 @@ TEST_CASE("The time of a turn of 256 leaves in contact with 60 k spheres is prin
             hand.rotation = rotationExp(dvec3(0.3 * std::sin(a), 0.3 * std::cos(1.3 * a), 0.0));
             rig.query();
             const auto start = std::chrono::steady_clock::now();
-            const ProxyTurn turn = rig.turnOnly(hand);
+            const ProxyStep tick = rig.turnOnly(hand);
             const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
             if (k >= 300) {
                 times.push_back(took.count());
-                solves += turn.solves, rounds += turn.rounds, bisected += turn.bisected;
-                contact += turn.contact ? 1 : 0;
+                solves += tick.solves, rounds += tick.rounds, bisected += tick.bisected;
+                contact += tick.contact ? 1 : 0;
             }
-            REQUIRE(turn.minGap >= 0.0);
+            REQUIRE(tick.minGap >= 0.0);
         }
         std::sort(times.begin(), times.end());
         MESSAGE(speed << " m/s, " << rig.inForce().pairSphere.size() << " pairs: turn p50 "

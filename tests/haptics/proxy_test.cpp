@@ -28,10 +28,10 @@ Pose at(double x, double y, double z) {
 int turnsToLeave(ProxyRig& rig, const Pose& target, int limit) {
     double depth = rig.depth();
     for (int k = 1; k <= limit; ++k) {
-        const ProxyTurn turn = rig.turn(target);
+        const ProxyStep tick = rig.step(target);
         const double now = rig.depth();
         CHECK(now <= std::max(0.0, depth));
-        CHECK(turn.escape == (depth > 1e-9));
+        CHECK(tick.escape == (depth > 1e-9));
         depth = now;
         if (depth <= 0.0) {
             return k;
@@ -46,14 +46,14 @@ TEST_CASE("In free space the tool reaches the hand's pose exactly, rotation incl
     std::mt19937_64 random(31);
     ProxyRig rig(randomTool(random, 20, 0.05, 0.01), emptySet(), at(0, 0, 0));
     const Pose target{dvec3(0.0311, -0.02, 0.0174), randomRotation(random)};
-    int turns = 0;
-    while (turns < 100 && !(rig.proxy().pose().position == target.position)) {
-        rig.turn(target);
-        ++turns;
+    int ticks = 0;
+    while (ticks < 100 && !(rig.proxy().pose().position == target.position)) {
+        rig.step(target);
+        ++ticks;
     }
-    CHECK(turns < 40);
+    CHECK(ticks < 40);
     CHECK(rig.proxy().pose().rotation == glm::normalize(target.rotation));
-    const ProxyTurn rest = rig.turn(target);
+    const ProxyStep rest = rig.step(target);
     CHECK(rest.solves == 1);
     CHECK(!rest.contact);
     CHECK(rest.minGap == rig.inForce().reach);
@@ -62,9 +62,9 @@ TEST_CASE("In free space the tool reaches the hand's pose exactly, rotation incl
 
 TEST_CASE("A scene without regions of points needs no contact set") {
     Proxy proxy(ballTool(0.01), {}, {}, at(1000, 0, 0));
-    ProxyTurn turn = proxy.turn({at(1000, 0.001, 0), 0.1, nullptr, {}});
-    CHECK(turn.pose.position == dvec3(1000, 0.001, 0));
-    CHECK(!turn.stalled);
+    ProxyStep tick = proxy.step({at(1000, 0.001, 0), 0.1, nullptr, {}});
+    CHECK(tick.pose.position == dvec3(1000, 0.001, 0));
+    CHECK(!tick.stalled);
 }
 
 TEST_CASE("Along a flat keep-out plane no tangential motion is lost, and the tool rests on it to the skin") {
@@ -73,10 +73,10 @@ TEST_CASE("Along a flat keep-out plane no tangential motion is lost, and the too
     Proxy proxy(ballTool(0.01), std::span(&plane, 1), {}, at(0, 0, 0.0101));
     for (int k = 1; k <= 500; ++k) {
         const double x = 0.003 * k; // 3 m/s, and 10 m under the surface: the pull down must not slow it
-        const ProxyTurn turn = proxy.turn({at(x, 0, -10.0), 0.1, nullptr, {}});
-        CHECK(turn.contact);
-        CHECK(turn.pose.position.x == doctest::Approx(x).epsilon(1e-9));
-        CHECK(turn.pose.position.z >= 0.01);
+        const ProxyStep tick = proxy.step({at(x, 0, -10.0), 0.1, nullptr, {}});
+        CHECK(tick.contact);
+        CHECK(tick.pose.position.x == doctest::Approx(x).epsilon(1e-9));
+        CHECK(tick.pose.position.z >= 0.01);
     }
     CHECK(proxy.pose().position.z == doctest::Approx(0.01).epsilon(1e-5));
 }
@@ -86,7 +86,7 @@ TEST_CASE("Along a wall of region spheres the tool keeps up with the hand") {
     double worstLag = 0.0;
     for (int k = 0; k < 160; ++k) {
         const double x = -0.08 + 0.001 * k; // 1 m/s, 5 mm deep
-        rig.turn(at(x, 0.0005, 0.045));
+        rig.step(at(x, 0.0005, 0.045));
         worstLag = std::max(worstLag, std::abs(rig.proxy().pose().position.x - x));
         REQUIRE(rig.depth() <= 0.0);
     }
@@ -106,9 +106,9 @@ TEST_CASE("No leaf travels farther than the step cap in a solve, whatever the ha
         double longest = 0.0;
         for (int k = 0; k < 300; ++k) {
             places.place(rig.proxy().pose(), dvec3(0.0), before);
-            rig.turn({randomIn(random, 1.0), randomRotation(random)});
+            rig.step({randomIn(random, 1.0), randomRotation(random)});
             places.place(rig.proxy().pose(), dvec3(0.0), after);
-            longest = std::max(longest, farthestWay(before, after));
+            longest = std::max(longest, leafDisplacement(before, after));
         }
         CHECK(longest <= solves * 0.0015 * (1.0 + 1e-9));
         CHECK(longest > 0.9 * 0.0015);
@@ -122,10 +122,10 @@ TEST_CASE(
         rig.replace(flatWall(over, 2));
         const double depth = rig.depth();
         REQUIRE(depth > over - 0.002);
-        const int turns = turnsToLeave(rig, rig.proxy().pose(), 200);
-        MESSAGE((over * 1e3) << " mm: " << turns << " turns");
-        CHECK(turns >= static_cast<int>(depth / 0.002)); // 2 mm of travel a turn at most
-        CHECK(turns <= static_cast<int>(std::ceil(depth / 0.001)) + 3);
+        const int ticks = turnsToLeave(rig, rig.proxy().pose(), 200);
+        MESSAGE((over * 1e3) << " mm: " << ticks << " turns");
+        CHECK(ticks >= static_cast<int>(depth / 0.002)); // 2 mm of travel a turn at most
+        CHECK(ticks <= static_cast<int>(std::ceil(depth / 0.001)) + 3);
         CHECK(rig.proxy().pose().position.z > over);
     }
 }
@@ -141,9 +141,9 @@ TEST_CASE("A many-leaved tool under new data leaves too, pressed or not") {
         REQUIRE(depth > 0.01);
         Pose target = rig.proxy().pose();
         target.position.z -= press;
-        const int turns = turnsToLeave(rig, target, 200);
-        MESSAGE("depth " << depth * 1e3 << " mm, pressed " << press << " m: " << turns << " turns");
-        CHECK(turns <= static_cast<int>(std::ceil(depth / 0.001)) + 8);
+        const int ticks = turnsToLeave(rig, target, 200);
+        MESSAGE("depth " << depth * 1e3 << " mm, pressed " << press << " m: " << ticks << " turns");
+        CHECK(ticks <= static_cast<int>(std::ceil(depth / 0.001)) + 8);
     }
 }
 
@@ -156,15 +156,15 @@ TEST_CASE("Between two walls that leave no room the tool is trapped and held, an
     REQUIRE(depth > 0.002);
     for (int k = 0; k < 50; ++k) {
         const Pose before = rig.proxy().pose();
-        const ProxyTurn turn = rig.turn(at(0.05, 0, 0.0475));
-        CHECK(turn.trapped);
-        CHECK(turn.pose.position == before.position);
-        CHECK(!turn.contact);
+        const ProxyStep tick = rig.step(at(0.05, 0, 0.0475));
+        CHECK(tick.trapped);
+        CHECK(tick.pose.position == before.position);
+        CHECK(!tick.contact);
     }
     rig.replace(flatWall(0.0, 3));
     CHECK(turnsToLeave(rig, at(0.002, 0.002, 0.0475), 20) <= 6);
-    const ProxyTurn turn = rig.turn(at(0.002, 0.002, 0.0475));
-    CHECK(!turn.trapped);
+    const ProxyStep tick = rig.step(at(0.002, 0.002, 0.0475));
+    CHECK(!tick.trapped);
 }
 
 TEST_CASE(
@@ -172,15 +172,15 @@ TEST_CASE(
     ProxyRig rig(ballTool(0.01), flatWall(-1.0), at(0, 0, 0));
     uint64_t stalled = 0;
     for (int k = 0; k < 20; ++k) {
-        stalled += rig.turn(at(0.1, 0, 0), 0, true).stalled ? 1 : 0;
+        stalled += rig.step(at(0.1, 0, 0), 0, true).stalled ? 1 : 0;
     }
     CHECK(stalled >= 15);
     CHECK(rig.proxy().pose().position.x <= 0.01 - 1e-5 + 1e-12);
     CHECK(rig.proxy().pose().position.x > 0.0099);
-    const ProxyTurn back = rig.turn(at(0.001, 0, 0), 0, true);
+    const ProxyStep back = rig.step(at(0.001, 0, 0), 0, true);
     CHECK(!back.stalled);
     CHECK(back.pose.position.x < 0.005);
-    CHECK(rig.turn(at(0.001, 0, 0), 0, true).pose.position == dvec3(0.001, 0, 0));
+    CHECK(rig.step(at(0.001, 0, 0), 0, true).pose.position == dvec3(0.001, 0, 0));
 }
 
 TEST_CASE(
@@ -189,52 +189,52 @@ TEST_CASE(
     ContactSet far = rig.inForce();
     rig.proxy().setPose(at(0, 0.0, 0.0705));
     CHECK(!rig.proxy().covers(far));
-    CHECK(rig.turn(at(0, 0, 0.0705), 0, true).uncovered);
+    CHECK(rig.step(at(0, 0, 0.0705), 0, true).uncovered);
     rig.proxy().setPose(at(0, 0.0, 0.065));
     CHECK(rig.proxy().covers(far));
-    CHECK(!rig.turn(at(0, 0, 0.065), 0, true).uncovered);
+    CHECK(!rig.step(at(0, 0, 0.065), 0, true).uncovered);
 }
 
 TEST_CASE("The turn ends on its deadline, after one solve at least") {
     ProxyRig rig(ballTool(0.01), emptySet(), at(0, 0, 0));
     const auto always = [](const void*) { return true; };
-    const ProxyTurn turn = rig.proxy().turn({at(0.1, 0, 0), 0.1, &rig.inForce(), {always, nullptr}});
-    CHECK(turn.solves == 1);
-    CHECK(turn.pose.position.x == doctest::Approx(0.002));
+    const ProxyStep tick = rig.proxy().step({at(0.1, 0, 0), 0.1, &rig.inForce(), {always, nullptr}});
+    CHECK(tick.solves == 1);
+    CHECK(tick.pose.position.x == doctest::Approx(0.002));
 }
 
 TEST_CASE("A target that is not finite, or a set of another tool, holds the tool") {
     ProxyRig rig(ballTool(0.01), emptySet(), at(0, 0, 0));
     Pose bad = at(std::numeric_limits<double>::quiet_NaN(), 0, 0);
-    CHECK(rig.turn(bad).pose.position == dvec3(0.0));
+    CHECK(rig.step(bad).pose.position == dvec3(0.0));
     bad = at(0, 0, 0);
     bad.rotation = {0, 0, 0, 0};
-    CHECK(rig.turn(bad).pose.position == dvec3(0.0));
+    CHECK(rig.step(bad).pose.position == dvec3(0.0));
     const ContactSet foreign;
-    CHECK(rig.proxy().turn({at(0.1, 0, 0), 0.1, &foreign, {}}).pose.position == dvec3(0.0));
+    CHECK(rig.proxy().step({at(0.1, 0, 0), 0.1, &foreign, {}}).pose.position == dvec3(0.0));
     rig.proxy().setPose(bad);
     CHECK(isFinite(rig.proxy().pose()));
     CHECK(rig.proxy()
-              .turn({at(0.001, 0, 0), std::numeric_limits<double>::quiet_NaN(), &rig.inForce(), {}})
+              .step({at(0.001, 0, 0), std::numeric_limits<double>::quiet_NaN(), &rig.inForce(), {}})
               .solves > 0);
 }
 
 TEST_CASE("The rows that push balance the way that is left: multipliers times rows are M (x - x_u)") {
     ProxyRig rig(ballTool(0.01), flatWall(0.0), at(0.001, 0.0005, 0.0503));
-    ProxyTurn turn;
+    ProxyStep tick;
     for (int k = 0; k < 20; ++k) {
-        turn = rig.turn(at(0.001, 0.0005, 0.04));
+        tick = rig.step(at(0.001, 0.0005, 0.04));
     }
-    REQUIRE(turn.contact);
+    REQUIRE(tick.contact);
     dvec3 push{0.0};
-    for (const ActiveContact& c : turn.active) {
+    for (const ActiveContact& c : tick.active) {
         CHECK(c.multiplier > 0.0);
         CHECK(c.row.normal.z > 0.9);
         push += c.multiplier * c.row.normal;
     }
-    CHECK(glm::distance(push, turn.pose.position - dvec3(0.001, 0.0005, 0.04)) < 1e-6);
-    CHECK(turn.minGap >= 0.0);
-    CHECK(turn.minGap < 1e-6);
+    CHECK(glm::distance(push, tick.pose.position - dvec3(0.001, 0.0005, 0.04)) < 1e-6);
+    CHECK(tick.minGap >= 0.0);
+    CHECK(tick.minGap < 1e-6);
 }
 
 TEST_CASE("Tools of 1000 leaves flat on a wall obey it although there are more contacts than rows") {
@@ -246,7 +246,7 @@ TEST_CASE("Tools of 1000 leaves flat on a wall obey it although there are more c
     }
     ProxyRig rig(makeTool(leaves), flatWall(0.0), at(0, 0, 0.047));
     for (int k = 0; k < 40; ++k) {
-        rig.turn({dvec3(0.0005 * k, 0, 0.02), rotationExp(dvec3(0.2, 0.1, 0.3))});
+        rig.step({dvec3(0.0005 * k, 0, 0.02), rotationExp(dvec3(0.2, 0.1, 0.3))});
         REQUIRE(rig.depth() <= 0.0);
     }
     CHECK(rig.depth() > -1e-4);

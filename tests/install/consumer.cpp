@@ -26,15 +26,15 @@ int main(int, char** argv) {
     grid.build(wall.spheres);
     CullCpu cull;
     ContactSet contacts;
-    TurnInput input;
+    StepInput input;
     input.deviceThandle.position = {0.0, 0.0, 0.5};
     HapticCycle cycle(tool, {}, makeHapticOptions(scene, tool), input.deviceThandle);
     Wrench felt;
-    for (int turn = 0; turn < 200; ++turn, input.time += 0.001) {
-        input.deviceThandle.position.z = std::min(0.56, 0.5 + 0.001 * turn); // 10 mm into the wall
+    for (int tick = 0; tick < 200; ++tick, input.time += 0.001) {
+        input.deviceThandle.position.z = std::min(0.56, 0.5 + 0.001 * tick); // 10 mm into the wall
         cull.query(tool, cycle.pose(), 0.01, wall, grid, contacts);
         input.contacts = &contacts;
-        felt = cycle.turn(input).wrench;
+        felt = cycle.step(input).wrench;
     }
     std::cout << version() << " z " << cycle.pose().position.z << " force " << felt.force.z << "\n";
 }

@@ -33,7 +33,7 @@ int exitCodeOf(pid_t engine) { // -1 = a signal ended it
 
 // Until an observer at the door has been told of a turn that pushes the hand with this much [N].
 bool awaitForce(const std::filesystem::path& path, double force) {
-    DoorSocket door;
+    DeviceSocket endpoint;
     union {
         fathom_door_header header;
         fathom_door_state state;
@@ -41,18 +41,18 @@ bool awaitForce(const std::filesystem::path& path, double force) {
     } packet;
     for (int i = 0; i < 60000; ++i) {
         size_t got = 0;
-        if (!door.open() && DoorSocket::tryConnect(path, door) != 0) {
+        if (!endpoint.open() && DeviceSocket::tryConnect(path, endpoint) != 0) {
             waitMillis(1);
             continue;
         }
-        switch (door.receive(packet.regions, FATHOM_DOOR_REGIONS, &got)) {
-        case DoorEvent::Closed:
+        switch (endpoint.receive(packet.regions, FATHOM_DOOR_REGIONS, &got)) {
+        case SocketEvent::Closed:
             return false;
-        case DoorEvent::Empty:
+        case SocketEvent::Empty:
             waitMillis(1);
             break;
         default:
-            if (doorFault(packet.header, got, FATHOM_DOOR_STATE, sizeof packet.state).empty() &&
+            if (socketFault(packet.header, got, FATHOM_DOOR_STATE, sizeof packet.state).empty() &&
                 std::abs(packet.state.force[2]) > force) {
                 return true;
             }
@@ -62,8 +62,8 @@ bool awaitForce(const std::filesystem::path& path, double force) {
 }
 
 // A red wall 0.6 m away and a hand that presses 20 mm deeper than the tool can go.
-void setUpPressing(const Stage& stage, size_t pictures, double seconds) {
-    stage.recording(std::vector<Picture>(pictures, Picture(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
+void setUpPressing(const Stage& stage, size_t images, double seconds) {
+    stage.recording(std::vector<Image>(images, Image(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.3, {0.0, 0.0, 0.57}}, {seconds, {0.0, 0.0, 0.57}}});
 }
 
@@ -136,7 +136,7 @@ TEST_CASE(
 TEST_CASE("A device that is unplugged while it presses leaves no force and the tool where it was, and force "
           "comes back with it") {
     Stage stage;
-    stage.recording(std::vector<Picture>(3, Picture(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
+    stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
     SceneText scene;
     scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
     stage.scene(scene);

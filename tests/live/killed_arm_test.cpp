@@ -39,7 +39,7 @@ public:
         id_ = -1;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
-    pid_t guardian() const { // -1 = none
+    pid_t watchdog() const { // -1 = none
         const auto tasks = "/proc/" + std::to_string(id_) + "/task";
         for (const auto& task : std::filesystem::directory_iterator(tasks)) {
             std::ifstream children(task.path() / "children");
@@ -129,11 +129,11 @@ TEST_CASE("A Reach stands still before its last setpoint once its engine is kill
         const double start = shoulder;
         REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.01; }));
         if (replugged) {
-            const pid_t first = engine.guardian();
+            const pid_t first = engine.watchdog();
             CHECK(first > 0);
             bench.unplug();
             bench.plug();
-            REQUIRE(bench.wait([&] { return engine.guardian() > 0 && engine.guardian() != first; }));
+            REQUIRE(bench.wait([&] { return engine.watchdog() > 0 && engine.watchdog() != first; }));
             CHECK(::kill(first, 0) != 0); // it left the line
             const double then = bench.with([&] { return shoulder; });
             REQUIRE(bench.wait([&] { return std::abs(shoulder - then) > 0.01; }));
@@ -171,11 +171,11 @@ TEST_CASE("A guardian that is killed gets a successor, and the arm goes on") {
     const double& shoulder = arm.position[4];
     const double start = shoulder;
     REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.001; }));
-    const pid_t first = engine.guardian();
+    const pid_t first = engine.watchdog();
     REQUIRE(first > 0);
     ::kill(first, SIGTERM); // that is the engine's business
     ::kill(first, SIGKILL);
-    REQUIRE(bench.wait([&] { return engine.guardian() > 0 && engine.guardian() != first; }));
+    REQUIRE(bench.wait([&] { return engine.watchdog() > 0 && engine.watchdog() != first; }));
     const double then = bench.with([&] { return shoulder; });
     CHECK(bench.wait([&] { return std::abs(shoulder - then) > 0.001; }));
     engine.signal(SIGINT);

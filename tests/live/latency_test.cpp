@@ -14,7 +14,7 @@ namespace {
 
 // latency on four pictures over and over, with `more` options.
 std::vector<std::string> latencyCommand(const Stage& stage, const std::vector<std::string>& more) {
-    stage.recording(std::vector<Picture>(4, bumpPicture()));
+    stage.recording(std::vector<Image>(4, bumpImage()));
     stage.scene({});
     std::vector<std::string> words{"latency",  (stage / "scene.yaml").string(),
                                    "--source", (stage / "rec").string(),
@@ -43,11 +43,11 @@ TEST_CASE("latency measures with and without frames, and tells of every turn") {
     REQUIRE(report.at("parts").size() == 2);
     for (const auto& part : report.at("parts")) {
         CHECK(part.at("seconds").get<double>() >= 0.69);
-        const auto turns = part.at("turn").at("count").get<uint64_t>();
-        CHECK(turns > 5);
-        CHECK(part.at("woken_late").at("count") == turns);
+        const auto ticks = part.at("turn").at("count").get<uint64_t>();
+        CHECK(ticks > 5);
+        CHECK(part.at("woken_late").at("count") == ticks);
         // Every period had a turn or is told of: 0.7 s and what passed until the writer asked it to end.
-        CHECK(turns + part.at("periods_missed").get<uint64_t>() >= 690);
+        CHECK(ticks + part.at("periods_missed").get<uint64_t>() >= 690);
         CHECK(part.at("records_lost") == 0);
     }
     CHECK(report["parts"][0].at("load") == "idle");
@@ -64,10 +64,10 @@ TEST_CASE("latency measures beside a window, which is drawn without a display wh
     const auto part = onlyPart(stage);
     CHECK(part.at("load") == "window");
     CHECK(part.at("seconds").get<double>() >= 0.7); // however late the turns were
-    const auto turns = part.at("turn").at("count").get<uint64_t>();
-    CHECK(turns > 5);
-    CHECK(part.at("woken_late").at("count") == turns);
-    CHECK(turns + part.at("periods_missed").get<uint64_t>() >= 690);
+    const auto ticks = part.at("turn").at("count").get<uint64_t>();
+    CHECK(ticks > 5);
+    CHECK(part.at("woken_late").at("count") == ticks);
+    CHECK(ticks + part.at("periods_missed").get<uint64_t>() >= 690);
     CHECK(run.out.find("window turn") != std::string::npos);
 }
 

@@ -25,14 +25,14 @@ const PixelBox kAll{0, 0, kWidth, kHeight};
 
 class Bridge {
 public:
-    explicit Bridge(const std::filesystem::path& door)
+    explicit Bridge(const std::filesystem::path& endpoint)
         : id_(::fork()) {
         REQUIRE(id_ >= 0);
         if (id_ == 0) {
-            ::execl(EXAMPLE_BRIDGE, "example_bridge", door.c_str(), nullptr);
+            ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr);
             ::_exit(99);
         }
-        for (int i = 0; i < 5000 && !std::filesystem::exists(door); ++i) {
+        for (int i = 0; i < 5000 && !std::filesystem::exists(endpoint); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
     }
@@ -50,10 +50,10 @@ private:
 // Looks on until the engine leaves.
 struct Observer {
     explicit Observer(std::filesystem::path path)
-        : thread([this, door = std::move(path)] { look(door); }) {}
+        : thread([this, endpoint = std::move(path)] { look(endpoint); }) {}
     void look(const std::filesystem::path& path) {
-        DoorSocket door;
-        for (int i = 0; i < 60000 && DoorSocket::tryConnect(path, door) != 0; ++i) {
+        DeviceSocket endpoint;
+        for (int i = 0; i < 60000 && DeviceSocket::tryConnect(path, endpoint) != 0; ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
         union {
@@ -64,21 +64,22 @@ struct Observer {
         } packet;
         for (;;) {
             size_t got = 0;
-            const DoorEvent event = door.receive(packet.regions, FATHOM_DOOR_REGIONS, &got);
-            if (event == DoorEvent::Closed) {
+            const SocketEvent event = endpoint.receive(packet.regions, FATHOM_DOOR_REGIONS, &got);
+            if (event == SocketEvent::Closed) {
                 return;
             }
-            if (event == DoorEvent::Empty) {
+            if (event == SocketEvent::Empty) {
                 std::this_thread::sleep_for(std::chrono::microseconds(200));
-            } else if (event == DoorEvent::Packet) {
+            } else if (event == SocketEvent::Packet) {
                 parts[packet.regions.generation] += packet.regions.count;
                 total[packet.regions.generation] = packet.regions.total;
                 radius = packet.regions.count > 0 ? packet.regions.spheres[0].radius : radius;
-            } else if (doorFault(packet.header, got, FATHOM_DOOR_STATE, sizeof packet.state).empty()) {
+            } else if (socketFault(packet.header, got, FATHOM_DOOR_STATE, sizeof packet.state).empty()) {
                 ++states;
                 generations.insert(packet.state.generation);
                 lastTool = packet.state.base_T_tool_position[2];
-            } else if (doorFault(packet.header, got, FATHOM_DOOR_FIXTURES, sizeof packet.fixtures).empty()) {
+            } else if (socketFault(packet.header, got, FATHOM_DOOR_FIXTURES, sizeof packet.fixtures)
+                           .empty()) {
                 rows.assign(packet.fixtures.rows, packet.fixtures.rows + packet.fixtures.count);
             } else {
                 ++strange;
@@ -101,7 +102,7 @@ TEST_CASE(
     Stage stage;
     const PixelBox corner{2, 2, 10, 10};
     stage.recording(
-        std::vector<Picture>(5, Picture(kWidth, kHeight, 600).paint(kAll, kRed).paint(corner, kYellow)));
+        std::vector<Image>(5, Image(kWidth, kHeight, 600).paint(kAll, kRed).paint(corner, kYellow)));
     SceneText scene;
     scene.fixtures = {SceneText::kForbidRed, SceneText::kGuideYellow,
                       "name: pipe, role: keep_in, shape: cylinder, base_T_shape: {xyz: [0, 0, 0.5]}, size: "
@@ -154,7 +155,7 @@ TEST_CASE(
 TEST_CASE("a device pressed into a region feels at most its limit, and nothing once the program is ended or "
           "killed") {
     Stage stage;
-    stage.recording(std::vector<Picture>(3, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
+    stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
     SceneText scene;
     scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
     stage.scene(scene);
@@ -212,7 +213,7 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
 
 TEST_CASE("A device that goes away during a run is told of when it goes and when it is back") {
     Stage stage;
-    stage.recording(std::vector<Picture>(3, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
+    stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
     stage.scene({});
     std::optional<PlayedDevice> device;
     device.emplace(stage / "hand.door");
@@ -243,7 +244,7 @@ TEST_CASE("A device that goes away during a run is told of when it goes and when
 
 TEST_CASE("a live hand without realtime, with a path, or where nobody listens, is refused in one line") {
     Stage stage;
-    stage.recording({Picture(kWidth, kHeight, 600).paint(kAll, kRed)});
+    stage.recording({Image(kWidth, kHeight, 600).paint(kAll, kRed)});
     stage.scene({});
     const auto refused = [&](const std::vector<std::string>& more, const std::string& part) {
         const ProgramRun run = runFathom(stage.command(more));

@@ -16,7 +16,7 @@ namespace {
 
 // 4 s of pictures and of a hand that presses into the bump all the time.
 void setPressing(const Stage& stage, const std::string& where = "cpu") {
-    stage.recording(std::vector<Picture>(120, bumpPicture()));
+    stage.recording(std::vector<Image>(120, bumpImage()));
     SceneText scene;
     scene.contact = "where: " + where;
     stage.scene(scene);

@@ -75,7 +75,7 @@ TEST_CASE(
         return;
     }
     Stage stage;
-    stage.recording(std::vector<Picture>(10, bumpPicture()));
+    stage.recording(std::vector<Image>(10, bumpImage()));
     stage.scene({});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {3.0, {0.0, 0.0, 0.45}}});
     const pid_t child = startFathom(stage.command({"--realtime", "--device", "llvmpipe"}), stage / "said");

@@ -9,7 +9,7 @@ using namespace fathom;
 
 TEST_CASE("Without permission for priority and locked memory a live run says so in one line, and runs") {
     Stage stage;
-    stage.recording(std::vector<Picture>(10, bumpPicture()));
+    stage.recording(std::vector<Image>(10, bumpImage()));
     stage.scene({});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {1.0, {0.0, 0.0, 0.45}}});
     std::filesystem::permissions(stage.path(), std::filesystem::perms::all);

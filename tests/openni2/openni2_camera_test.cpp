@@ -34,7 +34,7 @@ bool isDrawn(const Frame& frame, int& n) {
 
 // Returns how many pictures of depth the file has: the library leaves out what it has not written when it is
 // stopped, on a busy machine most.
-int record(const char* uri, const std::string& file, int pictures, bool colour) {
+int record(const char* uri, const std::string& file, int images, bool colour) {
     REQUIRE(openni::OpenNI::initialize() == openni::STATUS_OK);
     {
         openni::Device device;
@@ -53,7 +53,7 @@ int record(const char* uri, const std::string& file, int pictures, bool colour) 
         depth.start();
         rgb.start();
         openni::VideoFrameRef frame;
-        for (int i = 0; i < pictures; ++i) {
+        for (int i = 0; i < images; ++i) {
             depth.readFrame(&frame);
             rgb.readFrame(&frame);
         }
@@ -80,10 +80,10 @@ int record(const char* uri, const std::string& file, int pictures, bool colour) 
     return kept;
 }
 
-std::string recorded(const char* uri, int pictures, bool colour) {
+std::string recorded(const char* uri, int images, bool colour) {
     std::filesystem::create_directories(kFolder);
     const std::string file = (kFolder / (std::string(uri) + (colour ? "" : "-depth") + ".oni")).string();
-    for (int reads = pictures; record(uri, file, reads, colour) < pictures; reads *= 2) {
+    for (int reads = images; record(uri, file, reads, colour) < images; reads *= 2) {
         REQUIRE(reads < 500);
     }
     return file;

@@ -21,7 +21,7 @@ Intrinsics lensOf(uint32_t width, uint32_t height) {
 }
 
 // A slanted surface with a step and noise.
-std::vector<float> steppedPicture(const Intrinsics& lens) {
+std::vector<float> steppedImage(const Intrinsics& lens) {
     std::mt19937 random(7);
     std::normal_distribution<float> noise(0.0f, 0.002f);
     std::vector<float> z;
@@ -56,7 +56,7 @@ double bilateralAt(const std::vector<float>& z, const Intrinsics& lens, int u, i
 
 TEST_CASE("OpenCV's bilateral filter gives its formula to 20 um on any number of threads") {
     const Intrinsics lens = lensOf(53, 31);
-    const auto z = steppedPicture(lens);
+    const auto z = steppedImage(lens);
     for (const auto& way : filterWays(2, 3.5, 0.01)) {
         if (way.name.rfind("OpenCV", 0) != 0) {
             continue;
@@ -82,7 +82,7 @@ TEST_CASE("OpenCV's bilateral filter gives its formula to 20 um on any number of
 
 TEST_CASE("Every filter keeps the step, smooths the noise and marks no pixel as measured that was not") {
     const Intrinsics lens = lensOf(64, 47);
-    auto z = steppedPicture(lens);
+    auto z = steppedImage(lens);
     z[5 * 64 + 9] = z[40 * 64 + 60] = kNone;
     for (const auto& way : filterWays(3, 4.0, 0.02)) {
         CAPTURE(way.name);

@@ -49,8 +49,8 @@ TEST_CASE("Ceilings hold for the device's memory, both of the host's, arithmetic
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const Ceilings c = measureCeilings(device, 2, kFew);
-    for (const double value :
-         {c.deviceBytes, c.uploadBytes, c.importBytes, c.deviceFlops, c.hostBytes, c.crewBytes, c.submitMs}) {
+    for (const double value : {c.deviceBytes, c.uploadBytes, c.importBytes, c.deviceFlops, c.hostBytes,
+                               c.workerBytes, c.submitMs}) {
         CHECK(value > 0.0);
         CHECK(std::isfinite(value));
     }

@@ -233,17 +233,17 @@ TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart
 TEST_CASE(
     "Every point of a crowded panel gets a label of its own that meets no other, no point and no border") {
     const PlotBox room{80.0, 100.0, 700.0, 560.0};
-    std::vector<LabelWish> wishes;
+    std::vector<LabelRequest> setpoints;
     std::vector<PlotBox> points;
     for (int i = 0; i < 70; ++i) { // a cluster, and some at the borders
         const int across = i % 10, down = i / 10;
         const double x = i < 60 ? 300.0 + 7.0 * across : 85.0 + 68.0 * (i - 60),
                      y = i < 60 ? 200.0 + 6.0 * down : (i % 2 == 0 ? 104.0 : 556.0);
-        wishes.push_back({x, y, 90.0});
+        setpoints.push_back({x, y, 90.0});
         points.push_back({x - 4.0, y - 4.0, x + 4.0, y + 4.0});
     }
-    const std::vector<LabelPlace> places = placeLabels(wishes, room, points);
-    REQUIRE(places.size() == wishes.size());
+    const std::vector<LabelPlace> places = placeLabels(setpoints, room, points);
+    REQUIRE(places.size() == setpoints.size());
     size_t led = 0;
     for (size_t i = 0; i < places.size(); ++i) {
         CAPTURE(i);
@@ -264,11 +264,11 @@ TEST_CASE(
 }
 
 TEST_CASE("A name that several points in one place have is written once, and again where one stands apart") {
-    const std::vector<LabelWish> wishes = {{100.0, 50.0, 90.0, "reach 10 mm"},
-                                           {104.0, 53.0, 90.0, "reach 10 mm"},
-                                           {102.0, 50.0, 90.0, "reach 20 mm"},
-                                           {100.0, 80.0, 90.0, "reach 10 mm"}};
-    CHECK(distinctLabels(wishes) == std::vector<size_t>{0, 2, 3});
+    const std::vector<LabelRequest> setpoints = {{100.0, 50.0, 90.0, "reach 10 mm"},
+                                                 {104.0, 53.0, 90.0, "reach 10 mm"},
+                                                 {102.0, 50.0, 90.0, "reach 20 mm"},
+                                                 {100.0, 80.0, 90.0, "reach 10 mm"}};
+    CHECK(distinctLabels(setpoints) == std::vector<size_t>{0, 2, 3});
     CHECK(distinctLabels({}).empty());
 }
 

@@ -99,7 +99,7 @@ std::string ballArm() {
 
 // The red bump lies about the arm's first ball: with so large a padding nothing of it is left.
 void stageArmInBump(Stage& stage, const std::string& padding) {
-    stage.recording(std::vector<Picture>(3, bumpPicture()));
+    stage.recording(std::vector<Image>(3, bumpImage()));
     SceneText scene;
     scene.more = "arm: {urdf: arm41.urdf, base_T_arm: {xyz: [0, 0, 0.57]}, self_filter: " + padding + "}\n";
     scene.hand = "path: hand.csv";
@@ -122,7 +122,7 @@ size_t spheresInWindow(const Stage& stage) {
 
 void refused(const std::string& arm, const std::vector<std::string>& parts, const std::string& contact = "") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.contact = contact;
     stage.scene(scene);

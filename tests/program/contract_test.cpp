@@ -25,10 +25,10 @@ SceneText fullScene() {
     return scene;
 }
 
-std::vector<Picture> pictures(size_t count) {
-    std::vector<Picture> all;
+std::vector<Image> images(size_t count) {
+    std::vector<Image> all;
     for (size_t i = 0; i < count; ++i) {
-        all.push_back(bumpPicture().paint({20, 40, 20 + static_cast<uint32_t>(i), 44}, kRed)); // each its own
+        all.push_back(bumpImage().paint({20, 40, 20 + static_cast<uint32_t>(i), 44}, kRed)); // each its own
     }
     return all;
 }
@@ -38,7 +38,7 @@ std::vector<Picture> pictures(size_t count) {
 TEST_CASE(
     "a replay leaves every file of the contract, and its rows, counts and means agree with one another") {
     Stage stage;
-    stage.recording(pictures(4));
+    stage.recording(images(4));
     stage.scene(fullScene());
     stage.hand(kPush);
     const Replay replay = stage.replay({"--save-fixtures"});
@@ -68,7 +68,7 @@ TEST_CASE(
 TEST_CASE("the guidance row of the summary is the mean of the class's points, and its target stands off "
           "along the normal") {
     Stage stage;
-    stage.recording(pictures(2));
+    stage.recording(images(2));
     SceneText scene = fullScene();
     scene.filter = "radius: 0, edge: 0";
     scene.fixtures[1] += ", standoff: 0.05";
@@ -90,7 +90,7 @@ TEST_CASE("the guidance row of the summary is the mean of the class's points, an
 TEST_CASE("a guidance class that is never seen has null for its pose, and a scene without forbidden points "
           "no query") {
     Stage stage;
-    stage.recording(pictures(2));
+    stage.recording(images(2));
     SceneText scene;
     scene.fixtures = {"name: blue, role: guidance, hue: [200, 250], saturation: [0.4, 1]"};
     stage.scene(scene);
@@ -112,7 +112,7 @@ TEST_CASE("a guidance class that is never seen has null for its pose, and a scen
 TEST_CASE("equal runs give equal files and digests, with the query on either processor; another scene gives "
           "another one") {
     Stage stage;
-    stage.recording(pictures(4));
+    stage.recording(images(4));
     SceneText scene = fullScene();
     stage.scene(scene);
     stage.hand(kPush);
@@ -134,13 +134,13 @@ TEST_CASE("equal runs give equal files and digests, with the query on either pro
 
 TEST_CASE("a second run into the same folder replaces the files of the first, its saved sets included") {
     Stage stage;
-    stage.recording(pictures(4));
+    stage.recording(images(4));
     stage.hand(kPush);
     const Replay first = stage.replay({"--save-fixtures"});
     CHECK(std::filesystem::exists(first.ply(3)));
     stage.write("out/notes.txt", "mine");
     std::filesystem::remove_all(stage / "rec");
-    stage.recording(pictures(2));
+    stage.recording(images(2));
     const Replay second = stage.replay({"--save-fixtures"});
     CHECK(second.frames.size() == 2);
     CHECK(std::filesystem::exists(second.ply(1)));
@@ -151,7 +151,7 @@ TEST_CASE("a second run into the same folder replaces the files of the first, it
 TEST_CASE("relative paths of a scene count from the scene file, those of the command line from the working "
           "folder") {
     Stage stage;
-    stage.recording(pictures(1));
+    stage.recording(images(1));
     SceneText scene;
     scene.camera = "source: {recorded: rec}, near: 0.1, far: 3.0";
     scene.hand = "path: path.csv";
@@ -168,7 +168,7 @@ TEST_CASE("relative paths of a scene count from the scene file, those of the com
 
 TEST_CASE("the built-in hand path pushes into every forbidden region and visits every target") {
     Stage stage;
-    stage.recording(pictures(2));
+    stage.recording(images(2));
     SceneText scene = fullScene();
     scene.fixtures.pop_back();
     stage.scene(scene);

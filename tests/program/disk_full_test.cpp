@@ -18,7 +18,7 @@ const std::map<std::string, std::string> kLeft{{"haptics.csv", "old haptics"},
                                                {"overlay.png", "old overlay"}};
 
 void setUpFullDisk(const Stage& stage, double seconds, const std::string& full) {
-    stage.recording({bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage()});
     SceneText scene;
     scene.haptics = "rate_hz: 4000"; // a megabyte, which is what waits in memory, in 0.6 s
     stage.scene(scene);

@@ -42,7 +42,7 @@ void checkSkips(const Stage& stage, int bad, const std::vector<std::string>& par
 void withFour(const std::function<void(const Stage&)>& damage, int bad,
               const std::vector<std::string>& parts) {
     Stage stage;
-    stage.recording(std::vector<Picture>(4, bumpPicture()));
+    stage.recording(std::vector<Image>(4, bumpImage()));
     damage(stage);
     checkSkips(stage, bad, parts);
 }
@@ -91,10 +91,9 @@ TEST_CASE("a stamp that goes back or a line that is none skips its frame alone a
 TEST_CASE("frames with no valid depth, with every pixel selected and with none selected run through") {
     Stage stage;
     const PixelBox all{0, 0, kWidth, kHeight};
-    stage.recording({Picture(kWidth, kHeight, 600).paint(all, kRed),
-                     Picture(kWidth, kHeight, 0).paint(all, kRed), Picture(kWidth, kHeight, 600),
-                     Picture(kWidth, kHeight, 65535).paint(all, kRed),
-                     Picture(kWidth, kHeight, 600).paint(all, kRed)});
+    stage.recording({Image(kWidth, kHeight, 600).paint(all, kRed), Image(kWidth, kHeight, 0).paint(all, kRed),
+                     Image(kWidth, kHeight, 600), Image(kWidth, kHeight, 65535).paint(all, kRed),
+                     Image(kWidth, kHeight, 600).paint(all, kRed)});
     SceneText scene;
     scene.fixtures.push_back(SceneText::kGuideYellow);
     scene.more = "hold_s: 0\nerror_budget: 0\n";
@@ -116,15 +115,15 @@ TEST_CASE(
     "a forbidden point whose pixel drops out is held for hold_s and one whose pixel is deeper goes at once") {
     Stage stage;
     const PixelBox box{24, 14, 44, 34};
-    const auto seen = [&] { return Picture(kWidth, kHeight, 800).set(box, 600).paint(box, kRed); };
-    std::vector<Picture> pictures{seen()};
+    const auto seen = [&] { return Image(kWidth, kHeight, 800).set(box, 600).paint(box, kRed); };
+    std::vector<Image> images{seen()};
     for (int i = 0; i < 4; ++i) {
-        pictures.push_back(seen().set(box, 0)); // 1..4: no depth there
+        images.push_back(seen().set(box, 0)); // 1..4: no depth there
     }
-    pictures.push_back(seen());               // 5
-    pictures.push_back(seen().set(box, 300)); // 6: something nearer, and red too: it is forbidden itself
-    pictures.push_back(Picture(kWidth, kHeight, 800)); // 7: gone, the wall behind is seen
-    stage.recording(pictures);
+    images.push_back(seen());                      // 5
+    images.push_back(seen().set(box, 300));        // 6: something nearer, and red too: it is forbidden itself
+    images.push_back(Image(kWidth, kHeight, 800)); // 7: gone, the wall behind is seen
+    stage.recording(images);
     SceneText scene;
     scene.more = "hold_s: 0.08\n"; // frames at 1/30 and 2/30 s still hold it, 3/30 s does not
     scene.filter = "radius: 0";
@@ -160,7 +159,7 @@ TEST_CASE("pictures of odd sizes run, from one pixel on") {
         CAPTURE(across);
         Stage stage;
         stage.recording(
-            {Picture(width, height, 500).paint({0, 0, width, height}, kRed), Picture(width, height, 500)});
+            {Image(width, height, 500).paint({0, 0, width, height}, kRed), Image(width, height, 500)});
         stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.05, {0.0, 0.0, 0.47}}});
         const Replay replay = stage.replay({"--save-fixtures"});
         CHECK(replay.frames.at(0).forbidden == width * height);
@@ -171,7 +170,7 @@ TEST_CASE("pictures of odd sizes run, from one pixel on") {
 TEST_CASE("colour of another size with extrinsics is looked up through the registration") {
     Stage stage;
     const PixelBox all{0, 0, kWidth, kHeight};
-    stage.recording({Picture(kWidth, kHeight, 600).paint(all, kRed)});
+    stage.recording({Image(kWidth, kHeight, 600).paint(all, kRed)});
     writeColour(stage / "rec/rgb/000000.png", 128, 96, 200, 20, 20);
     stage.write("rec/intrinsics.json", R"({"registered_to_color": false, "depth_scale_m_per_unit": 0.001,
  "depth": {"width": 64, "height": 48, "fx": 60, "fy": 60, "cx": 31.5, "cy": 23.5, "distortion": []},

@@ -14,7 +14,7 @@ const PixelBox kAll{0, 0, kWidth, kHeight};
 
 // A red wall 600 mm away: a 10 mm leaf meets its 40 mm region a little before z = 0.55.
 void redWall(const Stage& stage, size_t frames = 1) {
-    stage.recording(std::vector<Picture>(frames, Picture(kWidth, kHeight, 600).paint(kAll, kRed)));
+    stage.recording(std::vector<Image>(frames, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
 }
 
 dvec3 vectorOf(const nlohmann::json& list) {
@@ -23,7 +23,7 @@ dvec3 vectorOf(const nlohmann::json& list) {
 
 // A yellow square on a grey wall; the hand waits 0.3 m before it and asks for guidance from 0.1 s to 1.0 s.
 Replay guided(Stage& stage, const std::string& mode) {
-    stage.recording({bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage()});
     SceneText scene;
     scene.fixtures = {SceneText::kGuideYellow};
     scene.haptics = "guidance: " + mode;
@@ -162,7 +162,7 @@ TEST_CASE("guidance as in the paper pulls the hand itself and leaves the tool wh
 
 TEST_CASE("guidance to a target inside a forbidden region leads to its border and not through it") {
     Stage stage;
-    stage.recording({Picture(kWidth, kHeight, 600).paint(kAll, kRed).paint({30, 22, 34, 26}, kYellow)});
+    stage.recording({Image(kWidth, kHeight, 600).paint(kAll, kRed).paint({30, 22, 34, 26}, kYellow)});
     SceneText scene;
     scene.fixtures = {SceneText::kForbidRed, SceneText::kGuideYellow};
     stage.scene(scene);

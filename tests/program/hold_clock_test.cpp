@@ -55,7 +55,7 @@ std::string textOf(const std::filesystem::path& file) {
 // A stage with two pictures.
 struct Short : Stage {
     Short() {
-        recording({bumpPicture(), bumpPicture()});
+        recording({bumpImage(), bumpImage()});
         scene({});
         hand({{0.0, {0.0, 0.0, 0.4}}});
     }

@@ -12,10 +12,10 @@ using namespace fathom;
 namespace {
 
 // count pictures, each different from the one before.
-std::vector<Picture> lockstepPictures(uint32_t count) {
-    std::vector<Picture> all;
+std::vector<Image> lockstepFrames(uint32_t count) {
+    std::vector<Image> all;
     for (uint32_t i = 0; i < count; ++i) {
-        all.push_back(bumpPicture().paint({i, 40, i + 2, 42}, kRed));
+        all.push_back(bumpImage().paint({i, 40, i + 2, 42}, kRed));
     }
     return all;
 }
@@ -40,7 +40,7 @@ TEST_CASE("frame j is in force from the first tick at or after j / 30 s, at any 
     for (const double rate : {1000.0, 730.0, 120.0, 4000.0}) {
         CAPTURE(rate);
         Stage stage;
-        stage.recording(lockstepPictures(5));
+        stage.recording(lockstepFrames(5));
         SceneText scene;
         scene.haptics = "rate_hz: " + std::to_string(rate);
         stage.scene(scene);
@@ -57,7 +57,7 @@ TEST_CASE("frame j is in force from the first tick at or after j / 30 s, at any 
 
 TEST_CASE("stamps do not matter in lockstep: a recording an hour apart runs like one at 30 Hz") {
     Stage stage;
-    stage.recording(lockstepPictures(3));
+    stage.recording(lockstepFrames(3));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     const Replay plain = stage.replay({}, {}, "a");
     stage.write("rec/associations.txt",
@@ -71,7 +71,7 @@ TEST_CASE("stamps do not matter in lockstep: a recording an hour apart runs like
 TEST_CASE(
     "contact.delay puts off an answer by as many ticks, so the set that is obeyed and its age lag by them") {
     Stage stage;
-    stage.recording(lockstepPictures(4));
+    stage.recording(lockstepFrames(4));
     SceneText scene;
     scene.contact = "delay: 7";
     stage.scene(scene);
@@ -94,7 +94,7 @@ TEST_CASE(
 
 TEST_CASE("the shorter source keeps its last frame in force, which does not age and adds no row") {
     Stage stage;
-    stage.recording(lockstepPictures(3));
+    stage.recording(lockstepFrames(3));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.7, {0.0, 0.0, 0.41}}});
     const Replay replay = stage.replay();
     CHECK(replay.ticks.size() == 700);
@@ -112,7 +112,7 @@ TEST_CASE("the shorter source keeps its last frame in force, which does not age 
 
 TEST_CASE("the shorter hand path holds its last pose until the frames have ended") {
     Stage stage;
-    stage.recording(lockstepPictures(9));
+    stage.recording(lockstepFrames(9));
     stage.hand({{0.0, {0.0, 0.0, 0.40}}, {0.05, {0.01, 0.02, 0.42}, {0.8, 0.0, 0.6, 0.0}}});
     const Replay replay = stage.replay();
     CHECK(replay.ticks.size() == 300);
@@ -129,7 +129,7 @@ TEST_CASE("the shorter hand path holds its last pose until the frames have ended
 TEST_CASE("a hand path of a file counts from the run's start, also when the first frames are bad and nothing "
           "is seen yet") {
     Stage stage;
-    stage.recording(lockstepPictures(4));
+    stage.recording(lockstepFrames(4));
     stage.write("rec/depth/000000.png", "no picture");
     stage.write("rec/depth/000001.png", "no picture");
     stage.hand({{0.0, {0.0, 0.0, 0.40}}, {0.1, {0.0, 0.0, 0.41}}});
@@ -152,7 +152,7 @@ TEST_CASE("a hand path of a file counts from the run's start, also when the firs
 
 TEST_CASE("the built-in path waits for the first set") {
     Stage stage;
-    stage.recording(lockstepPictures(3));
+    stage.recording(lockstepFrames(3));
     const Replay whole = stage.replay({}, {}, "a");
     stage.write("rec/depth/000000.png", "no picture");
     const ProgramRun run = runFathom(stage.command({}, "b"));
@@ -165,7 +165,7 @@ TEST_CASE("the built-in path waits for the first set") {
 
 TEST_CASE("poses.txt moves the camera: the region moves with it") {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage(), bumpImage()});
     // 0.3 m/s along x, interpolated at the depth stamps 0, 1/30 and 2/30 s.
     stage.write("rec/poses.txt", "0 0 0 0 0 0 0 1\n1 0.3 0 0 0 0 0 1\n");
     stage.hand({{0.0, {0.0, 0.0, 0.3}}});

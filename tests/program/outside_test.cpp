@@ -9,7 +9,7 @@ using namespace fathom;
 
 TEST_CASE("A path that leads out of the scene's folder is used and told of in one line; one inside is not") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.4}}});
     std::filesystem::create_directories(stage / "inner");
     std::filesystem::copy_file(stage / "hand.csv", stage / "inner/hand.csv");
@@ -49,7 +49,7 @@ TEST_CASE("Pictures behind links that lead out of a recording's folder are used 
     namespace fs = std::filesystem;
     Stage stage;
     stage.scene(SceneText{});
-    stage.recording({bumpPicture(), bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage(), bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.4}}});
     fs::rename(stage / "rec/rgb", stage / "elsewhere");
     for (const fs::path& to : {fs::path("pictures"), stage / "elsewhere"}) { // within, and out of it

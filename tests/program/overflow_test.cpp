@@ -9,7 +9,7 @@ using namespace fathom;
 TEST_CASE("A tool of so many spheres before so many regions that an answer overflows touches and does not "
           "penetrate") {
     Stage stage;
-    stage.recording({Picture(kWidth, kHeight, 150).paint({0, 0, kWidth, kHeight}, kRed)});
+    stage.recording({Image(kWidth, kHeight, 150).paint({0, 0, kWidth, kHeight}, kRed)});
     SceneText scene;
     scene.camera = "near: 0.05, far: 3.0";
     scene.contact = "reach: 0.1"; // the whole wall

@@ -68,11 +68,11 @@ constexpr const char* kGripperText =
 
 TEST_CASE("a tool pushed, dragged and turned over a bump never enters a sphere of the set in force") {
     Stage stage;
-    std::vector<Picture> pictures;
+    std::vector<Image> images;
     for (uint32_t i = 0; i < 12; ++i) {
-        pictures.push_back(bumpPicture().set({30 + i % 3, 20, 32 + i % 3, 22}, 0)); // a flickering hole
+        images.push_back(bumpImage().set({30 + i % 3, 20, 32 + i % 3, 22}, 0)); // a flickering hole
     }
-    stage.recording(pictures);
+    stage.recording(images);
     SceneText scene;
     scene.tool = kGripperText;
     stage.scene(scene);
@@ -93,14 +93,14 @@ TEST_CASE("a region that appears over the tool lets it out: never deeper than it
     // The whole wall turns red under a tool that hovers 30 mm before it: 20 mm deep in the new region. Then a
     // step of the wall towards the tool, and back.
     const PixelBox all{0, 0, kWidth, kHeight};
-    std::vector<Picture> pictures{{kWidth, kHeight, 600}, {kWidth, kHeight, 600}};
+    std::vector<Image> images{{kWidth, kHeight, 600}, {kWidth, kHeight, 600}};
     for (int i = 0; i < 4; ++i) {
-        pictures.push_back(Picture(kWidth, kHeight, 600).paint(all, kRed));
+        images.push_back(Image(kWidth, kHeight, 600).paint(all, kRed));
     }
     for (int i = 0; i < 3; ++i) {
-        pictures.push_back(Picture(kWidth, kHeight, 590).paint(all, kRed));
+        images.push_back(Image(kWidth, kHeight, 590).paint(all, kRed));
     }
-    stage.recording(pictures);
+    stage.recording(images);
     SceneText scene;
     scene.tool = kGripperText;
     stage.scene(scene);
@@ -125,8 +125,7 @@ TEST_CASE("a region that appears over the tool lets it out: never deeper than it
 
 TEST_CASE("the promise holds with answers that come late and with a reach so short that the tool stalls") {
     Stage stage;
-    stage.recording(
-        {bumpPicture(), bumpPicture().dome({26, 16, 42, 32}, 12.0), bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage().dome({26, 16, 42, 32}, 12.0), bumpImage(), bumpImage()});
     SceneText scene;
     scene.tool = kGripperText;
     scene.contact = "reach: 0.004, delay: 20";

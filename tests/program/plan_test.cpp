@@ -66,7 +66,7 @@ void checkRunsThat(const Stage& stage, const std::map<std::string, Item>& plan) 
 
 TEST_CASE("the plan of a scene with everything has every pass in that it needs and says what each is for") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.fixtures.push_back(SceneText::kGuideYellow);
     stage.scene(scene);
@@ -86,7 +86,7 @@ TEST_CASE("the plan of a scene with everything has every pass in that it needs a
 
 TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out, with the reason") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.fixtures = {"name: all, role: forbidden"};
     scene.filter = "radius: 0";
@@ -110,7 +110,7 @@ TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out,
 
 TEST_CASE("guidance alone needs no spheres, no tree and no query; shapes alone need no pass at all") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.fixtures = {SceneText::kGuideYellow};
     stage.scene(scene);
@@ -134,7 +134,7 @@ TEST_CASE("guidance alone needs no spheres, no tree and no query; shapes alone n
 
 TEST_CASE("a scene that asks for the query on the GPU gets it in the plan and in the run") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.contact = "where: gpu";
     stage.scene(scene);
@@ -155,7 +155,7 @@ TEST_CASE("every scene file that ships has a plan; the built-in scene needs no r
 
 TEST_CASE("progress shows on a terminal and is gone in the end; elsewhere standard error stays silent") {
     Stage stage;
-    stage.recording(std::vector<Picture>(3, bumpPicture()));
+    stage.recording(std::vector<Image>(3, bumpImage()));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.5, {0.0, 0.0, 0.41}}});
     RunSetting setting;
     setting.terminal = true;

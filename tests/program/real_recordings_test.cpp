@@ -58,11 +58,11 @@ std::vector<uint64_t> plainCount(const std::string& recording, const Gates& gate
     std::istringstream index(readWhole(kRecordings / recording / "associations.txt"));
     for (std::string colourStamp, colour, depthStamp, depth;
          index >> colourStamp >> colour >> depthStamp >> depth;) {
-        const ReadImage picture = readImage(kRecordings / recording / colour),
+        const ReadImage image = readImage(kRecordings / recording / colour),
                         ranges = readImage(kRecordings / recording / depth);
         uint64_t count = 0;
-        for (size_t i = 0; i < picture.pixels.size(); ++i) {
-            count += (ranges.pixels[i] & 0xffffffu) != 0 && gates.take(picture.pixels[i]);
+        for (size_t i = 0; i < image.pixels.size(); ++i) {
+            count += (ranges.pixels[i] & 0xffffffu) != 0 && gates.take(image.pixels[i]);
         }
         counts.push_back(count);
     }

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 // intrinsics.json with `from` replaced by `to` is refused so.
 void checkIntrinsics(const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     std::string text = lensJson(kWidth, kHeight);
     const size_t at = text.find(from);
     REQUIRE(at != std::string::npos);
@@ -36,7 +36,7 @@ TEST_CASE("a recording folder that is missing, empty, a file or without an index
     fs::create_directories(stage / "rec");
     checkRefused(stage, {folder, "folder", "empty", "allowed: "});
 
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     fs::remove(stage / "rec/associations.txt");
     checkRefused(stage, {folder, "associations.txt", "missing"});
     stage.write("rec/associations.txt", "# nothing\n");
@@ -47,7 +47,7 @@ TEST_CASE("a recording folder that is missing, empty, a file or without an index
 
 TEST_CASE("a recording of which no frame is usable is refused in one line that names the first fault") {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage(), bumpImage()});
     for (const char* name : {"rec/depth/000000.png", "rec/depth/000001.png", "rec/depth/000002.png"}) {
         const std::string whole = stage.read(name);
         stage.write(name, whole.substr(0, whole.size() / 2));
@@ -62,7 +62,7 @@ TEST_CASE("a recording of which no frame is usable is refused in one line that n
 
 TEST_CASE("colour of another size than depth without registration is refused") {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage()});
     for (const char* name : {"rec/rgb/000000.png", "rec/rgb/000001.png"}) {
         writeColour(stage / name, 32, 24, 200, 20, 20);
     }
@@ -87,7 +87,7 @@ TEST_CASE("intrinsics that are zero, negative, no number, missing or too large a
 
 TEST_CASE("a poses.txt with a number that is none is refused with its line") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     stage.write("rec/poses.txt", "0 0 0 0 0 0 0 1\n1 0 nan 0 0 0 0 1\n");
     checkRefused(stage, {"poses.txt", "line 2", "nan", "eight finite numbers"});
 }
@@ -95,7 +95,7 @@ TEST_CASE("a poses.txt with a number that is none is refused with its line") {
 TEST_CASE(
     "a hand path that is missing, empty, malformed or goes back in time is refused with line and column") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     const std::string header = "t_s,x,y,z,qw,qx,qy,qz,button\n", path = (stage / "hand.csv").string();
     checkRefused(stage, {"absent.csv", "cannot be read"}, {"--operator", (stage / "absent.csv").string()});
     const auto refused = [&](const std::string& text, const std::vector<std::string>& parts) {
@@ -119,7 +119,7 @@ TEST_CASE(
 
 TEST_CASE("a command line that cannot be meant is refused with what is allowed") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     const std::string scene = (stage / "scene.yaml").string(), out = (stage / "out").string();
     checkRefusal({}, {"subcommand", "missing", "replay", "plan"});
     checkRefusal({"repaly", scene}, {"subcommand", "'repaly'", "replay", "plan"});
@@ -136,7 +136,7 @@ TEST_CASE("a command line that cannot be meant is refused with what is allowed")
 
 TEST_CASE("an output folder that cannot be written ends with exit code 1 and one line that names it") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     stage.write("file", "in the way");
     checkRefusal(stage.command({}, "file"), {(stage / "file").string(), "output folder"}, 1);

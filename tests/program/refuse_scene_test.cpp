@@ -16,7 +16,7 @@ struct Wrong {
 
 void checkScenes(const std::vector<Wrong>& cases) {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     for (const Wrong& wrong : cases) {
         SceneText scene;
@@ -118,7 +118,7 @@ TEST_CASE("no tool, a tool without spheres, and a tool file that is missing or b
         tool("file: absent.sph, spheres: [[0, 0, 0, 1]]", {"tool", "exactly one"}),
     });
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.tool = "file: broken.sph";
     stage.scene(scene);
@@ -147,7 +147,7 @@ TEST_CASE("an unknown device preset, an impossible rate and other impossible hap
 
 TEST_CASE("plan refuses a bad scene with the same line as replay") {
     Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     SceneText scene;
     scene.haptics = "device: w5x";
     stage.scene(scene);

@@ -43,7 +43,7 @@ double numberAfter(const std::string& line, const std::string& word) {
 
 TEST_CASE("register prints the camera's pose and sigma, writes the same lines, and a scene takes them") {
     const Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     stage.scene({});
     stage.write("points.csv", kPoints);
     const ProgramRun run =
@@ -85,7 +85,7 @@ TEST_CASE("register prints the camera's pose and sigma, writes the same lines, a
 
 TEST_CASE("register wants exactly one of points, tags and a board, and a file that can be written") {
     const Stage stage;
-    stage.recording({bumpPicture()});
+    stage.recording({bumpImage()});
     stage.scene({});
     stage.write("points.csv", kPoints);
     const std::string scene = (stage / "scene.yaml").string(), points = (stage / "points.csv").string();

@@ -28,9 +28,9 @@ std::string sceneText(const std::string& selfFilter) {
 }
 
 struct Seen {
-    double points = 0.0;        // a picture
-    int pictures = 0, with = 0; // pictures with any region
-    double moved = 0.0;         // [m] of the tip
+    double points = 0.0;      // a picture
+    int images = 0, with = 0; // pictures with any region
+    double moved = 0.0;       // [m] of the tip
 };
 
 Seen look(const std::string& selfFilter) {
@@ -45,9 +45,9 @@ Seen look(const std::string& selfFilter) {
     for (const FrameRow& row : readFrames(stage / "out/frames.csv")) {
         seen.points += static_cast<double>(row.forbidden);
         seen.with += row.spheres > 0 ? 1 : 0;
-        ++seen.pictures;
+        ++seen.images;
     }
-    seen.points /= std::max(1, seen.pictures);
+    seen.points /= std::max(1, seen.images);
     const std::vector<Tick> ticks = readTicks(stage / "out/haptics.csv");
     for (const Tick& tick : ticks) {
         seen.moved = std::max(seen.moved, glm::distance(tick.tool.position, ticks.front().tool.position));
@@ -63,7 +63,7 @@ TEST_CASE("An arm in the camera's sight grows regions on itself, and with the se
     const Seen filtered = look("  self_filter: 0.01\n"), plain = other.get();
     MESSAGE("points a picture: " << plain.points << " on the arm without the filter, " << filtered.points
                                  << " with it; it moved " << filtered.moved << " m");
-    CHECK(plain.pictures == 18);
+    CHECK(plain.images == 18);
     CHECK(plain.with == 18);
     CHECK(plain.points > 10000.0);
     // What is left is not on it: flying pixels between its edge and the panel, and the water's snow.

@@ -20,7 +20,7 @@ constexpr double kLeaf = 0.01; // [m] radius of the one leaf of these tools, at 
 Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
                 const std::function<double(const dvec3&)>& gap) {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage()});
     SceneText scene;
     scene.fixtures = {row};
     stage.scene(scene);
@@ -94,7 +94,7 @@ TEST_CASE("a line lets the tool go along it and no way else") {
 TEST_CASE(
     "a tool of a thousand leaves from a .sph file runs, with the same digest whoever answers the query") {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage()});
     std::ostringstream sph;
     sph << "2 1000\n0 0 0 0.05\n";
     for (int i = 0; i < 1000; ++i) {
@@ -118,7 +118,7 @@ TEST_CASE(
 
 TEST_CASE("a base frame 100 km away gives the same forces but for what float64 positions round there") {
     Stage stage;
-    stage.recording({bumpPicture(), bumpPicture()});
+    stage.recording({bumpImage(), bumpImage()});
     const auto runAt = [&](const dvec3& base, const std::string& out) {
         SceneText scene;
         std::ostringstream camera;

@@ -27,7 +27,7 @@ private:
 };
 
 void prepare(const Stage& stage) {
-    stage.recording(std::vector<Picture>(2, Picture(kWidth, kHeight, 600)));
+    stage.recording(std::vector<Image>(2, Image(kWidth, kHeight, 600)));
     stage.scene({});
     stage.hand({{0.0, {0, 0, 0}}});
 }

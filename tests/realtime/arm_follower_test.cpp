@@ -47,8 +47,8 @@ ArmAxes threeAxes() {
     return axes;
 }
 
-ArmWish wish(double a, double b, double c, double grasp = 0.0) {
-    ArmWish w;
+ArmSetpoint setpoint(double a, double b, double c, double grasp = 0.0) {
+    ArmSetpoint w;
     w.posture.q = {a, b, c};
     w.posture.grasp = grasp;
     w.hold = w.off = false;
@@ -60,7 +60,7 @@ ArmWish wish(double a, double b, double c, double grasp = 0.0) {
 TEST_CASE("Joints become axes and axes joints, by sign and zero, and the grasp becomes the way of the jaws") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
-    const ArmTold told = follower.exchange(1.0, wish(0.1, 0.2, 0.3, 0.25), 0.0);
+    const ArmStatus told = follower.exchange(1.0, setpoint(0.1, 0.2, 0.3, 0.25), 0.0);
     CHECK(told.state == ArmState::Follows);
     CHECK(arm.state.position[2] == doctest::Approx(0.4));
     CHECK(arm.state.position[0] == doctest::Approx(0.2));
@@ -78,10 +78,10 @@ TEST_CASE("An arm without jaws of ours tells no grasp, and its jaws stay where t
     ArmAxes axes = threeAxes();
     axes.jaws.reset();
     ArmFollower follower(arm, axes);
-    ArmWish hold = wish(0, 0, 0);
+    ArmSetpoint hold = setpoint(0, 0, 0);
     hold.hold = true;
     follower.exchange(1.0, hold, 0.0);
-    CHECK(std::isnan(follower.exchange(1.1, wish(0, 0, 0, 1.0), 0.0).posture.grasp));
+    CHECK(std::isnan(follower.exchange(1.1, setpoint(0, 0, 0, 1.0), 0.0).posture.grasp));
     CHECK(arm.state.position[4] == 0.011);
 }
 
@@ -89,22 +89,22 @@ TEST_CASE(
     "It stands still where it is told to, where nobody has wished lately and where nothing means anything") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
-    ArmWish held = wish(1, 1, 1);
+    ArmSetpoint held = setpoint(1, 1, 1);
     held.hold = true;
     CHECK(follower.exchange(1.0, held, 0.0).state == ArmState::Held);
     CHECK(arm.last.hold);
-    CHECK(follower.exchange(1.1, wish(1, 1, 1), 0.2).state == ArmState::Held);
+    CHECK(follower.exchange(1.1, setpoint(1, 1, 1), 0.2).state == ArmState::Held);
     CHECK(arm.last.hold);
     arm.state.homed = false; // lost in the middle of a run: it is never homed there
-    const ArmTold lost = follower.exchange(1.2, wish(1, 1, 1), 0.0);
+    const ArmStatus lost = follower.exchange(1.2, setpoint(1, 1, 1), 0.0);
     CHECK(lost.state == ArmState::NotHomed);
     CHECK_FALSE(lost.known);
     CHECK(arm.last.hold);
     arm.state.homed = true;
     arm.state.stale = true;
-    CHECK(follower.exchange(1.3, wish(1, 1, 1), 0.0).state == ArmState::Silent);
+    CHECK(follower.exchange(1.3, setpoint(1, 1, 1), 0.0).state == ArmState::Silent);
     arm.state.stale = false;
-    CHECK(follower.exchange(1.4, wish(0, 0, 0), 0.0).state == ArmState::Follows);
+    CHECK(follower.exchange(1.4, setpoint(0, 0, 0), 0.0).state == ArmState::Follows);
     CHECK_FALSE(arm.last.hold);
 }
 
@@ -112,9 +112,9 @@ TEST_CASE("A motor that drew too much holds until forces are off") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
     arm.state.overloaded = true;
-    CHECK(follower.exchange(1.0, wish(0, 0, 0), 0.0).state == ArmState::Overloaded);
+    CHECK(follower.exchange(1.0, setpoint(0, 0, 0), 0.0).state == ArmState::Overloaded);
     CHECK(arm.resets == 0);
-    ArmWish off = wish(0, 0, 0);
+    ArmSetpoint off = setpoint(0, 0, 0);
     off.off = off.hold = true;
     CHECK(follower.exchange(1.1, off, 0.0).state == ArmState::Held);
     CHECK(arm.resets == 1);
@@ -123,21 +123,21 @@ TEST_CASE("A motor that drew too much holds until forces are off") {
 TEST_CASE("An arm that stays far behind is held until the tool is where it is") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
-    follower.exchange(1.0, wish(0, 0, 0), 0.0);
+    follower.exchange(1.0, setpoint(0, 0, 0), 0.0);
     arm.stuck = true;
     ArmState state = ArmState::Follows;
     double heldAt = 0.0;
     for (double now = 1.0; now < 2.0; now += 0.01) { // 0.5 rad of 0.35 behind
-        state = follower.exchange(now, wish(0.5, 0, 0), 0.0).state;
+        state = follower.exchange(now, setpoint(0.5, 0, 0), 0.0).state;
         heldAt = heldAt == 0.0 && state == ArmState::Behind ? now : heldAt;
     }
     CHECK(heldAt == doctest::Approx(1.0 + ArmFollower::kBehindTime).epsilon(0.03));
     CHECK(state == ArmState::Behind);
     CHECK(arm.last.hold);
     arm.stuck = false;
-    CHECK(follower.exchange(2.0, wish(0.2, 0, 0), 0.0).state == ArmState::Behind); // not near enough yet
-    follower.exchange(2.1, wish(0.05, 0, 0), 0.0);
-    CHECK(follower.exchange(2.2, wish(0.05, 0, 0), 0.0).state == ArmState::Follows);
+    CHECK(follower.exchange(2.0, setpoint(0.2, 0, 0), 0.0).state == ArmState::Behind); // not near enough yet
+    follower.exchange(2.1, setpoint(0.05, 0, 0), 0.0);
+    CHECK(follower.exchange(2.2, setpoint(0.05, 0, 0), 0.0).state == ArmState::Follows);
 }
 
 TEST_CASE("A haptic turn with a real arm behind it wishes what it did, and holds when its "
@@ -155,26 +155,26 @@ TEST_CASE("A haptic turn with a real arm behind it wishes what it did, and holds
     crossings.arm = &link;
     RunClock clock;
     HapticLoop loop(cycle, fake.hand, crossings, clock, {}, nullptr);
-    TurnRow row;
+    TickRow row;
     for (int i = 0; i < 40; ++i) {
         link.told.back().state = ArmState::Held;
         link.told.back().known = true;
         link.told.back().posture = cycle.place().arm;
         link.told.back().at = clock.timeAt(clock.now());
         link.told.publish();
-        loop.turn(clock.now());
-        REQUIRE(crossings.turns.pop(row));
+        loop.step(clock.now());
+        REQUIRE(crossings.ticks.pop(row));
     }
     CHECK(row.driven);
     CHECK_FALSE(row.record.armHold);
-    REQUIRE(link.wish.refresh());
-    CHECK_FALSE(link.wish.front().hold);
-    CHECK(link.wish.front().posture.q == row.record.arm.posture.q);
+    REQUIRE(link.setpoint.refresh());
+    CHECK_FALSE(link.setpoint.front().hold);
+    CHECK(link.setpoint.front().posture.q == row.record.arm.posture.q);
     std::this_thread::sleep_for(std::chrono::milliseconds(150)); // no word from the arm's thread
-    loop.turn(clock.now());
-    REQUIRE(crossings.turns.pop(row));
+    loop.step(clock.now());
+    REQUIRE(crossings.ticks.pop(row));
     CHECK(row.told.state == ArmState::Silent);
     CHECK(row.record.armHold);
-    REQUIRE(link.wish.refresh());
-    CHECK(link.wish.front().hold);
+    REQUIRE(link.setpoint.refresh());
+    CHECK(link.setpoint.front().hold);
 }

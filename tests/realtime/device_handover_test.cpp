@@ -14,7 +14,7 @@ constexpr int kLosses = 200;
 
 // Plain numbers: what is not ordered by the handover is a race, and what is used after its end a fault.
 struct FakeDevice {
-    int passes = 0, pictures = 0;
+    int passes = 0, images = 0;
 };
 
 // Both threads as a run has them: passes here, pictures on the window's thread.
@@ -52,7 +52,7 @@ struct Shared {
         FakeDevice* mine = device.get();
         for (int frame = 1, offers = 0; !windowOver.load(); ++frame) {
             if (mine != nullptr) {
-                ++mine->pictures;
+                ++mine->images;
                 ++drawn;
                 handover.accept();
                 if (frame % 3 == 0) {

@@ -31,7 +31,7 @@ size_t checkFades(const FakeRun& fake) {
     const double step = fake.options.slewForce * fake.options.period;
     size_t old = 0, leaps = 0, forced = 0;
     dvec3 before(0.0);
-    for (const TurnRow& row : fake.sink.rows) {
+    for (const TickRow& row : fake.sink.rows) {
         const dvec3 force = row.record.wrench.force;
         const double most = std::max(0.0, glm::length(before) - step) + 1e-9;
         leaps += glm::distance(force, before) > step + 1e-9 ? 1 : 0;
@@ -51,25 +51,25 @@ Fade stallCamera(double stall, bool comesBack) {
     rig.show(wallSet(1));
     Fade fade;
     uint64_t generation = 1;
-    const auto turn = [&](bool picture) {
-        if (picture) {
+    const auto tick = [&](bool image) {
+        if (image) {
             rig.show(wallSet(++generation));
         }
-        const TurnRecord record = rig.turn();
+        const StepRecord record = rig.step();
         const double force = forceOf(record);
         fade.told =
-            fade.told && (record.state == TurnState::Fading) == (record.sceneAge > rig.options.staleAfter);
+            fade.told && (record.state == StepState::Fading) == (record.sceneAge > rig.options.staleAfter);
         fade.deepest = std::max(fade.deepest, -rig.gap());
         return force;
     };
     for (int i = 0; i < 330; ++i) {
         rig.hand.position.z = std::max(0.0, 0.03 - 0.0002 * i);
-        fade.full = turn(i % 33 == 0);
+        fade.full = tick(i % 33 == 0);
     }
-    turn(true);
+    tick(true);
     fade.untouched = stall;
     for (int i = 1; i <= static_cast<int>(std::lround(stall * 1000.0)); ++i) {
-        const double force = turn(false);
+        const double force = tick(false);
         if (force < 0.999 * fade.full) {
             fade.untouched = std::min(fade.untouched, 0.001 * i);
         }
@@ -78,7 +78,7 @@ Fade stallCamera(double stall, bool comesBack) {
         }
     }
     for (int i = 1; comesBack && i <= 1000 && fade.back < 0.0; ++i) {
-        if (turn(i % 33 == 1) > 0.999 * fade.full) {
+        if (tick(i % 33 == 1) > 0.999 * fade.full) {
             fade.back = 0.001 * i;
         }
     }
@@ -128,13 +128,13 @@ TEST_CASE(
         const Listening log;
         fake.go();
         size_t fading = 0, other = 0;
-        for (const TurnRow& row : fake.sink.rows) {
+        for (const TickRow& row : fake.sink.rows) {
             const bool stale = row.record.sceneAge > fake.options.staleAfter;
-            fading += stale && row.record.state == TurnState::Fading ? 1 : 0;
-            other += stale && row.record.state != TurnState::Fading ? 1 : 0;
+            fading += stale && row.record.state == StepState::Fading ? 1 : 0;
+            other += stale && row.record.state != StepState::Fading ? 1 : 0;
         }
         CHECK(other == 0);
-        CHECK(fading == fake.run->staleTurns());
+        CHECK(fading == fake.run->staleTicks());
         CHECK((log.count("ms old: forces fade") > 0) == (fading > 0));
         CHECK((log.count("the scene is fresh again") > 0) == (fading > 0));
         CHECK((stall == 0.0 || fading > 0));
@@ -155,9 +155,9 @@ TEST_CASE(
         HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
         rig.show(wallSet(1));
         rig.age = false; // a camera that goes on
-        rig.turns(10);
+        rig.ticks(10);
         rig.hand = at(0.0, 0.0, 0.0);
-        double before = forceOf(rig.turns(200));
+        double before = forceOf(rig.ticks(200));
         const double full = before;
         CHECK(full > 5.0);
         rig.age = true; // what is in force was captured before the leap
@@ -167,7 +167,7 @@ TEST_CASE(
             if (i == 50) {
                 rig.age = false;
             }
-            const TurnRecord record = rig.turn();
+            const StepRecord record = rig.step();
             CHECK(record.finite);
             largestStep = std::max(largestStep, std::abs(forceOf(record) - before));
             before = forceOf(record);
@@ -203,7 +203,7 @@ TEST_CASE("Drill: with every CPU busy no turn penetrates, no force leaps or outl
     checkSafeEnd(fake);
     REQUIRE(!fake.sink.rows.empty());
     uint64_t missed = 0;
-    for (const TurnRow& row : fake.sink.rows) {
+    for (const TickRow& row : fake.sink.rows) {
         missed += row.missed;
     }
     CHECK(missed == fake.run->periodsMissed());
@@ -236,7 +236,7 @@ TEST_CASE(
         CHECK(fake.sink.audit.maxPenetration() <= 1e-5);
         // Retries after 0.1, 0.2 and 0.4 s: for longer than the force takes to fade.
         double least = 1e9, last = 0.0;
-        for (const TurnRow& row : fake.sink.rows) {
+        for (const TickRow& row : fake.sink.rows) {
             const double force = glm::length(row.record.wrench.force);
             least = row.record.t > 0.4 ? std::min(least, force) : least;
             last = force;
@@ -265,7 +265,7 @@ TEST_CASE(
     CHECK(renewedAt == 1); // while pictures were asked for in vain
     CHECK(fake.feed.published == 60);
     double least = 1e9;
-    fake.during(0.5, 2.0, [&](const TurnRecord& r) { least = std::min(least, forceOf(r)); });
+    fake.during(0.5, 2.0, [&](const StepRecord& r) { least = std::min(least, forceOf(r)); });
     CHECK(least < 0.01); // gone is gone, whichever of the two comes back first
 }
 

@@ -81,7 +81,7 @@ public:
 
     std::function<void()> before = [] {};
 
-    bool answer(const ToolPlace& place, ContactSet& out) override {
+    bool answer(const ToolState& place, ContactSet& out) override {
         before();
         const auto set = pool_.newest();
         if (!set) {
@@ -121,9 +121,9 @@ private:
 struct AuditingSink final : RunSink {
     explicit AuditingSink(const Tool& tool)
         : audit(tool) {}
-    std::function<void(const TurnRow&)> onTurn = [](const TurnRow&) {};
+    std::function<void(const TickRow&)> onTurn = [](const TickRow&) {};
     PenetrationAudit audit;
-    std::vector<TurnRow> rows;
+    std::vector<TickRow> rows;
     uint64_t frames = 0, queries = 0, unknown = 0;
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override {
@@ -132,7 +132,7 @@ struct AuditingSink final : RunSink {
         ++frames;
     }
     void query(const QueryNote&) override { ++queries; }
-    void turn(const TurnRow& row, const PublishedFrame* obeyed, bool known,
+    void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override {
         unknown += known ? 0 : 1;
         if (obeyed != nullptr) {
@@ -188,7 +188,7 @@ struct FakeRun {
     // Rows with t in [from, to).
     template <class Visit>
     void during(double from, double to, Visit&& visit) const {
-        for (const TurnRow& row : sink.rows) {
+        for (const TickRow& row : sink.rows) {
             if (row.record.t >= from && row.record.t < to) {
                 visit(row.record);
             }

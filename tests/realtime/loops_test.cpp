@@ -55,14 +55,14 @@ TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a tr
     HapticLoop loop(cycle, fake.hand, crossings, clock, {}, &trace);
     FrameLoop frames(fake.feed, crossings, clock, 1.0 / 30.0, nullptr);
     REQUIRE(frames.first());
-    SceneNews news = frames.news();
+    SceneUpdate news = frames.news();
     news.guidanceCount = 1;
     news.guidance[0].present = true;
     news.guidance[0].target = at(0.0, 0.0, 0.05);
 
     uint64_t during = 0, contacts = 0;
     uint64_t query = 0;
-    TurnRow row;
+    TickRow row;
     clock.start(0.0);
     const uint64_t beforeAny = allocationCount();
     for (int i = 0; i < 1000; ++i) {
@@ -74,9 +74,9 @@ TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a tr
         crossings.scene.back() = news;
         crossings.scene.publish();
         const uint64_t before = allocationCount();
-        loop.turn(clock.now());
+        loop.step(clock.now());
         during += allocationCount() - before;
-        REQUIRE(crossings.turns.pop(row));
+        REQUIRE(crossings.ticks.pop(row));
         CHECK(row.query == query);
         contacts += row.record.contacts > 0 ? 1 : 0;
         std::this_thread::sleep_for(std::chrono::microseconds(300));
@@ -161,11 +161,11 @@ TEST_CASE(
     FakeRun fake(2, pressingPath(1.0));
     Crossings crossings(16);
     RecordDrain drain(crossings, fake.sink);
-    TurnRow row;
-    crossings.turns.push(row); // obeys nothing
+    TickRow row;
+    crossings.ticks.push(row); // obeys nothing
     row.generation = 1;
     row.query = 1;
-    crossings.turns.push(row);
+    crossings.ticks.push(row);
     drain.drain();
     CHECK(fake.sink.rows.size() == 1);
 
@@ -178,7 +178,7 @@ TEST_CASE(
     CHECK(fake.sink.unknown == 0);
 
     row.generation = 7; // never comes
-    crossings.turns.push(row);
+    crossings.ticks.push(row);
     drain.drain();
     CHECK(fake.sink.rows.size() == 2);
     drain.drain(true);
@@ -193,11 +193,11 @@ TEST_CASE("Sets that no turn can obey any more go back to the frame cadence") {
     RunClock clock;
     FrameLoop frames(fake.feed, crossings, clock, 0.0, nullptr);
     REQUIRE(frames.first());
-    TurnRow row;
+    TickRow row;
     for (uint64_t generation = 1; generation < 300; ++generation) {
         REQUIRE(frames.first()); // the next one
         row.generation = generation;
-        crossings.turns.push(row);
+        crossings.ticks.push(row);
         drain.drain();
     }
     CHECK(drain.newest()->fixtures.generation == 300);

@@ -26,16 +26,16 @@ TEST_CASE("A hand whose numbers are none has no force in those turns, that is sa
         };
         const Listening log;
         fake.go();
-        size_t turns = 0;
+        size_t ticks = 0;
         double before = 0.0, after = 0.0;
-        for (const TurnRow& row : fake.sink.rows) {
+        for (const TickRow& row : fake.sink.rows) {
             if (!row.record.finite) {
-                ++turns;
+                ++ticks;
                 CHECK(forceOf(row.record) == 0.0);
             }
             (row.record.t < 0.4 ? before : after) = forceOf(row.record);
         }
-        CHECK((turns > 0) == (broken != Broken::Nothing));
+        CHECK((ticks > 0) == (broken != Broken::Nothing));
         CHECK(log.count("the hand's sample is not finite: no force in such turns") ==
               (broken != Broken::Nothing ? 1 : 0));
         CHECK(before > 5.0);

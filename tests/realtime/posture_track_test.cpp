@@ -34,7 +34,7 @@ struct LateFeed final : FrameFeed {
         return index <= 5 ? std::optional(index) : std::nullopt;
     }
     std::optional<RunClock::Time> captured() const override { return clock.timeAt(0.02 * index); }
-    void shown(const ToolPlace& place) override { shownAt.push_back(place.arm.grasp); }
+    void shown(const ToolState& place) override { shownAt.push_back(place.arm.grasp); }
     void publish(double, PublishedFrame& out) override { out.changed = false; }
 };
 

@@ -48,12 +48,12 @@ TEST_CASE(
     REQUIRE(fake.sink.rows.size() > 100);
     bool touched = false;
     for (size_t i = 1; i < fake.sink.rows.size(); ++i) {
-        const TurnRow &before = fake.sink.rows[i - 1], &row = fake.sink.rows[i];
+        const TickRow &before = fake.sink.rows[i - 1], &row = fake.sink.rows[i];
         CHECK(row.record.t > before.record.t);
         CHECK(row.generation >= before.generation);
         CHECK(row.query >= before.query);
         CHECK(row.start.position == before.record.tool.position);
-        touched = touched || (row.record.state == TurnState::Contact && forceOf(row.record) > 1.0);
+        touched = touched || (row.record.state == StepState::Contact && forceOf(row.record) > 1.0);
     }
     CHECK(touched);
     CHECK(fake.sink.rows.back().record.frame >= 40);
@@ -81,7 +81,7 @@ TEST_CASE("A contact thread that stalls for 100 ms and for 1 s stalls the tool a
     CHECK(stalls == 2);
     checkEnded(fake);
     size_t stalled = 0, stalledLate = 0;
-    for (const TurnRow& row : fake.sink.rows) {
+    for (const TickRow& row : fake.sink.rows) {
         stalled += row.record.stalled ? 1 : 0;
         stalledLate += row.record.stalled && row.record.t > 2.6 ? 1 : 0;
     }
@@ -102,13 +102,13 @@ TEST_CASE("A camera that stalls lets the scene age: forces fade after 100 ms and
     checkEnded(fake);
     double before = 0.0, least = 1e9, oldest = 0.0, after = 0.0;
     size_t fading = 0;
-    fake.during(0.5, 0.8, [&](const TurnRecord& r) { before = std::max(before, forceOf(r)); });
-    fake.during(1.2, 2.0, [&](const TurnRecord& r) {
+    fake.during(0.5, 0.8, [&](const StepRecord& r) { before = std::max(before, forceOf(r)); });
+    fake.during(1.2, 2.0, [&](const StepRecord& r) {
         least = std::min(least, forceOf(r));
         oldest = std::max(oldest, r.sceneAge);
-        fading += r.state == TurnState::Fading ? 1 : 0;
+        fading += r.state == StepState::Fading ? 1 : 0;
     });
-    fake.during(2.7, 9.0, [&](const TurnRecord& r) { after = std::max(after, forceOf(r)); });
+    fake.during(2.7, 9.0, [&](const StepRecord& r) { after = std::max(after, forceOf(r)); });
     CHECK(before > 5.0);
     CHECK(least < 0.01);
     CHECK(oldest > 0.9);
@@ -116,7 +116,7 @@ TEST_CASE("A camera that stalls lets the scene age: forces fade after 100 ms and
     CHECK(fading > 50);
     CHECK(after > 5.0);
     CHECK(fake.run->framesLost() >= 30); // a live one would have lost about 35
-    CHECK(fake.run->staleTurns() >= fading);
+    CHECK(fake.run->staleTicks() >= fading);
 }
 
 TEST_CASE("A camera that is gone is asked again while the forces fade, and the run goes on when it is back") {
@@ -134,7 +134,7 @@ TEST_CASE("A camera that is gone is asked again while the forces fade, and the r
     CHECK(fake.feed.published == 45);
     CHECK(fake.run->failure() == nullptr);
     size_t fading = 0;
-    fake.during(0.7, 1.5, [&](const TurnRecord& r) { fading += r.state == TurnState::Fading ? 1 : 0; });
+    fake.during(0.7, 1.5, [&](const StepRecord& r) { fading += r.state == StepState::Fading ? 1 : 0; });
     CHECK(fading > 50);
     CHECK(fake.run->framesLost() < 10); // pictures that never were are not lost
 }
@@ -144,11 +144,11 @@ TEST_CASE("When the source has ended, its last frame stays in force and does not
     fake.go();
     checkEnded(fake);
     size_t seen = 0;
-    fake.during(0.9, 9.0, [&](const TurnRecord& r) {
+    fake.during(0.9, 9.0, [&](const StepRecord& r) {
         ++seen;
         CHECK(r.frame == 11);
         CHECK(r.sceneAge <= 0.1);
-        CHECK(r.state != TurnState::Fading);
+        CHECK(r.state != StepState::Fading);
     });
     CHECK(seen > 10);
 }
@@ -169,7 +169,7 @@ TEST_CASE(
         FakeRun fake(300, pressingPath(10.0));
         StopSignals signals;
         CHECK_FALSE(signals.asked().load());
-        fake.sink.onTurn = [&](const TurnRow& row) {
+        fake.sink.onTurn = [&](const TickRow& row) {
             if (row.record.t > 0.5 && !fake.stop.load()) {
                 std::raise(signal);
                 fake.stop.store(signals.asked().load());
@@ -210,7 +210,7 @@ TEST_CASE("What a thread throws ends the run with zero force, and is told") {
 
 TEST_CASE("What the sink throws passes through after the hand has zero force") {
     FakeRun fake(300, pressingPath(10.0));
-    fake.sink.onTurn = [](const TurnRow& row) {
+    fake.sink.onTurn = [](const TickRow& row) {
         if (row.record.t > 0.3) {
             throw Error("disk full");
         }
@@ -225,7 +225,7 @@ TEST_CASE("A scene with nothing to collide with runs without a contact thread") 
     fake.go(false);
     CHECK(fake.sink.queries == 0);
     REQUIRE(!fake.sink.rows.empty());
-    CHECK(fake.sink.rows.back().record.state == TurnState::Free);
+    CHECK(fake.sink.rows.back().record.state == StepState::Free);
     CHECK(fake.sink.rows.back().record.frame == 9);
 }
 

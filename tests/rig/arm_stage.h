@@ -40,7 +40,7 @@ inline std::string urdf() {
 
 // A wall 0.6 m away, its region 40 mm thick; the arm beside the camera, its tip 0.12 m before the region.
 inline void setUp(const Stage& stage, const std::string& driver, const std::vector<HandRow>& hand) {
-    stage.recording({Picture(kWidth, kHeight, 600).paint({0, 0, kWidth, kHeight}, kRed)});
+    stage.recording({Image(kWidth, kHeight, 600).paint({0, 0, kWidth, kHeight}, kRed)});
     stage.scene({});
     stage.hand(hand);
     stage.write("arm.urdf", urdf());

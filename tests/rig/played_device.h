@@ -2,7 +2,7 @@
 // A haptic device at a hand door whose handle a test moves.
 #pragma once
 
-#include "devices/bridge/door_server.h"
+#include "devices/bridge/socket_server.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,8 +13,8 @@ namespace fathom {
 
 // A device that a test plays: its handle is where `z` says, and what it feels is in `fz`.
 struct PlayedDevice {
-    explicit PlayedDevice(const std::filesystem::path& door)
-        : server({door, "falcon", "played device", 8.0, 0.0})
+    explicit PlayedDevice(const std::filesystem::path& endpoint)
+        : server({endpoint, "falcon", "played device", 8.0, 0.0})
         , thread([this] {
             while (!stop) {
                 server.poll();
@@ -25,7 +25,7 @@ struct PlayedDevice {
                 lettings += fz < -1e-3 && felt == 0.0 ? 1 : 0;
                 fz = felt;
                 strongest = std::min<double>(strongest, fz);
-                silent = server.gate().silent(doorClock());
+                silent = server.gate().silent(socketClock());
                 std::this_thread::sleep_for(std::chrono::microseconds(500));
             }
         }) {}
@@ -70,7 +70,7 @@ struct PlayedDevice {
     std::atomic<double> z{0.0}, fz{0.0}, strongest{0.0};
     std::atomic<int> lettings{0}; // times that a force was let go, as when the engine loses the device
     std::atomic<bool> stop{false}, silent{true};
-    DoorServer server;
+    SocketServer server;
     std::thread thread;
 };
 

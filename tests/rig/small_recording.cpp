@@ -20,40 +20,40 @@ void putText(const std::filesystem::path& file, const std::string& text) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-void writeDepthPicture(const std::filesystem::path& file, const Picture& picture) {
+void writeDepthImage(const std::filesystem::path& file, const Image& image) {
     std::vector<uint8_t> bytes;
-    for (uint16_t value : picture.depth) {
+    for (uint16_t value : image.depth) {
         bytes.push_back(static_cast<uint8_t>(value >> 8));
         bytes.push_back(static_cast<uint8_t>(value & 255));
     }
-    writePng(file, picture.width, picture.height, 16, PNG_COLOR_TYPE_GRAY, bytes);
+    writePng(file, image.width, image.height, 16, PNG_COLOR_TYPE_GRAY, bytes);
 }
 
-void writeColourPicture(const std::filesystem::path& file, const Picture& picture) {
+void writeColourImage(const std::filesystem::path& file, const Image& image) {
     std::vector<uint8_t> bytes;
-    for (const Paint3& paint : picture.colour) {
+    for (const Paint3& paint : image.colour) {
         bytes.insert(bytes.end(), {paint.r, paint.g, paint.b});
     }
-    writePng(file, picture.width, picture.height, 8, PNG_COLOR_TYPE_RGB, bytes);
+    writePng(file, image.width, image.height, 8, PNG_COLOR_TYPE_RGB, bytes);
 }
 
 } // namespace
 
-Picture& Picture::paint(const PixelBox& box, const Paint3& paint) {
+Image& Image::paint(const PixelBox& box, const Paint3& paint) {
     for (uint32_t v = box.v0; v < box.v1; ++v) {
         std::fill_n(colour.begin() + v * width + box.u0, box.u1 - box.u0, paint);
     }
     return *this;
 }
 
-Picture& Picture::set(const PixelBox& box, uint16_t millimetres) {
+Image& Image::set(const PixelBox& box, uint16_t millimetres) {
     for (uint32_t v = box.v0; v < box.v1; ++v) {
         std::fill_n(depth.begin() + v * width + box.u0, box.u1 - box.u0, millimetres);
     }
     return *this;
 }
 
-Picture& Picture::dome(const PixelBox& box, double millimetres) {
+Image& Image::dome(const PixelBox& box, double millimetres) {
     for (uint32_t v = box.v0; v < box.v1; ++v) {
         for (uint32_t u = box.u0; u < box.u1; ++u) {
             const double x = (2.0 * (u - box.u0) + 1.0) / (box.u1 - box.u0) - 1.0;
@@ -75,24 +75,24 @@ std::string lensJson(uint32_t width, uint32_t height) {
     return text.str();
 }
 
-void writeRecording(const std::filesystem::path& folder, const std::vector<Picture>& pictures) {
+void writeRecording(const std::filesystem::path& folder, const std::vector<Image>& images) {
     std::filesystem::create_directories(folder);
     std::ostringstream index;
     index << "# t_rgb rgb t_depth depth\n" << std::fixed << std::setprecision(6);
-    for (size_t i = 0; i < pictures.size(); ++i) {
+    for (size_t i = 0; i < images.size(); ++i) {
         const std::string name = sixDigits(i) + ".png";
         const double t = static_cast<double>(i) / 30.0;
-        writeDepthPicture(folder / "depth" / name, pictures[i]);
-        writeColourPicture(folder / "rgb" / name, pictures[i]);
+        writeDepthImage(folder / "depth" / name, images[i]);
+        writeColourImage(folder / "rgb" / name, images[i]);
         index << t << " rgb/" << name << " " << t << " depth/" << name << "\n";
     }
     putText(folder / "associations.txt", index.str());
-    putText(folder / "intrinsics.json", lensJson(pictures.at(0).width, pictures.at(0).height));
+    putText(folder / "intrinsics.json", lensJson(images.at(0).width, images.at(0).height));
 }
 
-Picture bumpPicture() {
-    Picture picture(kWidth, kHeight, 600);
-    return picture.dome({24, 14, 44, 34}, 60.0).paint({24, 14, 44, 34}, kRed).paint({4, 16, 14, 30}, kYellow);
+Image bumpImage() {
+    Image image(kWidth, kHeight, 600);
+    return image.dome({24, 14, 44, 34}, 60.0).paint({24, 14, 44, 34}, kRed).paint({4, 16, 14, 30}, kYellow);
 }
 
 std::string SceneText::text() const {

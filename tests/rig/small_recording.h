@@ -23,20 +23,20 @@ struct PixelBox { // [from, to)
 };
 
 // One pair of pictures. Depth in millimetres.
-struct Picture {
+struct Image {
     uint32_t width, height;
     std::vector<uint16_t> depth;
     std::vector<Paint3> colour;
 
-    Picture(uint32_t w, uint32_t h, uint16_t millimetres)
+    Image(uint32_t w, uint32_t h, uint16_t millimetres)
         : width(w)
         , height(h)
         , depth(w * h, millimetres)
         , colour(w * h, kGrey) {}
-    Picture& paint(const PixelBox& box, const Paint3& paint);
-    Picture& set(const PixelBox& box, uint16_t millimetres);
+    Image& paint(const PixelBox& box, const Paint3& paint);
+    Image& set(const PixelBox& box, uint16_t millimetres);
     // Lifts the box towards the camera as part of a ball: its middle by `millimetres`, its edges by nothing.
-    Picture& dome(const PixelBox& box, double millimetres);
+    Image& dome(const PixelBox& box, double millimetres);
 };
 
 // The usual lens of these tests: 64x48 pixels, focal length 60 pixels, principal point in the middle.
@@ -46,10 +46,10 @@ std::string lensJson(uint32_t width, uint32_t height);
 
 // Writes pictures as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's
 // size.
-void writeRecording(const std::filesystem::path& folder, const std::vector<Picture>& pictures);
+void writeRecording(const std::filesystem::path& folder, const std::vector<Image>& images);
 
 // A grey wall 600 mm away with a red bump of 60 mm in the middle, and a yellow square at the left.
-Picture bumpPicture();
+Image bumpImage();
 
 // Scene file sections; what is empty takes the program's own default. `fixtures` is a list of rows, each in
 // braces.

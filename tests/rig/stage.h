@@ -42,7 +42,7 @@ public:
     const std::filesystem::path& path() const { return folder_.path(); }
     std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
 
-    void recording(const std::vector<Picture>& pictures) const { writeRecording(*this / "rec", pictures); }
+    void recording(const std::vector<Image>& images) const { writeRecording(*this / "rec", images); }
     void scene(const SceneText& scene) const { folder_.write("scene.yaml", scene.text()); }
     void hand(const std::vector<HandRow>& rows) const { folder_.write("hand.csv", handCsv(rows)); }
     void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }

@@ -33,7 +33,7 @@ Band band(double lo, double hi) {
 }
 
 CloudCase makeCase(std::string name, Scene scene, CameraInfo camera, uint64_t seed) {
-    return {std::move(name), std::move(scene), camera, stressPicture(camera, seed)};
+    return {std::move(name), std::move(scene), camera, stressImage(camera, seed)};
 }
 
 Scene withFilter(Scene scene, uint32_t radius, double edge, double budget) {
@@ -126,8 +126,8 @@ Scene classesScene(uint32_t count) {
     return scene;
 }
 
-Picture stressPicture(const CameraInfo& camera, uint64_t seed) {
-    Picture picture;
+Image stressImage(const CameraInfo& camera, uint64_t seed) {
+    Image image;
     const uint32_t w = camera.depth.width, h = camera.depth.height;
     for (uint32_t i = 0; i < camera.depth.pixels(); ++i) {
         const uint32_t row = i / w;
@@ -138,7 +138,7 @@ Picture stressPicture(const CameraInfo& camera, uint64_t seed) {
         z += x > 0.8 ? 1.2 * (x - 0.8) / 0.2 : 0.0;             // a steep slope
         z += (share(key) - 0.5) * 0.004;
         z = share(key + 1) < 0.03 ? 0.15 + 4.0 * share(key + 2) : z; // speckles, some beyond far
-        picture.depth.push_back(share(key + 1) > 0.95 ? uint16_t{0} : toUnits(z, camera));
+        image.depth.push_back(share(key + 1) > 0.95 ? uint16_t{0} : toUnits(z, camera));
     }
     const uint32_t cw = camera.colour.width;
     for (uint32_t i = 0; i < camera.colour.pixels(); ++i) {
@@ -146,24 +146,23 @@ Picture stressPicture(const CameraInfo& camera, uint64_t seed) {
         const uint32_t noise = static_cast<uint32_t>(mixed(key + i) & 0x070707),
                        grey = static_cast<uint32_t>(key >> 40 & 255) * 0x010101;
         const uint32_t colour = static_cast<uint32_t>(key) & 0xf8f8f8;
-        picture.colour.push_back(0xff000000u | (key % 11 == 0   ? grey
-                                                : key % 13 == 0 ? 0xffffffu
-                                                : key % 17 == 0 ? 0u
-                                                                : colour | noise));
+        image.colour.push_back(0xff000000u | (key % 11 == 0   ? grey
+                                              : key % 13 == 0 ? 0xffffffu
+                                              : key % 17 == 0 ? 0u
+                                                              : colour | noise));
     }
-    return picture;
+    return image;
 }
 
-Picture drawnPicture(const CameraInfo& camera, const std::function<double(int, int)>& depth,
-                     uint32_t colour) {
-    Picture picture;
+Image drawnImage(const CameraInfo& camera, const std::function<double(int, int)>& depth, uint32_t colour) {
+    Image image;
     for (uint32_t v = 0; v < camera.depth.height; ++v) {
         for (uint32_t u = 0; u < camera.depth.width; ++u) {
-            picture.depth.push_back(toUnits(depth(static_cast<int>(u), static_cast<int>(v)), camera));
+            image.depth.push_back(toUnits(depth(static_cast<int>(u), static_cast<int>(v)), camera));
         }
     }
-    picture.colour.assign(camera.colour.pixels(), colour);
-    return picture;
+    image.colour.assign(camera.colour.pixels(), colour);
+    return image;
 }
 
 double planeDepth(const CameraInfo& camera, int u, int v, const dvec3& normal, double d) {
@@ -203,7 +202,7 @@ std::vector<CloudCase> cloudCases() {
     Shot tank = simulatedShot("tank", {});
     Scene scene = withFilter(classesScene(2), 2, 0.03, 0.0001);
     scene.baseTcamera = {{100000.0, -100000.0, 50.0}, rotationExp({0.4, -0.9, 1.7})}; // 140 km away
-    cases.push_back({"640x480, tank, 140 km away", scene, tank.camera, tank.picture});
+    cases.push_back({"640x480, tank, 140 km away", scene, tank.camera, tank.image});
     return cases;
 }
 
@@ -218,8 +217,8 @@ RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frame
     out.camera = camera.info();
     while (const std::optional<Frame> frame = camera.next()) {
         if (frames.empty() || std::find(frames.begin(), frames.end(), (*frame)->index) != frames.end()) {
-            out.pictures.push_back({{(*frame)->depth.begin(), (*frame)->depth.end()},
-                                    {(*frame)->colour.begin(), (*frame)->colour.end()}});
+            out.images.push_back({{(*frame)->depth.begin(), (*frame)->depth.end()},
+                                  {(*frame)->colour.begin(), (*frame)->colour.end()}});
         }
     }
     return out;

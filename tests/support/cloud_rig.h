@@ -12,7 +12,7 @@
 
 namespace fathom::test {
 
-using verify::Picture;
+using verify::Image;
 
 // On the device of all tests.
 struct CloudRig : verify::PassRig {
@@ -34,17 +34,17 @@ FixtureClass forbiddenClass(const std::string& name, double radius);
 FixtureClass guidanceClass(const std::string& name);
 
 // Steps, slopes, speckles, dropouts and a colour picture of bright, dark, grey, black and white pixels.
-Picture stressPicture(const CameraInfo& camera, uint64_t seed);
+Image stressImage(const CameraInfo& camera, uint64_t seed);
 // Depth by a function of the pixel [m], 0 = none; colour one and the same.
-Picture drawnPicture(const CameraInfo& camera, const std::function<double(int, int)>& depth,
-                     uint32_t colour = 0xff2020c0);
+Image drawnImage(const CameraInfo& camera, const std::function<double(int, int)>& depth,
+                 uint32_t colour = 0xff2020c0);
 // Depth of the plane n . p = d (camera frame) at a pixel [m].
 double planeDepth(const CameraInfo& camera, int u, int v, const dvec3& normal, double d);
 
 // A frame of a built-in scene and the camera that saw it.
 struct Shot {
     CameraInfo camera;
-    Picture picture;
+    Image image;
     Pose baseTcamera;
 };
 Shot simulatedShot(const std::string& scene, SimulatedCameraOptions options, uint32_t frame = 0);
@@ -54,14 +54,14 @@ struct CloudCase {
     std::string name;
     Scene scene;
     CameraInfo camera;
-    Picture picture;
+    Image image;
 };
 std::vector<CloudCase> cloudCases();
 
 // The test recordings, ../shared/data/NAME; empty and said so when absent.
 struct RecordedShots {
     CameraInfo camera;
-    std::vector<Picture> pictures;
+    std::vector<Image> images;
 };
 RecordedShots recordedShots(const std::string& name, std::vector<uint32_t> frames);
 

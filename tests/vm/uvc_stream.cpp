@@ -48,9 +48,9 @@ Bytes UvcStream::frameDescriptor() const {
     Bytes bytes{0, 0x24, kind, 1, 0};
     put16(bytes, shape_.width);
     put16(bytes, shape_.height);
-    put32(bytes, pictureBytes() * 8 * 15);
-    put32(bytes, pictureBytes() * 8 * 60);
-    put32(bytes, pictureBytes());
+    put32(bytes, imageBytes() * 8 * 15);
+    put32(bytes, imageBytes() * 8 * 60);
+    put32(bytes, imageBytes());
     put32(bytes, 333333);
     bytes.push_back(3);
     for (const uint32_t interval : {kShortest, 333333u, kLongest}) {
@@ -75,7 +75,7 @@ Bytes UvcStream::descriptors() const {
 }
 
 uint32_t UvcStream::payloadBytes() const {
-    return shape_.wholePayloads ? pictureBytes() + 255 : static_cast<uint32_t>(kPayload);
+    return shape_.wholePayloads ? imageBytes() + 255 : static_cast<uint32_t>(kPayload);
 }
 
 Bytes UvcStream::probe() const {
@@ -84,7 +84,7 @@ Bytes UvcStream::probe() const {
     append(bytes, {1, 1});
     put32(bytes, interval_);
     bytes.resize(18);
-    put32(bytes, pictureBytes());
+    put32(bytes, imageBytes());
     put32(bytes, payloadBytes());
     put32(bytes, 1000000);
     append(bytes, {0, 0, 0, 0});
@@ -136,7 +136,7 @@ Clock::time_point UvcStream::due() const {
     return !on_ ? Clock::now() + std::chrono::milliseconds(20) : busy_ ? Clock::now() : due_;
 }
 
-bool UvcStream::nextPicture() {
+bool UvcStream::nextFrame() {
     if (busy_) {
         return true;
     }
@@ -148,9 +148,9 @@ bool UvcStream::nextPicture() {
     due_ = std::max(due_, now - std::chrono::milliseconds(200)); // an emulated machine may fall behind
     toggle_ = static_cast<uint8_t>(toggle_ ^ (take(faults.sameToggle) ? 0 : 1));
     bad_ = take(faults.errorBit);
-    picture_.resize(pictureBytes());
-    painter_(number_++, picture_);
-    end_ = take(faults.cutShort) ? picture_.size() / 2 / 2 * 2 : picture_.size();
+    image_.resize(imageBytes());
+    painter_(number_++, image_);
+    end_ = take(faults.cutShort) ? image_.size() / 2 / 2 * 2 : image_.size();
     at_ = 0;
     busy_ = true;
     return true;
@@ -179,7 +179,7 @@ void UvcStream::header(Bytes& out, bool end) {
 }
 
 std::optional<UsbReply> UvcStream::transfer(size_t room) {
-    if (!nextPicture()) {
+    if (!nextFrame()) {
         return std::nullopt;
     }
     Bytes out;
@@ -189,8 +189,8 @@ std::optional<UsbReply> UvcStream::transfer(size_t room) {
         header(out, shape_.wholePayloads || end_ - at_ <= room - 12);
     }
     const size_t count = std::min(room - out.size(), end_ - at_);
-    out.insert(out.end(), picture_.begin() + static_cast<long>(at_),
-               picture_.begin() + static_cast<long>(at_ + count));
+    out.insert(out.end(), image_.begin() + static_cast<long>(at_),
+               image_.begin() + static_cast<long>(at_ + count));
     at_ += count;
     if (at_ == end_ && out.size() < room) { // a full transfer does not end a payload: an empty one follows
         busy_ = false;

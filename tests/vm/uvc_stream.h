@@ -13,7 +13,7 @@ enum class UvcFormat { Z16, Inzi, Yuyv, Mjpeg };
 
 // Paints picture n: Z16 and YUYV rows of 16-bit words, INZI rows of infrared and then of depth, or a whole
 // JPEG.
-using UvcPainter = std::function<void(uint32_t n, Bytes& picture)>;
+using UvcPainter = std::function<void(uint32_t n, Bytes& image)>;
 
 // What may go wrong, set by a test while the camera runs. Each count is of pictures still to be spoilt.
 struct UvcFaults {
@@ -50,10 +50,10 @@ private:
     Bytes formatDescriptor() const;
     Bytes frameDescriptor() const;
     uint32_t bytesPerPixel() const { return shape_.format == UvcFormat::Inzi ? 4 : 2; }
-    uint32_t pictureBytes() const { return bytesPerPixel() * shape_.width * shape_.height; }
+    uint32_t imageBytes() const { return bytesPerPixel() * shape_.width * shape_.height; }
     uint32_t payloadBytes() const;
     Bytes probe() const;
-    bool nextPicture();
+    bool nextFrame();
     void header(Bytes& out, bool end);
 
     Shape shape_;
@@ -61,7 +61,7 @@ private:
     uint32_t interval_ = 333333; // [100 ns]
     bool on_ = false;
     Clock::time_point due_;
-    Bytes picture_;
+    Bytes image_;
     size_t at_ = 0, end_ = 0;
     uint32_t number_ = 0;
     uint8_t toggle_ = 0;

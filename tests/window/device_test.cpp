@@ -44,10 +44,10 @@ TEST_CASE("A haptic device at its door drives the tool in the window and feels t
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     const double start = z(rig.state(), "tool");
-    const auto door = rig.folder() / "hand.door";
-    PlayedDevice device(door);
+    const auto endpoint = rig.folder() / "hand.door";
+    PlayedDevice device(endpoint);
     device.z = 0.15; // wherever the handle is, the tool begins where it does without one
-    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", door.string()});
+    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", endpoint.string()});
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 200; }));
     CHECK(rig.state()["hand"]["name"].get<std::string>().find("played device") == 0);
     CHECK(rig.state()["hand"]["there"] == true);
@@ -70,8 +70,8 @@ TEST_CASE("A haptic device at its door drives the tool in the window and feels t
     rig.shoot("device");
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 2500; })); // a soft start later
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 2500; })); // a soft start later
     CHECK(device.fz == 0.0);
     CHECK(rig.state()["run"]["force_N"] == 0.0);
     CHECK(rig.close() == 0);
@@ -81,10 +81,10 @@ TEST_CASE("A haptic device at its door drives the tool in the window and feels t
 TEST_CASE(
     "A haptic device that goes away takes its force with it, is told of, and goes on where the tool is") {
     WindowRig rig;
-    const auto door = rig.folder() / "hand.door";
+    const auto endpoint = rig.folder() / "hand.door";
     std::optional<PlayedDevice> device;
-    device.emplace(door);
-    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", door.string()});
+    device.emplace(endpoint);
+    rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", endpoint.string()});
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
     REQUIRE(pressUntilFelt(rig, *device));
@@ -94,7 +94,7 @@ TEST_CASE(
         return s["hand"]["there"] == false && alarm(s, "WARNING active hand") && s["run"]["force_N"] == 0.0;
     }));
     rig.shoot("device-gone");
-    device.emplace(door); // its handle is far from where it was
+    device.emplace(endpoint); // its handle is far from where it was
     REQUIRE(rig.await([](const json& s) { return s["hand"]["there"] == true; }));
     CHECK(rig.await([](const json& s) { return alarm(s, "WARNING latched hand"); }));
     CHECK(z(rig.state(), "tool") == doctest::Approx(tool).epsilon(0.005));

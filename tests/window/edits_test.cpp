@@ -31,9 +31,9 @@ std::vector<int> columnOf(const std::filesystem::path& file, size_t column) {
     return values;
 }
 
-void waitTurns(const WindowRig& rig, int turns) {
+void waitTurns(const WindowRig& rig, int ticks) {
     const auto now = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + turns; }));
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + ticks; }));
 }
 
 // Against the bump; the red class goes and a sphere comes; both are undone; all is held still for a while.
@@ -74,27 +74,27 @@ TEST_CASE(
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     fly(rig);
     const auto folder = rig.folder() / "recording-1", out = rig.folder() / "out";
-    const std::vector<int> pictures = columnOf(folder / "edits.csv", 0),
+    const std::vector<int> images = columnOf(folder / "edits.csv", 0),
                            still = columnOf(folder / "edits.csv", 3);
-    REQUIRE(pictures.size() == 7); // start, removed, placed, twice undone, held, let go
-    CHECK(pictures[0] == 0);
+    REQUIRE(images.size() == 7); // start, removed, placed, twice undone, held, let go
+    CHECK(images[0] == 0);
     CHECK(still == std::vector<int>{0, 0, 0, 0, 0, 1, 0});
     const ProgramRun run =
         runFathom({"replay", folder.string(), "--device", "llvmpipe", "--out", out.string()});
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     const std::vector<int> spheres = columnOf(out / "frames.csv", 4);
-    REQUIRE(static_cast<int>(spheres.size()) > pictures[6]);
+    REQUIRE(static_cast<int>(spheres.size()) > images[6]);
     for (int i = 0; i < static_cast<int>(spheres.size()); ++i) {
         CAPTURE(i);
-        const bool gone = i >= pictures[1] && i < pictures[4];
-        const bool held = i >= pictures[5] && i < pictures[6]; // no set is made
+        const bool gone = i >= images[1] && i < images[4];
+        const bool held = i >= images[5] && i < images[6]; // no set is made
         CHECK((held || (spheres[static_cast<size_t>(i)] == 0) == gone));
     }
     const auto felt = feltIn(folder / "wrench.csv", 1, 7), again = feltIn(out / "haptics.csv", 15, 21);
     REQUIRE(firstContact(felt) > 0.0);
     CHECK(std::abs(firstContact(felt) - firstContact(again)) < 0.25);
     constexpr double kAfter = 0.2; // [s] until every turn obeys the newer set
-    const double from = pictures[1] / 30.0 + kAfter, to = pictures[3] / 30.0 - kAfter;
+    const double from = images[1] / 30.0 + kAfter, to = images[3] / 30.0 - kAfter;
     REQUIRE(to > from);
     for (const auto* rows : {&felt, &again}) {
         size_t within = 0;
@@ -106,7 +106,7 @@ TEST_CASE(
         CHECK(rows->back().contact);
     }
     rig.reopen(folder);
-    const double middle = 0.5 * (pictures[2] + pictures[3]) / 30.0,
+    const double middle = 0.5 * (images[2] + images[3]) / 30.0,
                  all = rig.state()["console"]["time_line"]["duration"];
     rig.click("time line", middle / all);
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] == 0 && s["shapes"] == 1; }));

@@ -40,13 +40,13 @@ struct LosingRig {
             [&](const json& s) { return s["gpu"]["there"] == true && s["gpu"]["made_anew"] == madeAnew; });
     }
     // All that the program has told since a turn.
-    std::vector<json> since(const json& turn) const {
+    std::vector<json> since(const json& tick) const {
         std::vector<json> states;
         std::ifstream in(window.folder() / "state.jsonl");
         for (std::string line; std::getline(in, line) && !in.eof();) {
             states.push_back(json::parse(line));
         }
-        std::erase_if(states, [&](const json& s) { return s["run"]["turns"] <= turn; });
+        std::erase_if(states, [&](const json& s) { return s["run"]["turns"] <= tick; });
         return states;
     }
 
@@ -80,8 +80,8 @@ void checkGone(const std::vector<json>& states, const json& before) {
     std::copy_if(states.begin(), states.end(), std::back_inserter(gone),
                  [](const json& s) { return s["gpu"]["there"] == false; });
     REQUIRE(gone.size() > 8);
-    const int turns = gone.back()["run"]["turns"].get<int>() - gone.front()["run"]["turns"].get<int>();
-    CHECK(turns > 300);
+    const int ticks = gone.back()["run"]["turns"].get<int>() - gone.front()["run"]["turns"].get<int>();
+    CHECK(ticks > 300);
     for (size_t i = 0; i < gone.size(); ++i) {
         CAPTURE(i);
         const double age = gone[i]["run"]["scene_age_s"];
@@ -204,8 +204,8 @@ TEST_CASE(
     }));
     rig.key("space");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    CHECK(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 1000; }));
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    CHECK(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 1000; }));
     checkEnd(lost.window);
     CHECK(rig.output().find("GPU is gone") != std::string::npos);
 }

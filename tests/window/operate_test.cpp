@@ -249,8 +249,8 @@ TEST_CASE("The window can be made smaller, larger and unmapped while it runs") {
     const Screenshot shot = rig.shoot("large");
     CHECK(shot.width == 1600);
     rig.xdo("windowunmap --sync $W");
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 300; })); // the hand goes on
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 300; })); // the hand goes on
     rig.xdo("windowmap --sync $W");
     const auto frames = rig.state()["window"]["frames"].get<int>();
     CHECK(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 5; }));

@@ -21,8 +21,8 @@ std::filesystem::path recordAPush(WindowRig& rig) {
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 1500; }));
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 1500; }));
     rig.push();
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
     const auto pushed = rig.state()["run"]["turns"].get<int>();
@@ -36,9 +36,9 @@ std::filesystem::path recordAPush(WindowRig& rig) {
 
 // The yellow square is red from this picture on.
 void paintRedFrom(const std::filesystem::path& folder, uint32_t first) {
-    const Picture picture = bumpPicture().paint({4, 16, 14, 30}, kRed);
+    const Image image = bumpImage().paint({4, 16, 14, 30}, kRed);
     std::vector<uint8_t> bytes;
-    for (const Paint3& paint : picture.colour) {
+    for (const Paint3& paint : image.colour) {
         bytes.insert(bytes.end(), {paint.r, paint.g, paint.b});
     }
     for (uint32_t i = first;; ++i) {
@@ -47,7 +47,7 @@ void paintRedFrom(const std::filesystem::path& folder, uint32_t first) {
         if (!std::filesystem::exists(folder / name)) {
             return;
         }
-        writePng(folder / name, picture.width, picture.height, 8, 2, bytes); // RGB
+        writePng(folder / name, image.width, image.height, 8, 2, bytes); // RGB
     }
 }
 
@@ -132,16 +132,16 @@ TEST_CASE("A recording is stepped by pictures and turns, and plays until it is t
     WindowRig rig;
     const std::filesystem::path folder = recordAPush(rig);
     rig.reopen(rig.folder() / "scene.yaml", {"--recording", folder.string()});
-    const auto picture = [](const json& s) { return s["console"]["time_line"]["picture"].get<int>(); };
-    const auto atPicture = [&](const json& s) {
-        return lineTime(s) == doctest::Approx(picture(s) / 30.0).epsilon(1e-6);
+    const auto image = [](const json& s) { return s["console"]["time_line"]["picture"].get<int>(); };
+    const auto atImage = [&](const json& s) {
+        return lineTime(s) == doctest::Approx(image(s) / 30.0).epsilon(1e-6);
     };
     for (int i = 1; i <= 3; ++i) {
         rig.key("Right");
-        CHECK(rig.await([&](const json& s) { return picture(s) == i && atPicture(s); }));
+        CHECK(rig.await([&](const json& s) { return image(s) == i && atImage(s); }));
     }
     rig.key("Left");
-    CHECK(rig.await([&](const json& s) { return picture(s) == 2 && atPicture(s); }));
+    CHECK(rig.await([&](const json& s) { return image(s) == 2 && atImage(s); }));
     const double before = lineTime(rig.state());
     const std::vector<Felt> felt = feltIn(folder / "wrench.csv", 1, 7);
     const auto next = std::upper_bound(felt.begin(), felt.end(), before + 1e-6,
@@ -174,7 +174,7 @@ TEST_CASE("What is no recording is refused in one line with exit code 2") {
     CHECK(none.exitCode == 2);
     REQUIRE(none.errorLines().size() == 1);
     CHECK(none.errorLines()[0].find("scene.yaml") != std::string::npos);
-    writeRecording(folder.path() / "recording", {bumpPicture()});
+    writeRecording(folder.path() / "recording", {bumpImage()});
     folder.write("recording/hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button\n0,0,0,0,1,0,0,0,0\n");
     folder.write("recording/scene.yaml", SceneText{}.text());
     folder.write("recording/wrench.csv", "t_s,fx,fy,fz,tx,ty,tz,contacts,state\n0,0,0,zero,0,0,0,0,0\n");

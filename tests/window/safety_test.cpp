@@ -46,8 +46,8 @@ TEST_CASE(
     REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
     rig.key("f");
     REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY latched frozen"); }));
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 700; }));
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 700; }));
     CHECK(alarm(rig.state(), "ADVISORY latched frozen"));
     rig.click("tab Alarms");
     REQUIRE(rig.await([](const json& s) { return s["console"]["tab"] == 2; }));
@@ -77,8 +77,8 @@ TEST_CASE("The space bar turns forces off while text is typed, when letters are 
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
     rig.key("a"); // text: not armed
-    const auto turns = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > turns + 500; }));
+    const auto ticks = rig.state()["run"]["turns"].get<int>();
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 500; }));
     CHECK(rig.state()["console"]["forces"] == false);
     CHECK(rig.state()["console"]["guidance"] == false);
     CHECK(rig.state()["run"]["force_N"] == 0.0);

@@ -75,9 +75,9 @@ void requireDisplay() {
 
 WindowRig::WindowRig(const std::vector<std::string>& extra) {
     requireDisplay();
-    Picture picture = bumpPicture();
-    picture.set({50, 36, 64, 48}, 0); // a corner that the camera does not see
-    writeRecording(folder_.path() / "recording", std::vector<Picture>(4, picture));
+    Image image = bumpImage();
+    image.set({50, 36, 64, 48}, 0); // a corner that the camera does not see
+    writeRecording(folder_.path() / "recording", std::vector<Image>(4, image));
     SceneText scene;
     scene.camera = "source: {recorded: recording}, near: 0.1, far: 3.0";
     scene.fixtures.push_back(SceneText::kGuideYellow);

@@ -103,8 +103,8 @@ TEST_CASE(
     w.meets();
     const auto held = w.joints();
     w.rig.keyDown("Page_Up"); // moves no arm
-    const auto turns = w.rig.state()["run"]["turns"].get<int>();
-    REQUIRE(w.await([&](const json& run) { return run["turns"] > turns + 500; }));
+    const auto ticks = w.rig.state()["run"]["turns"].get<int>();
+    REQUIRE(w.await([&](const json& run) { return run["turns"] > ticks + 500; }));
     w.rig.keyUp("Page_Up");
     CHECK(apart(w.joints(), held) < 1e-4);
     w.arms();

@@ -21,10 +21,10 @@ public:
         , metres_(metres)
         , threads_(threads) {}
 
-    void load(const DepthPicture& picture) override {
+    void load(const DepthImage& image) override {
         cv::setNumThreads(static_cast<int>(threads_));
-        in_.create(static_cast<int>(picture.lens.height), static_cast<int>(picture.lens.width), CV_32FC1);
-        std::transform(picture.z.begin(), picture.z.end(), in_.ptr<float>(),
+        in_.create(static_cast<int>(image.lens.height), static_cast<int>(image.lens.width), CV_32FC1);
+        std::transform(image.z.begin(), image.z.end(), in_.ptr<float>(),
                        [](float z) { return std::isnan(z) ? 0.0f : z; });
     }
     void run() override {

@@ -21,12 +21,12 @@ public:
         filter_.setSigmaR(static_cast<float>(metres));
     }
 
-    void load(const DepthPicture& picture) override {
-        const Intrinsics& lens = picture.lens;
+    void load(const DepthImage& image) override {
+        const Intrinsics& lens = image.lens;
         cloud_ = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>(lens.width, lens.height);
         cloud_->is_dense = false;
         for (uint32_t i = 0; i < lens.pixels(); ++i) {
-            const float z = picture.z[i];
+            const float z = image.z[i];
             const glm::dvec2 ray = lens.ray(i % lens.width, i / lens.width);
             (*cloud_)[i] = {static_cast<float>(ray.x) * z, static_cast<float>(ray.y) * z, z};
         }

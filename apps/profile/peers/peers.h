@@ -28,7 +28,7 @@ public:
 };
 
 // Depth pictures, row-major [m], not a number = no measurement.
-struct DepthPicture {
+struct DepthImage {
     Intrinsics lens; // without distortion
     std::span<const float> z;
 };
@@ -38,7 +38,7 @@ class FilterPeer {
 public:
     virtual ~FilterPeer() = default;
     // Copies the picture into the form that the library takes: not part of what is timed.
-    virtual void load(const DepthPicture& picture) = 0;
+    virtual void load(const DepthImage& image) = 0;
     virtual void run() = 0;
     virtual std::vector<float> depths() const = 0; // [m] row-major, not a number = none
 };

@@ -38,12 +38,12 @@ private:
 // Waits until the kernel offers a node with depth, and colour when wanted.
 inline bool waitForCamera(bool colour = true) {
     return waitFor([colour] {
-        bool depth = false, picture = !colour;
+        bool depth = false, image = !colour;
         for (const VideoNode& node : openVideoNodes()) {
             depth = depth || node.offers(fourccOf("Z16 ")) || node.offers(fourccOf("INZI"));
-            picture = picture || node.offers(fourccOf("YUYV")) || node.offers(fourccOf("MJPG"));
+            image = image || node.offers(fourccOf("YUYV")) || node.offers(fourccOf("MJPG"));
         }
-        return depth && picture;
+        return depth && image;
     });
 }
 

@@ -47,8 +47,8 @@ TEST_CASE(
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
     const auto paint = plainDepth(320, 240);
-    UvcCamera device({.colour = false, .realSense = true, .paintDepth = [&](uint32_t n, Bytes& picture) {
-                          paint(n, picture);
+    UvcCamera device({.colour = false, .realSense = true, .paintDepth = [&](uint32_t n, Bytes& image) {
+                          paint(n, image);
                           drawn[n % drawn.size()] = now();
                       }});
     device.plug();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // `fathom guard falcon` as a process between a simulated Falcon and an engine that is killed.
-#include "devices/bridge/door_hand.h"
+#include "devices/bridge/socket_hand.h"
 #include "devices/usb/device_files.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "engine/types/error.h"
-#include "tests/devices/door_rig.h"
+#include "tests/devices/socket_rig.h"
 #include "tests/vm/haptic/falcon_device.h"
 
 #include <cstdlib>
@@ -21,10 +21,10 @@ constexpr Motors kStill{};
 constexpr double kLongestForce = 0.2; // [s]
 
 // An engine that presses for ever, once there is a door.
-int press(const std::filesystem::path& door) {
+int press(const std::filesystem::path& endpoint) {
     for (;;) {
         try {
-            DoorHand hand(door, 4);
+            SocketHand hand(endpoint, 4);
             for (;;) {
                 hand.read(0.0);
                 hand.write({{1.0, 2.0, 3.0}, {}}, 0.001);
@@ -38,7 +38,7 @@ int press(const std::filesystem::path& door) {
 
 struct Stage {
     Stage()
-        : engine([this] { return press(folder.door()); }) { // before there is any thread
+        : engine([this] { return press(folder.endpoint()); }) { // before there is any thread
         device.setEncoders(FalconKinematics::encoderOf(*FalconKinematics::inverse({0.0, 0.01, 0.13})));
         device.plug();
         REQUIRE(eventually([] { // the kernel enumerates
@@ -47,7 +47,7 @@ struct Stage {
         }));
         guard = std::make_unique<Child>([this] {
             std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
-            const std::string path = folder.door().string();
+            const std::string path = folder.endpoint().string();
             return ::execl(FATHOM_PROGRAM, "fathom", "guard", "falcon", "--door", path.c_str(), nullptr);
         });
         REQUIRE(eventually([&] { return device.motors() != kStill; }));
@@ -60,7 +60,7 @@ struct Stage {
         return std::chrono::duration<double>(device.released() - fault).count();
     }
 
-    DoorFolder folder;
+    SocketFolder folder;
     Child engine;
     FalconDevice device;
     std::unique_ptr<Child> guard;
@@ -79,7 +79,7 @@ TEST_CASE("An engine killed by SIGKILL leaves a Falcon without force, and the ne
     const uint64_t commands = stage.device.commands;
     CHECK(eventually([&] { return stage.device.commands > commands + 20; })); // and it stays zero
     CHECK(stage.device.motors() == kStill);
-    DoorHand next(stage.folder.door(), 4);
+    SocketHand next(stage.folder.endpoint(), 4);
     CHECK(eventually([&] {
         next.read(0.0);
         next.write({{0.0, 0.0, 2.0}, {}}, 0.001);
@@ -114,7 +114,7 @@ TEST_CASE("Ctrl-C at the guardian with an engine pressing leaves zero force and 
     stage.guard->signal(ending);
     CHECK(stage.guard->wait() == 0);
     CHECK(stage.forceLasts(asked) < kLongestForce);
-    CHECK_FALSE(std::filesystem::exists(stage.folder.door()));
+    CHECK_FALSE(std::filesystem::exists(stage.folder.endpoint()));
 }
 
 TEST_CASE("A guardian whose log nobody reads any more goes on") {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The Falcon's guardian on the kernel's own USB stack, with faults, and its door to an engine.
-#include "devices/bridge/door_hand.h"
+#include "devices/bridge/socket_hand.h"
 #include "devices/usb/falcon_guard.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "engine/types/error.h"
-#include "tests/devices/door_rig.h"
+#include "tests/devices/socket_rig.h"
 #include "tests/vm/haptic/falcon_device.h"
 #include "tests/vm/vhci_port.h"
 
@@ -61,7 +61,7 @@ struct Running { // the guardian on a thread of this process
 };
 
 // One turn of an engine that pushes along z.
-HandSample turn(DoorHand& hand, double fz = 2.0) {
+HandSample step(SocketHand& hand, double fz = 2.0) {
     const HandSample sample = hand.read(0.0);
     hand.write({{0.0, 0.0, fz}, {0.0, 0.1, 0.0}}, 0.001);
     pauseMs(1);
@@ -90,23 +90,23 @@ std::string faultOf(const FalconGuard::Options& options) {
 } // namespace
 
 TEST_CASE("The knob's place reaches the engine, its force the motors, and at the end they are still") {
-    DoorFolder folder;
+    SocketFolder folder;
     FalconDevice device;
     placeAt(device, kKnob);
     device.plug();
-    Running running({folder.door(), {}});
+    Running running({folder.endpoint(), {}});
     {
-        DoorHand hand(folder.door(), 4);
+        SocketHand hand(folder.endpoint(), 4);
         CHECK(hand.preset() == "falcon");
-        CHECK(eventually([&] { return glm::distance(turn(hand).deviceThandle.position, kKnob) < 1e-4; }));
+        CHECK(eventually([&] { return glm::distance(step(hand).deviceThandle.position, kKnob) < 1e-4; }));
         CHECK(eventually([&] {
-            turn(hand);
+            step(hand);
             return pushes(device);
         }));
         const auto torques =
             FalconKinematics::torques(kKnob, *FalconKinematics::inverse(kKnob), {0.0, 0.0, 2.0});
         CHECK(eventually([&] { // the whole force, once it has risen
-            turn(hand);
+            step(hand);
             const Motors m = device.motors();
             return std::abs(m[0] + 10000.0 * (*torques)[0]) < 10.0 &&
                    std::abs(m[2] + 10000.0 * (*torques)[2]) < 10.0;
@@ -114,7 +114,7 @@ TEST_CASE("The knob's place reaches the engine, its force the motors, and at the
         const auto before = std::chrono::steady_clock::now();
         const uint64_t commands = device.commands, unasked = device.unasked;
         for (int i = 0; i < 1000; ++i) {
-            turn(hand);
+            step(hand);
         }
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
         MESSAGE("exchanges " << static_cast<double>(device.commands - commands) / took.count()
@@ -124,24 +124,24 @@ TEST_CASE("The knob's place reaches the engine, its force the motors, and at the
         CHECK(device.commands > commands + 20);
         CHECK(device.unasked - unasked < (device.commands - commands) / 4);
         CHECK(eventually([&] {
-            turn(hand);
+            step(hand);
             return hand.alive() && pushes(device);
         }));
         running.end(); // as Ctrl-C does, with the engine still pushing
         CHECK(device.motors() == kNoTorque);
-        turn(hand);
+        step(hand);
     }
     CHECK(running.guard->figures().faults == 0);
 }
 
 TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leave the exchange going") {
-    DoorFolder folder;
+    SocketFolder folder;
     FalconDevice device;
     placeAt(device, kKnob);
     device.plug();
-    Running running({folder.door(), {}});
-    DoorHand hand(folder.door(), 4);
-    REQUIRE(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    Running running({folder.endpoint(), {}});
+    SocketHand hand(folder.endpoint(), 4);
+    REQUIRE(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     std::atomic<int>* fault = nullptr;
     SUBCASE("half a packet") {
         fault = &device.faults.half;
@@ -165,15 +165,15 @@ TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leav
     const bool late = fault == &device.faults.late, twofold = fault == &device.faults.twofold;
     *fault = 3;
     CHECK(eventually([&] {
-        turn(hand);
+        step(hand);
         return fault->load() == 0;
     }));
     const uint64_t commands = device.commands;
     const dvec3 next(-0.02, 0.01, 0.14);
     placeAt(device, next);
-    CHECK(eventually([&] { return glm::distance(turn(hand).deviceThandle.position, next) < 1e-4; }));
+    CHECK(eventually([&] { return glm::distance(step(hand).deviceThandle.position, next) < 1e-4; }));
     CHECK(eventually([&] {
-        turn(hand);
+        step(hand);
         return hand.alive() && pushes(device);
     }));
     CHECK(device.commands > commands);
@@ -186,40 +186,40 @@ TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leav
 }
 
 TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged in again it goes on") {
-    DoorFolder folder;
+    SocketFolder folder;
     FalconDevice device;
     placeAt(device, kKnob);
     device.plug();
-    Running running({folder.door(), {}});
-    DoorHand hand(folder.door(), 4);
-    REQUIRE(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    Running running({folder.endpoint(), {}});
+    SocketHand hand(folder.endpoint(), 4);
+    REQUIRE(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     device.unplug();
-    CHECK(eventually([&] { return turn(hand).buttons == 6; }));
+    CHECK(eventually([&] { return step(hand).buttons == 6; }));
     CHECK_FALSE(hand.alive());
-    CHECK(glm::distance(turn(hand).deviceThandle.position, kKnob) < 1e-4); // the last place, held
+    CHECK(glm::distance(step(hand).deviceThandle.position, kKnob) < 1e-4); // the last place, held
     device.homed = false;                                                  // it lost that with its power
     device.plug();
     const uint64_t commands = device.commands;
     CHECK(eventually([&] {
-        turn(hand);
+        step(hand);
         return device.commands > commands + 50;
     }));
-    CHECK(turn(hand).buttons == 6);
+    CHECK(step(hand).buttons == 6);
     CHECK(device.motors() == kNoTorque); // no place, no force
     device.homed = true;
-    CHECK(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+    CHECK(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     CHECK(running.guard->losses() >= 1);
 }
 
 TEST_CASE("A Falcon that is not homed gives neither a place nor a force") {
-    DoorFolder folder;
+    SocketFolder folder;
     FalconDevice device;
     device.homed = false;
     device.plug();
-    Running running({folder.door(), {}});
-    DoorHand hand(folder.door(), 4);
+    Running running({folder.endpoint(), {}});
+    SocketHand hand(folder.endpoint(), 4);
     for (int i = 0; i < 300; ++i) {
-        CHECK(turn(hand).buttons == 6);
+        CHECK(step(hand).buttons == 6);
     }
     const auto history = device.history();
     CHECK(std::all_of(history.begin(), history.end(), [](const Motors& m) { return m == kNoTorque; }));
@@ -228,7 +228,7 @@ TEST_CASE("A Falcon that is not homed gives neither a place nor a force") {
 
 TEST_CASE(
     "A device without firmware gets the user's file; without one, or with a wrong answer, it is refused") {
-    DoorFolder folder;
+    SocketFolder folder;
     const auto file = folder.path() / "firmware.bin";
     vm::Bytes blob;
     for (int i = 0; i < FalconDevice::kFirmwareSize; ++i) {
@@ -241,34 +241,34 @@ TEST_CASE(
         CHECK_MESSAGE(fault.find(part) != std::string::npos, fault);
     };
     SUBCASE("no file") {
-        says(faultOf({folder.door(), {}}), "after power-on it needs its firmware: --firmware");
+        says(faultOf({folder.endpoint(), {}}), "after power-on it needs its firmware: --firmware");
     }
     SUBCASE("a wrong echo") {
         device.wrongEchoAt = 200;
-        says(faultOf({folder.door(), file}), "echo at byte 186: answer");
+        says(faultOf({folder.endpoint(), file}), "echo at byte 186: answer");
     }
     SUBCASE("modem status alone") {
         FalconDevice other;
         device.unplug();
         other.statusOnly = true;
         other.plug();
-        says(faultOf({folder.door(), {}}), "no answer");
+        says(faultOf({folder.endpoint(), {}}), "no answer");
         CHECK(other.statusPackets > 5);
     }
     SUBCASE("well") {
         placeAt(device, kKnob);
-        Running running({folder.door(), file});
+        Running running({folder.endpoint(), file});
         CHECK(device.firmware() == blob);
-        DoorHand hand(folder.door(), 4);
-        CHECK(eventually([&] { return turn(hand).buttons == 0 && pushes(device); }));
+        SocketHand hand(folder.endpoint(), 4);
+        CHECK(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     }
 }
 
 TEST_CASE("A Falcon that somebody may not open is refused with the name of the udev rule") {
     FalconDevice device;
     device.plug();
-    DoorFolder folder;
-    faultOf({folder.door(), {}}); // until it is there
+    SocketFolder folder;
+    faultOf({folder.endpoint(), {}}); // until it is there
     Child other([&] {
         if (::setgid(65534) != 0 || ::setuid(65534) != 0) {
             return 98;

@@ -40,10 +40,10 @@ SpaceMouseDevice::SpaceMouseDevice(bool combined)
     description_.configuration = configurationDescriptor(1, body);
 }
 
-void SpaceMouseDevice::deflect(const std::array<int16_t, 3>& shift, const std::array<int16_t, 3>& turn) {
+void SpaceMouseDevice::deflect(const std::array<int16_t, 3>& shift, const std::array<int16_t, 3>& tick) {
     const std::lock_guard lock(mutex_);
     shift_ = shift;
-    turn_ = turn;
+    tick_ = tick;
     zeroTold_ = false;
 }
 
@@ -73,10 +73,10 @@ Bytes SpaceMouseDevice::motion(uint8_t id, std::span<const int16_t> axes) const 
 void SpaceMouseDevice::queueMotion() {
     if (combined_) {
         queue_.push_back(
-            motion(1, std::array{shift_[0], shift_[1], shift_[2], turn_[0], turn_[1], turn_[2]}));
+            motion(1, std::array{shift_[0], shift_[1], shift_[2], tick_[0], tick_[1], tick_[2]}));
     } else {
         queue_.push_back(motion(1, shift_));
-        queue_.push_back(motion(2, turn_));
+        queue_.push_back(motion(2, tick_));
     }
 }
 
@@ -87,7 +87,7 @@ std::optional<UsbReply> SpaceMouseDevice::in(uint8_t /*endpoint*/, size_t /*room
         due_ = now + kPeriod;
         queueMotion();
         const std::array<int16_t, 3> zero{};
-        zeroTold_ = shift_ == zero && turn_ == zero;
+        zeroTold_ = shift_ == zero && tick_ == zero;
     }
     if (queue_.empty()) {
         due_ = std::max(due_, now + std::chrono::milliseconds(1));

@@ -17,7 +17,7 @@ public:
     ~SpaceMouseDevice() override { unplug(); }
 
     // Reported every 8 ms from now on; after zeros once, nothing, as the device does.
-    void deflect(const std::array<int16_t, 3>& shift, const std::array<int16_t, 3>& turn);
+    void deflect(const std::array<int16_t, 3>& shift, const std::array<int16_t, 3>& tick);
     void press(uint8_t buttons);
     std::atomic<bool> silent{false}; // no report at all, though deflected
     std::atomic<bool> halves{false}; // motion reports break off after four bytes
@@ -32,7 +32,7 @@ private:
     bool combined_;
     Bytes reportDescriptor_;
     std::mutex mutex_;
-    std::array<int16_t, 3> shift_{}, turn_{};
+    std::array<int16_t, 3> shift_{}, tick_{};
     bool zeroTold_ = true;
     std::deque<Bytes> queue_;
     Clock::time_point due_ = Clock::now();

@@ -4,7 +4,7 @@
 #include "devices/usb/device_files.h"
 #include "devices/usb/space_mouse_hand.h"
 #include "engine/types/error.h"
-#include "tests/devices/door_rig.h"
+#include "tests/devices/socket_rig.h"
 #include "tests/vm/haptic/falcon_device.h"
 #include "tests/vm/haptic/space_mouse_device.h"
 

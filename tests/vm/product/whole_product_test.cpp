@@ -31,21 +31,21 @@ bool onBlock(uint32_t x, uint32_t y) {
     return x > 60 && x < 100 && y > 40 && y < 80;
 }
 
-void paintDepth(uint32_t, Bytes& picture) {
+void paintDepth(uint32_t, Bytes& image) {
     for (uint32_t i = 0; i < uint32_t{kWidth} * kHeight; ++i) {
         const uint16_t value = onBlock(i % kWidth, i / kWidth) ? 500 : 900;
-        picture[2 * i] = static_cast<uint8_t>(value);
-        picture[2 * i + 1] = static_cast<uint8_t>(value >> 8);
+        image[2 * i] = static_cast<uint8_t>(value);
+        image[2 * i + 1] = static_cast<uint8_t>(value >> 8);
     }
 }
 
 // The block red, the wall grey.
-void paintColour(uint32_t, Bytes& picture) {
+void paintColour(uint32_t, Bytes& image) {
     for (uint32_t i = 0; i < uint32_t{kWidth} * kHeight; i += 2) {
         const bool red = onBlock(i % kWidth, i / kWidth);
-        picture[2 * i] = picture[2 * i + 2] = red ? 81 : 120;
-        picture[2 * i + 1] = red ? 90 : 128;
-        picture[2 * i + 3] = red ? 240 : 128;
+        image[2 * i] = image[2 * i + 2] = red ? 81 : 120;
+        image[2 * i + 1] = red ? 90 : 128;
+        image[2 * i + 3] = red ? 240 : 128;
     }
 }
 

@@ -5,7 +5,7 @@
 #include "devices/usb/falcon_drive.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "devices/v4l2/video_node.h"
-#include "tests/devices/door_rig.h"
+#include "tests/devices/socket_rig.h"
 #include "tests/vm/haptic/falcon_device.h"
 #include "tests/vm/uvc_camera.h"
 #include "tests/vm/vhci_port.h"
@@ -30,10 +30,10 @@ constexpr uint16_t kWidth = 16, kHeight = 12;     // little work for an emulated
 constexpr double kOpen = 0.100, kPressed = 0.135; // [m] of the knob along z
 
 // A wall at 0.5 m: all of it is forbidden.
-void paintWall(uint32_t, vm::Bytes& picture) {
+void paintWall(uint32_t, vm::Bytes& image) {
     for (uint32_t i = 0; i < uint32_t{kWidth} * kHeight; ++i) {
-        picture[2 * i] = static_cast<uint8_t>(500 & 255);
-        picture[2 * i + 1] = static_cast<uint8_t>(500 >> 8);
+        image[2 * i] = static_cast<uint8_t>(500 & 255);
+        image[2 * i + 1] = static_cast<uint8_t>(500 >> 8);
     }
 }
 
@@ -125,7 +125,7 @@ struct Stage {
         return drive.motors(force);
     }
 
-    DoorFolder folder;
+    SocketFolder folder;
     UvcCamera camera;
     FalconDevice falcon;
 };
@@ -135,11 +135,12 @@ struct Guard {
     explicit Guard(const Stage& stage)
         : process([&] {
             return runProgram(stage.file("guard.log"),
-                              {"guard", "falcon", "--door", stage.folder.door().string()});
+                              {"guard", "falcon", "--door", stage.folder.endpoint().string()});
         }) {
-        const bool door = eventually([&] { return std::filesystem::exists(stage.folder.door()); }, 60);
+        const bool endpoint =
+            eventually([&] { return std::filesystem::exists(stage.folder.endpoint()); }, 60);
         INFO(stage.text("guard.log"));
-        REQUIRE(door);
+        REQUIRE(endpoint);
     }
     Child process;
 };
@@ -153,12 +154,12 @@ TEST_CASE("What the camera sees pushes a Falcon's knob back: the wrench reaches 
     Child engine([&] {
         return runProgram(stage.file("replay.log"),
                           {"replay", stage.file("scene.yaml"), "--realtime", "--device", "llvmpipe",
-                           "--hand-device", stage.folder.door().string(), "--seconds", "600", "--view-door",
-                           stage.file("view.door"), "--out", stage.file("out")});
+                           "--hand-device", stage.folder.endpoint().string(), "--seconds", "600",
+                           "--view-door", stage.file("view.door"), "--out", stage.file("out")});
     });
-    const bool turns = eventually([&] { return std::filesystem::exists(stage.file("view.door")); }, 300);
+    const bool ticks = eventually([&] { return std::filesystem::exists(stage.file("view.door")); }, 300);
     INFO(stage.text("replay.log"));
-    REQUIRE(turns);
+    REQUIRE(ticks);
     const uint64_t commands = stage.falcon.commands;
     REQUIRE(eventually([&] { return stage.falcon.commands > commands + 50; }, 60));
     CHECK(stage.falcon.motors() == kStill); // 20 mm before the region: no force
@@ -195,7 +196,7 @@ TEST_CASE(
         return runProgram(stage.file("record.log"),
                           {"record", stage.file("scene.yaml"), "--source",
                            "v4l2:auto,frames=90,rate=30,intrinsics=" + stage.file("lens.json"),
-                           "--hand-device", stage.folder.door().string(), "--out", stage.file("rec")});
+                           "--hand-device", stage.folder.endpoint().string(), "--out", stage.file("rec")});
     });
     const bool begun = eventually(
         [&] {

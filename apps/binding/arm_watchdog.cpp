@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/binding/arm_watchdog.h"
+
+#include "apps/binding/own_process.h"
+#include "devices/serial/line_guard.h"
+#include "engine/types/error.h"
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <thread>
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kBeat = 0.1 * LineGuard::kSilence; // [s]
+constexpr auto kPatience = std::chrono::seconds(1); // with one that does not end
+
+} // namespace
+
+std::string protocolName(SceneArm::Driver::Protocol protocol) {
+    return protocol == SceneArm::Driver::Protocol::ReachAlpha5 ? "reach_alpha5" : "eca_5e";
+}
+
+ArmWatchdog::ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol protocol) {
+    int ends[2] = {-1, -1};
+    int fault = ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0, ends) == 0 ? 0 : errno;
+    if (fault == 0) {
+        socket_ = ends[0];
+        const std::string name = protocolName(protocol);
+        const char* words[] = {"fathom", kArmWatchdogCommand, name.c_str(), nullptr};
+        std::array<int, kWatchdogLine + 1> files{kNullDevice, kNullDevice, STDERR_FILENO};
+        files[kWatchdogEngine] = ends[1], files[kWatchdogLine] = port.descriptor();
+        fault = startOwnProcess(process_, files, words);
+        ::close(ends[1]);
+    }
+    if (fault != 0) {
+        ::close(socket_);
+        throw Error(std::string("no guardian for the arm: ") + std::strerror(fault));
+    }
+}
+
+ArmWatchdog::~ArmWatchdog() {
+    ::send(socket_, &kGuardFarewell, 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+    ::close(socket_);
+    const auto until = std::chrono::steady_clock::now() + kPatience;
+    while (::waitpid(process_, nullptr, WNOHANG) == 0) {
+        if (std::chrono::steady_clock::now() > until) {
+            ::kill(process_, SIGKILL);
+            ::waitpid(process_, nullptr, 0);
+            return;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+}
+
+void ArmWatchdog::hear() noexcept {
+    char byte = 0;
+    const ssize_t got = ::recv(socket_, &byte, 1, MSG_DONTWAIT);
+    ready_ = ready_ || (got == 1 && byte == kGuardReady);
+    ended_ = ended_ || got == 0 || (got < 0 && errno != EAGAIN && errno != EINTR);
+}
+
+bool ArmWatchdog::stands() noexcept {
+    if (!ended_) {
+        hear();
+    }
+    return ready_ && !ended_;
+}
+
+void ArmWatchdog::alive(double now) noexcept {
+    if (now >= next_) {
+        next_ = now + kBeat;
+        ::send(socket_, &kGuardAlive, 1,
+               MSG_NOSIGNAL | MSG_DONTWAIT); // a guardian that hangs fills its socket
+    }
+}
+
+} // namespace fathom

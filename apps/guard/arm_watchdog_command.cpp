@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/guard/arm_watchdog_command.h"
+
+#include "apps/binding/arm_watchdog.h"
+#include "devices/serial/line_guard.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <memory>
+#include <sys/socket.h>
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+void guardArm(const std::string& protocol) {
+    using Protocol = SceneArm::Driver::Protocol;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
+        std::signal(signal, SIG_IGN); // whoever ends everything ends the engine, and then this is needed
+    }
+    int kind = 0;
+    socklen_t size = sizeof kind;
+    if (::getsockopt(kWatchdogEngine, SOL_SOCKET, SO_TYPE, &kind, &size) != 0 ||
+        ::isatty(kWatchdogLine) == 0) {
+        throw BadInput(kArmWatchdogCommand, "who starts it", "a person", "this program, for a real arm");
+    }
+    const bool reach = protocol == protocolName(Protocol::ReachAlpha5);
+    const int found = guardLine(kWatchdogEngine, kWatchdogLine, reach ? reachStandStill() : ecaStandStill());
+    if (found > 0) {
+        log::warn("arm's guardian: the engine ended or was silent for {} s, {} times: the arm was told to "
+                  "stand still",
+                  LineGuard::kSilence, found);
+    }
+}
+
+} // namespace
+
+void addArmWatchdogCommand(CLI::App& app) {
+    auto protocol = std::make_shared<std::string>();
+    CLI::App* command = app.add_subcommand(kArmWatchdogCommand, "holds a real arm when the engine is killed");
+    command->group(""); // not in the help
+    command->add_option("PROTOCOL", *protocol)
+        ->required()
+        ->check(CLI::IsMember({protocolName(SceneArm::Driver::Protocol::ReachAlpha5),
+                               protocolName(SceneArm::Driver::Protocol::Eca5e)}));
+    command->callback([protocol] { guardArm(*protocol); });
+}
+
+} // namespace fathom

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// An image on the device with its own memory: what the window draws into, and pictures that come from the
+// CPU.
+#pragma once
+
+#include "engine/gpu/buffer.h"
+
+namespace fathom::operate {
+
+// sRGB-encoded values, passed through as they are. Pictures come from the CPU; what is drawn has the order of
+// most screens, which may then have it byte by byte.
+constexpr VkFormat kImage = VK_FORMAT_R8G8B8A8_UNORM, kDrawn = VK_FORMAT_B8G8R8A8_UNORM;
+
+// One colour image. Move-only. Whoever records keeps track of the layout.
+class FrameTexture {
+public:
+    FrameTexture() = default;
+    FrameTexture(const gpu::Device& device, VkFormat format, VkExtent2D size, VkImageUsageFlags usage);
+    ~FrameTexture();
+    FrameTexture(FrameTexture&& other) noexcept { swap(other); }
+    FrameTexture& operator=(FrameTexture&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+
+    VkImage handle() const { return image_; }
+    VkImageView view() const { return view_; }
+    VkExtent2D size() const { return size_; }
+    explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
+
+private:
+    void swap(FrameTexture& other) noexcept;
+
+    const gpu::Device* device_ = nullptr;
+    VkImage image_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    VkImageView view_ = VK_NULL_HANDLE;
+    VkExtent2D size_{};
+};
+
+// Layout change of a whole image, everything before visible to everything after.
+void changeLayout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
+
+} // namespace fathom::operate

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// A raster picture to draw on with cairo, and how it becomes a PNG file.
+#pragma once
+
+#include <cairo.h>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace fathom {
+
+struct Colour {
+    double r = 0.0, g = 0.0, b = 0.0, a = 1.0; // 0..1, not premultiplied
+
+    constexpr Colour alpha(double value) const { return {r, g, b, value}; }
+};
+
+enum class Align { Left, Centre, Right };
+
+// Pixel (0, 0) is the top left corner's; coordinates are in pixels, y down, pixel centres at halves. Throws
+// Error when cairo cannot give the memory.
+class Image {
+public:
+    Image(int width, int height, Colour background);
+    Image(const Image&) = delete;
+    Image& operator=(const Image&) = delete;
+    ~Image();
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    cairo_t* cr() const { return cr_; }
+
+    void setColour(Colour colour) const;
+    // (x, y) is the left end, middle or right end of the base line; size in pixels an em.
+    void text(double x, double y, const std::string& words, double size, Colour colour,
+              Align align = Align::Left, bool bold = false) const;
+    double textWidth(const std::string& words, double size, bool bold = false) const;
+
+    // Direct access to row v: width() pixels 0xAARRGGBB, premultiplied. End with endPixels() before drawing
+    // on.
+    void beginPixels() const;
+    uint32_t* row(int v) const;
+    void endPixels() const;
+
+    // Whole or not at all; throws Error that names the file.
+    void writePng(const std::filesystem::path& file) const;
+
+private:
+    int width_, height_;
+    cairo_surface_t* surface_ = nullptr;
+    cairo_t* cr_ = nullptr;
+};
+
+} // namespace fathom

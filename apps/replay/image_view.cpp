@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/replay/image_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kNearest = 1e-3; // [m] in front of the camera
+
+glm::dvec2 pinhole(const Intrinsics& lens, const dvec3& point) {
+    return {lens.cx + lens.fx * point.x / point.z, lens.cy + lens.fy * point.y / point.z};
+}
+
+} // namespace
+
+std::optional<glm::dvec2> ImageView::ofCamera(const dvec3& point) const {
+    if (!(point.z >= kNearest)) {
+        return std::nullopt;
+    }
+    const glm::dvec2 centre = pinhole(lens, point); // a pixel's centre is at its whole number
+    const double factor = scale;
+    return (centre + 0.5) * factor + distortionShift(point);
+}
+
+glm::dvec2 ImageView::distortionShift(const dvec3& point) const {
+    const glm::dvec2 straight = pinhole(lens, point);
+    // The polynomial of a lens holds inside its picture; far outside it folds back and would throw points
+    // into it.
+    const double marginU = 0.5 * lens.width, marginV = 0.5 * lens.height;
+    const bool near = straight.x > -marginU && straight.x < lens.width + marginU && straight.y > -marginV &&
+                      straight.y < lens.height + marginV;
+    if (lens.pinhole() || !near) {
+        return glm::dvec2(0.0);
+    }
+    return (lens.project(point) - straight) * static_cast<double>(scale);
+}
+
+ImageView imageView(const CameraInfo& camera, const Pose& baseTcamera, bool ofDepth, int leastWidth) {
+    ImageView view;
+    view.lens = ofDepth ? camera.depth : camera.colour;
+    view.cameraTbase = inverse(baseTcamera);
+    if (!ofDepth && !camera.registered) {
+        view.cameraTbase = camera.colourTdepth * view.cameraTbase;
+    }
+    const int width = std::max(1, static_cast<int>(view.lens.width));
+    view.scale = std::max(1, (leastWidth + width - 1) / width);
+    return view;
+}
+
+} // namespace fathom

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "devices/bridge/socket_hand.h"
+
+#include "engine/types/error.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+#include <poll.h>
+#include <unistd.h>
+
+namespace fathom {
+
+namespace {
+
+constexpr int kMostPackets = 64; // a turn
+constexpr auto kSeekPause = std::chrono::milliseconds(100);
+constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+
+template <size_t N>
+std::string textOf(const char (&from)[N]) {
+    return {from, ::strnlen(from, N)};
+}
+
+} // namespace
+
+bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept {
+    const dquat q(packet.orientation[0], packet.orientation[1], packet.orientation[2], packet.orientation[3]);
+    const double length = glm::dot(q, q);
+    if (!(length > 0.5 && length < 2.0)) {
+        return false;
+    }
+    out = {{packet.position[0], packet.position[1], packet.position[2]}, glm::normalize(q)};
+    return isFinite(out);
+}
+
+SocketHand::SocketHand(std::filesystem::path path, uint32_t clutchBit, double patience)
+    : path_(std::move(path))
+    , away_(FATHOM_DOOR_DEAD_MAN_OPEN | clutchBit)
+    , bridge_(DeviceSocket::connect(path_)) {
+    last_.buttons = away_;
+    awaitFirst(patience);
+    seeker_ = std::thread([this] { seek(); });
+}
+
+SocketHand::~SocketHand() {
+    stop_.store(true);
+    seeker_.join();
+    fathom_door_wrench packet{};
+    packet.header = socketHeader(FATHOM_DOOR_WRENCH, sizeof packet, ++sent_);
+    packet.flags = FATHOM_DOOR_LAST;
+    bridge_.send(packet);
+    for (std::atomic<int>* descriptor : {&gone_, &found_}) {
+        DeviceSocket(descriptor->exchange(-1)).close();
+    }
+}
+
+void SocketHand::awaitFirst(double patience) {
+    const uint64_t until = socketClock() + static_cast<uint64_t>(std::max(0.0, patience) * 1e9);
+    fathom_door_hand packet{};
+    for (;;) {
+        size_t got = 0;
+        switch (bridge_.receive(packet, FATHOM_DOOR_HAND, &got)) {
+        case SocketEvent::Packet:
+            preset_ = textOf(packet.preset);
+            name_ = textOf(packet.name);
+            take(packet);
+            return;
+        case SocketEvent::Bad:
+            throw BadInput("door", path_.string(),
+                           socketFault(packet.header, got, FATHOM_DOOR_HAND, sizeof packet),
+                           "a bridge built for version " + std::to_string(FATHOM_DOOR_VERSION));
+        case SocketEvent::Closed:
+            throw BadInput("door", path_.string(), "closed by the bridge", "a bridge without another engine");
+        case SocketEvent::Empty:
+            break;
+        }
+        const uint64_t now = socketClock();
+        if (now >= until) {
+            throw BadInput("door", path_.string(), "no sample",
+                           "a bridge that sends one at least every 5 ms");
+        }
+        pollfd waiting{bridge_.descriptor(), POLLIN, 0};
+        ::poll(&waiting, 1, static_cast<int>((until - now) / 1000000) + 1);
+    }
+}
+
+void SocketHand::take(const fathom_door_hand& packet) noexcept {
+    Pose pose;
+    // Another kind of device has other limits: it is not what the springs were made for.
+    const bool same = std::strncmp(packet.preset, preset_.c_str(), sizeof packet.preset) == 0;
+    status_ = same && soundPose(packet, pose) ? packet.status : 0;
+    if ((status_ & kReady) == kReady) {
+        last_.deviceThandle = pose;
+    }
+    last_.buttons = packet.buttons;
+    lastTime_ = std::min(packet.header.time_ns, socketClock()); // what waited in the queue may be old
+    lastSequence_ = packet.header.sequence;
+    ++figures_.samples;
+}
+
+void SocketHand::drain() noexcept {
+    fathom_door_hand packet;
+    for (int i = 0; i < kMostPackets; ++i) {
+        switch (bridge_.receive(packet, FATHOM_DOOR_HAND)) {
+        case SocketEvent::Packet:
+            take(packet);
+            break;
+        case SocketEvent::Empty:
+            return;
+        case SocketEvent::Bad:
+        case SocketEvent::Closed:
+            lose();
+            return;
+        }
+    }
+}
+
+void SocketHand::lose() noexcept {
+    status_ = 0;
+    gone_.store(bridge_.release()); // closed by the thread, which has taken the one before
+    seeking_.store(true);
+}
+
+HandSample SocketHand::read(double) noexcept {
+    if (!bridge_.open()) {
+        bridge_ = DeviceSocket(found_.exchange(-1));
+    }
+    if (bridge_.open()) {
+        drain();
+    }
+    const uint64_t age = socketClock() - lastTime_;
+    const bool was = alive_;
+    alive_ = bridge_.open() && (status_ & kReady) == kReady && age <= FATHOM_DOOR_SILENCE_NS;
+    figures_.losses += was && !alive_ ? 1 : 0;
+    if (!alive_) {
+        return {last_.deviceThandle, last_.buttons | away_};
+    }
+    figures_.worstAge = std::max(figures_.worstAge, static_cast<double>(age) * 1e-9);
+    return last_;
+}
+
+void SocketHand::write(const Wrench& wrench, double) noexcept {
+    if (!bridge_.open()) {
+        return;
+    }
+    fathom_door_wrench packet{};
+    packet.header = socketHeader(FATHOM_DOOR_WRENCH, sizeof packet, ++sent_);
+    packet.hand_sequence = lastSequence_;
+    if (alive_ && isFinite(wrench.force) && isFinite(wrench.torque)) {
+        packet.flags = FATHOM_DOOR_FORCES_ON;
+        std::copy_n(std::array{wrench.force.x, wrench.force.y, wrench.force.z}.data(), 3, packet.force);
+        std::copy_n(std::array{wrench.torque.x, wrench.torque.y, wrench.torque.z}.data(), 3, packet.torque);
+    }
+    switch (bridge_.send(packet)) {
+    case SocketEvent::Packet:
+        break;
+    case SocketEvent::Empty:
+        ++figures_.unsent;
+        break;
+    default:
+        lose();
+    }
+}
+
+void SocketHand::seek() noexcept {
+    while (!stop_.load()) {
+        std::this_thread::sleep_for(kSeekPause);
+        DeviceSocket(gone_.exchange(-1)).close();
+        DeviceSocket next;
+        if (seeking_.load() && DeviceSocket::tryConnect(path_, next) == 0) {
+            seeking_.store(false);
+            found_.store(next.release());
+        }
+    }
+}
+
+std::string SocketHand::description() const {
+    return name_ + " at " + path_.string() + " (preset " + preset_ + ")";
+}
+
+} // namespace fathom

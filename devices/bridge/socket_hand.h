@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's end of a hand door: any device whose bridge listens there.
+#pragma once
+
+#include "devices/bridge/device_socket.h"
+#include "devices/live_hand.h"
+
+#include <atomic>
+#include <filesystem>
+#include <thread>
+
+namespace fathom {
+
+// The pose of a sample; false, and `out` no pose to be used, when it is not finite or its orientation is
+// none.
+bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept;
+
+// read() and write() belong to the haptic thread: a few system calls each, no wait, no lock, no allocation. A
+// thread of its own looks for the bridge again when it has gone, ten times a second.
+class SocketHand final : public LiveHand {
+public:
+    // Connects and waits for a first sound packet, at most `patience` seconds. clutchBit: of hand.map; 0 =
+    // none. Throws BadInput: nobody listens, no permission, wrong version or size, no packet.
+    SocketHand(std::filesystem::path path, uint32_t clutchBit, double patience = 2.0);
+    ~SocketHand() override;
+
+    HandSample read(double t) noexcept override;
+    void write(const Wrench& deviceWrench, double dt) noexcept override;
+
+    std::string description() const override;
+    std::string preset() const override { return preset_; }
+    bool alive() const noexcept override { return alive_; }
+    LiveHandFigures figures() const noexcept override { return figures_; }
+
+private:
+    void awaitFirst(double patience);
+    void take(const fathom_door_hand& packet) noexcept;
+    void drain() noexcept;
+    void lose() noexcept;
+    void seek() noexcept; // the thread
+
+    std::filesystem::path path_;
+    uint32_t away_; // buttons while the device is away
+    std::string preset_, name_;
+    DeviceSocket bridge_;
+    HandSample last_;
+    uint64_t lastTime_ = 0; // [ns] stamp of the newest sample
+    uint64_t lastSequence_ = 0, sent_ = 0;
+    uint32_t status_ = 0;
+    bool alive_ = false;
+    LiveHandFigures figures_;
+
+    // To the thread and back: descriptors, -1 = none.
+    std::atomic<int> gone_{-1}, found_{-1};
+    std::atomic<bool> seeking_{false}, stop_{false};
+    std::thread seeker_;
+};
+
+} // namespace fathom

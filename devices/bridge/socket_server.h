@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bridge's end of a hand door: one engine at a time, samples out, wrenches in through the force gate.
+#pragma once
+
+#include "devices/bridge/device_socket.h"
+#include "devices/bridge/force_gate.h"
+#include "devices/haptic_device.h"
+
+#include <filesystem>
+#include <string>
+
+namespace fathom {
+
+// One thread. Listens from construction on; the socket file goes with it.
+class SocketServer {
+public:
+    // What the door is called, and what no wrench that leaves it exceeds.
+    struct Options {
+        std::filesystem::path path;
+        std::string preset; // of engine/haptics/device_preset.h
+        std::string name;   // for people
+        double forceLimit;  // [N]
+        double torqueLimit; // [N m]
+    };
+    // Throws BadInput (DeviceSocket::listen).
+    explicit SocketServer(const Options& options);
+    SocketServer(const SocketServer&) = delete;
+    SocketServer& operator=(const SocketServer&) = delete;
+    ~SocketServer();
+
+    // Takes whoever connected and every wrench that waits. An engine that breaks the contract is dropped; a
+    // second engine is turned away. Does not wait; logs who comes and goes.
+    void poll();
+
+    // Sends a sample to the engine, if there is one. status: FATHOM_DOOR_PRESENT, FATHOM_DOOR_HOMED.
+    void send(const HandSample& sample, uint32_t status) noexcept;
+
+    // What the device may render now.
+    Wrench wrench() const noexcept { return gate_.at(socketClock()); }
+    bool hasEngine() const noexcept { return engine_.open(); }
+    const ForceGate& gate() const noexcept { return gate_; }
+    int descriptor() const noexcept { return endpoint_.descriptor(); }     // for poll(2): somebody connects
+    int engineDescriptor() const noexcept { return engine_.descriptor(); } // for poll(2); -1 = none
+    uint64_t dropped() const noexcept { return dropped_; }                 // engines that broke the contract
+    const std::filesystem::path& path() const noexcept { return path_; }
+
+private:
+    void takeNewcomers();
+    void takeWrenches();
+    void drop(const std::string& why);
+
+    std::filesystem::path path_;
+    DeviceSocket endpoint_, engine_;
+    ForceGate gate_;
+    fathom_door_hand hand_{};
+    uint64_t sent_ = 0, dropped_ = 0;
+};
+
+} // namespace fathom

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's view door: tells up to four observers what happens, and waits for none of them.
+#pragma once
+
+#include "devices/bridge/device_socket.h"
+
+#include <array>
+#include <filesystem>
+
+namespace fathom {
+
+// One thread, never the haptic one. Listens from construction on; the socket file goes with it.
+class ViewSocket {
+public:
+    // Throws BadInput (DeviceSocket::listen).
+    explicit ViewSocket(std::filesystem::path path);
+    ViewSocket(const ViewSocket&) = delete;
+    ViewSocket& operator=(const ViewSocket&) = delete;
+    ~ViewSocket();
+
+    // Takes whoever connected; true when somebody new did: he has no regions and fixtures yet.
+    bool poll() noexcept;
+
+    // To every observer; fills in the header. One whose queue is full loses the packet, one who left is let
+    // go.
+    void send(fathom_door_state& state) noexcept { sendAll(state, FATHOM_DOOR_STATE); }
+    void send(fathom_door_regions& regions) noexcept { sendAll(regions, FATHOM_DOOR_REGIONS); }
+    void send(fathom_door_fixtures& fixtures) noexcept { sendAll(fixtures, FATHOM_DOOR_FIXTURES); }
+
+    bool watched() const noexcept;
+    uint64_t lost() const noexcept { return lost_; } // packets, over all observers
+
+    static constexpr size_t kMost = 4;
+
+private:
+    template <class T>
+    void sendAll(T& packet, uint16_t kind) noexcept;
+
+    std::filesystem::path path_;
+    DeviceSocket endpoint_;
+    std::array<DeviceSocket, kMost> observers_;
+    uint64_t sent_ = 0, lost_ = 0;
+};
+
+} // namespace fathom

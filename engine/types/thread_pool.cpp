@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/types/thread_pool.h"
+
+namespace fathom {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr uint32_t kLooks = 256; // between two looks at the clock, or two offers of the processor
+
+void relax() noexcept {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();
+#elif defined(__aarch64__)
+    asm volatile("yield");
+#endif
+}
+
+uint64_t firstClaim(uint64_t job, uint32_t parts) noexcept {
+    return job << 32 | uint64_t{parts} << 16;
+}
+
+} // namespace
+
+ThreadPool::ThreadPool(uint32_t members, std::chrono::microseconds spinTime)
+    : spinTime_(spinTime) {
+    threads_.reserve(members - 1);
+    try {
+        for (uint32_t i = 1; i < members; ++i) {
+            threads_.emplace_back([this] { member(); });
+        }
+    } catch (...) { // std::system_error: those that are there would never end
+        end();
+        throw;
+    }
+}
+
+ThreadPool::~ThreadPool() {
+    end();
+}
+
+void ThreadPool::end() noexcept {
+    ending_.store(true);
+    call();
+}
+
+void ThreadPool::call() noexcept {
+    calls_.fetch_add(1, std::memory_order_release);
+    calls_.notify_all();
+}
+
+void ThreadPool::runWork(uint32_t parts, const Work& work) noexcept {
+    work_ = work;
+    done_.store(0, std::memory_order_relaxed);
+    const uint64_t job = (claims_.load(std::memory_order_relaxed) >> 32) + 1;
+    claims_.store(firstClaim(job, parts), std::memory_order_release);
+    call(); // who has tired of looking out comes late, but comes
+    while (takePart()) {
+    }
+    // A part is in work: as short as the one that was just done here, unless its thread has lost its
+    // processor.
+    for (uint32_t looks = 1; done_.load(std::memory_order_acquire) < parts; ++looks) {
+        if (looks % kLooks == 0) {
+            std::this_thread::yield();
+        }
+        relax();
+    }
+}
+
+bool ThreadPool::takePart() noexcept {
+    uint64_t claim = claims_.load(std::memory_order_acquire);
+    do {
+        if ((claim & 0xffff) >= (claim >> 16 & 0xffff)) {
+            return false;
+        }
+    } while (!claims_.compare_exchange_weak(claim, claim + 1, std::memory_order_acquire));
+    work_.run(work_.job, static_cast<uint32_t>(claim & 0xffff));
+    done_.fetch_add(1, std::memory_order_release);
+    return true;
+}
+
+void ThreadPool::member() noexcept {
+    for (;;) {
+        // In this order: the call that is behind ending_ is either seen here or ends the wait below.
+        const uint32_t seen = calls_.load(std::memory_order_acquire);
+        if (ending_.load()) {
+            return;
+        }
+        Clock::time_point until = Clock::now() + spinTime_;
+        while (Clock::now() < until) {
+            for (uint32_t i = 0; i < kLooks; ++i) {
+                if (takePart()) {
+                    until = Clock::now() + spinTime_;
+                }
+                relax();
+            }
+        }
+        calls_.wait(seen, std::memory_order_acquire);
+    }
+}
+
+} // namespace fathom

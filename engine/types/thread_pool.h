@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Threads that share the parts of a short job with their caller.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <thread>
+#include <vector>
+
+namespace fathom {
+
+// For jobs of tens of microseconds and more while processors have nothing else to do: members look out for
+// work without sleeping for a while after each call() and each job. They inherit the affinity of who makes
+// the crew. One thread calls everything.
+class ThreadPool {
+public:
+    // members: the caller is one of them; 1 = no thread is made. spinTime: for how long members do.
+    explicit ThreadPool(uint32_t members, std::chrono::microseconds spinTime = std::chrono::milliseconds(1));
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    uint32_t members() const { return static_cast<uint32_t>(threads_.size()) + 1; }
+
+    // A job is about to come: who sleeps wakes up. Costs a system call.
+    void call() noexcept;
+
+    // job(part) for part 0 .. parts - 1, each once, in any order, by whoever is free; returns when all are
+    // done. What any of them wrote is seen then. The job must not throw. parts < 65536.
+    template <class Job>
+    void run(uint32_t parts, const Job& job) noexcept {
+        runWork(parts, {[](const void* it, uint32_t part) { (*static_cast<const Job*>(it))(part); }, &job});
+    }
+
+private:
+    struct Work {
+        void (*run)(const void*, uint32_t) = nullptr;
+        const void* job = nullptr;
+    };
+    void end() noexcept;
+    void runWork(uint32_t parts, const Work& work) noexcept;
+    bool takePart() noexcept;
+    void member() noexcept;
+
+    Work work_; // read only by who has claimed a part of it
+    // Number of the job << 32 | parts << 16 | next part: one word, so that nobody claims a part of a job that
+    // is over.
+    std::atomic<uint64_t> claims_{0};
+    std::atomic<uint32_t> done_{0}, calls_{0};
+    std::atomic<bool> ending_{false};
+    const std::chrono::microseconds spinTime_;
+    std::vector<std::jthread> threads_;
+};
+
+// In how many parts of at least `least` n things are shared: up to four a member of the crew, so that one who
+// comes late takes less; one part, also of nothing, where there is no crew.
+inline uint32_t partsOf(const ThreadPool* workers, size_t n, size_t least) noexcept {
+    const size_t most = workers == nullptr || workers->members() == 1 ? 1 : size_t{workers->members()} * 4;
+    return static_cast<uint32_t>(std::clamp<size_t>(n / least, 1, most));
+}
+
+// job(begin, end) for those parts.
+template <class Job>
+void inParts(ThreadPool* workers, size_t n, size_t least, const Job& job) noexcept {
+    const size_t parts = partsOf(workers, n, least);
+    if (parts < 2) {
+        job(size_t{0}, n);
+        return;
+    }
+    workers->run(static_cast<uint32_t>(parts),
+                 [&](uint32_t part) { job(n * part / parts, n * (part + 1) / parts); });
+}
+
+} // namespace fathom

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// The door between processes: ends that are killed, a user without permission, the example bridge.
+#include "devices/bridge/socket_hand.h"
+#include "devices/bridge/socket_server.h"
+#include "engine/types/error.h"
+#include "tests/devices/socket_rig.h"
+
+#include <glm/geometric.hpp>
+
+#include <sys/stat.h>
+
+using namespace fathom;
+using namespace fathom::testing;
+
+namespace {
+
+constexpr uint32_t kProcessReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+
+// Serves until killed.
+int serve(const std::filesystem::path& endpoint) {
+    SocketServer server(serverAt(endpoint));
+    for (;;) {
+        server.poll();
+        server.send({}, kProcessReady);
+        pauseMs(1);
+    }
+}
+
+// [s] from now on until the device had a force for the last time: by the clock of who asks, so that one that
+// is not let run sees no force for longer than there was. Until there has been none for 0.3 s.
+double forceLasts(const std::function<double()>& tick) {
+    const auto began = std::chrono::steady_clock::now();
+    double last = 0.0;
+    for (double now = 0.0; now - last < 0.3 && now < 20.0; pauseMs(1)) {
+        now = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+        last = tick() != 0.0 ? now : last;
+    }
+    return last;
+}
+
+// A silence of 10 ms, and the rest for a machine that has other things to do.
+constexpr double kLongestForce = 0.2; // [s]
+
+} // namespace
+
+TEST_CASE("An engine killed by SIGKILL in contact is zero force at the device, within 10 ms") {
+    SocketFolder folder;
+    SocketServer server(serverAt(folder.endpoint()));
+    Child engine([&]() -> int { // presses for ever
+        SocketHand hand(folder.endpoint(), 4);
+        for (;;) {
+            hand.read(0.0);
+            hand.write({{2.0, 0.0, 0.0}, {}}, 0.001);
+            pauseMs(1);
+        }
+    });
+    const auto tick = [&] {
+        server.poll();
+        server.send({}, kProcessReady);
+        return server.wrench().force.x;
+    };
+    REQUIRE(eventually([&] { return tick() == 2.0; }));
+    SUBCASE("killed") {
+        engine.signal(SIGKILL);
+        CHECK(forceLasts(tick) < kLongestForce);
+        CHECK_FALSE(server.hasEngine());
+        CHECK(engine.wait() == -SIGKILL);
+    }
+    SUBCASE("killed, and known to be") {
+        engine.signal(SIGKILL);
+        CHECK(engine.wait() == -SIGKILL);
+        CHECK(tick() == 0.0); // its end is closed: no need to wait for the 10 ms
+        CHECK_FALSE(server.hasEngine());
+    }
+    SUBCASE("stopped, as by a debugger") {
+        engine.signal(SIGSTOP);
+        CHECK(forceLasts(tick) < kLongestForce);
+        CHECK(server.hasEngine());
+        engine.signal(SIGCONT);
+        CHECK(eventually([&] { return tick() == 2.0; }));
+    }
+}
+
+TEST_CASE(
+    "A bridge killed by SIGKILL opens the dead-man switch, and the engine finds the next one by itself") {
+    SocketFolder folder;
+    Child first([&] { return serve(folder.endpoint()); });
+    std::unique_ptr<SocketHand> hand;
+    REQUIRE(eventually([&] {
+        try {
+            hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
+        } catch (const BadInput&) { // the child has not got there yet
+        }
+        return hand != nullptr;
+    }));
+    const auto tick = [&] {
+        const HandSample sample = hand->read(0.0);
+        hand->write({{1.0, 0.0, 0.0}, {}}, 0.001);
+        return sample.buttons;
+    };
+    REQUIRE(eventually([&] { return tick() == 0; }));
+    first.signal(SIGKILL);
+    CHECK(first.wait() == -SIGKILL);
+    CHECK(eventually([&] { return tick() == 6; }));
+    CHECK_FALSE(hand->alive());
+    CHECK(std::filesystem::exists(folder.endpoint())); // the dead one left its file
+    Child second([&] { return serve(folder.endpoint()); });
+    CHECK(eventually([&] { return tick() == 0; }));
+    CHECK(hand->alive());
+    CHECK(hand->figures().losses == 1);
+}
+
+TEST_CASE("A user without permission on the socket file gets no connection") {
+    if (::geteuid() != 0) {
+        MESSAGE("not root: cannot become another user, not checked");
+        return;
+    }
+    SocketFolder folder;
+    ::chmod(folder.path().c_str(), 0755); // the folder is not what stops him
+    SocketServer server(serverAt(folder.endpoint()));
+    const auto asNobody = [&] {
+        Child other([&] {
+            if (::setgid(65534) != 0 || ::setuid(65534) != 0) {
+                return 98;
+            }
+            try {
+                DeviceSocket::connect(folder.endpoint());
+            } catch (const BadInput& e) {
+                return std::string(e.what()).find("no permission") != std::string::npos ? 1 : 97;
+            }
+            return 0;
+        });
+        return other.wait();
+    };
+    CHECK(asNobody() == 1);
+    server.poll();
+    CHECK_FALSE(server.hasEngine());
+    ::chmod(folder.endpoint().c_str(), 0666); // its owner opens it
+    CHECK(asNobody() == 0);
+}
+
+TEST_CASE(
+    "The example bridge is a device: its handle gives way to the force and comes back when it is gone") {
+    SocketFolder folder;
+    const std::string endpoint = folder.endpoint().string();
+    Child bridge([&] { return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr); });
+    std::unique_ptr<SocketHand> hand;
+    REQUIRE(eventually([&] {
+        try {
+            hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
+        } catch (const BadInput&) {
+        }
+        return hand != nullptr;
+    }));
+    CHECK(hand->preset() == "falcon");
+    const auto height = [&](double fz) {
+        const HandSample sample = hand->read(0.0);
+        hand->write({{0.0, 0.0, fz}, {}}, 0.001);
+        pauseMs(1);
+        return sample.buttons == 0 ? sample.deviceThandle.position.z : 0.0;
+    };
+    CHECK(eventually([&] { return height(3.0) > 0.009; })); // 3 N on 300 N/m
+    CHECK(eventually([&] { return height(0.0) < 0.001; }));
+    CHECK(eventually([&] { return height(3.0) > 0.009; }));
+    CHECK(eventually([&] { return hand->read(0.0).deviceThandle.position.z < 0.001; })); // silence
+    hand.reset();
+    bridge.signal(SIGTERM);
+    CHECK(bridge.wait() == 0);
+    CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
+}
+
+TEST_CASE("The example bridge ends in order when its terminal is closed, and goes on without a reader") {
+    for (const int ending : {SIGINT, SIGQUIT, SIGHUP}) {
+        CAPTURE(ending);
+        SocketFolder folder;
+        const std::string endpoint = folder.endpoint().string();
+        Child bridge([&] {
+            std::signal(SIGHUP, SIG_DFL);
+            return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr);
+        });
+        std::unique_ptr<SocketHand> hand;
+        REQUIRE(eventually([&] {
+            try {
+                hand = std::make_unique<SocketHand>(folder.endpoint(), 4);
+            } catch (const BadInput&) {
+            }
+            return hand != nullptr;
+        }));
+        bridge.signal(SIGPIPE);
+        CHECK(eventually([&] {
+            const HandSample sample = hand->read(0.0);
+            hand->write({{0.0, 0.0, 3.0}, {}}, 0.001);
+            pauseMs(1);
+            return sample.buttons == 0 && sample.deviceThandle.position.z > 0.009;
+        }));
+        bridge.signal(ending);
+        CHECK(bridge.wait() == 0);
+        CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
+    }
+}

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// Scratch folder, hand-made packets and child processes for tests of the door.
+#pragma once
+
+#include "devices/bridge/socket_server.h"
+
+#include <chrono>
+#include <doctest/doctest.h>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <csignal>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace fathom::testing {
+
+// A folder of this test alone, removed at its end.
+class SocketFolder {
+public:
+    SocketFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "fathom-door-XXXXXX").string();
+        REQUIRE(::mkdtemp(name.data()) != nullptr);
+        folder_ = name;
+    }
+    SocketFolder(const SocketFolder&) = delete;
+    SocketFolder& operator=(const SocketFolder&) = delete;
+    ~SocketFolder() { std::filesystem::remove_all(folder_); }
+    std::filesystem::path endpoint() const { return folder_ / "test.door"; }
+    const std::filesystem::path& path() const { return folder_; }
+
+private:
+    std::filesystem::path folder_;
+};
+
+inline SocketServer::Options serverAt(const std::filesystem::path& path) {
+    return {path, "falcon", "test device", 8.0, 0.2};
+}
+
+inline fathom_door_wrench wrenchPacket(uint64_t sequence, double fx) {
+    fathom_door_wrench packet{};
+    packet.header = socketHeader(FATHOM_DOOR_WRENCH, sizeof packet, sequence);
+    packet.flags = FATHOM_DOOR_FORCES_ON;
+    packet.force[0] = fx;
+    return packet;
+}
+
+inline fathom_door_hand handPacket(uint64_t sequence, double x) {
+    fathom_door_hand packet{};
+    packet.header = socketHeader(FATHOM_DOOR_HAND, sizeof packet, sequence);
+    packet.status = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
+    packet.position[0] = x;
+    packet.orientation[0] = 1.0;
+    packet.preset[0] = 'x';
+    return packet;
+}
+
+inline void pauseMs(int ms) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+// Until `done` or the seconds are over.
+inline bool eventually(const std::function<bool()>& done, int seconds = 20) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
+    while (std::chrono::steady_clock::now() < until) {
+        if (done()) {
+            return true;
+        }
+        pauseMs(1);
+    }
+    return false;
+}
+
+// A child that runs `body` and ends with its result; killed with this at the latest.
+class Child {
+public:
+    explicit Child(const std::function<int()>& body)
+        : id_(::fork()) {
+        REQUIRE(id_ >= 0);
+        if (id_ == 0) {
+            int result = 99;
+            try {
+                result = body();
+            } catch (...) {
+            }
+            ::_exit(result);
+        }
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+    ~Child() {
+        if (id_ > 0) {
+            signal(SIGKILL);
+            wait();
+        }
+    }
+    void signal(int number) const { ::kill(id_, number); }
+    // Exit code, or minus the signal.
+    int wait() {
+        int status = 0;
+        ::waitpid(id_, &status, 0);
+        id_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+    }
+
+private:
+    pid_t id_;
+};
+
+} // namespace fathom::testing
