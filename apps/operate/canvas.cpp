@@ -32,7 +32,7 @@ struct Canvas::OnDevice {
     };
 
     OnDevice(const Window& window, const gpu::Instance& instance, gpu::Device& device) {
-        surface.emplace(window, instance);
+        surface = std::make_unique<Surface>(window, instance);
         if (surface->handle() != VK_NULL_HANDLE) {
             swapchain.emplace(device, surface->handle());
         }
@@ -42,10 +42,10 @@ struct Canvas::OnDevice {
     void renewSurface(const Window& window, const gpu::Instance& instance) {
         swapchain->leave();
         surface.reset();
-        surface.emplace(window, instance);
+        surface = std::make_unique<Surface>(window, instance);
         swapchain->moveTo(surface->handle());
     }
-    std::optional<Surface> surface;
+    std::unique_ptr<Surface> surface;
     std::optional<Swapchain> swapchain; // empty: offscreen
     std::optional<Painter> painter;
 };

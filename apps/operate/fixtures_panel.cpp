@@ -2,6 +2,7 @@
 // The panel of fixtures: what there is, what a picked colour would add, shapes to place.
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/holding_panel.h"
+#include "apps/operate/keys.h"
 #include "apps/operate/operate_session.h"
 #include "apps/operate/theme.h"
 
@@ -190,15 +191,15 @@ void placeButtons(Console& console) {
 
 void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
     const ImGuiIO& io = ImGui::GetIO();
-    const auto control = [&](int key) { return io.KeyCtrl && ImGui::IsKeyPressed(key, false); };
-    if (ImGui::IsKeyPressed(GLFW_KEY_ESCAPE, false)) {
+    const auto control = [&](int key) { return io.KeyCtrl && keyPressed(key); };
+    if (keyPressed(GLFW_KEY_ESCAPE)) {
         console.pick = Pick{};
         console.placing = ShapeKind::None;
         console.placedFrom.reset();
         editor.preview(console, snapshot);
     }
-    const bool adds = console.pick.taken && !console.panels && !io.WantTextInput &&
-                      ImGui::IsKeyPressed(GLFW_KEY_ENTER, false);
+    const bool adds =
+        console.pick.taken && !console.panels && !io.WantTextInput && keyPressed(GLFW_KEY_ENTER);
     if (adds || console.addPicked) {
         const std::string name = console.pick.gates.name;
         console.tell(editor.takePicked(console) ? "'" + name + "' is in force"

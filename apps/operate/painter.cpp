@@ -142,8 +142,12 @@ void Painter::uploadFonts() {
     finished(kLongWait);
     stopPanels();
     startPanels();
+#if IMGUI_VERSION_NUM < 19000
     once([](VkCommandBuffer commands) { ImGui_ImplVulkan_CreateFontsTexture(commands); });
     ImGui_ImplVulkan_DestroyFontUploadObjects();
+#else
+    ImGui_ImplVulkan_CreateFontsTexture(); // submits and waits by itself
+#endif
 }
 
 void Painter::resize(VkExtent2D size) {

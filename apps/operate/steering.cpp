@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/steering.h"
 
+#include "apps/operate/keys.h"
+
 #include <GLFW/glfw3.h>
 #include <algorithm>
 #include <array>
@@ -16,7 +18,7 @@ constexpr float kCursor = 240.0f, kSlowCursor = 30.0f; // [pixels/s] of a key, w
 constexpr double kClick = 4.0;                         // [pixels] a click may wander
 
 bool pressed(int key) {
-    return ImGui::IsKeyPressed(key, false);
+    return keyPressed(key);
 }
 
 } // namespace
@@ -68,7 +70,7 @@ void Steering::keys(Console& console) {
     console.forces = console.forces || pressed(GLFW_KEY_A);
     console.guidance = console.guidance != pressed(GLFW_KEY_G);
     console.grasp = console.grasp != pressed(GLFW_KEY_J);
-    console.clutch = ImGui::IsKeyDown(GLFW_KEY_C);
+    console.clutch = keyDown(GLFW_KEY_C);
     console.spaceIsLarge = console.spaceIsLarge != pressed(GLFW_KEY_TAB);
     console.paused = console.paused != pressed(GLFW_KEY_P);
     console.frozen = console.frozen != pressed(GLFW_KEY_F);
@@ -108,7 +110,7 @@ void Steering::moveByKeys(Console& console, const ViewPort& large) {
         return;
     }
     const auto axis = [](int plus, int minus) {
-        return (ImGui::IsKeyDown(plus) ? 1.0 : 0.0) - (ImGui::IsKeyDown(minus) ? 1.0 : 0.0);
+        return (keyDown(plus) ? 1.0 : 0.0) - (keyDown(minus) ? 1.0 : 0.0);
     };
     const dvec3 way(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP),
                     axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/time_line_panel.h"
 
+#include "apps/operate/keys.h"
 #include "apps/operate/past_scene.h"
 
 #include <GLFW/glfw3.h>
@@ -57,9 +58,9 @@ TimeLinePanel::TimeLinePanel(const TickLog& log, double duration)
 void TimeLinePanel::listen(Console& console) const {
     TimeLine& line = console.timeLine;
     const ImGuiIO& io = ImGui::GetIO();
-    const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, true); };
+    const auto pressed = [](int key) { return keyPressed(key, true); };
     if (!io.WantTextInput && !io.KeyCtrl && !console.panels) {
-        if (ImGui::IsKeyPressed(GLFW_KEY_SPACE, false)) {
+        if (keyPressed(GLFW_KEY_SPACE)) {
             line.playing = !line.playing;
             line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
         }

@@ -65,14 +65,13 @@ Window::Window(const std::string& offscreen, const std::string& title) {
         }
         glfwSetWindowSizeLimits(window_, 640, 400, GLFW_DONT_CARE, GLFW_DONT_CARE);
         glfwSetWindowUserPointer(window_, this);
-        glfwSetKeyCallback(window_, key); // before ImGui's, which calls it
     }
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr; // what is worth keeping is in the scene file
     if (window_ != nullptr) {
         ImGui_ImplGlfw_InitForVulkan(window_, true);
-        ImGui::GetIO().KeyMap[ImGuiKey_Space] = GLFW_KEY_ENTER; // presses what is chosen: space is taken
+        glfwSetKeyCallback(window_, key); // in place of ImGui's: holdTaps() passes the keys
     }
     before_ = seconds();
 }
@@ -89,46 +88,46 @@ Window::~Window() {
 }
 
 void Window::holdTaps() {
-    ImGuiIO& io = ImGui::GetIO();
-    for (int key : held_) {
-        io.KeysDown[key] = glfwGetKey(window_, key) == GLFW_PRESS;
-    }
-    held_.clear();
-    const auto either = [&](int left, int right) {
-        return glfwGetKey(window_, left) == GLFW_PRESS || glfwGetKey(window_, right) == GLFW_PRESS;
-    };
-    io.KeyCtrl = either(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL);
-    io.KeyShift = either(GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT);
+    KeysDown down = live_;
+    bool control = live_[GLFW_KEY_LEFT_CONTROL] || live_[GLFW_KEY_RIGHT_CONTROL];
+    bool shift = live_[GLFW_KEY_LEFT_SHIFT] || live_[GLFW_KEY_RIGHT_SHIFT];
     std::vector<Tap> later;
-    std::optional<int> mods; // of this frame: what was struck with others waits for the next one
+    std::vector<int> seen;   // keys of taps so far
+    std::optional<int> mods; // of this frame: keys struck with other modifiers wait for the next one
     for (const Tap& tap : taps_) {
-        const bool now = std::find(held_.begin(), held_.end(), tap.key) != held_.end();
+        const auto key = static_cast<size_t>(tap.key);
+        const bool now = std::find(seen.begin(), seen.end(), tap.key) != seen.end();
         const bool modifier = tap.key >= GLFW_KEY_LEFT_SHIFT && tap.key <= GLFW_KEY_RIGHT_SUPER;
         const bool other = !modifier && (!later.empty() || mods.value_or(tap.mods) != tap.mods);
-        held_.push_back(tap.key);
-        if (other || now || shown_[static_cast<size_t>(tap.key)]) { // up for a frame, to go down again
-            io.KeysDown[tap.key] = now && io.KeysDown[tap.key];
+        seen.push_back(tap.key);
+        if (other || now || shown_[key]) { // up for a frame, to go down again
+            down[key] = now && down[key];
             later.push_back(tap);
             continue;
         }
-        io.KeysDown[tap.key] = true;
+        down[key] = true;
         mods = modifier ? mods : tap.mods;
     }
     if (mods) {
-        io.KeyCtrl = (*mods & GLFW_MOD_CONTROL) != 0;
-        io.KeyShift = (*mods & GLFW_MOD_SHIFT) != 0;
+        control = (*mods & GLFW_MOD_CONTROL) != 0;
+        shift = (*mods & GLFW_MOD_SHIFT) != 0;
     }
     taps_ = std::move(later);
-    std::copy(std::begin(io.KeysDown), std::end(io.KeysDown), shown_.begin());
+    shown_ = down;
+    passKeys(window_, down, control, shift);
 }
 
 void Window::key(GLFWwindow* window, int key, int, int action, int mods) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
     if (key == GLFW_KEY_SPACE && action == GLFW_PRESS) {
-        self->taps_.clear(); // what was struck before it comes no more
+        self->taps_.clear(); // keys struck before it no longer count
+        dropQueuedKeys();
     }
-    if (key >= 0 && action == GLFW_PRESS) {
-        self->taps_.push_back({key, mods});
+    if (key >= 0 && static_cast<size_t>(key) < self->live_.size()) {
+        self->live_[static_cast<size_t>(key)] = action != GLFW_RELEASE;
+        if (action == GLFW_PRESS) {
+            self->taps_.push_back({key, mods});
+        }
     }
     if (key == GLFW_KEY_SPACE && action == GLFW_PRESS && self->onForcesOff) {
         self->onForcesOff();

@@ -2,9 +2,9 @@
 // The window itself, or, offscreen, a stand-in of fixed size: events in, a size and a surface out.
 #pragma once
 
+#include "apps/operate/keys.h"
 #include "engine/gpu/instance.h"
 
-#include <array>
 #include <functional>
 #include <optional>
 #include <span>
@@ -50,9 +50,9 @@ private:
     struct Tap {
         int key = 0, mods = 0;
     };
-    std::vector<Tap> taps_;         // since the last frame
-    std::vector<int> held_;         // by holdTaps(), to be let go
-    std::array<bool, 512> shown_{}; // keys that the last frame had down, as many as ImGui knows
+    std::vector<Tap> taps_; // since the last frame
+    KeysDown live_{};       // as GLFW reports them
+    KeysDown shown_{};      // down in the last frame
     double before_ = 0.0;
 };
 
