@@ -45,6 +45,13 @@ bool layerPresent() {
     return false;
 }
 
+// The loader has found no driver at all, or none that it can load.
+[[noreturn]] void refuseDrivers() {
+    throw BadInput(
+        "--device", "Vulkan driver", "none is installed",
+        "a Vulkan 1.2 driver: install your GPU's, or mesa-vulkan-drivers, which also runs on the CPU");
+}
+
 // A driver that is unloaded before the program ends takes its symbols from leak reports with it: sanitized
 // builds keep it.
 void keepDriversLoaded() {
@@ -103,7 +110,11 @@ Instance::Instance(Validation validation, std::span<const char* const> extension
     }
     info.enabledExtensionCount = static_cast<uint32_t>(names.size());
     info.ppEnabledExtensionNames = names.data();
-    check(vkCreateInstance(&info, nullptr, &handle_), "vkCreateInstance");
+    const VkResult created = vkCreateInstance(&info, nullptr, &handle_);
+    if (created == VK_ERROR_INCOMPATIBLE_DRIVER) {
+        refuseDrivers();
+    }
+    check(created, "vkCreateInstance");
     if (validation.enabled) {
         const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
             vkGetInstanceProcAddr(handle_, "vkCreateDebugUtilsMessengerEXT"));
