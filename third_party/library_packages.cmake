@@ -1,4 +1,4 @@
-# What the libraries themselves need. Installed beside fathom-config.cmake: whoever links them looks for the same.
+# Packages that the libraries need. Installed beside fathom-config.cmake, because programs that link them need the same.
 find_package(Vulkan 1.2 REQUIRED)
 find_package(Threads REQUIRED)
 find_package(glm REQUIRED)
