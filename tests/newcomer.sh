@@ -1,23 +1,29 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Follows the README as somebody who has nothing: an empty Debian 12 root (debootstrap), this commit in it, then the two commands of
-# its block, as they stand there. Then makes the Debian packages in that root, installs them in a second one that was as empty, plays an
-# installed scene there and builds the install test's program on /usr. Prints how long each took and how much was downloaded, and of
-# all together. Needs root, debootstrap and the network.
-#   newcomer.sh [demo|test|packages]...      only these of them; FATHOM_ROOT: where the root is made (removed at the end)
+# Follows the README like a new user: makes an empty Debian root with debootstrap, copies this commit into it and runs the two commands
+# of the README there. Then builds the Debian packages in that root, installs them in a second empty root, plays an installed scene and
+# builds the program of the install test on /usr. Prints time and download size of each step and of all together.
+# Needs root, debootstrap and the network.
+#   newcomer.sh [--suite bookworm|trixie] [demo|test|packages]...   only these steps; FATHOM_ROOT: where the root is made, and removed
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 [ "$(id -u)" = 0 ] || { echo "newcomer: needs root, for debootstrap and chroot" >&2; exit 2; }
+suite=bookworm
+if [ "${1:-}" = --suite ]; then
+    suite=${2:-}
+    case $suite in bookworm | trixie) ;; *) echo "newcomer: --suite: '$suite' (allowed: bookworm, trixie)" >&2; exit 2 ;; esac
+    shift 2
+fi
 for word in "$@"; do
     case $word in demo | test | packages) ;; *) echo "newcomer: $word (allowed: demo, test, packages)" >&2; exit 2 ;; esac
 done
 wanted=" ${*:-demo test packages} "
-# The lines of the block below "## Two commands" that run one of them without anything more.
-commands=$(awk '/^## /{on = /Two commands/} on && /^```/{block = !block; next} on && block && $1 == "./run" && ($2 == "demo" || $2 == "test") && ($3 == "#") {print $1, $2}' README.md)
+# The lines of the README's blocks that run one of the two commands and nothing more.
+commands=$(awk '/^```/ { block = !block; next } block && $1 == "./run" && ($2 == "demo" || $2 == "test") && (NF == 2 || $3 == "#") && !seen[$2]++ { print $1, $2 }' README.md)
 [ "$(echo "$commands" | wc -l)" = 2 ] || { echo "newcomer: the README does not have its two commands: $commands" >&2; exit 1; }
 root=${FATHOM_ROOT:-$(mktemp -d /var/tmp/fathom-newcomer.XXXXXX)}
 second=$root.installed
-# The mirror that this machine uses, if it says one for bookworm.
+# The mirror that this machine's sources name.
 mirror=$(grep -hsoE '^(URIs:|deb) +http[^ ]*/debian/?( |$)' /etc/apt/sources.list /etc/apt/sources.list.d/debian.sources | awk 'NR == 1 { print $2 }' || true)
 leave() {
     local place
@@ -30,7 +36,7 @@ trap leave EXIT
 since() { echo $(($(date +%s) - $1)); }
 megabytes() { du -smxc "$@" | tail -1 | cut -f1; }
 
-# furnish ROOT: this commit, how this machine reaches its mirror, and what a running system has mounted.
+# furnish ROOT: copies this commit and the settings that reach the mirror, and mounts what a running system has.
 furnish() {
     git archive --prefix=fathom/ HEAD | tar -x -C "$1"
     cp /etc/resolv.conf "$1/etc/" 2>/dev/null || true
@@ -43,7 +49,8 @@ furnish() {
     mount -t devpts -o newinstance,ptmxmode=0666 devpts "$1/dev/pts"
 }
 
-# step ROOT NAME COMMAND: in /fathom of that root. Its last line, how long it took and how much it downloaded; its end where it fails.
+# step ROOT NAME COMMAND: runs the command in /fathom of that root. Prints its last line, its time and its download size, or on
+# failure its last 20 lines.
 step() {
     local start before log=$root.step.log
     start=$(date +%s)
@@ -54,13 +61,13 @@ step() {
     echo "newcomer: $2 in $(since "$start") s, $(($(megabytes "$1/var/cache/apt/archives") - before)) MB downloaded"
 }
 
-# What README's `cpack` makes, where nothing has to be built but what is packed unless the tests were.
+# Builds the packages as the documentation says. Builds only the program and the libraries unless the tests have been built.
 make_packages() {
     local build="true"
     [ -e "$root/fathom/build/CMakeCache.txt" ] && [[ $wanted == *" test "* ]] ||
         build="cmake -G Ninja -S . -B build -DCMAKE_BUILD_TYPE=Release -DFATHOM_BATCHES=ON -DBUILD_TESTING=OFF && cmake --build build"
     step "$root" "packages made" "apt-get update -qq &&
-        apt-get install -y -qq --no-install-recommends dpkg-dev fakeroot file \$(grep -v '^#' third_party/packages.txt) && $build &&
+        apt-get install -y -qq --no-install-recommends dpkg-dev fakeroot file \$(sed 's/ *#.*//' third_party/packages.txt) && $build &&
         cd build && rm -f *.deb && cpack -G DEB && ls *.deb | tr '\n' ' '"
 }
 
@@ -76,10 +83,10 @@ install_packages() {
 
 start=$(date +%s)
 mkdir -p "$root" "$root.cache"
-chmod 755 "$root" # as any root is: tests that become another user must get in
-debootstrap --cache-dir="$root.cache" --variant=minbase bookworm "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
+chmod 755 "$root" # tests that change to another user need access
+debootstrap --cache-dir="$root.cache" --variant=minbase "$suite" "$root" "${mirror:-http://deb.debian.org/debian}" >"$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
 bootstrap=$(megabytes "$root.cache" "$root/var/lib/apt/lists")
-echo "newcomer: empty root in $(since "$start") s, $bootstrap MB downloaded, $(megabytes "$root") MB"
+echo "newcomer: empty $suite root in $(since "$start") s, $bootstrap MB downloaded, $(megabytes "$root") MB"
 [[ $wanted != *" packages "* ]] || cp -a "$root" "$second"
 furnish "$root"
 begun=$(date +%s)
