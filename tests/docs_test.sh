@@ -1,9 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs what the documents say can be run: every line of a block that begins with ```runnable, in all documents of the tree. Each
-# document has a folder of its own to run in, which looks like the repository's root with the built tree at build/, so that a command
-# runs as it stands there and what it writes stays out of the tree; the built program is in front of the search path, $OUT is an empty
-# folder. Ends with 'docs: N passed, N failed'; a block is a case.
+# Runs every block of every document of the tree that begins with ```runnable. Each document has a folder of its own that looks like the
+# repository's root with the built tree at build/, so commands run as printed and write nothing into the tree. The built program is
+# first in PATH; $OUT is an empty folder. A block is a case. Ends with 'docs: N passed, N failed'.
 #   docs_test.sh BUILD_FOLDER
 set -uo pipefail
 build=$(realpath "$1")

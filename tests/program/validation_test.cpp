@@ -62,3 +62,11 @@ TEST_CASE("Validation layers that are not installed are told of, never left out"
     checkRefusal(stage.command(), {"validation layer", "not installed", "vulkan-validationlayers"}, 1);
     CHECK(!std::filesystem::exists(stage / "out" / "summary.json"));
 }
+
+TEST_CASE("Without a Vulkan driver one line names the package to install") {
+    const Stage stage;
+    prepare(stage);
+    const Variable none("VK_DRIVER_FILES", (stage / "none.json").string());
+    checkRefusal(stage.command(), {"Vulkan driver", "none is installed", "mesa-vulkan-drivers"});
+    CHECK(!std::filesystem::exists(stage / "out" / "summary.json"));
+}

@@ -1,11 +1,11 @@
 # Configures and builds a sanitized copy of the tree: cmake -DSOURCE= -DBINARY= -DSANITIZE= -DBATCHES= -DTARGETS= -P this
-# -O1: compiles in two thirds of the time of -O2, and the suites run hardly slower.
-# Under TSan without OpenNI2, whose library unlocks what it does not hold when a process ends: so that variant is built, too.
+# -O1 compiles in two thirds of the time of -O2, and the suites run hardly slower.
+# Without OpenNI2 under the thread sanitizer: that library unlocks a mutex it does not hold at exit. This also builds that variant.
 separate_arguments(TARGETS)
 set(openni2 ON)
 if(SANITIZE MATCHES thread)
     set(openni2 OFF)
-    set(BATCHES OFF) # other files, other batches
+    set(BATCHES OFF) # without OpenNI2 other files would share a batch
 endif()
 execute_process(COMMAND ${CMAKE_COMMAND} -G Ninja -S ${SOURCE} -B ${BINARY} -DCMAKE_BUILD_TYPE=None -DCMAKE_C_FLAGS=-O1 -DCMAKE_CXX_FLAGS=-O1
                 -DFATHOM_SANITIZE=${SANITIZE} -DFATHOM_OPENNI2=${openni2} -DFATHOM_BATCHES=${BATCHES} COMMAND_ERROR_IS_FATAL ANY)

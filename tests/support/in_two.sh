@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: Apache-2.0
-# Runs a suite twice at the same time, each on its half of the processors, for suites that wait more than they work: once the cases
-# of these files, once all others. Exits as the worse of the two.
+# Runs a suite as two processes at the same time, each on half of the processors: one runs the cases of the files given, the other
+# runs the rest. For suites that wait more than they compute. Fails if either process fails.
 #   in_two.sh PROGRAM FILE,FILE...
 set -u
 said=$(mktemp)
 trap 'rm -f "$said"' EXIT
 
-# Two lists of processors; nothing where there is only one.
+# Two lists of processors; empty on a single processor.
 halves=$(awk '/^Cpus_allowed_list/ {
     split($2, runs, ",")
     for (i = 1; i in runs; ++i) {
