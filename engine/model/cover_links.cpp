@@ -14,7 +14,8 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostHeld = 6'000'000; // corners of meshes that wait for their spheres, and one mesh more
+constexpr size_t kMostHeld =
+    6'000'000; // mesh corners kept in memory before their spheres are computed (plus one more mesh)
 
 struct LinkCover {
     const LinkGeometry* of = nullptr;
@@ -35,7 +36,7 @@ struct LinkCover {
     }
 };
 
-// As many as are held easily; up to one that is refused.
+// Reads shapes until the memory bound is reached or one is rejected.
 std::vector<LinkCover> readSome(std::span<const LinkGeometry> shapes, const ShapeSource& source) {
     std::vector<LinkCover> some;
     size_t points = 0;

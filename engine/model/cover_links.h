@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The collision shapes of an arm's links as spheres, by all processors.
+// Covers the collision shapes of an arm's links with spheres, on all processors.
 #pragma once
 
 #include "engine/model/link_spheres.h"
@@ -11,14 +11,14 @@
 
 namespace fathom {
 
-// A shape, and whose it is.
+// A shape and the link that it belongs to.
 struct LinkGeometry {
     std::string link; // name
     std::shared_ptr<const urdf::Geometry> shape;
 };
 
-// Of each shape, in their order. Throws BadInput, naming the URDF and the link, or the mesh file: the first
-// refusal in that order. While no other thread works (readLinkShape).
+// Returns one result per shape, in order. Throws BadInput for the first shape that is rejected; it names the
+// URDF and link, or the mesh file. Call it while no other thread runs (see readLinkShape).
 std::vector<ShapeSpheres> spheresOf(std::span<const LinkGeometry> shapes, const ShapeSource& source,
                                     uint32_t leaves);
 

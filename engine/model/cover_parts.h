@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ways to share the pieces of a surface out among spheres, before any sphere is fitted.
+// Initial partitions of the surface pieces, one part per sphere, before spheres are fitted.
 #pragma once
 
 #include "engine/model/cover_pieces.h"
@@ -8,17 +8,17 @@
 
 namespace fathom {
 
-using CoverShare = std::vector<uint32_t>; // of the pieces
+using CoverShare = std::vector<uint32_t>; // indices of pieces
 
-// The finest grid of cubes over the pieces' box with at most `most` cubes that hold the middle of a piece.
+// Partition by the finest cube grid in which at most `most` cubes contain the middle of a piece.
 std::vector<CoverShare> gridShares(const std::vector<CoverPiece>& pieces, size_t most);
 
-// Halves the worst share across the longest side of its box until there are `most` or none can be halved;
-// `badness` says how bad a share is.
+// Splits the worst part across the longest side of its box until there are `most` parts or none can be split.
+// `badness` ranks the parts.
 std::vector<CoverShare> splitShares(const std::vector<CoverPiece>& pieces, size_t most,
                                     const std::function<double(const CoverShare&)>& badness);
 
-// Middle of the box of a share's corners [m].
+// Centre of the bounding box of a part's corners [m].
 dvec3 middleOf(const std::vector<CoverPiece>& pieces, const CoverShare& share);
 
 } // namespace fathom

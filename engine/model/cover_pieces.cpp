@@ -39,7 +39,7 @@ void cut(const Corners& whole, double edge, const dvec3& inwards, std::vector<Co
     }
 }
 
-// Which way the inside lies, asked a hair off the surface; zero when both or neither side is.
+// Inward direction, tested just off the surface; zero when both sides or neither side is inside.
 dvec3 inwardsAt(const TriangleMesh& mesh, const MeshDistance& distance, size_t t, double hair) {
     if (!distance.solid()) {
         return dvec3(0.0);
@@ -58,8 +58,8 @@ void addCells(const TriangleMesh& mesh, const MeshDistance& distance, double cel
         for (double y = low.y + 0.5 * cell; y < high.y; y += cell) {
             for (double z = low.z + 0.5 * cell; z < high.z; z += cell) {
                 const dvec3 p(x, y, z);
-                // Nearer to the surface the spheres that hold the surface hold the cell, too, or it sticks
-                // out.
+                // Closer to the surface, the spheres that contain the surface also contain the cell, or it
+                // protrudes.
                 const double depth = -distance.signedDistance(p);
                 if (depth >= half) {
                     out.push_back({{p, p, p}, p, half, half, depth, dvec3(0.0)});
@@ -69,7 +69,7 @@ void addCells(const TriangleMesh& mesh, const MeshDistance& distance, double cel
     }
 }
 
-// Largest ball inside that touches the surface at p, `n` the way in.
+// Largest inner ball that touches the surface at p; `n` points inwards.
 dvec3 largestBall(const MeshDistance& distance, const dvec3& p, const dvec3& n, double largest) {
     double radius = largest;
     for (int k = 0; k < 30; ++k) {

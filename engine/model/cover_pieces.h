@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a sphere cover must contain, and where its spheres may sit.
+// The pieces that a sphere cover must contain, and the candidate centres of its spheres.
 #pragma once
 
 #include "engine/model/mesh_distance.h"
@@ -9,8 +9,7 @@
 
 namespace fathom {
 
-// A small triangle of the surface, or a cell of the inside (all corners the same, `margin` its half
-// diagonal).
+// A small triangle of the surface, or a cell of the interior (all corners equal, `margin` = half diagonal).
 struct CoverPiece {
     dvec3 corner[3];
     dvec3 middle{0.0};
@@ -30,16 +29,14 @@ std::vector<CoverPiece> cutToPieces(const TriangleMesh& mesh, const MeshDistance
 // How many triangles of the surface that would be, at most.
 double countOfPieces(const TriangleMesh& mesh, double edge);
 
-// Where a sphere may sit, and how deep that is inside: a sphere about it of radius depth + e stands out by at
-// most e.
+// A candidate centre with its depth inside the mesh: a sphere of radius depth + e protrudes by at most e.
 struct CoverSeat {
     dvec3 centre;
     double depth; // [m] = - signed distance
 };
 
-// Some `count` seats: centres of largest inner balls that touch the surface at sampled pieces (shrinking
-// ball, Ma et al. 2012), places between those and the surface, the middle of the box, and pieces of the
-// surface.
+// About `count` candidates: centres of maximal inner balls at sampled pieces (shrinking ball, Ma et al.
+// 2012), points between those and the surface, the centre of the box, and points of the surface.
 std::vector<CoverSeat> findSeats(const TriangleMesh& mesh, const MeshDistance& distance,
                                  const std::vector<CoverPiece>& pieces, size_t count);
 

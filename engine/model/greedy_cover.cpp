@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-using Bits = std::vector<uint64_t>; // a word a group of pieces
+using Bits = std::vector<uint64_t>; // one word per group of pieces
 
 bool holds(const Sphere& s, const CoverPiece& piece) {
     const dvec3 d = piece.middle - s.centre;
@@ -23,7 +23,7 @@ bool holds(const Sphere& s, const CoverPiece& piece) {
 
 enum class Share { None, Some, All };
 
-// What a sphere surely holds of all that lies in another one.
+// Conservative test of what a sphere contains of another sphere's content.
 Share shareOf(const Sphere& s, const Sphere& about) {
     const double slack = 1e-9 * (s.radius + glm::length(s.centre));
     const double d = glm::distance(about.centre, s.centre);
@@ -94,15 +94,15 @@ public:
                 balls.push_back(ball);
             }
         }
-        std::vector<Bits> held(balls.size()); // empty until a ball's turn comes
+        std::vector<Bits> held(balls.size()); // empty until the ball is evaluated
         while (remaining_ > 0 && !queue.empty()) {
             Pick top = queue.top();
             queue.pop();
             Bits& bits = held[top.seat];
             if (bits.empty()) {
-                bits = heldBy(balls[top.seat], groups_, left_); // later on less is left
+                bits = heldBy(balls[top.seat], groups_, left_); // fewer pieces remain later
             }
-            top.gain = gainOf(bits, left_); // gains only fall: what is still best now is best
+            top.gain = gainOf(bits, left_); // gains only decrease, so a ball that is still best is the best
             if (top.gain == 0) {
                 continue;
             }
@@ -117,7 +117,7 @@ public:
         return true;
     }
 
-    // What no seat holds gets a ball about itself.
+    // A piece that no candidate contains gets its own ball.
     bool rescue() {
         for (const uint32_t place : groups_.places()) {
             if ((left_[place / 64] >> (place % 64) & 1) == 0) {
@@ -139,7 +139,7 @@ private:
         if (chosen_.size() == most_) {
             return false;
         }
-        for (size_t w = 0; w < left_.size(); ++w) { // `held` is of a time when more was left
+        for (size_t w = 0; w < left_.size(); ++w) { // `held` was computed when more pieces remained
             remaining_ -= static_cast<size_t>(std::popcount(held[w] & left_[w]));
             left_[w] &= ~held[w];
         }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr size_t kMostPoints = 6'000'000;
 
-// With all its copies: a few bytes can name one mesh a million times. Ends where there are too many.
+// Counts all instances, because a few bytes can reference one mesh a million times. Stops at the limit.
 size_t countPoints(const aiScene& scene, const aiNode& node) {
     size_t count = 0;
     for (unsigned m = 0; m < node.mNumMeshes; ++m) {
@@ -71,7 +71,7 @@ std::string readWithAssimp(const std::filesystem::path& file, TriangleMesh& mesh
     return "";
 }
 
-// What goes through the pipe after the text; then the points, the triangles.
+// Sent through the pipe after the text; points and triangles follow.
 struct Head {
     uint64_t points = 0, triangles = 0;
 };

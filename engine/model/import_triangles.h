@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a mesh file in a process of its own (reader_process.h).
+// Reads a mesh file in a separate process (reader_process.h).
 #pragma once
 
 #include "engine/model/triangle_mesh.h"
@@ -10,10 +10,10 @@
 
 namespace fathom {
 
-// What came back from that process.
+// The result of that process.
 struct ImportedTriangles {
     TriangleMesh mesh; // in the file's units, node transforms applied; empty when `fault` is not
-    std::string fault; // one line; why nothing was read
+    std::string fault; // one line: the reason when nothing was read
 };
 
 inline constexpr uint64_t kMostImportMemory = uint64_t{4} << 30; // [bytes] of address space

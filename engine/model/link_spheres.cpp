@@ -50,7 +50,7 @@ bool liesOutside(const std::filesystem::path& file, const ShapeSource& source) {
 LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSpheres& made) {
     MeshOptions options;
     options.stretch = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
-    options.dropStray = true; // an arm's parts are near each other whatever the file holds besides
+    options.dropStray = true; // the parts of an arm are close together; anything else is stray
     if (!isFinite(options.stretch) || options.stretch.x * options.stretch.y * options.stretch.z == 0.0) {
         throw ShapeRefused{"a mesh scale of 0 or no number", "three finite numbers, none 0"};
     }

@@ -13,37 +13,37 @@
 
 namespace fathom {
 
-// Where a shape's meshes are looked for.
+// Where meshes are searched.
 struct ShapeSource {
-    std::filesystem::path urdf;   // file names of meshes are looked for beside it and above,
+    std::filesystem::path urdf;   // mesh file names are searched in its folder and the parents,
     std::filesystem::path meshes; // or here, unless empty
 };
 
-// Thrown: the value that cannot be, and what is allowed instead. The caller knows the file and the link.
+// Exception: the rejected value and what is allowed. The caller adds the file and the link.
 struct ShapeRefused {
     std::string value, allowed;
 };
 
-// The spheres of one shape, and what a person should be told of them.
+// The spheres of one shape, and notes for the user.
 struct ShapeSpheres {
     std::vector<Sphere> spheres;    // in the shape's own frame [m]
-    std::vector<std::string> notes; // what about its file may not be as it was meant, a line each
-    std::filesystem::path outside; // that file, where it lies outside of the folder that it was looked for in
+    std::vector<std::string> notes; // one line per doubt about its file
+    std::filesystem::path outside;  // the file, when it is outside the folder that was searched
 };
 
 // A shape whose file has been read.
 struct LinkShape {
-    std::optional<LoadedMesh> surface; // none = a sphere already, the one in `made`
-    ShapeSpheres made;                 // what is known of its spheres so far
+    std::optional<LoadedMesh> surface; // empty = the shape is a sphere, the one in `made`
+    ShapeSpheres made;                 // its spheres and notes so far
 
     size_t points() const { return surface ? surface->mesh.points.size() : 0; }
 };
 
-// Throws ShapeRefused for sizes that cannot be, BadInput for a mesh file. While no other thread works: a mesh
-// is read in a child (runReader).
+// Throws ShapeRefused for invalid sizes and BadInput for a mesh file. Call it while no other thread runs: a
+// mesh is read in a child process (runReader).
 LinkShape readLinkShape(const urdf::Geometry& shape, const ShapeSource& source);
 
-// A sphere stays one; a box, cylinder or mesh gets `leaves` at most. Throws ShapeRefused. Any thread.
+// A sphere is kept; a box, cylinder or mesh gets at most `leaves` spheres. Throws ShapeRefused. Any thread.
 ShapeSpheres linkSpheres(LinkShape shape, uint32_t leaves);
 
 } // namespace fathom

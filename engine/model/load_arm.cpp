@@ -14,7 +14,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostSpeed = 100.0; // [rad/s], [m/s] anything above is no limit
+constexpr double kMostSpeed = 100.0; // [rad/s], [m/s] a higher value counts as unlimited
 
 class Loader {
 public:
@@ -67,7 +67,7 @@ private:
         return link;
     }
 
-    // End of the way from `link` with most moving joints; the first of equals.
+    // End of the path from `link` with the most moving joints; the first of equals.
     std::pair<LinkPtr, int> deepest(const LinkPtr& link, int moving) const {
         std::pair<LinkPtr, int> best{link, moving};
         for (const auto& joint : link->child_joints) {
@@ -131,11 +131,11 @@ private:
     }
 
     struct Carrier {     // of a link
-        uint32_t joint;  // how many joints of the chain
+        uint32_t joint;  // number of chain joints
         uint32_t finger; // 0 = none, else one more than its index
     };
 
-    // Shapes of `link` and of all that it carries, in its carrier's frame.
+    // Shapes of `link` and of its descendants, in the frame of the chain joint that carries them.
     void addLinks(const LinkPtr& link, const Pose& frameTlink, const Carrier& carrier) {
         const auto index = static_cast<uint32_t>(model_.links.size());
         for (const auto& collision : link->collision_array) {
@@ -143,7 +143,7 @@ private:
         }
         if (!link->collision_array.empty()) {
             model_.links.push_back(link->name);
-        } else if (!link->visual_array.empty() || link->inertial) { // else it is a mere frame
+        } else if (!link->visual_array.empty() || link->inertial) { // else it is only a frame
             model_.notes.push_back("link " + link->name +
                                    " has no collision shape: nothing keeps it off regions");
         }
@@ -161,7 +161,7 @@ private:
         }
     }
 
-    // False: the options name no such finger.
+    // Returns false when the options name no such finger.
     bool addFinger(const urdf::Joint& joint, const Pose& before, uint32_t carriedBy) {
         const auto wanted = std::find_if(options_.fingers.begin(), options_.fingers.end(),
                                          [&](const auto& finger) { return finger.joint == joint.name; });

@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kLeafFaces = 6;
-constexpr double kFar = 2.3; // times a group's reach: its dipole is then right to about 1 %
+constexpr double kFar = 2.3; // times a group's radius: its dipole then has an error of about 1 %
 constexpr double kPi = 3.14159265358979323846;
 
 double squareToBox(const dvec3& p, const dvec3& low, const dvec3& high) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Distance to a mesh and whether a point is inside: a box hierarchy, and the generalised winding number
-// (Jacobson et al. 2013) with far groups taken as one dipole (Barill et al. 2018).
+// (Jacobson et al. 2013) with each distant group approximated by one dipole (Barill et al. 2018).
 #pragma once
 
 #include "engine/model/triangle_mesh.h"
@@ -12,7 +12,7 @@ namespace fathom {
 // Built once; all queries are const and may run on many threads.
 class MeshDistance {
 public:
-    // `mesh` must outlive this. A mesh that is not `solid` has no inside: winding is not asked for.
+    // `mesh` must outlive this. A mesh that is not `solid` has no interior and needs no winding number.
     MeshDistance(const TriangleMesh& mesh, bool solid);
 
     // The point of the mesh that is nearest to another [m].
@@ -22,11 +22,11 @@ public:
     };
     Nearest nearest(const dvec3& p) const;
 
-    // About 1 inside, 0 outside; 2 where two closed parts overlap. Right to some 0.01.
+    // About 1 inside, 0 outside; 2 where two closed parts overlap. Accurate to about 0.01.
     double winding(const dvec3& p) const;
     bool isInside(const dvec3& p) const { return solid_ && std::abs(winding(p)) > 0.5; }
 
-    // [m] negative inside; not below the truth inside overlapping parts.
+    // Signed distance [m], negative inside. Inside overlapping parts it is never below the true value.
     double signedDistance(const dvec3& p) const {
         const double d = nearest(p).distance;
         return isInside(p) ? -d : d;

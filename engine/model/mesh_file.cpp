@@ -14,7 +14,7 @@ namespace fathom {
 namespace {
 
 constexpr double kLeastExtent = 1e-3, kMostExtent = 10.0; // [m]
-constexpr double kDoubtfulExtent = 2.0; // [m] of tools and links; what is 80 mm long has 3.1 of it in inches
+constexpr double kDoubtfulExtent = 2.0; // [m] for tools and links: 80 mm stored in inches would read as 3.1
 constexpr uintmax_t kLargestMesh = 512u << 20;
 constexpr size_t kMostTriangles = 2'000'000;
 
@@ -39,7 +39,7 @@ TriangleMesh readTriangles(const std::filesystem::path& file) {
     }
     std::string kind = file.extension().string();
     std::transform(kind.begin(), kind.end(), kind.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (kind != ".stl" && kind != ".obj" && kind != ".dae") { // the library would read fifty others
+    if (kind != ".stl" && kind != ".obj" && kind != ".dae") { // the library would accept fifty other formats
         throw BadInput(file.string(), "mesh", "kind '" + kind + "'", kinds);
     }
     if (const auto bytes = std::filesystem::file_size(file); bytes > kLargestMesh) {
@@ -71,7 +71,7 @@ double checkExtent(const std::string& file, const TriangleMesh& mesh) {
     return extent;
 }
 
-// A .dae tells its unit, STL and OBJ do not.
+// A .dae states its unit; STL and OBJ do not.
 std::string doubtOf(const std::filesystem::path& file, const MeshOptions& options, double extent) {
     if (options.scale || options.stretch != dvec3(1.0) || extent <= kDoubtfulExtent ||
         file.extension() == ".dae" || file.extension() == ".DAE") {
@@ -95,7 +95,7 @@ LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& option
             throw BadInput(file.string(), "vertex", "not finite", "finite coordinates");
         }
     }
-    // Equal points of a text file can differ in the last digit: a millionth of the size is the same place.
+    // Equal points of a text file can differ in the last digit, so the tolerance is a millionth of the size.
     loaded.facts = tidy(mesh, 1e-7 * glm::distance(mesh.low(), mesh.high()));
     findStray(mesh, loaded.facts, options.dropStray);
     const MeshFacts& facts = loaded.facts;

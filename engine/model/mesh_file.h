@@ -9,25 +9,24 @@
 
 namespace fathom {
 
-// What a mesh file does not say of itself.
+// Properties that a mesh file does not state.
 struct MeshOptions {
-    std::optional<double>
-        scale;          // metres a unit of the file, on top of the unit that a .dae declares; empty: 1
-    dvec3 stretch{1.0}; // of each axis of the file, finite and not 0, on top of that; below 0 it is mirrored
-    char up = 0;        // 'x', 'y', 'z': the file's axis that becomes +z; 0 = no rotation
-    bool dropStray = false; // leave out pieces far away instead of refusing them
+    std::optional<double> scale; // metres per file unit, on top of the unit that a .dae declares; empty = 1
+    dvec3 stretch{1.0};          // additional factor per file axis, finite and not 0; a negative one mirrors
+    char up = 0;                 // 'x', 'y', 'z': the file's axis that becomes +z; 0 = no rotation
+    bool dropStray = false;      // drop distant pieces instead of rejecting the file
 };
 
-// A mesh in metres, and what was found in its file.
+// A mesh in metres, and facts about its file.
 struct LoadedMesh {
     TriangleMesh mesh; // [m], tidy
     MeshFacts facts;
-    std::string doubt; // that its unit is none that was meant, in words; empty = none
+    std::string doubt; // why its unit is probably wrong; empty = no doubt
 };
 
 // Node transforms are applied; a .dae's <unit> is applied, its <up_axis> is not (as ROS programs do). Throws
-// BadInput: no such file, nothing in it, numbers that are not finite, an extent outside 1 mm .. 10 m (most
-// often a unit that nobody said), stray geometry when it is not to be dropped.
+// BadInput for a missing or empty file, numbers that are not finite, an extent outside 1 mm .. 10 m (usually
+// a wrong unit), and stray geometry unless it is dropped.
 LoadedMesh loadMesh(const std::filesystem::path& file, const MeshOptions& options = {});
 
 // "2 pieces up to 19.8 m away from the rest"

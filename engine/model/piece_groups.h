@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pieces of a surface in groups of neighbours, so that most questions are answered for 64 at once.
+// Groups of 64 neighbouring surface pieces, so that most containment tests are done once per group.
 #pragma once
 
 #include "engine/model/cover_pieces.h"
@@ -22,7 +22,7 @@ public:
         return std::span(pieces_).subspan(group * kGroup, std::min(kGroup, size() - group * kGroup));
     }
     const Sphere& about(size_t group) const { return about_[group]; } // contains its pieces
-    // kGroup * group + place in it, of each piece in the order that they were given in.
+    // kGroup * group + index in the group, for each piece in input order.
     const std::vector<uint32_t>& places() const { return places_; }
 
 private:

@@ -25,10 +25,10 @@ namespace fathom {
 namespace {
 
 constexpr rlim_t kMostSeconds = 60;     // of CPU time
-constexpr unsigned kMostPatience = 300; // [s] for a reader that waits for what never comes
+constexpr unsigned kMostPatience = 300; // [s] wall time, for a reader that blocks
 constexpr uint64_t kMostText = 4096;
 
-constexpr int kReported = 86; // exit code of a child that a sanitizer ended outside of the library
+constexpr int kReported = 86; // exit code of a child that a sanitizer stopped outside the library
 
 bool libraryAtWork = false; // in the child, which has one thread
 
@@ -49,8 +49,8 @@ bool moveAll(ssize_t (*move)(int, Byte*, size_t), int pipe, Byte* data, size_t s
     return true;
 }
 
-// Of this process, address space of the parent included [bytes]; 0 where the system does not tell, or where a
-// sanitizer has mapped terabytes and maps more whenever it likes.
+// Limit for this process, the parent's address space included [bytes]; 0 when it is unknown, or under a
+// sanitizer, which maps terabytes.
 rlim_t mappedNow() {
 #ifdef FATHOM_SANITIZED
     return 0;
@@ -62,7 +62,7 @@ rlim_t mappedNow() {
 
 [[noreturn]] void child(const ReaderProcess& reader, int pipe) {
     for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGINT, SIGTERM, SIGALRM}) {
-        std::signal(fault, SIG_DFL); // it dies alone, and says nothing
+        std::signal(fault, SIG_DFL); // default action: the child ends without a message
     }
 #ifdef FATHOM_SANITIZED
     __sanitizer_set_death_callback([] {

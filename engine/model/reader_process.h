@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A process of its own for what a library reads of strangers: large parsers can be crashed by broken files,
-// and a crash there must be a refusal here.
+// Runs third-party parsers of untrusted files in a child process, so that a crash of the parser becomes a
+// rejected file.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@
 
 namespace fathom {
 
-// All of it through a pipe, in as many calls as that takes; false when the other side is gone.
+// Writes everything to a pipe, in as many calls as needed; false when the other end is closed.
 bool writeAll(int pipe, const void* data, size_t size);
 bool readAll(int pipe, void* data, size_t size);
-// A text with its length before it, 4 KiB at most.
+// A length-prefixed text of at most 4 KiB.
 bool writeText(int pipe, const std::string& text);
 bool readText(int pipe, std::string& text);
 
 struct ReaderProcess {
-    // In the child: reads, writes to the pipe, says whether all is said. std::bad_alloc there is for it to
-    // tell of.
+    // Child: reads the file, writes the result to the pipe, and returns whether all was written. It reports
+    // std::bad_alloc itself.
     std::function<bool(int pipe)> read;
-    // Here: takes what comes; false when that is not whole.
+    // Parent: reads the result; false when it is incomplete.
     std::function<bool(int pipe)> take;
-    uint64_t mostMemory = uint64_t{4} << 30; // [bytes] of address space beyond what this process has
+    uint64_t mostMemory = uint64_t{4} << 30; // [bytes] address space beyond that of this process
 };
 
-// While one lives, the library is at work in the child: what a sanitizer says is then its own fault, and a
-// refusal as a crash is.
+// While one exists, the library runs in the child: a sanitizer report is then the library's fault and rejects
+// the file, as a crash does.
 class LibraryAtWork {
 public:
     LibraryAtWork() noexcept;
@@ -37,12 +37,11 @@ public:
     LibraryAtWork& operator=(const LibraryAtWork&) = delete;
 };
 
-// A child is forked, so that no thread is needed. It takes memory and uses a library, and a lock that another
-// thread of this process holds at that moment stays held in it: call this while no other thread works. It has
-// at most a minute of CPU time and five minutes in all, and so much memory (no bound under a sanitizer, whose
-// own memory is none). Returns the signal that ended it (0: none), and whether take() was served. Throws
-// Error, naming the file, when no child can be made; std::logic_error, which is no refusal, when a sanitizer
-// ended the child in code of ours.
+// Forks a child. Call it while no other thread runs: a lock that another thread holds at the fork stays held
+// in the child, which allocates and calls a library. The child gets at most one minute of CPU time, five
+// minutes in total, and `mostMemory` (unlimited under a sanitizer, which maps terabytes). Returns the signal
+// that ended it (0 = none) and whether take() got everything. Throws Error that names the file when no child
+// can be made, and std::logic_error when a sanitizer stopped the child in Fathom's own code.
 struct ReaderEnd {
     bool whole = false;
     int signal = 0;

@@ -18,8 +18,8 @@ namespace {
 
 constexpr size_t kShownCharacters = 60;
 constexpr uint64_t kMaxBytes = 256u << 20;
-constexpr uint64_t kShortestLine = 8; // "0 0 0 0" and its end: bounds the nodes that a file can hold
-constexpr size_t kLongestLine = 4096; // free text may be longer, a node never is
+constexpr uint64_t kShortestLine = 8; // "0 0 0 0" and its end: bounds the number of nodes in a file
+constexpr size_t kLongestLine = 4096; // free text may be longer, a node line never is
 
 std::vector<std::string_view> splitWords(std::string_view line) {
     constexpr std::string_view kSpace = " \t\r";
@@ -57,7 +57,7 @@ public:
 
     uint64_t bytes() const { return size_; }
 
-    // Words of the next line that is not blank; refuses the end of the file.
+    // Words of the next line that is not blank; throws at the end of the file.
     std::vector<std::string_view> next(const std::string& wanted) {
         while (std::getline(in_, line_)) {
             ++number_;
@@ -99,7 +99,7 @@ uint64_t slotCount(uint32_t levels, uint32_t degree, uint64_t most) {
 }
 
 SphereTree readHeader(Lines& lines) {
-    const std::string wanted = "the number of levels and of children a node, both at least 1";
+    const std::string wanted = "the number of levels and of children per node, both at least 1";
     const std::vector<std::string_view> words = lines.next(wanted);
     SphereTree tree;
     if (words.size() != 2 || !parse(words[0], tree.levels) || !parse(words[1], tree.degree) ||
@@ -129,7 +129,7 @@ Sphere readNode(Lines& lines, double scale) {
         return {}; // unused: its numbers may be anything
     }
     const Sphere node{dvec3(v[0], v[1], v[2]) * scale, v[3] * scale};
-    // Squares must stay finite: distances between the spheres are taken from here on.
+    // Squares must stay finite, because distances between spheres follow.
     if (!good || !isFinite(node.centre) || !(glm::dot(node.centre, node.centre) < 1e100) ||
         !(node.radius < 1e50)) {
         lines.refuseLine(wanted);
@@ -150,7 +150,7 @@ void settleChildren(SphereTree& tree) {
     }
 }
 
-// The toolkit's radii bound the surface, not the children, and its flat files hold a radius of no meaning.
+// The toolkit's radii bound the surface, not the children, and its flat files hold a meaningless radius.
 void recomputeRadii(SphereTree& tree) {
     for (uint64_t n = tree.firstLeaf(); n-- > 0;) {
         Sphere& parent = tree.nodes[n];

@@ -8,12 +8,12 @@
 
 namespace fathom {
 
-// Most slots of a tree, used or not: bounds what a file can make us allocate.
+// Largest number of slots per tree, used or not: bounds the memory that a file can request.
 inline constexpr uint32_t kMaxSphNodes = 1u << 20;
 
-// Reads "levels degree", then one node a line (x y z r, further columns ignored), breadth first; text after
-// the last node is ignored. Lengths are taken as metres times `metresPerUnit`. The result obeys SphereTree's
-// rules whatever the file says: slots under an unused slot are unused, a used node without used children is
+// Reads "levels degree", then one node per line (x y z r, further columns ignored), breadth first; text after
+// the last node is ignored. Lengths are taken as metres times `metresPerUnit`. The result always satisfies
+// the invariants of SphereTree: slots under an unused slot are unused, a used node without used children is
 // repeated down to the last level, radii above the last level are recomputed to enclose the children. Throws
 // BadInput with file and line.
 SphereTree readSph(const std::filesystem::path& file, double metresPerUnit = 1.0);

@@ -14,7 +14,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kSeats = 2000;
-constexpr double kPieces = 6'000.0; // that a cover starts from
+constexpr double kPieces = 6'000.0; // initial number of pieces
 constexpr double kMostPieces = 2e6;
 
 struct Fitting {
@@ -30,7 +30,7 @@ double edgeFor(const TriangleMesh& mesh, double count) {
     return std::max(edge, 1e-12);
 }
 
-// The farthest that a sphere stands out, by the signed distance of its centre.
+// Largest protrusion of a sphere, from the signed distance of its centre.
 double standsOut(const MeshDistance& distance, const Sphere& s) {
     return distance.signedDistance(s.centre) + s.radius;
 }
@@ -43,7 +43,7 @@ double needed(const std::vector<CoverPiece>& pieces, const std::vector<uint32_t>
     return radius;
 }
 
-// Moves the centre where the sphere that holds its share stands out least: a pattern search.
+// Pattern search for the centre at which the sphere that contains its part protrudes least.
 Sphere fitOne(const Fitting& f, const std::vector<uint32_t>& share, const Sphere& start) {
     dvec3 centre = start.centre;
     double radius = needed(f.pieces, share, centre);
@@ -55,7 +55,7 @@ Sphere fitOne(const Fitting& f, const std::vector<uint32_t>& share, const Sphere
             dvec3 next = centre;
             next[way / 2] += way % 2 == 0 ? step : -step;
             const double r = needed(f.pieces, share, next);
-            if (r - step >= best + radius) { // deeper by at most the step
+            if (r - step >= best + radius) { // a step changes the depth by at most its length
                 continue;
             }
             const double out = f.distance.signedDistance(next) + r;
@@ -71,7 +71,7 @@ Sphere fitOne(const Fitting& f, const std::vector<uint32_t>& share, const Sphere
     return {centre, radius};
 }
 
-// Each piece goes to the sphere that would stand out least if it had to hold it.
+// Assigns each piece to the sphere that would protrude least when it contains the piece.
 std::vector<std::vector<uint32_t>> sharesOf(const Fitting& f, const std::vector<Sphere>& spheres) {
     std::vector<std::vector<uint32_t>> shares(spheres.size());
     std::vector<double> depth;
@@ -95,14 +95,14 @@ std::vector<std::vector<uint32_t>> sharesOf(const Fitting& f, const std::vector<
     return shares;
 }
 
-// Fits all spheres to their shares; those without a share go.
+// Fits every sphere to its part; spheres without a part are removed.
 std::vector<Sphere> fitAll(const Fitting& f, const std::vector<Sphere>& spheres) {
     const auto shares = sharesOf(f, spheres);
     std::vector<Sphere> fitted;
     for (size_t i = 0; i < spheres.size(); ++i) {
         if (!shares[i].empty()) {
             Sphere s = fitOne(f, shares[i], spheres[i]);
-            s.radius *= 1.0 + 1e-12; // the answer must hold its share whatever was rounded
+            s.radius *= 1.0 + 1e-12; // the sphere must contain its part despite rounding
             fitted.push_back(s);
         }
     }
@@ -218,7 +218,7 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
         cover.spheres = coverWithin(f, options.leaves, options.effort);
         const double reached = worst(f, cover.spheres);
         const double finer = std::max(0.6 * reached, edgeFor(mesh, 6.0 * kPieces));
-        if (finer < 0.7 * edge) { // many leaves: pieces as large as the spheres themselves waste them
+        if (finer < 0.7 * edge) { // with many leaves, pieces as large as the spheres would waste them
             Fitting again = makeFitting(mesh, distance, finer);
             f.pieces = std::move(again.pieces);
             f.groups = std::move(again.groups);

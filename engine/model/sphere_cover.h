@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Few spheres that contain a mesh and stand out of it as little as possible: greedy set cover of the surface
+// Covers a mesh with few spheres that protrude as little as possible: greedy set cover of the surface
 // by inner spheres grown by the allowed protrusion, then each sphere fitted to its share. The surface is cut
 // into triangles small enough to lie in one sphere each; a ball is convex, so three corners inside prove a
 // triangle inside, and all of them prove the surface inside.
@@ -12,14 +12,14 @@
 
 namespace fathom {
 
-// How many spheres, or how near they lie.
+// Either the number of spheres or the allowed protrusion.
 struct CoverOptions {
-    uint32_t leaves = 128;   // at most; not looked at when protrusion > 0
-    double protrusion = 0.0; // [m] allowed; > 0: as few spheres as that takes
-    uint32_t effort = 2;     // rounds of fitting and covering anew, 0..8
+    uint32_t leaves = 128;   // at most; ignored when protrusion > 0
+    double protrusion = 0.0; // [m] allowed; > 0 = as few spheres as possible
+    uint32_t effort = 2;     // rounds of refitting, 0..8
 };
 
-// Spheres that contain the mesh, and how far they stand out of it.
+// Spheres that contain the mesh, and their protrusion.
 struct Cover {
     std::vector<Sphere> spheres;
     // [m] proven: no point of any sphere is farther than this from the mesh (outside of a solid; from its
@@ -30,7 +30,7 @@ struct Cover {
 
 inline constexpr uint32_t kMostCoverSpheres = 4096; // as many leaves as a tool may have
 
-// A solid mesh has its inside covered too, by cells. Deterministic. Throws Error when more than
+// The interior of a solid mesh is covered as well, by cells. Deterministic. Throws Error when more than
 // kMostCoverSpheres would be needed, or `protrusion` is too small for two million pieces.
 Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const CoverOptions& options);
 

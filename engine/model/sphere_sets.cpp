@@ -15,9 +15,10 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kLargestSet = 1u << 20; // 15 000 spheres; real sets have 50 kB, a byte can become 250
+constexpr size_t kLargestSet =
+    1u << 20; // 15 000 spheres; real sets have 50 kB, and the parser needs up to 250 bytes per byte
 constexpr size_t kShownNames = 1000;
-constexpr size_t kMostSpheres = 65536; // of all links: one list can be named for each of them
+constexpr size_t kMostSpheres = 65536; // over all links: an alias can repeat one list for each link
 
 std::string lineOf(const YAML::Node& node) {
     return "line " + std::to_string(node.Mark().line + 1);
@@ -42,7 +43,7 @@ Sphere sphereOf(const std::string& file, const YAML::Node& entry) {
             number(file, radius)};
 }
 
-// `levels` is as deep as cuRobo's files are: an alias may name the table that it is in.
+// `levels` bounds the depth as in cuRobo's files: an alias may refer to its own table.
 YAML::Node sectionOf(const YAML::Node& root, int levels = 3) {
     if (levels == 0 || !root.IsMap()) {
         return {};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Flat sets of spheres that other programs write, link by link: spherized URDF (foam, VAMP) and cuRobo YAML.
+// Flat sphere sets per link, as other programs write them: spherized URDF (foam, VAMP) and cuRobo YAML.
 #pragma once
 
 #include "engine/types/sphere_tree.h"
@@ -16,17 +16,17 @@ struct LinkSpheres {
     std::vector<Sphere> spheres; // link frame [m]
 };
 
-// Every <collision><geometry><sphere>, at its <origin>; other geometry is not looked at. Links without
-// spheres are left out; the order is the file's names'. Throws BadInput.
+// Every <collision><geometry><sphere>, at its <origin>; other geometry is ignored. Links without spheres are
+// skipped; the order is that of the link names. Throws BadInput.
 std::vector<LinkSpheres> readSpherizedUrdf(const std::filesystem::path& file);
 
 // `collision_spheres: {LINK: [{center: [x, y, z], radius: r}]}`, at the top or under robot_cfg / kinematics;
-// links in the file's order. Entries with radius <= 0 are cuRobo's way to switch a sphere off and are left
-// out. Throws BadInput with the line.
+// links in the file's order. Entries with radius <= 0 are skipped: cuRobo disables spheres that way. Throws
+// BadInput with the line.
 std::vector<LinkSpheres> readCuroboYaml(const std::filesystem::path& file);
 
-// A tree from any kind: .sph as it is; .urdf and .yaml/.yml grouped top-down, of the link named (may be empty
-// when the file has one link with spheres). Throws BadInput, which lists the links there are.
+// Loads any kind: .sph as it is; .urdf and .yaml/.yml as a top-down tree of the named link (may be empty when
+// only one link has spheres). Throws BadInput that lists the available links.
 SphereTree readSphereTree(const std::filesystem::path& file, const std::string& link = "");
 
 } // namespace fathom

@@ -77,7 +77,7 @@ void dropFaces(TriangleMesh& mesh, MeshFacts& facts) {
     mesh.triangles = std::move(kept);
 }
 
-// Neighbours over an edge of two faces must run it opposite ways.
+// Two faces that share an edge must traverse it in opposite directions.
 void turnPart(TriangleMesh& mesh, const Faces& faces, uint32_t seed, std::vector<int8_t>& turned,
               std::vector<uint32_t>& part) {
     turned[seed] = 0;

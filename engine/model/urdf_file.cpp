@@ -17,9 +17,9 @@ namespace fathom {
 namespace {
 
 constexpr size_t kLargestUrdf = 16u << 20;
-constexpr size_t kMostLinks = 1000; // whoever walks down from the root calls itself for each
+constexpr size_t kMostLinks = 1000; // traversals from the root are recursive
 
-// Takes what the parser would print, so that it becomes part of one line of ours.
+// Captures the parser's message for use in Fathom's own error line.
 class Listener : public console_bridge::OutputHandler {
 public:
     Listener()
@@ -41,8 +41,8 @@ private:
     std::string first_;
 };
 
-// The parser asks for one root only: links that are in a loop of joints hang below none, and hold each other
-// for ever.
+// The parser requires only one root: links in a loop of joints have no root above them and would never be
+// freed.
 void checkLinks(const urdf::ModelInterface& model, const std::string& file) {
     if (model.links_.size() > kMostLinks) {
         throw BadInput(file, "robot", std::to_string(model.links_.size()) + " links",
@@ -81,8 +81,8 @@ std::shared_ptr<const urdf::ModelInterface> parse(const std::filesystem::path& f
     return model;
 }
 
-// The parser calls itself for what is nested, and so does the model's end for links below links: tens of
-// thousands end the stack. What a process of its own survives, from making to end, this one survives, too.
+// The parser and the model's destructor are recursive, so tens of thousands of nested links overflow the
+// stack. A file that a child process survives from parsing to destruction is safe here.
 void tryOut(const std::filesystem::path& file, const std::string& text) {
     std::string fault;
     const auto read = [&](int pipe) {

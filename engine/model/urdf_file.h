@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Opens URDF files; its names are urdfdom's.
+// Parses URDF files with urdfdom.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -10,10 +10,10 @@
 
 namespace fathom {
 
-// Never null. Throws BadInput with what the parser said.
+// Never null. Throws BadInput with the parser's message.
 std::shared_ptr<const urdf::ModelInterface> readUrdf(const std::filesystem::path& file);
 
-// The same pose in this project's type [m], the quaternion of unit length.
+// Converts a pose [m]; the quaternion is normalised.
 Pose poseOf(const urdf::Pose& pose);
 
 } // namespace fathom

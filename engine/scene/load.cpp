@@ -46,7 +46,7 @@ Scene loadScene(const std::filesystem::path& file) {
     }
     loadFixtures(root.at("fixtures"), scene);
     const auto arm = root.find("arm"), tool = root.find("tool");
-    if (tool || !arm) { // an arm is a tool already
+    if (tool || !arm) { // an arm needs no extra tool
         loadTool(root.at("tool"), scene);
     }
     if (const auto hand = root.find("hand")) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sections of a scene file, one function each. Every one throws BadInput at the first value that is not
-// allowed.
+// The sections of a scene file, one function each. Each throws BadInput at the first invalid value.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -21,17 +20,17 @@ void loadPilots(const YamlNode& pilots, Scene& scene); // after hand and haptics
 void loadWindow(const YamlNode& window, Scene& scene);
 void loadContact(const YamlNode& contact, Scene& scene);
 
-// Stiffness and limits: what a pilot may have otherwise. The caller has checked the keys.
+// Stiffness and limits, which a pilot may override. The caller has checked the keys.
 void loadFeel(const YamlNode& node, Scene::Haptics& haptics);
 
 // {xyz, quat_xyzw}, each optional.
 Pose loadPose(const YamlNode& node);
 
-// 0 or one bit of the hand's buttons that nothing else has (1 guidance, 2 dead-man open).
+// 0 or one button bit that is not in use (1 guidance, 2 dead-man open).
 uint32_t loadButtonBit(const YamlNode& node);
 
-// As given when absolute, else taken from the scene file's folder. Notes a path that leads out of it, by its
-// words or by a link, in Scene::outside.
+// Absolute paths as given, others relative to the scene file's folder. A path that leaves that folder, by
+// `..` or by a link, is added to Scene::outside.
 std::filesystem::path besideScene(Scene& scene, const std::string& path);
 
 } // namespace fathom

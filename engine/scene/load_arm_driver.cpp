@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Section `arm.driver` of a scene file: how a real arm is spoken to.
+// Section `arm.driver` of a scene file: the connection to a real arm.
 #include "engine/scene/load.h"
 
 #include <algorithm>

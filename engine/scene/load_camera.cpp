@@ -64,7 +64,7 @@ void loadDepthRange(const YamlNode& camera, Scene& scene) {
     if (scene.nearZ < scene.farZ) {
         return;
     }
-    // Only one of the two may be in the file: blame one that is.
+    // The file may contain only one of the two: report that one.
     if (nearZ) {
         nearZ->refuse("a number below camera.far = " + std::to_string(scene.farZ));
     }

@@ -49,7 +49,7 @@ void loadPoints(const YamlNode& row, FixtureClass& fixture) {
     fixture.saturation = loadBand(row, "saturation", share, false);
     fixture.lightness = loadBand(row, "lightness", share, false);
     fixture.range = loadBand(row, "range", Range::notNegative(), false);
-    if (const auto intensity = row.find("intensity")) { // what has no colour shows its echoes as grey
+    if (const auto intensity = row.find("intensity")) { // sensors without colour deliver intensity as grey
         if (fixture.lightness) {
             intensity->refuse("in place of lightness, not beside it");
         }
@@ -78,7 +78,7 @@ void loadPoints(const YamlNode& row, FixtureClass& fixture) {
     }
 }
 
-// How many components of `size` mean something; they must be positive, the rest is not used.
+// Number of components of `size` in use; these must be positive.
 size_t usedSizes(ShapeKind shape) {
     switch (shape) {
     case ShapeKind::Sphere:
@@ -108,7 +108,7 @@ void loadShape(const YamlNode& row, FixtureClass& fixture) {
     }
 }
 
-// A key of the other kind of row would be ignored without a word.
+// Reject keys of the other kind of row, which would be ignored silently.
 void refuseKeys(const YamlNode& row, std::span<const std::string_view> keys, const std::string& allowed) {
     for (std::string_view key : keys) {
         if (const auto node = row.find(key)) {

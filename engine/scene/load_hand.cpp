@@ -52,7 +52,7 @@ void loadHandLoop(const YamlNode& node, HandLoop& loop) {
 
 uint32_t loadButtonBit(const YamlNode& node) {
     const uint32_t bit = node.integer(0, 1u << 31);
-    // 1 and 2 are taken: guidance and dead-man open.
+    // 1 and 2 are in use: guidance and dead-man open.
     if (bit == 1 || bit == 2 || (bit & (bit - 1)) != 0) {
         node.refuse("0 (none) or one bit of the buttons: 4, 8, 16, ...");
     }

@@ -6,7 +6,7 @@ namespace fathom {
 
 namespace {
 
-// A number, or the word that stands for "let the program choose".
+// A number, or `auto`.
 std::optional<double> loadUnless(const YamlNode& node, std::string_view word, const Range& range) {
     if (node.is(word)) {
         return std::nullopt;

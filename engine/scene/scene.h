@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the user asked for: the scene file as plain values, checked. loadScene() fills it; nothing changes it
-// after.
+// The scene file as checked, plain values. loadScene() fills it; it is constant afterwards.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -23,7 +22,7 @@ struct Box { // base frame [m], inclusive
     dvec3 min{0.0}, max{0.0};
 };
 
-// What a row of fixtures does: push the tool back, or pull it home.
+// Role of a fixture: push the tool back, or pull it to a target.
 enum class Role { Forbidden, Guidance };
 
 // Kinds of authored shapes; None: a class of points.
@@ -33,23 +32,24 @@ enum class ShapeKind { None, Sphere, Box, Plane, Cylinder, Line, Axis };
 struct FixtureClass {
     std::string name;
     Role role = Role::Forbidden;
-    // Points: which pixels belong. A missing gate takes everything.
+    // Points: gates that select pixels. A missing gate accepts everything.
     std::optional<Band> hue;        // [degree] 0..360; a grey pixel has none and fails this gate
     std::optional<Band> saturation; // 0..1
     std::optional<Band> lightness;  // 0..1
     std::optional<Box> box;
     std::optional<Band> range; // [m] from the camera to the point
-    double radius = 0.04;      // [m] of the sphere round each forbidden point, before 3 registration sigma
+    double radius =
+        0.04; // [m] radius of the sphere at each forbidden point; 3 sigma of the registration are added
     // Guidance.
     double standoff = 0.0;                 // [m] target = position + standoff x normal
-    dquat orientation{1.0, 0.0, 0.0, 0.0}; // base_q_tool when the points are no plane
+    dquat orientation{1.0, 0.0, 0.0, 0.0}; // base_q_tool when the points are not planar
     uint32_t minCount = 50;                // fewer points: no target
     bool largestPart = false;              // only the largest connected part of the class
-    double trim = 0.0;                     // share of the farthest points left out of the mean, 0..0.5
+    double trim = 0.0;                     // fraction of the farthest points excluded from the mean, 0..0.5
     // Shapes.
     ShapeKind shape = ShapeKind::None;
     bool keepIn = false; // role keep_in: stay inside the shape
-    // Points: stay where they were when this was set, for as long as a run goes on (no key of a file).
+    // Points: frozen where they were when this was set, until the run ends (not a scene key).
     bool frozen = false;
     Pose baseTshape;
     dvec3 size{0.0}; // [m] box: edge lengths; sphere: x = radius; cylinder: x = radius, y = length
@@ -58,13 +58,13 @@ struct FixtureClass {
     bool isPoints() const { return shape == ShapeKind::None; }
 };
 
-// Where pictures come from.
+// Source of the frames.
 struct CameraSource {
     enum class Kind { Simulated, Recorded, V4l2 } kind = Kind::Simulated;
     std::string value = "tank"; // simulated: scene name; recorded: folder; v4l2: device
-    uint32_t images = 0;        // of a simulated camera; 0 = as many as it has by itself
+    uint32_t images = 0;        // frames of a simulated camera; 0 = its default
     bool showsArm = false;      // a simulated camera draws the scene's arm, in lockstep
-    bool yuyv = false;          // a simulated camera sends its colour as a USB camera does
+    bool yuyv = false;          // a simulated camera delivers colour as YUYV, like USB cameras
 };
 
 struct HandLoop {             // the simulated hand that closes the loop (--hand)
@@ -73,49 +73,49 @@ struct HandLoop {             // the simulated hand that closes the loop (--hand
     double stiffness = 300.0; // [N/m] of the spring to the intended path
 };
 
-// `arm:`, as it is written; names of joints and links are looked up where the URDF is read.
+// Section `arm:` as written; names of joints and links are resolved when the URDF is read.
 struct SceneArm {
-    std::filesystem::path urdf, meshes; // meshes: what package:// stands for; empty = about the URDF
+    std::filesystem::path urdf, meshes; // meshes: root of package:// paths; empty = near the URDF
     Pose baseTarm;                      // of the arm's base link
-    std::string base, tip;              // links; empty = the root, the end of the longest chain
+    std::string base, tip;              // links; empty = the root and the end of the longest chain
     uint32_t leaves = 24;               // of each box, cylinder or mesh of the URDF
-    struct Joint {                      // what differs from the URDF
+    struct Joint {                      // overrides of the URDF
         std::string name;
         std::optional<double> lower, upper; // [rad], [m]
         std::optional<double> speed;        // [rad/s], [m/s]
         std::optional<double> start;        // [rad], [m]; else 0, or the nearest limit
     };
     std::vector<Joint> joints;
-    bool freeDirection = false; // the hand's direction means nothing: too few joints, or a hand without one
-    std::optional<double>
-        selfFilter; // [m] by which the links' spheres grow; empty = the arm stays in the cloud
-    // A joint of the jaws.
+    bool freeDirection =
+        false; // the hand's orientation is ignored: too few joints, or a device without orientation
+    std::optional<double> selfFilter; // [m] padding of the links' spheres; empty = no self-filter
+    // A gripper joint.
     struct Finger {
         std::string joint;
         std::optional<double> open, closed; // [rad], [m]; else the URDF's lower and upper limit
     };
-    // How the jaws close.
+    // How the gripper closes.
     struct Grasp {
         std::vector<Finger> fingers;
         uint32_t button = 8;  // bit of the hand's buttons: closes while it is down
         double seconds = 1.0; // from open to closed
     } grasp;
-    struct Driver { // the real arm; it moves only where a command is given its serial line
+    struct Driver { // the real arm; it moves only when a command names its serial port
         enum class Protocol { ReachAlpha5, Eca5e } protocol = Protocol::ReachAlpha5;
         uint32_t baud = 115200;
-        bool rs485 = false; // the kernel is asked to switch the direction
+        bool rs485 = false; // the kernel switches the transmit direction
         struct Axis {       // q = zero + sign * what the axis reads
             std::string axis, joint;
             double sign = 1.0; // 1 or -1
-            double zero = 0.0; // [rad] the joint where the axis reads 0; of an ECA at its clockwise stop
+            double zero = 0.0; // [rad] joint value at axis reading 0; for an ECA, at its clockwise stop
         };
         std::vector<Axis> axes; // each joint of the chain once
-        struct Jaws {           // what the axis of the jaws reads: [m] of a Reach, [rad] of an ECA
+        struct Jaws {           // readings of the gripper axis: [m] for a Reach, [rad] for an ECA
             double open = 0.0, closed = 0.0;
         };
-        std::optional<Jaws> jaws; // empty = they are left alone
+        std::optional<Jaws> jaws; // empty = the gripper is not driven
         std::optional<double>
-            current; // of any motor, longer than a moment: held. [A]; of an ECA its raw byte
+            current; // sustained motor current above which the arm is held [A]; for an ECA the raw byte
     };
     std::optional<Driver> driver;
 };
@@ -123,7 +123,7 @@ struct SceneArm {
 struct Scene {
     std::filesystem::path file; // where it was read, for messages and relative paths; empty = built in
 
-    std::vector<std::string> outside; // paths, as written, that lead out of the file's folder: for a warning
+    std::vector<std::string> outside; // paths, as written, that leave the file's folder, for a warning
 
     CameraSource source;
     double nearZ = 0.1, farZ = 3.0; // [m] along the optical axis, inclusive
@@ -135,10 +135,10 @@ struct Scene {
         double index = 1.34;   // sea water
     };
     // [1/m] of linear light along the ray from point to lens: red, green, blue (Beer and Lambert). Colours
-    // are put right by it before any gate looks at them; empty = taken as they are.
+    // are corrected before the gates; empty = no correction.
     std::optional<dvec3> attenuation;
     std::optional<Port> port;               // the camera looks through a flat port, calibrated in air
-    struct Beam {                           // in place of what the sensor tells of itself, BeamSigma
+    struct Beam {                           // replaces the sensor's own BeamSigma
         double range = 0.0, perMetre = 0.0; // [m], [m/m]
         double width = 0.0;                 // [rad]
     };
@@ -157,16 +157,16 @@ struct Scene {
 
     std::vector<FixtureClass> fixtures;
 
-    // What the tool's spheres are.
+    // The spheres of the tool.
     struct ToolSource {
         std::vector<std::array<double, 4>> spheres; // tool frame x y z r [m]
         std::filesystem::path file;                 // .sph; empty when spheres are listed
-        bool given() const { return !spheres.empty() || !file.empty(); } // not, only on an arm
+        bool given() const { return !spheres.empty() || !file.empty(); } // may be false with an arm only
     } tool;
 
     std::optional<SceneArm> arm; // carries the tool; empty = the tool moves freely
 
-    // How the hand moves, or the simulated one does, and how it is mapped to the tool.
+    // The hand's path, the simulated hand, and the map from hand to tool.
     struct Hand {
         std::string path = "approach"; // built-in name or CSV file
         bool builtIn = true;
@@ -176,42 +176,42 @@ struct Scene {
         HandLoop loop;
     } hand;
 
-    // The haptic turn.
+    // The haptic loop.
     struct Haptics {
-        double rateHz = 1000.0;                    // [1/s] turns
+        double rateHz = 1000.0;                    // [Hz] ticks
         std::string device = "ideal";              // preset name
         std::optional<double> stiffness;           // [N/m]; empty = auto
         std::optional<double> rotationalStiffness; // [N m/rad]; empty = auto
         enum class GuidanceMode { Target, Paper } guidance = GuidanceMode::Target;
-        double stepCap = 0.002;                        // [m] of leaf travel a solve
-        uint32_t solves = 4;                           // most solves a turn
+        double stepCap = 0.002;                        // [m] leaf travel per solve
+        uint32_t solves = 4;                           // solves per tick, at most
         std::optional<double> forceLimit, torqueLimit; // [N], [N m]; empty = the preset's
         double slewForce = 2000.0;                     // [N/s]
         double slewTorque = 50.0;                      // [N m/s]
         double lowpassHz = 0.0;                        // 0 = off
-        uint32_t delay = 0;                            // whole turns from a wrench to the hand
-        double pullForce = 2.0, pullTorque = 0.1;      // [N], [N m] most that guidance is felt as
+        uint32_t delay = 0;                            // whole ticks from a wrench to the hand
+        double pullForce = 2.0, pullTorque = 0.1;      // [N], [N m] largest guidance pull
     } haptics;
 
-    // What a pilot wants to have otherwise: the scene's own haptics and scale with some things changed.
+    // A pilot's profile: the scene's haptics and scale with overrides.
     struct Pilot {
         std::string name;
         Haptics haptics;
-        double scale = 1.0; // of the hand's map
+        double scale = 1.0; // scale of the hand map
     };
     std::vector<Pilot> pilots;
-    std::string pilot; // in force: name of one of them; empty = there are none
-    // Puts that one's haptics and scale in force; false when there is none of that name.
+    std::string pilot; // name of the active one; empty = none
+    // Activates that pilot's haptics and scale; false when the name is unknown.
     bool choosePilot(const std::string& name);
 
     struct Window { // the operator's
         double textScale = 1.0;
         bool spaceIsLarge = false;                       // the 3D view is the large one
-        double yaw = 0.55, pitch = 0.45, distance = 1.3; // [rad], [m] of the eye in it
+        double yaw = 0.55, pitch = 0.45, distance = 1.3; // [rad], [m] viewpoint of the 3D view
     };
     std::optional<Window> window;
 
-    // Where contact queries are answered, and how far they look.
+    // Where contact queries run, and their reach.
     struct Contact {
         enum class Where { Auto, Cpu, Gpu } where = Where::Auto;
         double reach = 0.01; // [m]

@@ -16,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostBytes = 1u << 20; // a scene has a few kB; a byte of it can become 250
+constexpr size_t kMostBytes = 1u << 20; // a scene has a few kB; the parser needs up to 250 bytes per byte
 constexpr size_t kShownCharacters = 80;
 
 std::string join(std::span<const std::string_view> words) {
@@ -31,7 +31,7 @@ bool isQuoted(const YAML::Node& node) {
     return node.Tag() == "!"; // yaml-cpp's tag of a scalar in quotes; a plain one has "?"
 }
 
-// Learns where each document begins, and nothing else.
+// Records where each document begins.
 class DocumentStarts : public YAML::EventHandler {
 public:
     int last = 0; // line, from 0
@@ -49,8 +49,8 @@ public:
     void OnMapEnd() override {}
 };
 
-// YAML::LoadAll takes memory without end for a text whose first document is followed by what begins none, as
-// a comma: it is no further after each document than before.
+// YAML::LoadAll allocates without bound when the first document is followed by text that starts none, such as
+// a comma, because the parser makes no progress.
 YAML::Node onlyDocument(const std::filesystem::path& file, const std::string& text) {
     std::istringstream stream(text);
     YAML::Parser parser(stream);
@@ -160,7 +160,7 @@ double YamlNode::number(const Range& range, const std::string& orElse) const {
     bool good = node_.IsScalar() && !isQuoted(node_);
     if (good) {
         std::string_view digits = node_.Scalar();
-        digits.remove_prefix(digits.starts_with('+') ? 1 : 0); // YAML has it, from_chars has not
+        digits.remove_prefix(digits.starts_with('+') ? 1 : 0); // valid in YAML, rejected by from_chars
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), x);
         good = error == std::errc{} && end == digits.data() + digits.size() && std::isfinite(x);
     }
@@ -210,7 +210,7 @@ dquat YamlNode::quatXyzw() const {
     if (!(largest > 1e-300)) {
         refuse("a quaternion x y z w of non-zero length");
     }
-    // Divided first: squares of huge or tiny numbers would leave the range of a double.
+    // Scale first: squares of huge or tiny numbers would overflow or underflow.
     return glm::normalize(dquat(q[3] / largest, q[0] / largest, q[1] / largest, q[2] / largest));
 }
 
@@ -227,7 +227,7 @@ std::string YamlNode::value() const {
         return node_.Scalar().empty() ? "empty text" : excerpt(node_.Scalar());
     }
     if (node_.IsSequence()) {
-        // Never emitted as a whole: an alias inside its own anchor would have no end.
+        // Never emit the whole node: an alias inside its own anchor would recurse forever.
         std::string all = "[";
         for (const YAML::Node& item : node_) {
             all += (all.size() == 1 ? "" : ", ") + (item.IsScalar() ? item.Scalar() : std::string("..."));

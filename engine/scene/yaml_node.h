@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A node of the scene file that knows its dotted path and checks every value it hands out.
+// A node of the scene file with its dotted path; every value is checked on access.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -18,7 +18,7 @@
 
 namespace fathom {
 
-// Which numbers are allowed: lo <= x <= hi, or lo < x <= hi when loExcluded. Always finite.
+// Range of allowed numbers: lo <= x <= hi, or lo < x <= hi when loExcluded. Always finite.
 struct Range {
     double lo = -std::numeric_limits<double>::infinity();
     double hi = std::numeric_limits<double>::infinity();
@@ -40,17 +40,17 @@ public:
     // The one document of a file of at most 1 MiB. Broken syntax is named with its line.
     static YamlNode parseFile(const std::filesystem::path& file);
 
-    // Mappings. checkKeys refuses what is no mapping, a key that is not known (with the nearest known key as
-    // a suggestion) and a key given twice; call it before find() or at().
+    // Mappings. checkKeys() rejects a node that is not a mapping, an unknown key (and suggests the nearest
+    // known one) and a duplicate key. Call it before find() or at().
     void checkKeys(std::initializer_list<std::string_view> known) const;
     std::optional<YamlNode> find(std::string_view key) const;
-    YamlNode at(std::string_view key) const; // refuses when the key is missing
+    YamlNode at(std::string_view key) const; // throws when the key is missing
 
     // Lists of any length or of exactly n.
     std::vector<YamlNode> list() const;
     std::vector<YamlNode> list(size_t n) const;
 
-    // Scalars. Numbers and booleans in quotes are text and refused.
+    // Scalars. Quoted numbers and booleans are text and are rejected.
     bool is(std::string_view word) const; // a scalar that reads exactly so
     std::string text() const;             // not empty
     bool boolean() const;                 // true or false
@@ -58,7 +58,7 @@ public:
                   const std::string& orElse = "") const; // orElse: "auto or ", for the message
     uint32_t integer(uint32_t lo, uint32_t hi) const;
 
-    // Index into words of the one that the scalar is; refuses others with the nearest as a suggestion.
+    // Index of the scalar in `words`; rejects others and suggests the nearest.
     size_t oneOf(std::span<const std::string_view> words) const;
     template <class T>
     T choice(std::initializer_list<std::pair<std::string_view, T>> words) const;
@@ -70,7 +70,7 @@ public:
     [[noreturn]] void refuse(const std::string& value, const std::string& allowed) const;
 
     const std::string& path() const { return path_; }
-    std::string value() const; // as it is shown in messages
+    std::string value() const; // as shown in messages
 
 private:
     YamlNode(const YAML::Node& node, std::string file, std::string path);

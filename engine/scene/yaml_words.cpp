@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The words of the messages: nearest known key, ranges in English, choices.
+// Text of the messages: nearest known key, ranges in English, choices.
 #include "engine/scene/yaml_node.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ std::string shortNumber(double x) {
     return text;
 }
 
-// Optimal string alignment distance: one typing slip (a letter more, less, other, or two swapped) costs 1.
+// Optimal string alignment distance: one typing error (insertion, deletion, substitution or swap) costs 1.
 size_t editDistance(std::string_view a, std::string_view b) {
     const size_t width = b.size() + 1;
     std::vector<size_t> d((a.size() + 1) * width);
