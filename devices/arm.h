@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an arm's driver gives and takes, whatever is on the line.
+// The interface of arm drivers, independent of the protocol on the line.
 #pragma once
 
 #include <array>
@@ -8,35 +8,35 @@
 
 namespace fathom {
 
-inline constexpr size_t kMostArmAxes = 8; // joints of the chain, then the grasp
+inline constexpr size_t kMostArmAxes = 8; // chain joints, then the grasp
 
-// What an arm's driver is to do next.
+// The next command for an arm's driver.
 struct ArmCommand {
-    std::array<double, kMostArmAxes> position{}; // [rad], [m]; of the axes in the driver's order
-    bool hold = true;                            // stand still, whatever the positions say
+    std::array<double, kMostArmAxes> position{}; // [rad] or [m], axes in the driver's order
+    bool hold = true;                            // stop and hold; positions are ignored
 };
 
-// What is known of the arm: measured, not asked for.
+// Measured state of the arm.
 struct ArmFeedback {
-    std::array<double, kMostArmAxes> position{}; // [rad], [m]; of the last good answer of each axis
+    std::array<double, kMostArmAxes> position{}; // [rad] or [m], last valid reading of each axis
     std::array<double, kMostArmAxes> current{};  // [A]
-    double age = 0.0;                            // [s] of the oldest axis; infinite before all have answered
-    bool homed = false;                          // positions mean something
-    bool holding = true; // the driver holds: it was told to, feedback is stale, a motor draws too much
+    double age = 0.0;    // [s] age of the oldest reading; infinite until every axis has answered
+    bool homed = false;  // positions are absolute
+    bool holding = true; // the driver holds: on command, stale feedback or overcurrent
     bool stale = true;
     bool overloaded = false; // latched until reset
-    uint64_t damaged = 0;    // frames dropped
+    uint64_t damaged = 0;    // damaged frames, dropped
 };
 
 // One thread, paced by the caller. Never blocks.
 class ArmDevice {
 public:
     virtual ~ArmDevice() = default;
-    // Reads what came, then sends the next commands. now [s]: any monotonic clock. noexcept: a line that is
-    // gone shows as feedback that ages.
+    // Reads pending input, then sends the next commands. now [s]: any monotonic clock. noexcept: after the
+    // line is lost, the feedback only ages.
     virtual void step(double now, const ArmCommand& command) noexcept = 0;
     virtual const ArmFeedback& feedback() const noexcept = 0;
-    // Lets an overloaded arm move again.
+    // Clears a latched overload.
     virtual void reset() noexcept = 0;
 };
 

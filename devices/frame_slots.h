@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera memory for frames in flight: page-aligned, page-padded slots that come back through an atomic flag.
+// Camera memory for frames in flight: page-aligned, page-padded slots that are released through an atomic
+// flag.
 #pragma once
 
 #include "engine/types/frame.h"
@@ -26,15 +27,15 @@ public:
         return {static_cast<uint32_t*>(colour_.get()), colour_ ? pixels_ : 0u};
     }
 
-    // Hands the memory back to its camera; any thread, wait-free.
+    // Returns the memory to its camera; any thread, wait-free.
     void release() noexcept { taken_.store(false, std::memory_order_release); }
-    // A lease on this slot's memory; the slots must outlive it. Where the content's depth and colour lie here
-    // it says so, and a device may read them in place.
+    // A lease on this slot's memory; the slots must outlive it. When the content's depth and colour are in
+    // this memory, the frame says so and a device may read them in place.
     Frame lend(Frame::Content content) {
         name(content);
         return Frame(content, [this] { release(); });
     }
-    // The same for who gives back more than the slot.
+    // The same for owners that release more than the slot.
     void name(Frame::Content& content) const noexcept {
         if (content.depth.data() == depth_.get()) {
             content.depthMemory = depth_;
@@ -56,7 +57,7 @@ class FrameSlots {
 public:
     FrameSlots(uint32_t pixels, bool colour, uint32_t count);
 
-    // A free slot, now taken, the next in turn; nullptr when all are in flight. Never waits.
+    // Takes the next free slot; nullptr when all are in flight. Never waits.
     FrameSlot* acquire() noexcept;
 
     size_t size() const { return slots_.size(); }

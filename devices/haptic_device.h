@@ -15,7 +15,7 @@ struct HandSample {
     uint32_t buttons = 0; // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
 };
 
-// Called by the haptic thread only, once a turn: read, then write. Never allocates, locks, throws or waits
+// Called only by the haptic thread, once per tick: read, then write. Never allocates, locks, throws or waits
 // longer than the device's own exchange.
 class HapticDevice {
 public:

@@ -16,7 +16,7 @@
 
 namespace fathom {
 
-// The layout is a contract with programs built elsewhere.
+// The layout is an ABI contract with bridges of other authors.
 static_assert(sizeof(fathom_door_header) == 32);
 static_assert(sizeof(fathom_door_hand) == 152);
 static_assert(sizeof(fathom_door_wrench) == 96);
@@ -48,7 +48,7 @@ int newSocket() noexcept {
 
 const char* const kPathAllowed = "a path of 1 to 107 characters";
 
-// Nobody listens at a file that is left: it may be replaced.
+// A stale socket file without a listener may be replaced.
 void clearStale(const std::filesystem::path& path) {
     struct stat status {};
     if (::lstat(path.c_str(), &status) != 0) {
@@ -160,7 +160,7 @@ DeviceSocket DeviceSocket::listen(const std::filesystem::path& path, int backlog
     }
     clearStale(path);
     DeviceSocket endpoint(newSocket());
-    // Nobody can connect between bind and listen, so that the permission holds from the start.
+    // No client can connect between bind and listen, so the permission applies from the start.
     if (!endpoint.open() ||
         ::bind(endpoint.descriptor_, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
         ::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(endpoint.descriptor_, backlog) != 0) {
@@ -183,7 +183,7 @@ SocketEvent DeviceSocket::sendBytes(const void* data, size_t size) noexcept {
     return errno == EAGAIN || errno == EINTR || errno == ENOBUFS ? SocketEvent::Empty : SocketEvent::Closed;
 }
 
-// MSG_TRUNC makes recv tell the packet's own length, so that one that is too long is seen.
+// MSG_TRUNC makes recv return the full packet length, which reveals packets that are too long.
 SocketEvent DeviceSocket::receiveBytes(void* data, size_t size, size_t& got) noexcept {
     if (!open()) {
         return SocketEvent::Closed;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One end of a door (fathom_door.h): an owned AF_UNIX SOCK_SEQPACKET descriptor that sends and receives whole
-// packets and never waits.
+// One end of a device socket (fathom_door.h): owns an AF_UNIX SOCK_SEQPACKET descriptor, sends and receives
+// whole packets, never blocks.
 #pragma once
 
 #include "devices/bridge/fathom_door.h"
@@ -18,15 +18,15 @@ uint64_t socketClock() noexcept;
 // Result of one send or receive.
 enum class SocketEvent {
     Packet, // done
-    Empty,  // nothing there, or no room: try again later
-    Closed, // the other end is gone
-    Bad,    // a packet of another size, magic, version or kind: the connection is to be dropped
+    Empty,  // no packet, or the queue is full: try again later
+    Closed, // the peer has closed
+    Bad,    // wrong size, magic, version or kind: drop the connection
 };
 
-// What is wrong with a received packet, in words for one line; empty when nothing. `got` bytes arrived.
+// Describes the fault of a received packet of `got` bytes in one line; empty when it is valid.
 std::string socketFault(const fathom_door_header& header, size_t got, uint16_t kind, size_t size);
 
-// Move-only. All but connect() and listen() are noexcept, without waiting and allocation.
+// Move-only. All members but connect() and listen() are noexcept and neither block nor allocate.
 class DeviceSocket {
 public:
     DeviceSocket() = default;
@@ -37,24 +37,23 @@ public:
     DeviceSocket& operator=(DeviceSocket&& other) noexcept;
     ~DeviceSocket() { close(); }
 
-    // To the door at `path`. Throws BadInput when nobody listens there or permission is missing; it says
-    // which.
+    // Connects to the socket at `path`. Throws BadInput when there is no listener or no permission.
     static DeviceSocket connect(const std::filesystem::path& path);
-    // The same; 0 or the error number.
+    // The same, but returns 0 or errno.
     static int tryConnect(const std::filesystem::path& path, DeviceSocket& out) noexcept;
-    // A door at `path` with permission 0600 from the start. A file left by a program that died is replaced.
-    // Throws BadInput when some program listens there, the path is no socket or too long, or it cannot be
-    // made.
+    // Listens at `path`, with permission 0600 from the start. Replaces a stale socket file. Throws BadInput
+    // when another program listens there, the path is not a socket or is too long, or the socket cannot be
+    // created.
     static DeviceSocket listen(const std::filesystem::path& path, int backlog);
 
-    // Of a listening door: the next one who connected; empty when nobody did.
+    // Listening socket: the next pending connection; empty when there is none.
     DeviceSocket accept() noexcept;
 
     template <class T>
     SocketEvent send(const T& packet) noexcept {
         return sendBytes(&packet, sizeof packet);
     }
-    // The oldest packet that waits. `got`: bytes that arrived, for socketFault().
+    // The oldest pending packet. `got`: bytes received, for socketFault().
     template <class T>
     SocketEvent receive(T& packet, uint16_t kind, size_t* got = nullptr) noexcept {
         size_t arrived = 0;
@@ -80,13 +79,14 @@ private:
     int descriptor_ = -1;
 };
 
-// Header of the next packet of a direction.
+// Header of the next packet to send.
 inline fathom_door_header socketHeader(uint16_t kind, size_t size, uint64_t sequence) noexcept {
     return {FATHOM_DOOR_MAGIC, FATHOM_DOOR_VERSION, kind, static_cast<uint32_t>(size), 0,
             sequence,          socketClock()};
 }
 
-// $XDG_RUNTIME_DIR/fathom-NAME.door. Throws BadInput when that folder is not set: then a path must be given.
+// $XDG_RUNTIME_DIR/fathom-NAME.door. Throws BadInput when that variable is not set; the user must then give a
+// path.
 std::filesystem::path defaultEndpoint(const std::string& name);
 
 } // namespace fathom

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge's last word on force: passes the engine's newest wrench while it keeps coming, else zero.
+// The final force limit in the bridge: passes the engine's newest wrench while packets keep arriving, else
+// zero.
 #pragma once
 
 #include "devices/bridge/fathom_door.h"
@@ -9,22 +10,22 @@
 
 namespace fathom {
 
-// Pure state and arithmetic; the caller brings the clock [ns]. noexcept, no allocation, one thread.
+// Pure state; the caller passes the time [ns]. noexcept, no allocation, one thread.
 class ForceGate {
 public:
-    // forceLimit [N], torqueLimit [N m]: each vector is shortened to it, its direction stays.
+    // forceLimit [N], torqueLimit [N m]: each vector is scaled down to its limit.
     ForceGate(double forceLimit, double torqueLimit) noexcept
         : forceLimit_(forceLimit)
         , torqueLimit_(torqueLimit) {}
 
-    // A wrench that was computed at `stamp`, not later than now; an older one than the newest is left out.
-    // One that is not finite closes the gate and is counted.
+    // Takes a wrench computed at `stamp` <= now; an older one than the newest is ignored. A wrench that is
+    // not finite closes the gate and is counted.
     void accept(const Wrench& wrench, uint64_t stamp) noexcept;
-    // The engine's end is closed or says that it is about to.
+    // The engine has closed its end or announced it.
     void close() noexcept;
 
-    // What the device may render now: zero when closed or when the newest is older than 10 ms; coming back
-    // from that it rises over kRamp.
+    // The wrench to render now: zero when closed or when the newest is older than 10 ms; afterwards it ramps
+    // up over kRamp.
     Wrench at(uint64_t now) const noexcept;
     bool silent(uint64_t now) const noexcept { return !open_ || now - newest_ > kSilence; }
     uint64_t silences() const noexcept { return silences_; } // gaps over 10 ms between two wrenches

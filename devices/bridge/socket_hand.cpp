@@ -16,7 +16,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kMostPackets = 64; // a turn
+constexpr int kMostPackets = 64; // per tick
 constexpr auto kSeekPause = std::chrono::milliseconds(100);
 constexpr uint32_t kReady = FATHOM_DOOR_PRESENT | FATHOM_DOOR_HOMED;
 
@@ -90,14 +90,14 @@ void SocketHand::awaitFirst(double patience) {
 
 void SocketHand::take(const fathom_door_hand& packet) noexcept {
     Pose pose;
-    // Another kind of device has other limits: it is not what the springs were made for.
+    // A device of another kind has other limits, so the springs do not fit it.
     const bool same = std::strncmp(packet.preset, preset_.c_str(), sizeof packet.preset) == 0;
     status_ = same && soundPose(packet, pose) ? packet.status : 0;
     if ((status_ & kReady) == kReady) {
         last_.deviceThandle = pose;
     }
     last_.buttons = packet.buttons;
-    lastTime_ = std::min(packet.header.time_ns, socketClock()); // what waited in the queue may be old
+    lastTime_ = std::min(packet.header.time_ns, socketClock()); // packets in the queue may be old
     lastSequence_ = packet.header.sequence;
     ++figures_.samples;
 }
@@ -121,7 +121,7 @@ void SocketHand::drain() noexcept {
 
 void SocketHand::lose() noexcept {
     status_ = 0;
-    gone_.store(bridge_.release()); // closed by the thread, which has taken the one before
+    gone_.store(bridge_.release()); // the thread closes it and has already taken the previous one
     seeking_.store(true);
 }
 

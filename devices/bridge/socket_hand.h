@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's end of a hand door: any device whose bridge listens there.
+// The engine's end of a hand socket: any device whose bridge listens there.
 #pragma once
 
 #include "devices/bridge/device_socket.h"
@@ -11,16 +11,15 @@
 
 namespace fathom {
 
-// The pose of a sample; false, and `out` no pose to be used, when it is not finite or its orientation is
-// none.
+// Reads the pose of a sample; false, with `out` unusable, when it is not finite or its quaternion is zero.
 bool soundPose(const fathom_door_hand& packet, Pose& out) noexcept;
 
 // read() and write() belong to the haptic thread: a few system calls each, no wait, no lock, no allocation. A
-// thread of its own looks for the bridge again when it has gone, ten times a second.
+// separate thread reconnects to a lost bridge, ten attempts per second.
 class SocketHand final : public LiveHand {
 public:
-    // Connects and waits for a first sound packet, at most `patience` seconds. clutchBit: of hand.map; 0 =
-    // none. Throws BadInput: nobody listens, no permission, wrong version or size, no packet.
+    // Connects and waits at most `patience` seconds for a first valid packet. clutchBit: of hand.map; 0 =
+    // none. Throws BadInput for no listener, no permission, a wrong version or size, or no packet.
     SocketHand(std::filesystem::path path, uint32_t clutchBit, double patience = 2.0);
     ~SocketHand() override;
 
@@ -37,10 +36,10 @@ private:
     void take(const fathom_door_hand& packet) noexcept;
     void drain() noexcept;
     void lose() noexcept;
-    void seek() noexcept; // the thread
+    void seek() noexcept; // body of the thread
 
     std::filesystem::path path_;
-    uint32_t away_; // buttons while the device is away
+    uint32_t away_; // buttons while the device is absent
     std::string preset_, name_;
     DeviceSocket bridge_;
     HandSample last_;

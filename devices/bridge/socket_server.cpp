@@ -14,7 +14,7 @@ namespace fathom {
 namespace {
 
 constexpr int kBacklog = 1;
-constexpr int kMostRequests = 256; // a poll: an engine that floods must not hold the device up
+constexpr int kMostRequests = 256; // per poll: a flooding engine must not delay the device
 
 template <size_t N>
 void copyText(char (&to)[N], const std::string& from) {
@@ -77,7 +77,7 @@ void SocketServer::takeWrenches() {
         if ((packet.flags & FATHOM_DOOR_LAST) != 0) {
             gate_.close();
         } else {
-            // By its stamp: after we were held up, what waits here may be old.
+            // Judge by its stamp: after a delay of this process, queued packets may be old.
             gate_.accept({vectorOf(packet.force), vectorOf(packet.torque)},
                          std::min(packet.header.time_ns, socketClock()));
         }
@@ -106,7 +106,7 @@ void SocketServer::send(const HandSample& sample, uint32_t status) noexcept {
     const dquat& q = sample.deviceThandle.rotation;
     std::copy_n(std::array{p.x, p.y, p.z}.data(), 3, hand_.position);
     std::copy_n(std::array{q.w, q.x, q.y, q.z}.data(), 4, hand_.orientation);
-    // A full queue is an engine that does not read: its silence closes the gate soon enough.
+    // A full queue means that the engine does not read; its silence will close the gate.
     if (engine_.send(hand_) == SocketEvent::Closed) {
         gate_.close();
         engine_.close();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bridge's end of a hand door: one engine at a time, samples out, wrenches in through the force gate.
+// The bridge's end of a hand socket: one engine at a time, samples out, wrenches in through the force gate.
 #pragma once
 
 #include "devices/bridge/device_socket.h"
@@ -11,14 +11,14 @@
 
 namespace fathom {
 
-// One thread. Listens from construction on; the socket file goes with it.
+// One thread. Listens from construction on; the destructor removes the socket file.
 class SocketServer {
 public:
-    // What the door is called, and what no wrench that leaves it exceeds.
+    // Name of the device, and the limits of every wrench that it gets.
     struct Options {
         std::filesystem::path path;
         std::string preset; // of engine/haptics/device_preset.h
-        std::string name;   // for people
+        std::string name;   // for display
         double forceLimit;  // [N]
         double torqueLimit; // [N m]
     };
@@ -28,18 +28,20 @@ public:
     SocketServer& operator=(const SocketServer&) = delete;
     ~SocketServer();
 
-    // Takes whoever connected and every wrench that waits. An engine that breaks the contract is dropped; a
-    // second engine is turned away. Does not wait; logs who comes and goes.
+    // Accepts a pending connection and reads all pending wrenches. Drops an engine that breaks the contract
+    // and rejects a second one. Never blocks; logs connects and disconnects.
     void poll();
 
     // Sends a sample to the engine, if there is one. status: FATHOM_DOOR_PRESENT, FATHOM_DOOR_HOMED.
     void send(const HandSample& sample, uint32_t status) noexcept;
 
-    // What the device may render now.
+    // The wrench to render now.
     Wrench wrench() const noexcept { return gate_.at(socketClock()); }
     bool hasEngine() const noexcept { return engine_.open(); }
     const ForceGate& gate() const noexcept { return gate_; }
-    int descriptor() const noexcept { return endpoint_.descriptor(); }     // for poll(2): somebody connects
+    int descriptor() const noexcept {
+        return endpoint_.descriptor();
+    } // for poll(2): readable on a new connection
     int engineDescriptor() const noexcept { return engine_.descriptor(); } // for poll(2); -1 = none
     uint64_t dropped() const noexcept { return dropped_; }                 // engines that broke the contract
     const std::filesystem::path& path() const noexcept { return path_; }

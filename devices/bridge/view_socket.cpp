@@ -28,7 +28,7 @@ bool ViewSocket::poll() noexcept {
                 any = true;
                 break;
             }
-        } // no place: the newcomer is closed
+        } // no free slot: the new connection is closed
     }
     return any;
 }

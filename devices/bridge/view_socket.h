@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's view door: tells up to four observers what happens, and waits for none of them.
+// The engine's view socket: streams the state to up to four observers and waits for none of them.
 #pragma once
 
 #include "devices/bridge/device_socket.h"
@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// One thread, never the haptic one. Listens from construction on; the socket file goes with it.
+// One thread, never the haptic one. Listens from construction on; the destructor removes the socket file.
 class ViewSocket {
 public:
     // Throws BadInput (DeviceSocket::listen).
@@ -18,11 +18,11 @@ public:
     ViewSocket& operator=(const ViewSocket&) = delete;
     ~ViewSocket();
 
-    // Takes whoever connected; true when somebody new did: he has no regions and fixtures yet.
+    // Accepts pending connections; true when there is a new observer, which has no regions and fixtures yet.
     bool poll() noexcept;
 
-    // To every observer; fills in the header. One whose queue is full loses the packet, one who left is let
-    // go.
+    // Sends to every observer and fills in the header. An observer with a full queue loses the packet; one
+    // that has disconnected is removed.
     void send(fathom_door_state& state) noexcept { sendAll(state, FATHOM_DOOR_STATE); }
     void send(fathom_door_regions& regions) noexcept { sendAll(regions, FATHOM_DOOR_REGIONS); }
     void send(fathom_door_fixtures& fixtures) noexcept { sendAll(fixtures, FATHOM_DOOR_FIXTURES); }

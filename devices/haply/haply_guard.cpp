@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr auto kConnect = std::chrono::milliseconds(2000);
-constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, until the door is looked at again
+constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, before the socket is polled again
 constexpr auto kSearchPause = std::chrono::milliseconds(250);
 constexpr double kNoTorque = 0.0; // the handle turns freely
 constexpr const char* kName = "fathom";
@@ -29,8 +29,8 @@ HaplyGuard::~HaplyGuard() {
     close();
 }
 
-// On connection the service tells all that it has. The device that was taken once is the one that is taken
-// again: the pilot's hand is on it.
+// On connection the service lists its devices. After a reconnect the same device is chosen again, because the
+// pilot's hand is on it.
 void HaplyGuard::connect() {
     auto service = std::make_unique<WebSocket>(options_.host, options_.port, kConnect);
     const auto inventory = service->receive(kConnect);
@@ -56,7 +56,7 @@ void HaplyGuard::ask(const dvec3& force) {
     askedAt_ = Clock::now();
 }
 
-// Takes an answer, if one comes in time. Without the device in it, the device is away.
+// Reads an answer, if one arrives in time. If it does not contain the device, the device is absent.
 bool HaplyGuard::answered(std::chrono::microseconds most) {
     const auto message = service_->receive(most);
     if (!message) {
@@ -75,7 +75,7 @@ bool HaplyGuard::answered(std::chrono::microseconds most) {
         if (state) {
             sample_ = state->sample;
         }
-    } catch (const Error& e) { // the next one may be better
+    } catch (const Error& e) { // the next one may be valid
         ++figures_.faults;
         log::debug("{}", e.what());
         return false;
@@ -105,7 +105,7 @@ void HaplyGuard::exchange() {
     }
 }
 
-// Zero force, confirmed by an answer if one comes in time.
+// Sends zero force and waits briefly for the answer.
 void HaplyGuard::close() noexcept {
     if (!service_) {
         return;
@@ -113,7 +113,7 @@ void HaplyGuard::close() noexcept {
     try {
         ask(dvec3(0.0));
         answered(kReplyTime);
-    } catch (const std::exception&) { // it has gone before
+    } catch (const std::exception&) { // already lost
     }
     service_.reset();
     there_ = false;
@@ -129,7 +129,7 @@ void HaplyGuard::waitForService(const std::atomic<bool>& stop) {
     try {
         connect();
         log::warn("inverse3 {}: back at {}", device_, place_);
-    } catch (const Error& e) { // not there yet
+    } catch (const Error& e) { // not present yet
         log::debug("{}", e.what());
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guardian of a Haply Inverse3, which Haply's own service drives: a hand door to that service. Whatever
-// becomes of the engine, the service is told zero force.
+// The watchdog process of a Haply Inverse3, which Haply's service drives: a hand socket to that service. When
+// the engine fails in any way, the service gets zero force.
 #pragma once
 
 #include "devices/bridge/socket_server.h"
@@ -13,30 +13,30 @@
 
 namespace fathom {
 
-// Counts of the exchange with the service since the start.
+// Counters since the start.
 struct HaplyFigures {
     uint64_t replies = 0, losses = 0;
     uint64_t late = 0;   // requests without an answer in kReplyTime
-    uint64_t faults = 0; // answers that were none
+    uint64_t faults = 0; // invalid answers
 };
 
-// One thread. When this process dies the service ends the force itself: it is for a tick only (its
-// documentation; never tried on the device).
+// One thread. When this process dies, the service ends the force itself, because each force lasts one tick
+// (by its documentation; never tried on the device).
 class HaplyGuard {
 public:
-    // Where the door is made, and where the service listens.
+    // Path of the socket, and address of the service.
     struct Options {
         std::filesystem::path endpoint;
         std::string host = "localhost";
         uint16_t port = 10001;
         std::string device; // device_id; empty = the first Inverse3
     };
-    // Connects, and opens the door. Throws Error (no service, no Inverse3), BadInput (door).
+    // Connects and opens the socket. Throws Error (no service, no Inverse3) or BadInput (socket).
     explicit HaplyGuard(const Options& options);
-    ~HaplyGuard(); // zero force
+    ~HaplyGuard(); // sends zero force
 
-    // Exchanges until `stop`, then zero force. A service or a device that goes away is looked for four times
-    // a second, and the engine is told meanwhile.
+    // Runs until `stop`, then sends zero force. A lost service or device is searched four times per second,
+    // and the engine is informed meanwhile.
     void run(const std::atomic<bool>& stop);
 
     std::string place() const { return device_ + " at " + place_; }
@@ -46,7 +46,7 @@ public:
 
     static constexpr double kForceLimit = 5.0; // [N] of the preset "inverse3"
     static constexpr auto kReplyTime = std::chrono::milliseconds(20);
-    static constexpr auto kDeaf = std::chrono::milliseconds(500);   // without an answer: it is lost
+    static constexpr auto kDeaf = std::chrono::milliseconds(500);   // without an answer, then it is lost
     static constexpr auto kPeriod = std::chrono::microseconds(500); // from request to request, at least
 
 private:

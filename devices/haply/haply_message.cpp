@@ -23,7 +23,7 @@ double numberAt(const Json& object, const char* key) {
     return value;
 }
 
-// A list member that is an object with a state; null when there is none of that id.
+// The list entry with a state and this id; null when there is none.
 const Json* stateOf(const Json& all, const char* kind, const std::string& device, std::string& found) {
     const auto list = all.find(kind);
     if (list == all.end() || !list->is_array()) {

@@ -23,8 +23,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr uint8_t kContinued = 0, kText = 1, kClose = 8, kPing = 9, kPong = 10;
-// The pair of RFC 6455, 1.3. A key that is the same each time keeps no proxy from answering out of a cache;
-// between two programs of one machine there is none.
+// The example pair of RFC 6455, 1.3. A random key would defeat caching proxies; between two programs on one
+// machine there is none.
 constexpr const char* kKey = "dGhlIHNhbXBsZSBub25jZQ==";
 constexpr const char* kAccept = "s3pPLMBiTxaQ9kYGzzhZRbK+xOo=";
 constexpr size_t kMostGreeting = 8192; // [bytes]
@@ -45,7 +45,7 @@ bool WebSocketFrames::head(Head& head) const {
     }
     head.last = (byte(0) & 0x80) != 0;
     head.kind = byte(0) & 15;
-    head.size = byte(1); // a server masks nothing: bit 7 makes it too long
+    head.size = byte(1); // servers do not mask: a set bit 7 makes the size invalid
     head.at = 2;
     const size_t more = head.size == 126 ? 2 : head.size == 127 ? 8 : 0;
     if (bytes_.size() < head.at + more) {
@@ -101,7 +101,7 @@ WebSocketFrames::Event WebSocketFrames::whole(const Head& frame, std::string& te
         return Event::None;
     case kClose:
         return Event::Closed;
-    default: // binary messages are not spoken here
+    default: // binary messages are not supported
         return Event::Fault;
     }
 }
@@ -136,8 +136,8 @@ WebSocket::WebSocket(const std::string& host, uint16_t port, std::chrono::millis
 
 WebSocket::~WebSocket() {
     try {
-        sendFrame(kClose, std::string_view("\x03\xe8", 2)); // 1000: done
-    } catch (const Error&) {                                // it has gone before
+        sendFrame(kClose, std::string_view("\x03\xe8", 2)); // 1000: normal closure
+    } catch (const Error&) {                                // already lost
     }
     ::close(socket_);
 }
@@ -175,7 +175,7 @@ void WebSocket::connect(const std::string& host, uint16_t port, std::chrono::mil
         throw Error(place_ + ": " + why);
     }
     const int on = 1;
-    ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on); // one small message a tick
+    ::setsockopt(socket_, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on); // one small message per tick
 }
 
 void WebSocket::greet(std::chrono::milliseconds most) {
@@ -221,7 +221,7 @@ void WebSocket::sendBytes(std::string_view bytes) {
         const ssize_t count = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
         if (count > 0) {
             bytes.remove_prefix(static_cast<size_t>(count));
-        } else if (errno == EAGAIN) { // it takes nothing: a service that hangs
+        } else if (errno == EAGAIN) { // the service hangs
             if (!waitFor(socket_, POLLOUT, std::chrono::milliseconds(100))) {
                 lost("takes nothing");
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A WebSocket (RFC 6455) to a service on this machine: text both ways. Written here because all that is
-// spoken is one text frame each way a tick; a library would bring an event loop and TLS.
+// A WebSocket client (RFC 6455) for a service on this machine. Own code, because it needs only one text frame
+// each way per tick; a library would add an event loop and TLS.
 #pragma once
 
 #include <chrono>
@@ -12,15 +12,15 @@
 
 namespace fathom {
 
-// What arrives, byte by byte, as messages. Pure.
+// Parses received bytes into messages. Pure.
 class WebSocketFrames {
 public:
-    static constexpr size_t kMostBytes = 1 << 20; // of a message
+    static constexpr size_t kMostBytes = 1 << 20; // per message
 
     void add(std::string_view bytes) { bytes_.append(bytes); }
 
-    enum class Event { None, Text, Ping, Closed, Fault }; // Fault: the other end breaks the protocol
-    // The next event; `text` is of the message or the ping.
+    enum class Event { None, Text, Ping, Closed, Fault }; // Fault: the peer violates the protocol
+    // The next event; `text` gets the message or ping payload.
     Event next(std::string& text);
 
 private:
@@ -34,25 +34,24 @@ private:
     Event whole(const Head& head, std::string& text);
 
     std::string bytes_, message_; // message_: fragments so far
-    bool within_ = false;         // a message that is not whole yet
+    bool within_ = false;         // inside a fragmented message
 };
 
-// A frame as a client sends it. mask: any number, a new one each time.
+// A client frame. mask: any number, new for each frame.
 std::string webSocketFrame(uint8_t kind, std::string_view payload, uint32_t mask);
 
 // One thread.
 class WebSocket {
 public:
-    // Connects within `most` of each step. Throws Error that says what stands against it: nobody listens, no
-    // WebSocket there.
+    // Connects, with at most `most` per step. Throws Error with the reason: no listener, or not a WebSocket.
     WebSocket(const std::string& host, uint16_t port, std::chrono::milliseconds most);
-    ~WebSocket(); // says goodbye
+    ~WebSocket(); // sends a close frame
     WebSocket(const WebSocket&) = delete;
     WebSocket& operator=(const WebSocket&) = delete;
 
     void send(std::string_view text); // throws DeviceLost
-    // The next whole message, or nothing within `most`. Throws DeviceLost: closed, broken, or against the
-    // protocol.
+    // The next complete message, or nothing within `most`. Throws DeviceLost when closed, broken, or in
+    // violation of the protocol.
     std::optional<std::string> receive(std::chrono::microseconds most);
 
     const std::string& place() const noexcept { return place_; } // "ws://HOST:PORT"

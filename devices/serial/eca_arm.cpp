@@ -10,7 +10,7 @@ namespace fathom {
 namespace {
 
 constexpr double kDegree = 0.017453292519943295;
-constexpr int kPressedFrames = 3; // against the stop: a single reading may be noise
+constexpr int kPressedFrames = 3; // consecutive readings at the stop: a single one may be noise
 constexpr double kAmpere = 0.094e-3;
 
 } // namespace
@@ -36,7 +36,7 @@ void EcaArm::loseHome() noexcept {
 
 void EcaArm::heard(const std::array<EcaStatus, kEcaJoints>& status, double now) noexcept {
     for (size_t j = 0; j < kEcaJoints; ++j) {
-        // The shortest way round 16 bits: right while a joint moves less than half of them between frames.
+        // Shortest difference modulo 2^16: valid while a joint moves less than half the range between frames.
         const auto moved = static_cast<int16_t>(status[j].encoder - encoder_[j]);
         if (any_ && std::abs(int{moved}) > options_.mostCounts) {
             loseHome();
@@ -57,7 +57,7 @@ void EcaArm::receive(double now) noexcept {
     for (size_t got = port_.read(bytes); got > 0; got = port_.read(bytes)) {
         for (size_t i = 0; i < got; ++i) {
             const auto frame = reader_.take(bytes[i]);
-            if (frame && *frame != sent_) { // a half-duplex line gives back what was sent
+            if (frame && *frame != sent_) { // a half-duplex line echoes sent bytes
                 heard(statusOf(*frame), now);
             }
         }
@@ -94,7 +94,7 @@ std::array<EcaDemand, kEcaJoints> EcaArm::demandsFor(const ArmCommand& command) 
     const bool may = !command.hold && !feedback_.stale && !feedback_.overloaded;
     if (may && homing_ < kEcaJoints) {
         const size_t j = homing_;
-        if (pressed_[j] >= kPressedFrames) { // here is its stop
+        if (pressed_[j] >= kPressedFrames) { // the joint is at its stop
             zero_[j] = counts_[j] - std::llround(options_.stop[j] / radiansPerCount(j));
             feedback_.position[j] = options_.stop[j];
             feedback_.homed = ++homing_ == kEcaJoints;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // An ECA 5E Micro on a serial line. Facts from the public driver eca_arm5emicro_driver (gitAnto, MIT): the
-// arm's own position mode does not work, so that the loop is closed here on speeds; encoders are relative, so
-// that joints are homed against their stops by the motor current. Unverified on hardware: signs of rotation,
-// speed a count, what the current byte counts. The 5E Mini and CSIP ARM 5E speak something else or the same:
-// not known.
+// arm's position mode does not work, so the position loop is closed here with speed commands; encoders are
+// relative, so joints are homed against their stops by motor current. Not verified on hardware: signs of
+// rotation, speed per count, unit of the current byte. Whether the 5E Mini and CSIP ARM 5E use the same
+// protocol is unknown.
 #pragma once
 
 #include "devices/arm.h"
@@ -12,23 +12,24 @@
 
 namespace fathom {
 
-// How the arm is driven, and what of it no answer of the arm tells.
+// Control parameters, and properties that the arm does not report.
 struct EcaOptions {
-    double period = 0.05;                  // [s] between frames, as the public driver
+    double period = 0.05;                  // [s] between frames, as in the public driver
     double staleAfter = 0.25;              // [s]
-    double gain = 4.0;                     // [1/s] speed asked for a radian of error
-    double fullSpeed = 0.5;                // [rad/s] of speed 4095
+    double gain = 4.0;                     // [1/s] speed per radian of error
+    double fullSpeed = 0.5;                // [rad/s] at speed 4095
     double homingSpeed = 0.1;              // [rad/s]
-    uint8_t stopCurrent = 120;             // of the current byte: a joint against its stop
-    uint8_t mostCurrent = 200;             // of the current byte, longer than overloadTime: latched hold
+    uint8_t stopCurrent = 120;             // current byte of a joint at its stop
+    uint8_t mostCurrent = 200;             // current byte that latches a hold after overloadTime
     double overloadTime = 0.3;             // [s]
     uint16_t currentLimit = 4095;          // the arm's own, 0..4095
     std::array<double, kEcaJoints> stop{}; // [rad] of each joint at its clockwise stop
-    int mostCounts = 8000; // that an encoder moves in a period; more is another arm or a restart: home anew
+    int mostCounts =
+        8000; // encoder counts per period at most; more means another arm or a restart: home again
 };
 
-// Axes: shoulder, slew, elbow, wrist, gripper [rad]. Homing starts with the first command that is no hold,
-// one joint after the other, and again after an encoder has jumped.
+// Axes: shoulder, slew, elbow, wrist, gripper [rad]. Homing starts with the first command other than hold,
+// joint by joint, and again after an encoder jump.
 class EcaArm final : public ArmDevice {
 public:
     EcaArm(SerialPort& port, const EcaOptions& options = {});
@@ -55,10 +56,10 @@ private:
     std::array<uint16_t, kEcaJoints> encoder_{};
     std::array<int64_t, kEcaJoints> counts_{}, zero_{}; // unwrapped; counts at 0 rad
     std::array<uint8_t, kEcaJoints> current_{};
-    std::array<int, kEcaJoints> pressed_{}; // frames in a row with the stop's current
+    std::array<int, kEcaJoints> pressed_{}; // consecutive frames with stop current
     std::array<double, kEcaJoints> overSince_{};
-    size_t homing_ = 0; // joints below are homed
-    bool any_ = false;  // some frame came
+    size_t homing_ = 0; // joints with a lower index are homed
+    bool any_ = false;  // a frame was received
     double heardAt_ = -1e9, nextCommand_ = -1e9;
     EcaBytes sent_{};
 };

@@ -87,7 +87,7 @@ std::array<EcaStatus, kEcaJoints> statusOf(const EcaBytes& frame) noexcept {
     return status;
 }
 
-// Drops the first byte and all up to the next start.
+// Drops the first byte and everything up to the next start byte.
 void EcaReader::resync() noexcept {
     ++damaged_;
     const auto end = frame_.begin() + static_cast<std::ptrdiff_t>(size_);

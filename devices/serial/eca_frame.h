@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames of the ECA 5E Micro arm: 51 bytes each way, five joint blocks. Facts from the public driver
-// eca_arm5emicro_driver (gitAnto, MIT); other ECA arms and the hardware itself are unverified.
+// eca_arm5emicro_driver (gitAnto, MIT); other ECA arms and the hardware itself are not verified.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 namespace fathom {
 
 inline constexpr size_t kEcaJoints = 5; // shoulder, slew, elbow, wrist, gripper
-// One frame, either way.
+// One frame, in either direction.
 using EcaBytes = std::array<uint8_t, 51>;
 
-// What one joint is told.
+// Command for one joint.
 struct EcaDemand {
     enum class Kind : uint8_t { Hold = 0, SpeedCw = 3, SpeedCcw = 4 };
     Kind kind = Kind::Hold;
@@ -23,27 +23,27 @@ struct EcaDemand {
     uint16_t currentLimit = 4095; // 0..4095
 };
 
-// What one joint answers.
+// Feedback of one joint.
 struct EcaStatus {
     uint16_t encoder = 0; // wraps
     uint16_t speed = 0;
-    uint8_t current = 0; // [mA] = 0.094 n - 0.2 in the public source; the byte's meaning is unverified
+    uint8_t current = 0; // [mA] = 0.094 n - 0.2 in the public source; not verified
     uint8_t temperature = 0;
 };
 
 // Sum S of bytes 0..48: (S mod 255) - floor(S / 255), as a byte.
 uint8_t ecaChecksum(const EcaBytes& frame) noexcept;
 EcaBytes encodeEca(const std::array<EcaDemand, kEcaJoints>& demands) noexcept;
-EcaBytes encodeEca(const std::array<EcaStatus, kEcaJoints>& status) noexcept; // what an arm answers
+EcaBytes encodeEca(const std::array<EcaStatus, kEcaJoints>& status) noexcept; // frame from an arm
 std::array<EcaDemand, kEcaJoints> demandsOf(const EcaBytes& frame) noexcept;
 std::array<EcaStatus, kEcaJoints> statusOf(const EcaBytes& frame) noexcept;
 
-// Takes a line byte by byte and gives back whole frames: start byte, zeros, end byte and checksum must be
-// right; after a bad one it looks for the next start inside what it has. Never allocates or throws.
+// Parses bytes into frames: start byte, zeros, end byte and checksum must match; after an invalid frame it
+// resynchronises on the next start byte in its buffer. Never allocates or throws.
 class EcaReader {
 public:
     std::optional<EcaBytes> take(uint8_t byte) noexcept;
-    uint64_t damaged() const noexcept { return damaged_; } // frames begun that were none
+    uint64_t damaged() const noexcept { return damaged_; } // invalid frames
 
 private:
     void resync() noexcept;

@@ -14,19 +14,19 @@ namespace fathom {
 
 namespace {
 
-constexpr int kBeat = 10; // [ms] between two looks at the clock
+constexpr int kBeat = 10; // [ms] poll period
 
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Everything that has come: what is old was not a silence.
+// Reads everything pending, so that a backlog does not count as silence.
 void hear(int engine, LineGuard& guard) noexcept {
     char bytes[256];
     for (;;) {
         const ssize_t got = ::recv(engine, bytes, sizeof bytes, MSG_DONTWAIT);
         if (got < 0 &&
-            (errno == EINTR || errno == ECONNRESET)) { // after a reset comes what was sent before it
+            (errno == EINTR || errno == ECONNRESET)) { // data sent before a reset can still be read
             continue;
         }
         if (got == 0 || (got < 0 && errno != EAGAIN)) {
@@ -51,7 +51,7 @@ void LineGuard::alive(double now) noexcept {
 void LineGuard::close() noexcept {
     if (!closed_) {
         closed_ = true;
-        toldSince_ = -1.0; // also after a silence
+        toldSince_ = -1.0; // resets after a silence as well
     }
 }
 
@@ -83,10 +83,10 @@ int guardLine(int engine, int line, const StandStill& still) noexcept {
         hear(engine, guard);
         const int before = guard.found();
         if (guard.mustTell(seconds())) {
-            if (guard.found() > before) { // what still waits in the port would move the arm first
+            if (guard.found() > before) { // pending output would move the arm first
                 ::tcflush(line, TCOFLUSH);
             }
-            (void)!::write(line, still.bytes.data(), still.bytes.size()); // what was lost is said again
+            (void)!::write(line, still.bytes.data(), still.bytes.size()); // lost telegrams are repeated
         }
         pollfd wait{guard.closed() ? -1 : engine, POLLIN, 0};
         ::poll(&wait, 1, kBeat);

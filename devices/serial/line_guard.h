@@ -1,48 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
-// A guardian of an arm's line: a small process that has the line open beside the engine and writes nothing to
-// it while the engine lives. When the engine ends without a farewell, or is silent, it tells the arm to stand
-// still.
+// Watchdog of an arm's serial line: a small process that also has the line open and writes nothing while the
+// engine is alive. When the engine ends without a goodbye, or is silent, it stops the arm.
 #pragma once
 
 #include "devices/serial/stand_still.h"
 
 namespace fathom {
 
-// What comes over the pipe from the engine, and the one byte that goes back.
+// Messages from the engine, and the one byte that is sent back.
 inline constexpr char kGuardAlive = 'a';
 inline constexpr char kGuardFarewell = 'f';
 inline constexpr char kGuardReady = 'r';
 
-// When to write. Pure state; the caller brings the clock [s]. noexcept, no allocation, one thread.
+// Decides when to write. Pure state; the caller passes the time [s]. noexcept, no allocation, one thread.
 class LineGuard {
 public:
-    explicit LineGuard(double period) noexcept // [s] between two times of telling the arm
+    explicit LineGuard(double period) noexcept // [s] between two stop telegrams
         : period_(period) {}
 
-    void alive(double now) noexcept; // from the first one on the arm may move
+    void alive(double now) noexcept; // the arm may move after the first call
     void farewell() noexcept { parted_ = true; }
-    void close() noexcept; // the engine has ended
+    void close() noexcept; // the engine's end is closed
 
-    // The arm must be told now. Of a silence: until the engine is heard again; either way for kLastWords.
+    // True when a stop telegram is due: after a silence until the engine is back, and in any case for
+    // kLastWords.
     bool mustTell(double now) noexcept;
-    bool over(double now) const noexcept; // nothing is left to guard
+    bool over(double now) const noexcept; // the watchdog can exit
     bool closed() const noexcept { return closed_; }
-    int found() const noexcept { return found_; } // times that the engine was found dead or silent
+    int found() const noexcept { return found_; } // number of times the engine was dead or silent
 
-    static constexpr double kSilence =
-        0.2; // [s] of an engine that lives: ten commands of a Reach, four of an ECA
-    static constexpr double kLastWords = 0.5; // [s] of telling the arm, every period
+    static constexpr double kSilence = 0.2;   // [s] allowed: ten command periods of a Reach, four of an ECA
+    static constexpr double kLastWords = 0.5; // [s] of repeated stop telegrams
 
 private:
     double period_;
-    double heardAt_ = -1.0, toldSince_ = -1.0, next_ = 0.0; // [s]; negative: never
+    double heardAt_ = -1.0, toldSince_ = -1.0, next_ = 0.0; // [s]; negative = never
     bool parted_ = false, closed_ = false;
     int found_ = 0;
 };
 
-// Serves until the engine has ended. engine: a stream socket with the engine at its other end; line: open,
-// not blocking. The kernel takes one write() after the other, so that the telegrams of two processes never
-// mix. Returns how often the engine was found dead or silent.
+// Runs until the engine has ended. engine: a stream socket to the engine; line: open, non-blocking. The
+// kernel serialises write() calls, so telegrams of two processes never interleave. Returns how often the
+// engine was dead or silent.
 int guardLine(int engine, int line, const StandStill& still) noexcept;
 
 } // namespace fathom

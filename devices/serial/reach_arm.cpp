@@ -13,7 +13,7 @@ constexpr double kNever = -1e9;
 constexpr uint8_t kPosition = 0x03, kCurrent = 0x05, kRequest = 0x60;
 constexpr size_t kJaws = 4;
 
-double perUnit(size_t axis) noexcept { // ours to the line's: the jaws' are millimetres
+double perUnit(size_t axis) noexcept { // SI to line units: the jaws use millimetres
     return axis == kJaws ? 1e3 : 1.0;
 }
 
@@ -28,10 +28,10 @@ ReachArm::ReachArm(SerialPort& port, const ReachOptions& options)
     feedback_.age = std::numeric_limits<double>::infinity();
 }
 
-// The line's own echo is a position packet like an answer: each packet sent answers for one that is equal.
-// Only where the line does echo: the answer of an arm that rests on its setpoint is equal, too. No arm sends
-// a request, and requests are heard before the first setpoint goes out, for that needs an answer of every
-// axis.
+// The echo of a half-duplex line looks like an answer, so each sent packet cancels one equal received packet.
+// This applies only to lines that echo, because an arm at rest on its setpoint answers with an equal packet.
+// Echo is detected by received requests, which no arm sends; requests precede the first setpoint, which needs
+// an answer from every axis.
 bool ReachArm::isEcho(const ReachPacket& packet, double now) noexcept {
     echoes_ = echoes_ || packet.id == kRequest;
     if (!echoes_) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A Reach Alpha 5 on a serial line (RS-232 or RS-485, 115200 8N1). Facts from the public driver alpha
-// (evan-palmer, MIT). Unverified on hardware: the signs and zeros of its joints, its own current limits (this
-// host's are what counts), how it behaves when setpoints stop.
+// (evan-palmer, MIT). Not verified on hardware: signs and zeros of its joints, its own current limits (the
+// host's limits apply), its behaviour when setpoints stop.
 #pragma once
 
 #include "devices/arm.h"
@@ -12,20 +12,21 @@
 
 namespace fathom {
 
-// How the arm is driven.
+// Control parameters.
 struct ReachOptions {
     double period = 0.02;    // [s] between commands
-    double staleAfter = 0.1; // [s] age of feedback at which the arm is told to stop
-    double lead = 0.05;     // [rad] a setpoint is at most this far ahead: where the arm ends if the line dies
-    double jawLead = 0.005; // [m] the same of the jaws
-    double mostCurrent = 1.5;  // [A] of any motor, longer than overloadTime: latched hold
+    double staleAfter = 0.1; // [s] age of feedback that stops the arm
+    double lead = 0.05; // [rad] setpoints lead the measurement by at most this, which bounds the motion after
+                        // a lost line
+    double jawLead = 0.005;    // [m] the same for the jaws
+    double mostCurrent = 1.5;  // [A] motor current that latches a hold after overloadTime
     double overloadTime = 0.1; // [s]
-    double echoTime = 0.05; // [s] in which, on a line that gives back requests, a packet equal to one sent is
-                            // its own echo
+    double echoTime =
+        0.05; // [s] window in which, on a line that echoes, a packet equal to a sent one is its echo
 };
 
 // Axes: base, shoulder, elbow, wrist [rad], jaws [m]. Absolute sensors: no homing. Sends positions, each at
-// most `lead` ahead of what was measured; on hold velocity 0.
+// most `lead` ahead of the measurement; on hold, velocity 0.
 class ReachArm final : public ArmDevice {
 public:
     static constexpr size_t kAxes = 5;
@@ -56,9 +57,9 @@ private:
     ArmFeedback feedback_;
     std::array<double, kAxes> heardAt_{};   // [s] of each position; -1e9 = never
     std::array<double, kAxes> overSince_{}; // [s]; infinite = not over
-    std::array<Sent, 32> sent_{};           // newest overwrite oldest
+    std::array<Sent, 32> sent_{};           // ring buffer
     size_t nextSent_ = 0;
-    bool echoes_ = false;       // a request came back
+    bool echoes_ = false;       // a request was echoed
     double nextCommand_ = -1e9; // [s]
 };
 

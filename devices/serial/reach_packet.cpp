@@ -8,7 +8,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint8_t kReversedPolynomial = 0xB2; // 0x4D, bits from the other end
+constexpr uint8_t kReversedPolynomial = 0xB2; // 0x4D, bit-reversed
 constexpr size_t kTail = 4;                   // id, device, length, CRC
 
 } // namespace
@@ -55,7 +55,7 @@ size_t encodeReach(const ReachPacket& packet, ReachFrame& out) noexcept {
     raw[packet.size + 1u] = packet.device;
     raw[packet.size + 2u] = static_cast<uint8_t>(length);
     raw[packet.size + 3u] = reachCrc({raw.data(), length - 1});
-    // COBS; packets are shorter than 254 bytes, so that no block is ever full.
+    // COBS; packets are shorter than 254 bytes, so no block is ever full.
     size_t mark = 0, at = 1;
     uint8_t distance = 1;
     for (size_t i = 0; i < length; ++i) {
@@ -108,7 +108,7 @@ std::optional<ReachPacket> ReachReader::take(uint8_t byte) noexcept {
         return std::nullopt;
     }
     std::optional<ReachPacket> packet;
-    if (size_ > 0) { // zeros in a row are an idle line
+    if (size_ > 0) { // consecutive zeros are an idle line
         packet = tooLong_ ? std::nullopt : decode();
         damaged_ += packet ? 0 : 1;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Packets of the Reach Alpha 5 arm on its serial line: COBS frames that end in a zero byte, CRC8 inside.
-// Facts from the public driver alpha (evan-palmer, MIT); unverified on hardware.
+// Facts from the public driver alpha (evan-palmer, MIT); not verified on hardware.
 #pragma once
 
 #include <array>
@@ -20,23 +20,24 @@ struct ReachPacket {
 
     static ReachPacket ofFloat(uint8_t id, uint8_t device,
                                float value) noexcept; // rad, rad/s, mA, mm for jaws
-    std::optional<float> asFloat() const noexcept;    // of a packet with four bytes of data
+    std::optional<float> asFloat() const noexcept;    // for packets with four bytes of data
 };
 
-// Room for any packet on the line, its closing zero included.
+// Space for any packet on the line, including the final zero.
 using ReachFrame = std::array<uint8_t, ReachPacket::kMostData + 8>;
 
-// CRC8: polynomial 0x4D, reflected, from 0, inverted at the end.
+// CRC8: polynomial 0x4D, reflected, initial value 0, inverted result.
 uint8_t reachCrc(std::span<const uint8_t> bytes) noexcept;
 
-// Bytes written to `out`, the closing zero included; 0 when the packet has too much data.
+// Returns the number of bytes written to `out`, including the final zero; 0 when the packet has too much
+// data.
 size_t encodeReach(const ReachPacket& packet, ReachFrame& out) noexcept;
 
-// Takes a line byte by byte and gives back whole packets; anything damaged is counted and dropped up to the
-// next zero. Never allocates or throws.
+// Parses bytes into packets; a damaged packet is counted and dropped up to the next zero. Never allocates or
+// throws.
 class ReachReader {
 public:
-    // A packet when `byte` ended a good one.
+    // Returns a packet when `byte` completes a valid one.
     std::optional<ReachPacket> take(uint8_t byte) noexcept;
     uint64_t damaged() const noexcept { return damaged_; } // frames dropped: length, COBS or CRC wrong
 

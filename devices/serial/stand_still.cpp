@@ -9,8 +9,8 @@
 namespace fathom {
 
 StandStill reachStandStill() {
-    StandStill still{{0},
-                     ReachOptions{}.period}; // a zero ends any packet: what was begun is damaged, and dropped
+    StandStill still{
+        {0}, ReachOptions{}.period}; // a zero ends any packet; the arm drops a truncated one as damaged
     for (uint8_t device : ReachArm::kDevice) {
         ReachFrame frame;
         const size_t size = encodeReach(ReachPacket::ofFloat(ReachArm::kVelocity, device, 0.0f), frame);
@@ -22,8 +22,8 @@ StandStill reachStandStill() {
 
 StandStill ecaStandStill() {
     const EcaBytes hold = encodeEca(std::array<EcaDemand, kEcaJoints>{});
-    // As many zeros as a frame has bytes: one that was begun gets its length from them and not its end byte,
-    // and none of them begins another.
+    // One frame length of zeros: they complete a truncated frame without its end byte, and none of them
+    // starts a new one.
     StandStill still{std::vector<uint8_t>(2 * hold.size()), EcaOptions{}.period};
     std::copy(hold.rbegin(), hold.rend(), still.bytes.rbegin());
     return still;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What makes an arm stand still, wherever who commanded it before was cut off.
+// Telegrams that stop an arm, even when the previous sender was cut off within a telegram.
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,13 @@
 
 namespace fathom {
 
-// To be written whole, again and again: what is on a line may be lost.
+// Write it completely and repeatedly, because telegrams can be lost.
 struct StandStill {
-    std::vector<uint8_t> bytes; // end whatever telegram was begun, then say stop to every joint
-    double period = 0.0;        // [s] between two times
+    std::vector<uint8_t> bytes; // ends a truncated telegram, then stops every joint
+    double period = 0.0;        // [s] repetition period
 };
 
-StandStill reachStandStill(); // velocity 0, as the driver's own hold
-StandStill ecaStandStill();   // a frame of holds, likewise
+StandStill reachStandStill(); // velocity 0, like the driver's hold
+StandStill ecaStandStill();   // a frame of hold commands
 
 } // namespace fathom

@@ -37,7 +37,7 @@ std::optional<uint16_t> hexOf(const std::string& text) {
     return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-// The USB device that a node of sysfs belongs to: the nearest folder above with idVendor.
+// The USB device of a sysfs node: the nearest parent folder with idVendor.
 std::optional<fs::path> usbParent(const fs::path& device) {
     std::error_code error;
     fs::path folder = fs::canonical(device, error);
@@ -83,7 +83,7 @@ std::string numberText(const std::string& text) {
     return padded;
 }
 
-// Devices that are known by their numbers on the bus.
+// Devices identified by their USB numbers.
 void findOnBus(const fs::path& root, std::vector<DeviceFile>& out) {
     for (const fs::path& device : entries(root / "sys/bus/usb/devices")) {
         DeviceFile file;
@@ -104,7 +104,7 @@ void findOnBus(const fs::path& root, std::vector<DeviceFile>& out) {
     }
 }
 
-// Ports on USB, and those of the board that have a chip behind them.
+// USB serial ports, and on-board ports with a chip behind them.
 void findSerialPorts(const fs::path& root, std::vector<DeviceFile>& out) {
     for (const fs::path& entry : entries(root / "sys/class/tty")) {
         const std::string tty = entry.filename().string();

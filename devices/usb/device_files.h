@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is plugged in, from sysfs alone: nothing is opened but to see whether it may be.
+// Lists attached devices from sysfs; opens a node only to test permission.
 #pragma once
 
 #include <cstdint>
@@ -9,19 +9,19 @@
 
 namespace fathom {
 
-// One thing that is plugged in.
+// One attached device.
 struct DeviceFile {
-    // OpenNi: a camera that a driver of OpenNI2 may serve. SerialPort: where a manipulator may be. Closed:
-    // known, but no driver here can serve it.
+    // OpenNi: a camera that OpenNI2 may support. SerialPort: possibly a manipulator. Closed: known, but
+    // without a driver here.
     enum class Kind { Falcon, SpaceMouse, Camera, OpenNi, SerialPort, Closed } kind = Kind::Camera;
-    std::filesystem::path node; // what is opened: /dev/hidraw0, /dev/video0, /dev/bus/usb/001/004
-    std::string name;           // as the device or its driver calls itself
+    std::filesystem::path node; // node to open: /dev/hidraw0, /dev/video0, /dev/bus/usb/001/004
+    std::string name;           // as reported by the device or its driver
     std::string place;          // "usb 1-1.2"; empty = not on USB
     uint16_t vendor = 0, product = 0;
-    std::string refused; // why this user cannot open it, or nobody can use it; empty = may
+    std::string refused; // why it cannot be opened or used; empty = usable
 };
 
-// Sorted by kind, then node. `root`: where /sys and /dev are, for tests.
+// Sorted by kind, then node. `root`: parent of /sys and /dev, for tests.
 std::vector<DeviceFile> findDeviceFiles(const std::filesystem::path& root = "/");
 
 // "0403:cb48"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a Falcon's encoders to a sample of the hand, and from a force to motor commands.
+// Converts a Falcon's encoder counts to hand samples, and forces to motor commands.
 #pragma once
 
 #include "devices/haptic_device.h"
@@ -7,17 +7,17 @@
 
 namespace fathom {
 
-// Remembers the last place as the start of the next forward solution. noexcept, no allocation.
+// Keeps the last position as the initial guess of the next forward solution. noexcept, no allocation.
 class FalconDrive {
 public:
     // Pose with the identity as orientation (the knob only translates) and the engine's buttons: centre is
     // guidance, forward is the clutch, minus opens the dead-man switch. False when the device is not homed or
-    // the encoders are no pose of the mechanism; the sample then keeps the last place.
+    // no pose matches the encoders; the sample then keeps the last position.
     bool place(const FalconState& state, HandSample& out) noexcept;
 
-    // Motor commands for `force` [N] at the place of the last place(); all three scaled down together where
-    // one would exceed the motor's limit, so that the direction stays. Zero when the last place() failed or
-    // anything is not finite. Torque: the mechanism has none.
+    // Motor commands for `force` [N] at the position of the last place(). All three are scaled together when
+    // one exceeds its limit, which keeps the direction. Zero when the last place() failed or an input is not
+    // finite. The mechanism renders no torque.
     std::array<int16_t, 3> motors(const dvec3& force) const noexcept;
 
     static constexpr double kForceLimit = 8.0;          // [N] device table of CHAI3D 3.3.0

@@ -14,8 +14,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr size_t kLargest = 64 * 1024; // bytes; the known ones have 8 kB
-constexpr size_t kPiece = 62;          // a USB packet less the modem status of its echo
+constexpr size_t kLargest = 64 * 1024; // bytes; known firmware has 8 kB
+constexpr size_t kPiece = 62;          // a USB packet minus the modem status of its echo
 constexpr uint16_t kPurgeReceived = 1, kPurgeSent = 2, kEightBits = 8;
 constexpr uint16_t kBaud9600 = 0x4138, kBaud140k = 0x15, kBaud1500k = 2;
 constexpr uint16_t kDtrHigh = 0x0101, kDtrLow = 0x0100, kRtsLow = 0x0200;
@@ -42,7 +42,7 @@ void sendAll(FtdiPort& port, std::span<const uint8_t> bytes, const std::string& 
     }
 }
 
-// `count` bytes, or what came in time.
+// Up to `count` bytes, as many as arrive in time.
 std::vector<uint8_t> receive(FtdiPort& port, size_t count) {
     const auto until = std::chrono::steady_clock::now() + kPatience;
     std::vector<uint8_t> bytes;
@@ -67,7 +67,7 @@ void greet(FtdiPort& port) {
     const std::array<uint8_t, 4> answer{0x0a, 0x44, 0x2c, 0x0d};
     sendAll(port, hello, "greeting");
     std::vector<uint8_t> got = receive(port, answer.size());
-    if (!got.empty() && got.front() == 0) { // some devices begin with a zero
+    if (!got.empty() && got.front() == 0) { // some devices send a leading zero
         got.erase(got.begin());
         const std::vector<uint8_t> rest =
             got.size() < answer.size() ? receive(port, 1) : std::vector<uint8_t>();

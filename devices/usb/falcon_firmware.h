@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bringing a Falcon to life after power-on. The firmware is Novint's: the user names a file, none is shipped.
+// Loads the firmware of a Falcon after power-on. The firmware is Novint's: the user names a file, none is
+// shipped.
 #pragma once
 
 #include "devices/usb/ftdi_port.h"
@@ -8,14 +9,14 @@
 
 namespace fathom {
 
-// Throws BadInput: no such file, empty, or over 64 KiB.
+// Throws BadInput for a file that is missing, empty or over 64 KiB.
 std::vector<uint8_t> readFalconFirmware(const std::filesystem::path& file);
 
-// Hands the firmware to the boot loader: 9600 Bd greeting, then 140 kBd, every piece of at most 62 bytes
-// echoed back. Throws Error that names the step and what came instead; DeviceLost. Takes some seconds.
+// Sends the firmware to the boot loader: greeting at 9600 Bd, then 140 kBd; each chunk of at most 62 bytes is
+// echoed. Throws Error that names the step and the answer, or DeviceLost. Takes some seconds.
 void loadFalconFirmware(FtdiPort& port, std::span<const uint8_t> firmware);
 
-// The line of a running firmware: 1.5 MBd, 1 ms latency, nothing left in either queue.
+// Configures the port for running firmware: 1.5 MBd, 1 ms latency, empty queues.
 void setFalconLine(FtdiPort& port);
 
 } // namespace fathom

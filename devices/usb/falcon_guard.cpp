@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, until the door is looked at again
+constexpr auto kWait = std::chrono::milliseconds(1); // for an answer, before the socket is polled again
 constexpr auto kSearchPause = std::chrono::milliseconds(250);
 constexpr double kNoTorque = 0.0; // the knob only translates
 
@@ -84,7 +84,7 @@ void FalconGuard::waitForDevice(const std::atomic<bool>& stop) {
     }
     try {
         open();
-    } catch (const Error& e) { // not there yet, or not ready
+    } catch (const Error& e) { // not present yet, or not ready
         log::debug("falcon: {}", e.what());
     }
 }

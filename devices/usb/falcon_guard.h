@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guardian of a Falcon: the one process that owns the device. Its other end is the engine, through a hand
-// door; whatever becomes of the engine, the device gets zero force.
+// The watchdog process of a Falcon: the only process that owns the device. The engine connects through a hand
+// socket; when the engine fails in any way, the device gets zero force.
 #pragma once
 
 #include "devices/bridge/socket_server.h"
@@ -14,21 +14,21 @@
 
 namespace fathom {
 
-// One thread. What the hardware does when this process itself dies between two packets is not known: no
-// source says whether the firmware drops the motors by itself.
+// One thread. It is unknown what the hardware does when this process itself dies between two packets: no
+// source states whether the firmware stops the motors.
 class FalconGuard {
 public:
-    // Where the door is made, and what a device that has just been switched on is given.
+    // Path of the socket, and the firmware for a device after power-on.
     struct Options {
         std::filesystem::path endpoint;
-        std::filesystem::path firmware; // empty = none: a device that was just switched on is refused
+        std::filesystem::path firmware; // empty = none: a device without firmware is rejected
     };
-    // Opens device and door. Throws BadInput, Error, DeviceLost.
+    // Opens the device and the socket. Throws BadInput, Error, DeviceLost.
     explicit FalconGuard(const Options& options);
-    ~FalconGuard(); // zero force
+    ~FalconGuard(); // sends zero force
 
-    // Exchanges until `stop`; then zero force. A device that goes away is looked for four times a second, and
-    // the engine is told meanwhile.
+    // Runs until `stop`, then sends zero force. A lost device is searched four times per second, and the
+    // engine is informed meanwhile.
     void run(const std::atomic<bool>& stop);
 
     const std::string& place() const noexcept { return place_; } // "usb 1-1"
@@ -56,7 +56,7 @@ private:
     HandSample sample_;
     bool placed_ = false;
     std::optional<bool> told_; // homed or not, as last logged
-    FalconFigures figures_;    // of devices before this one, and at the end of all
+    FalconFigures figures_;    // sum over earlier devices; at the end, over all
     uint64_t losses_ = 0;
     std::string place_;
 };

@@ -20,13 +20,13 @@ constexpr double kPerCount = 0.01425 * 360.0 / (320.0 * 4.0 * 0.110) * kDegree; 
 constexpr double kAtZero = 35.0 * kDegree;
 constexpr int kMostSteps = 30;
 constexpr double kClose = 1e-9;   // [m]
-constexpr double kFarthest = 0.1; // [m] from home: beyond lie other ways to assemble the legs
+constexpr double kFarthest = 0.1; // [m] from home: farther solutions belong to other assembly modes
 
-// One leg at one place of the knob: in the plane of its driven joint, the length L of the projected
+// One leg at one knob position: in the plane of its driven joint, the length L of the projected
 // parallelogram must span from the elbow to (u, w).
 struct Leg {
     double u = 0.0, w = 0.0, length = 0.0; // [m]; length NaN when out of reach sideways
-    dvec3 gradU{0.0}, gradLength{0.0};     // by the knob's place
+    dvec3 gradU{0.0}, gradLength{0.0};     // by the knob's position
 
     Leg(const dvec3& p, double phi) noexcept {
         const double c = std::cos(phi), s = std::sin(phi);

@@ -21,10 +21,10 @@ public:
     static LegAngles anglesOf(const std::array<int16_t, 3>& encoder) noexcept;
     static std::array<int16_t, 3> encoderOf(const LegAngles& angles) noexcept; // nearest counts
 
-    // Empty when no leg reaches there.
+    // Empty when a leg cannot reach the position.
     static std::optional<LegAngles> inverse(const dvec3& knob) noexcept;
-    // Newton's method from `guess`; empty when it does not come within 1 nm in 30 steps, or ends
-    // farther than 0.1 m from home.
+    // Newton's method from `guess`; empty when it does not converge to 1 nm in 30 steps or ends more than 0.1
+    // m from home.
     static std::optional<dvec3> forward(const LegAngles& angles, const dvec3& guess = kHome) noexcept;
 
     // Joint torques [N m] that hold against the negative of `force` [N] on the knob: tau = (dp/dtheta)^T f.

@@ -72,10 +72,10 @@ bool FalconLink::exchange(const FalconCommand& command, std::chrono::microsecond
 
 void FalconLink::stop() noexcept {
     try {
-        awaiting_ = false; // whatever is on its way, zero follows
+        awaiting_ = false; // zero follows any command in flight
         heardAt_ = Clock::now();
         const auto until = heardAt_ + kLastAnswer;
-        int answered = 0; // the first answer may be that of a command before
+        int answered = 0; // the first answer may belong to an earlier command
         while (answered < 2 && Clock::now() < until) {
             answered += exchange({}, std::chrono::milliseconds(1)) ? 1 : 0;
         }

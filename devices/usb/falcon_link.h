@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exchange with a Falcon: one command out, one state in, as fast as the device answers.
+// The request-response loop with a Falcon: one command out, one state in, as fast as the device answers.
 #pragma once
 
 #include "devices/usb/falcon_packet.h"
@@ -11,26 +11,26 @@ namespace fathom {
 struct FalconFigures {
     uint64_t sent = 0, replies = 0;
     uint64_t late = 0;    // requests without an answer in kReplyTime
-    uint64_t surplus = 0; // answers beyond one a request: late ones, or two in one transfer
+    uint64_t surplus = 0; // answers without a request: late, or two in one transfer
     uint64_t faults = 0;  // broken packets
 };
 
-// One thread, the guardian's. The port must outlive it.
+// One thread, that of the watchdog. The port must outlive it.
 class FalconLink {
 public:
     explicit FalconLink(FtdiPort& port)
         : port_(port) {}
 
-    // Sets the line and waits for an answer with zero force; without one loads the firmware, if there is any,
-    // and tries again. Throws Error that says what to do, DeviceLost.
+    // Configures the port and waits for an answer to zero force. Without an answer it loads the firmware, if
+    // given, and tries again. Throws Error with a remedy, or DeviceLost.
     void start(std::span<const uint8_t> firmware);
 
-    // Sends the command unless the answer to the one before is still awaited; then waits at most `most`. True
-    // when a new state came. A request that nobody answers is given up after kReplyTime. Throws DeviceLost,
-    // also when the device takes nothing for kDeaf.
+    // Sends the command unless the previous one is unanswered, then waits at most `most`. True when a new
+    // state arrived. An unanswered request expires after kReplyTime. Throws DeviceLost, also when the device
+    // accepts nothing for kDeaf.
     bool exchange(const FalconCommand& command, std::chrono::microseconds most);
 
-    // Zero force, confirmed by an answer if one comes in time. Never throws: the last thing before closing.
+    // Sends zero force and waits briefly for the answer. Never throws: the last call before closing.
     void stop() noexcept;
 
     const FalconState& state() const noexcept { return stream_.newest(); }

@@ -59,7 +59,7 @@ void FalconStream::feed(std::span<const uint8_t> bytes) noexcept {
     }
 }
 
-// '<' is no character of a packet's inside: wherever it comes, a packet begins.
+// '<' never occurs inside a packet, so it always starts one.
 void FalconStream::take(uint8_t byte) noexcept {
     if (byte == kFirst) {
         faults_ += filled_ > 0 ? 1 : 0;

@@ -24,11 +24,11 @@ class FtdiPort {
 public:
     virtual ~FtdiPort() = default;
     virtual void control(FtdiRequest request, uint16_t value) = 0;
-    // Starts to send; at most 64 bytes. False when the bytes before are still on their way.
+    // Starts sending at most 64 bytes. False while the previous bytes are in flight.
     virtual bool send(std::span<const uint8_t> bytes) = 0;
-    // Until something came or was sent, at most so long.
+    // Waits until data arrived or was sent, at most this long.
     virtual void wait(std::chrono::microseconds most) = 0;
-    // Appends what came since the last call, without the modem status of each USB packet.
+    // Appends the bytes received since the last call, without the modem status of each USB packet.
     virtual void take(std::vector<uint8_t>& bytes) = 0;
 };
 

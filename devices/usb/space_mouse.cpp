@@ -43,14 +43,14 @@ bool takeSpaceMouseReport(std::span<const uint8_t> report, SpaceMouseState& stat
         }
         takeThree(body, state.shift);
         if (body.size() >= 12) {
-            takeThree(body.subspan(6), state.tick);
+            takeThree(body.subspan(6), state.rotation);
         }
         return true;
     case 2:
         if (body.size() < 6) {
             return false;
         }
-        takeThree(body, state.tick);
+        takeThree(body, state.rotation);
         return true;
     case 3:
         if (body.empty()) {

@@ -18,7 +18,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kMostReports = 64; // a turn
+constexpr int kMostReports = 64; // per tick
 constexpr auto kSeekPause = std::chrono::milliseconds(100);
 constexpr uint32_t kGuidance = 1, kDeadManOpen = 2;     // of HandSample
 constexpr uint32_t kFirstButton = 1, kSecondButton = 2; // of the device
@@ -42,7 +42,7 @@ int openNode(const DeviceFile& file) {
     return descriptor;
 }
 
-// The same kind of device, wherever it is now; -1 = not there, or not yet for this user.
+// The same model at any node; -1 = absent, or not yet permitted.
 int openAgain(uint16_t vendor, uint16_t product) {
     for (const DeviceFile& file : findDeviceFiles()) {
         if (file.kind == DeviceFile::Kind::SpaceMouse && file.vendor == vendor && file.product == product) {
@@ -94,9 +94,9 @@ SpaceMouseHand::~SpaceMouseHand() {
     closeIt(found_.exchange(-1));
 }
 
-// close() may wait for the kernel: not on the haptic turn.
+// close() may block in the kernel, so the haptic thread must not call it.
 void SpaceMouseHand::lose() noexcept {
-    gone_.store(std::exchange(descriptor_, -1)); // the thread has taken the one before
+    gone_.store(std::exchange(descriptor_, -1)); // the thread has already taken the previous one
     state_ = {};
     ++figures_.losses;
     seeking_.store(true);
@@ -137,14 +137,14 @@ HandSample SpaceMouseHand::read(double t) noexcept {
     }
     takeReports(t);
     if (t - heard_ > kSilence) {
-        state_.shift = state_.tick = {};
+        state_.shift = state_.rotation = {};
     }
     const double step = started_ ? std::clamp(t - before_, 0.0, kMostStep) : 0.0;
     before_ = t;
     started_ = true;
     pose_.position += step * options_.speed * spaceMouseAxes(state_.shift);
-    pose_.rotation =
-        glm::normalize(rotationExp(step * options_.turnSpeed * spaceMouseAxes(state_.tick)) * pose_.rotation);
+    pose_.rotation = glm::normalize(rotationExp(step * options_.turnSpeed * spaceMouseAxes(state_.rotation)) *
+                                    pose_.rotation);
     HandSample sample{pose_, 0};
     if (descriptor_ < 0) {
         sample.buttons = kDeadManOpen | options_.clutchBit;

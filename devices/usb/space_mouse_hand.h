@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A SpaceMouse as the hand: its cap's deflection is a speed, the pose is its integral. It renders no force.
+// A SpaceMouse as the hand: the cap's deflection is a velocity, the pose is its integral. It renders no
+// force.
 #pragma once
 
 #include "devices/live_hand.h"
@@ -12,7 +13,7 @@
 
 namespace fathom {
 
-// How fast full deflection moves the hand.
+// Velocity of the hand at full deflection.
 struct SpaceMouseOptions {
     double speed = 0.05;    // [m/s] at full deflection
     double turnSpeed = 0.5; // [rad/s] at full deflection
@@ -20,17 +21,17 @@ struct SpaceMouseOptions {
 };
 
 // read() makes a few non-blocking system calls. The device reports every 8 to 16 ms while it is held and
-// falls silent after a report of zeros; one that is silent while deflected (lost out of radio range) counts
-// as let go after kSilence. Its first button is guidance, its second opens the dead-man switch while it is
-// down. Unplugged it is looked for ten times a second by vendor and product, on a thread of its own, and goes
-// on from the pose where it was, at whatever node it comes back.
+// stops reporting after a report of zeros; one that is silent while deflected (out of radio range) counts as
+// released after kSilence. Its first button is guidance, its second opens the dead-man switch while it is
+// down. After unplugging, a separate thread searches it ten times per second by vendor and product; it
+// resumes from its last pose, at any node.
 class SpaceMouseHand final : public LiveHand {
 public:
-    // node: /dev/hidrawN; empty = the first SpaceMouse. Throws BadInput: none, no permission (udev rule), not
-    // one.
+    // node: /dev/hidrawN; empty = the first SpaceMouse. Throws BadInput when there is none, permission is
+    // missing (udev rule), or the node is not a SpaceMouse.
     explicit SpaceMouseHand(const std::filesystem::path& node, const SpaceMouseOptions& options = {});
-    // On a descriptor that is read like a hidraw node, non-blocking; owns it. reopen, called on another
-    // thread while the device is away, gives the next one or -1; empty = it never comes back.
+    // Takes a non-blocking descriptor that reads like a hidraw node. reopen, called on another thread while
+    // the device is absent, returns the next one or -1; empty = no reconnect.
     SpaceMouseHand(int descriptor, std::string name, const SpaceMouseOptions& options,
                    std::function<int()> reopen = {});
     SpaceMouseHand(const SpaceMouseHand&) = delete;
@@ -46,19 +47,19 @@ public:
     LiveHandFigures figures() const noexcept override { return figures_; }
 
     static constexpr double kSilence = 0.1;   // [s]
-    static constexpr double kMostStep = 0.05; // [s] that one turn integrates at most
+    static constexpr double kMostStep = 0.05; // [s] integrated per tick at most
 
 private:
     void takeReports(double t) noexcept;
     void lose() noexcept;
-    void seek() noexcept; // the thread
+    void seek() noexcept; // body of the thread
 
     int descriptor_;
     std::string name_;
     SpaceMouseOptions options_;
     SpaceMouseState state_;
     Pose pose_;
-    double before_ = 0.0, heard_ = 0.0; // [s] last turn, last report
+    double before_ = 0.0, heard_ = 0.0; // [s] last tick, last report
     bool started_ = false;
     LiveHandFigures figures_;
 

@@ -113,7 +113,7 @@ void UsbFtdi::onReceived() noexcept {
     } else if (++errors_ > kMostErrors) {
         gone_ = true;
     }
-    submitReceive(); // before anything else: one is always pending
+    submitReceive(); // first of all: one transfer is always pending
 }
 
 void UsbFtdi::onSent() noexcept {
@@ -193,7 +193,7 @@ void UsbFtdi::close() noexcept {
         handleEvents(std::chrono::milliseconds(5));
     }
     if (inPending_ || outPending_) {
-        return; // the kernel still holds our memory: better leaked than freed
+        return; // the kernel still owns the memory: leak it rather than free it
     }
     libusb_free_transfer(in_);
     libusb_free_transfer(out_);

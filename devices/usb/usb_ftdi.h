@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An FTDI port over libusb with one IN transfer pending at all times, so that an answer never waits for us to
-// ask.
+// An FTDI port over libusb with one IN transfer pending at all times, so that answers are received without
+// polling.
 #pragma once
 
 #include "devices/usb/ftdi_port.h"
@@ -18,12 +18,12 @@ namespace fathom {
 // at most 64 bytes begins with two bytes of modem status.
 class UsbFtdi final : public FtdiPort {
 public:
-    // The first device with these ids. Throws BadInput: none there, no permission (names the udev rule), in
-    // use.
+    // The first device with these ids. Throws BadInput when there is none, permission is missing (names the
+    // udev rule), or it is in use.
     UsbFtdi(uint16_t vendor, uint16_t product);
     UsbFtdi(const UsbFtdi&) = delete;
     UsbFtdi& operator=(const UsbFtdi&) = delete;
-    ~UsbFtdi() override; // what was sent goes out first, 50 ms at most
+    ~UsbFtdi() override; // flushes pending output, 50 ms at most
 
     void control(FtdiRequest request, uint16_t value) override;
     bool send(std::span<const uint8_t> bytes) override;
@@ -42,7 +42,7 @@ private:
     void checkThere() const;
 
     static constexpr size_t kUsbPacket = 64;
-    static constexpr int kMostErrors = 8; // in a row, until the device counts as gone
+    static constexpr int kMostErrors = 8; // consecutive errors until the device counts as lost
 
     libusb_context* context_ = nullptr;
     libusb_device_handle* handle_ = nullptr;

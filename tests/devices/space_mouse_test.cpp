@@ -78,10 +78,10 @@ TEST_CASE("Reports of both layouts give shift, turn and buttons; others and shor
     CHECK(takeSpaceMouseReport(motion(1, {350, -350, 7}), state));
     CHECK(state.shift == std::array<int16_t, 3>{350, -350, 7});
     CHECK(takeSpaceMouseReport(motion(2, {-1, 256, -256}), state));
-    CHECK(state.tick == std::array<int16_t, 3>{-1, 256, -256});
+    CHECK(state.rotation == std::array<int16_t, 3>{-1, 256, -256});
     CHECK(takeSpaceMouseReport(motion(1, {1, 2, 3, 4, 5, 6}), state));
     CHECK(state.shift == std::array<int16_t, 3>{1, 2, 3});
-    CHECK(state.tick == std::array<int16_t, 3>{4, 5, 6});
+    CHECK(state.rotation == std::array<int16_t, 3>{4, 5, 6});
     CHECK(takeSpaceMouseReport(Report{3, 5, 1}, state));
     CHECK(state.buttons == 0x105);
     const SpaceMouseState before = state;
@@ -90,7 +90,7 @@ TEST_CASE("Reports of both layouts give shift, turn and buttons; others and shor
         CHECK_FALSE(takeSpaceMouseReport(bad, state));
     }
     CHECK(state.shift == before.shift);
-    CHECK(state.tick == before.tick);
+    CHECK(state.rotation == before.rotation);
     CHECK(state.buttons == before.buttons);
 }
 
