@@ -126,7 +126,7 @@ double BagCamera::depthUnit() {
     if (topic == nullptr || topic->messages.empty()) {
         return kMillimetre;
     }
-    // A float: 0.001 is meant, not 0.0010000000474974513.
+    // Stored as float: use 0.001, not 0.0010000000474974513.
     const double unit =
         std::round(1e9 * static_cast<double>(ros::float32(bag_.read(topic->messages.front())))) * 1e-9;
     return unit > 0.0 ? unit : kMillimetre;
@@ -170,7 +170,7 @@ std::optional<size_t> BagCamera::colourFor(double stamp) const {
                : std::nullopt;
 }
 
-// What is wrong; empty when the slot is filled.
+// Returns the fault; empty when the slot is filled.
 std::string BagCamera::read(size_t index, FrameSlot& slot, double& stamp) {
     const auto sized = [](const ros::Image& image, const Intrinsics& lens) {
         return image.width == lens.width && image.height == lens.height;

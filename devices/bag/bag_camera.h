@@ -11,11 +11,11 @@
 
 namespace fathom {
 
-// The first topic of depth pictures and the first of colour pictures; camera_info beside each. Frame index
-// and source number = message of the depth topic from 0, capture time = its header's stamp. A depth picture
-// goes with the colour picture nearest in time, at most half the slower stream's period away (a colour
-// picture may serve twice); one without, or damaged, is skipped, counted, named in the log. Depth and colour
-// are registered when the topic or the common lens says so; else the bag must have RealSense's extrinsics
+// Plays the first depth topic and the first colour topic, each with its camera_info. Frame index
+// and source number = message of the depth topic from 0, capture time = its header's stamp. A depth image is
+// paired with the colour image nearest in time, at most half the slower stream's period away (a colour image
+// may be used twice); an unpaired or damaged one is skipped, counted and logged. Depth and colour are
+// registered when the topic or a shared lens says so; otherwise the bag must have RealSense's extrinsics
 // (topic .../tf/0).
 class BagCamera final : public Camera {
 public:

@@ -120,7 +120,7 @@ void BagFile::readIndex(uint64_t indexAt) {
     }
     std::sort(chunks.begin(), chunks.end());
     if (std::adjacent_find(chunks.begin(), chunks.end()) != chunks.end()) {
-        throw Error("the index names a chunk twice"); // each time would cost its messages again
+        throw Error("the index names a chunk twice"); // a repeated chunk would duplicate its messages
     }
     for (const uint64_t chunk : chunks) {
         readChunkIndex(chunk, topicOf);
@@ -131,7 +131,7 @@ void BagFile::readIndex(uint64_t indexAt) {
     }
 }
 
-// Behind a chunk follow its index records, one a connection: time and place of each message.
+// A chunk is followed by its index records, one per connection, with time and offset of each message.
 void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf) {
     in_.seekg(static_cast<std::streamoff>(chunkAt));
     if (number<uint8_t>(readRecord().fields, "op") != kChunk) {

@@ -13,10 +13,10 @@
 
 namespace fathom {
 
-// Where one message is.
+// Location of one message.
 struct BagEntry {
     uint64_t time = 0;   // [ns] when it was recorded
-    uint64_t chunk = 0;  // place of the chunk record in the file
+    uint64_t chunk = 0;  // offset of the chunk record in the file
     uint32_t offset = 0; // in the chunk, unpacked
 };
 
@@ -26,16 +26,16 @@ struct BagTopic {
     std::vector<BagEntry> messages; // in order of time
 };
 
-// One thread. Chunks are stored plain, in bz2 or in LZ4 frames; the last two stay unpacked in memory.
+// One thread. Chunks are uncompressed, bz2 or LZ4 frames; the two most recent ones stay unpacked in memory.
 class BagFile {
 public:
-    // Throws BadInput naming the file: no bag of version 2.0, not indexed (it was not closed), damaged.
+    // Throws BadInput that names the file: not a bag of version 2.0, not indexed (not closed), or damaged.
     explicit BagFile(const std::filesystem::path& file);
 
     const std::vector<BagTopic>& topics() const { return topics_; }
-    // Null when there is none of that name.
+    // Null when there is no such topic.
     const BagTopic* find(const std::string& name) const;
-    // The message as it is serialised. Valid until two other chunks have been read. Throws Error.
+    // The serialised message. Valid until two other chunks have been read. Throws Error.
     std::span<const uint8_t> read(const BagEntry& entry);
     const std::filesystem::path& file() const { return file_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads little-endian values one after another and never past the end.
+// Reads little-endian values in sequence, with bounds checks.
 #pragma once
 
 #include "engine/types/error.h"
@@ -19,7 +19,7 @@ public:
     explicit ByteCursor(std::span<const uint8_t> bytes)
         : rest_(bytes) {}
 
-    // The next bytes, in the order of this machine (little-endian), and past them.
+    // Reads the next bytes in host order (little-endian) and advances.
     std::span<const uint8_t> take(size_t count) {
         if (count > rest_.size()) {
             throw Error("truncated");
@@ -42,7 +42,7 @@ public:
         const auto bytes = block();
         return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
     }
-    // The same with a space for each control character: names that messages quote stay on one line.
+    // The same, with control characters replaced by spaces, so that quoted names stay on one line.
     std::string name() { return printable(text()); }
     bool empty() const { return rest_.empty(); }
     size_t left() const { return rest_.size(); }

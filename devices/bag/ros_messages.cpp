@@ -24,8 +24,8 @@ Header header(ByteCursor& cursor) {
 
 struct Layout {
     const char* encoding;
-    uint32_t bytes;            // a pixel
-    std::array<int8_t, 3> rgb; // their places
+    uint32_t bytes;            // per pixel
+    std::array<int8_t, 3> rgb; // channel offsets
 };
 constexpr std::array kPlain{Layout{"rgb8", 3, {0, 1, 2}}, Layout{"bgr8", 3, {2, 1, 0}},
                             Layout{"rgba8", 4, {0, 1, 2}}, Layout{"bgra8", 4, {2, 1, 0}},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few ROS 1 messages that a depth camera's bag needs, taken apart. Source: the .msg definitions of
+// Parsers for the ROS 1 messages of a depth camera's bag. Source: the .msg definitions of
 // sensor_msgs, geometry_msgs and std_msgs.
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace fathom::ros {
 
-// All throw Error when the message is cut short or makes no sense.
+// All throw Error when the message is truncated or invalid.
 
-// sensor_msgs/Image; a view of the message that it was taken from.
+// sensor_msgs/Image; a view into the message.
 struct Image {
     double stamp = 0.0; // [s]
     std::string frame, encoding;
-    uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] a row
+    uint32_t width = 0, height = 0, step = 0; // [pixels], [bytes] per row
     bool bigEndian = false;
     std::span<const uint8_t> data; // of the message's bytes
 };
@@ -31,7 +31,7 @@ float float32(std::span<const uint8_t> message);         // std_msgs/Float32
 bool isDepth(const std::string& encoding);  // 16UC1, mono16 (as RealSense writes), 32FC1
 bool isColour(const std::string& encoding); // rgb8, bgr8, rgba8, bgra8, yuv422_yuy2, mono8
 
-// Both say what is wrong; empty when it was converted whole. Metres (32FC1) become units of 1 mm.
+// Both return the fault, or empty when everything was converted. Metres (32FC1) become units of 1 mm.
 std::string depthRows(const Image& image, std::span<uint16_t> out);
 std::string colourRows(const Image& image, std::span<uint32_t> out);
 

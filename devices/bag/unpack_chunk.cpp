@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kMostLz4 = 255, kMostBz2 = 65536; // to one: what the formats can reach
+constexpr uint64_t kMostLz4 = 255, kMostBz2 = 65536; // largest compression ratios of the formats
 
 struct FreeContext {
     void operator()(LZ4F_dctx* context) const noexcept { LZ4F_freeDecompressionContext(context); }
@@ -59,7 +59,7 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
         return {packed.begin(), packed.end()};
     }
     const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMostLz4 : kMostBz2);
-    if (size > most) { // before memory is taken for it
+    if (size > most) { // check before allocating
         throw Error("a chunk of " + std::to_string(packed.size()) + " bytes cannot hold the " +
                     std::to_string(size) + " that are told");
     }

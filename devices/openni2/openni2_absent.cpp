@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stands in for openni2_camera.cpp in a program that is built without OpenNI2.
+// Replaces openni2_camera.cpp in builds without OpenNI2.
 #include "devices/openni2/open_openni2.h"
 
 #include "engine/types/error.h"

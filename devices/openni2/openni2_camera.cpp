@@ -23,7 +23,7 @@ bool isDepth(openni::PixelFormat format) {
     return format == openni::PIXEL_FORMAT_DEPTH_1_MM || format == openni::PIXEL_FORMAT_DEPTH_100_UM;
 }
 
-// The largest picture, then the fastest, of a kind.
+// Largest resolution first, then the highest rate.
 template <class Wanted>
 std::optional<openni::VideoMode> bestMode(const openni::VideoStream& stream, const Wanted& wanted) {
     const auto& modes = stream.getSensorInfo().getSupportedVideoModes();
@@ -67,9 +67,9 @@ OpenNi2Camera::OpenNi2Camera(const std::string& uri, const std::filesystem::path
     readLens(intrinsics);
     slots_.emplace(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
     if (file_) {
-        // At the end of a file that is not repeated the library's thread would spin.
+        // Without repeat, the library's thread would spin at the end of the file.
         device_.getPlaybackControl()->setRepeatEnabled(true);
-        device_.getPlaybackControl()->setSpeed(-1.0f); // as fast as it is asked
+        device_.getPlaybackControl()->setSpeed(-1.0f); // frames on request
     }
     if (depth_.stream.start() != openni::STATUS_OK ||
         (hasColour_ && colour_.stream.start() != openni::STATUS_OK)) {
@@ -82,7 +82,8 @@ OpenNi2Camera::~OpenNi2Camera() {
         s->newest.release();
         s->stream.stop();
     }
-    if (file_) { // its player walks over the list of streams without a lock, when all stand still every 10 ms
+    if (file_) { // its player iterates the stream list without a lock, every 10 ms while all streams are
+                 // stopped
         std::this_thread::sleep_for(kPlayerRests);
     }
     for (Stream* s : {&depth_, &colour_}) {
@@ -124,7 +125,7 @@ void OpenNi2Camera::openDepth() {
     left_ = file_ ? device_.getPlaybackControl()->getNumberOfFrames(depth_.stream) : 0;
 }
 
-// Colour that the device does not register to depth is left out: OpenNI2 does not tell how the lenses lie.
+// Colour that the device does not register to depth is skipped, because OpenNI2 has no extrinsics.
 void OpenNi2Camera::openColour(bool registered) {
     info_.hasColour = false;
     if (!device_.hasSensor(openni::SENSOR_COLOR) ||
@@ -192,7 +193,7 @@ bool OpenNi2Camera::readAny() {
         return false;
     }
     const uint64_t stamp = s.newest.getTimestamp();
-    if (file_ && s.any && stamp <= s.stamp) { // it begins anew
+    if (file_ && s.any && stamp <= s.stamp) { // the file restarts
         ended_ = true;
         return false;
     }

@@ -11,17 +11,17 @@
 
 namespace fathom {
 
-// Throws BadInput with what OpenNI2 says of its last fault.
+// Throws BadInput with OpenNI2's last error message.
 [[noreturn]] void refuseOpenNi2(const std::string& uri, const std::string& field, const std::string& allowed);
 
-// Depth in mm or 0.1 mm, colour registered to it by the device or left out; mirrored pictures are turned
-// back. The lens is a pinhole of the device's field of view, centre in the middle, as OpenNI2's own
-// conversion has it, unless intrinsics are given. Depth and colour belong together when their stamps are at
-// most half a frame apart. A live picture is stamped when it arrives; a recorded one by the device's clock.
-// At most one process at a time uses a device.
+// Depth in mm or 0.1 mm; colour registered by the device or skipped; mirroring is undone. The lens is a
+// pinhole with the device's field of view and a centred principal point, as in OpenNI2's own conversion,
+// unless intrinsics are given. Depth and colour are paired when their stamps differ by at most half a frame.
+// Live frames are stamped on arrival, recorded ones by the device's clock. Only one process at a time can use
+// a device.
 class OpenNi2Camera final : public Camera {
 public:
-    // uri: empty = the first device; a file's path. registered: the file's colour is, which it does not tell.
+    // uri: empty = the first device; a file's path. registered: colour of the file is registered to depth.
     // Throws BadInput.
     OpenNi2Camera(const std::string& uri, const std::filesystem::path& intrinsics, bool registered);
     OpenNi2Camera(const OpenNi2Camera&) = delete;
@@ -36,7 +36,7 @@ public:
     std::optional<double> framePeriod() const override { return period_; }
     std::string description() const override { return name_; }
 
-    struct Library { // OpenNI2 counts its users. Throws BadInput.
+    struct Library { // OpenNI2 is reference-counted. Throws BadInput.
         Library();
         ~Library();
         Library(const Library&) = delete;
@@ -48,13 +48,13 @@ private:
         openni::VideoStream stream;
         openni::VideoFrameRef newest;
         bool mirrored = false, fresh = false, any = false;
-        uint64_t stamp = 0; // of the newest, where there is any
+        uint64_t stamp = 0; // of the newest frame, if any
     };
     void open(const std::string& uri);
     void openDepth();
     void openColour(bool registered);
     void readLens(const std::filesystem::path& intrinsics);
-    bool readAny(); // false: the file ended, or nothing came
+    bool readAny(); // false: end of file, or nothing arrived
     bool paired() const;
     Frame deliver();
 
@@ -66,7 +66,7 @@ private:
     std::string name_;
     double period_ = 1.0 / 30.0; // [s]
     bool ended_ = false;         // all of the file
-    int64_t left_ = 0;           // depth pictures of the file that are to come
+    int64_t left_ = 0;           // depth frames left in the file
     uint32_t index_ = 0, skipped_ = 0;
     int lastNumber_ = -1;
     uint64_t lost_ = 0;

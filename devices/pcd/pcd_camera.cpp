@@ -39,13 +39,13 @@ bool measured(const dvec3& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z) && p.z > 0.0;
 }
 
-// Rows: what is right, down and forward in the cloud's axes.
+// Rows: right, down and forward in the cloud's axes.
 glm::dmat3 axes(const dvec3& right, const dvec3& down, const dvec3& forward) {
     return glm::transpose(glm::dmat3(right, down, forward));
 }
 
-// As if the cloud's axes were these and its picture such; a residual without end when it is upside down so.
-// Empty: too few points.
+// Fits the lens under these axes and projection; infinite residual when the image would be upside down. Empty
+// with too few points.
 std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& opticalTcloud, bool fan) {
     Line across, down;
     for (size_t i = 0; i < cloud.points.size(); ++i) {
@@ -53,7 +53,7 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
         if (measured(p)) {
             const double x = fan ? std::atan2(p.x, p.z) : p.x / p.z;
             const double y = fan ? std::atan2(p.y, std::hypot(p.x, p.z)) : p.y / p.z;
-            // About the centre: the sums keep their digits.
+            // Relative to the centre, for precision of the sums.
             const size_t column = i % cloud.width, row = i / cloud.width;
             across.add(x, static_cast<double>(column) - 0.5 * cloud.width);
             down.add(y, static_cast<double>(row) - 0.5 * cloud.height);
@@ -78,7 +78,7 @@ std::optional<FittedLens> fitAs(const PcdCloud& cloud, const glm::dmat3& optical
     return fit;
 }
 
-// Strength as grey; the full scale is the first that holds the largest.
+// Intensity as grey; full scale is the smallest one that contains the maximum.
 std::vector<uint32_t> greyOf(const std::vector<float>& intensity) {
     float largest = 0.0f;
     for (const float value : intensity) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera that shows one organised PCD: the depth picture and the lens that its points came from.
+// Camera that plays one organised PCD file: reconstructs the depth image and the lens.
 #pragma once
 
 #include "devices/camera.h"
@@ -11,25 +11,25 @@
 
 namespace fathom {
 
-// The lens whose rays the points of a cloud lie on, found by least squares.
+// The lens of a cloud's points, fitted by least squares.
 struct FittedLens {
     Intrinsics lens;
     double residual = 0.0;         // [pixels] root of the mean square
     glm::dmat3 opticalTcloud{1.0}; // the cloud's axes to x right, y down, z forward
 };
 
-// The cloud's axes may be optical, y up and z backward (graphics), or x forward, y left, z up (robots). Of
-// the three, as a pinhole (u = fx x/z + cx, v = fy y/z + cy) and as a fan of beams at equal angles, the one
-// with the least residual by least squares over the measured points before the sensor. Throws Error when
-// there are too few or they lie in one line of sight.
+// The cloud's axes may be optical, y up and z backward (graphics), or x forward, y left, z up (robots). Tries
+// all three, each as a pinhole (u = fx x/z + cx, v = fy y/z + cy) and as a fan of beams at equal angles, and
+// takes the smallest least-squares residual over the points in front of the sensor. Throws Error when the
+// points are too few or all on one ray.
 FittedLens fitLens(const PcdCloud& cloud);
 
-// One frame. Depth is z in units of 0.1 mm, coarser where the farthest point needs it. The camera's frame is
-// the optical one, whatever the cloud's. Without colour the strength of a field intensity is the picture's
-// grey: of the full scales 1, 255 and 65535 the first that holds the largest.
+// One frame. Depth is z in units of 0.1 mm, coarser when the farthest point needs it. The camera frame is the
+// optical one, independent of the cloud's axes. Without colour, the field `intensity` becomes grey; full
+// scale is the smallest of 1, 255 and 65535 that contains the maximum.
 class PcdCamera final : public Camera {
 public:
-    // Throws BadInput, also for a cloud that neither a pinhole camera nor a fan saw: residual over one pixel.
+    // Throws BadInput, also when neither a pinhole nor a fan fits within one pixel.
     explicit PcdCamera(const std::filesystem::path& file);
 
     const CameraInfo& info() const override { return info_; }

@@ -129,7 +129,7 @@ Header readHeader(Source& source) {
     return header;
 }
 
-// Ascii values, turned into the bytes that a binary file would have.
+// Converts ASCII values to the bytes of a binary file.
 std::vector<uint8_t> readAscii(Source& source, const Header& header) {
     const std::string text(source.bytes.begin() + static_cast<long>(source.at), source.bytes.end());
     std::istringstream in(text);
@@ -226,7 +226,7 @@ bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out) {
     size_t from = 0, to = 0;
     while (from < in.size()) {
         const uint32_t control = in[from++];
-        if (control < 32) { // so many bytes and one as they are
+        if (control < 32) { // control + 1 literal bytes
             const size_t count = control + 1;
             if (from + count > in.size() || to + count > out.size()) {
                 return false;
@@ -248,7 +248,7 @@ bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out) {
         if (back > to || to + count > out.size()) {
             return false;
         }
-        for (size_t i = 0; i < count; ++i, ++to) { // may overlap what it copies
+        for (size_t i = 0; i < count; ++i, ++to) { // source and target may overlap
             out[to] = out[to - back];
         }
     }

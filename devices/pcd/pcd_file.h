@@ -12,10 +12,10 @@
 
 namespace fathom {
 
-// The fields of a cloud that are used; one value a point in each column that is not empty.
+// The fields in use; each column that is not empty has one value per point.
 struct PcdCloud {
     uint32_t width = 0, height = 0;
-    std::vector<dvec3> points;    // [m] row by row; not finite where nothing was measured
+    std::vector<dvec3> points;    // [m] row-major; not finite where nothing was measured
     std::vector<uint32_t> colour; // 0xAABBGGRR; empty without a field rgb or rgba
     std::vector<float> intensity; // empty without a field intensity
 };
@@ -23,7 +23,7 @@ struct PcdCloud {
 // Throws BadInput naming the file and the header's line, also for a cloud that is not organised (height 1).
 PcdCloud readPcd(const std::filesystem::path& file);
 
-// LZF: out has the unpacked size. False when the data does not come out at exactly that size.
+// LZF; out has the unpacked size. False when the result has another size.
 bool unpackLzf(std::span<const uint8_t> in, std::span<uint8_t> out);
 
 } // namespace fathom

@@ -18,8 +18,8 @@ std::string scalar(const nlohmann::json& value) {
                                  : value.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
 }
 
-// A list's own numbers and words, and nothing of what is below them: the library's writer calls itself for
-// each level, and a file may have more of them than the stack has room for.
+// Prints only the top level of a list: the library's writer is recursive, and deeply nested files could
+// overflow the stack.
 std::string shown(const nlohmann::json& value) {
     if (value.is_object()) {
         return "an object";
@@ -34,7 +34,7 @@ std::string shown(const nlohmann::json& value) {
     return excerpt(all + "]", kShownCharacters);
 }
 
-// The library quotes all that it read last, however long, byte by byte.
+// The library's message quotes the last token in full, whatever its length.
 std::string reasonOf(const nlohmann::json::exception& e) {
     std::string reason = e.what();
     std::replace_if(
@@ -128,7 +128,7 @@ nlohmann::json parseJsonFile(const std::filesystem::path& file) {
     const std::string text = readTextFile(file);
     try {
         return nlohmann::json::parse(text);
-    } catch (const nlohmann::json::exception& e) { // its text names line, column and what was read last
+    } catch (const nlohmann::json::exception& e) { // its message has line, column and the last token
         throw BadInput(file.string(), "syntax", reasonOf(e), "JSON (which has no NaN or infinity)");
     }
 }

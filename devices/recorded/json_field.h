@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A value of a JSON file that knows its dotted path and checks what it hands out.
+// A value of a JSON file with its dotted path; every access is checked.
 #pragma once
 
 #include <filesystem>
@@ -20,10 +20,10 @@ public:
         , file_(std::move(file))
         , path_(std::move(path)) {}
 
-    std::optional<JsonField> find(std::string_view key) const; // refuses when this is no object
-    JsonField at(std::string_view key) const;                  // refuses when the key is missing
+    std::optional<JsonField> find(std::string_view key) const; // throws when this is not an object
+    JsonField at(std::string_view key) const;                  // throws when the key is missing
 
-    // This value, which has to be that; else refused.
+    // This value as the given type; throws otherwise.
     double finite() const;
     double positive() const;
     uint32_t integer(uint32_t lo, uint32_t hi) const; // lo..hi, both allowed
@@ -42,7 +42,7 @@ private:
     std::string path_; // empty for the whole document
 };
 
-// Throws BadInput naming the file when it cannot be read or is no JSON.
+// Throws BadInput that names the file when it cannot be read or is not JSON.
 nlohmann::json parseJsonFile(const std::filesystem::path& file);
 
 } // namespace fathom

@@ -36,7 +36,7 @@ void LineFile::flush() {
     }
     const std::string why = errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : "";
     out_.close();
-    std::error_code ignored; // there may be nothing that could be cut, as of a device
+    std::error_code ignored; // truncation may be impossible, for example on a device
     std::filesystem::resize_file(name_, size_, ignored);
     throw Error(name_.string() + ": cannot be written" + why);
 }

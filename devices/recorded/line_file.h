@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A text file that grows by whole lines.
+// A text file that is extended by whole lines.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,15 @@
 
 namespace fathom {
 
-// What is written is kept until flush(), which hands it over in one piece: a process that is killed leaves
-// whole lines, and a disk that is full leaves those that had room. One thread.
+// Buffers lines until flush() writes them in one piece: a killed process leaves whole lines, and a full disk
+// leaves those that fitted. One thread.
 class LineFile {
 public:
-    // With this first line; empty = none. Throws Error that names the file when it cannot be written.
+    // first: first line; empty = none. Throws Error that names the file when it cannot be written.
     void open(const std::filesystem::path& file, const char* head = "");
     bool isOpen() const { return out_.is_open(); }
     std::ostream& lines() { return waiting_; } // 17 digits
-    // Throws Error when not all lines had room; what was cut is taken back. Nothing where no file is open.
+    // Throws Error when not all lines fit, and removes the partial line. No effect when no file is open.
     void flush();
     void close(); // as flush()
 

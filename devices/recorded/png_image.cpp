@@ -31,7 +31,7 @@ void onError(png_structp png, png_const_charp text) {
     png_longjmp(png, 1);
 }
 
-void onWarning(png_structp, png_const_charp) {} // what matters comes as an error
+void onWarning(png_structp, png_const_charp) {} // faults are reported as errors
 
 // libpng reports errors by longjmp. Nothing with a destructor is alive between setjmp and the jump: each of
 // the two calls below is its own function whose locals are plain.
@@ -120,7 +120,7 @@ std::string words(PngSize size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-// Empty, or why this picture is not the one that was asked for.
+// Returns why the image does not match the request; empty = it matches.
 std::string checkHead(const PngReader& png, PngSize size, int bits) {
     if (!png.fault().empty()) {
         return png.fault();

@@ -16,16 +16,15 @@ struct PngSize {
     bool operator==(const PngSize&) const = default;
 };
 
-// Width and height from the head of the file; empty when it is no readable PNG.
+// Width and height from the file header; empty when it is not a readable PNG.
 std::optional<PngSize> readPngSize(const std::filesystem::path& file);
 
-// Both return what is wrong with the file, empty when it was read whole; the target's content is then
-// meaningless. target has size.width x size.height elements; another size or pixel kind is refused before a
-// pixel is decoded.
+// Both return the fault, or empty when the file was read completely; after a fault the target is undefined.
+// target has size.width x size.height elements; another size or pixel type is rejected before decoding.
 std::string readDepthPng(const std::filesystem::path& file, PngSize size,
                          std::span<uint16_t> target); // 16-bit grey
-// 8-bit RGB, RGBA, grey (with or without alpha) or palette -> R8 G8 B8 A8 (0xAABBGGRR); alpha 255 where there
-// is none.
+// 8-bit RGB, RGBA, grey (with or without alpha) or palette -> R8 G8 B8 A8 (0xAABBGGRR); alpha 255 when the
+// file has none.
 std::string readColourPng(const std::filesystem::path& file, PngSize size, std::span<uint32_t> target);
 
 } // namespace fathom

@@ -15,7 +15,7 @@ namespace fathom {
 
 namespace {
 
-constexpr int kEffort = 1; // of zlib: 30 pictures a second matter more than the last tenth of the size
+constexpr int kEffort = 1; // zlib level: 30 frames per second matter more than the last tenth of the size
 
 struct CloseOutput {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
@@ -24,7 +24,7 @@ struct CloseOutput {
 void keepMessage(png_structp png, png_const_charp message) {
     auto* kept = static_cast<char*>(png_get_error_ptr(png));
     std::snprintf(kept, 128, "%s", message);
-    std::longjmp(png_jmpbuf(png), 1); // NOLINT: libpng's way out
+    std::longjmp(png_jmpbuf(png), 1); // NOLINT: libpng's error path
 }
 
 void ignoreWarning(png_structp, png_const_charp) {}
@@ -45,7 +45,7 @@ bool writeRows(std::FILE* file, PngSize size, int bits, int colourType, bool fou
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_write_info(png, info);
     if (bits == 16) {
-        png_set_swap(png); // ours are little-endian
+        png_set_swap(png); // source is little-endian
     }
     if (fourBytes) {
         png_set_filler(png, 0, PNG_FILLER_AFTER); // drops alpha

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG pictures written by libpng: small effort, no loss.
+// PNG images written by libpng, fast and lossless.
 #pragma once
 
 #include "devices/recorded/png_image.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// poses.txt of a recording: where the camera was.
+// poses.txt of a recording: the camera's poses.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -15,7 +15,7 @@ public:
     // here. Throws BadInput with file and line; at least one line.
     explicit PoseTrack(const std::filesystem::path& file);
 
-    // Straight line and shortest arc between the neighbours of t; the first pose before, the last after.
+    // Interpolates linearly and by the shortest arc; clamps to the first and last pose.
     Pose at(double t) const noexcept;
 
 private:

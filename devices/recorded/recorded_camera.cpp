@@ -65,8 +65,8 @@ void RecordedCamera::toDepth(std::span<uint16_t> ranges) const {
     }
 }
 
-// One odd picture is a bad frame; a colour stream that never has the size told is a recording without
-// registration.
+// A single image of another size is a bad frame; a colour stream that never has the stated size is a
+// recording without registration.
 void RecordedCamera::checkColourSize() const {
     const PngSize wanted = sizeOf(info().colour);
     std::optional<PngSize> other;
@@ -121,10 +121,10 @@ Frame RecordedCamera::lease(uint32_t index, FrameSlot& slot) const {
     return slot.lend(content);
 }
 
-// Named at once in a recording that has shown a good frame; before that when one comes. Should none come, the
-// one refusal says it all.
+// Logged immediately after the first valid frame, or deferred until it. If none comes, the final error
+// reports them.
 void RecordedCamera::skip(uint32_t index, const std::string& fault) {
-    if (index < named_) { // seen before a seek()
+    if (index < named_) { // already reported before a seek()
         return;
     }
     named_ = index + 1;
@@ -151,8 +151,8 @@ bool RecordedCamera::seek(uint32_t index) {
     return true;
 }
 
-// Words that lead out are a fault (readIndex); links are used, for whoever has made them wants them, but may
-// have come with the recording.
+// Paths that leave the folder are a fault (readIndex). Links are followed with a warning: the user may have
+// made them, but they may also have come with the recording.
 void RecordedCamera::tellOfLinks(const IndexLine& line) {
     for (const fs::path& image : {line.depth, line.colour}) {
         if (!toldOfLinks_ && !image.empty() && leadsOut(image)) {
@@ -162,7 +162,7 @@ void RecordedCamera::tellOfLinks(const IndexLine& line) {
     }
 }
 
-// A folder of pictures is looked at once, where it leads.
+// Each image folder is checked once for links that leave the recording.
 bool RecordedCamera::leadsOut(const fs::path& image) {
     std::error_code unknown;
     if (fs::is_symlink(image, unknown)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera that plays a TUM RGB-D folder once, pair after pair, as fast as it is asked.
+// Camera that plays a TUM RGB-D folder once, pair by pair, on request.
 #pragma once
 
 #include "devices/camera.h"
@@ -16,13 +16,13 @@
 namespace fathom {
 
 // Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
-// is either delivered or skipped: a picture that is missing, damaged, of another size or kind, or a depth
-// stamp that goes back skips its frame and is named once in the log. Pictures are read on the calling thread.
-// The camera must outlive its leases; leases may end on any thread.
+// is either delivered or skipped: a missing or damaged image, another size or type, or a depth stamp that
+// goes back skips the frame and is logged once. Pictures are read on the calling thread. The camera must
+// outlive its leases; leases may end on any thread.
 class RecordedCamera final : public Camera {
 public:
     // Throws BadInput when the folder, its index, intrinsics.json or poses.txt is unusable, or when all
-    // colour pictures have a size that intrinsics.json does not tell of.
+    // colour images have a size that intrinsics.json does not state.
     explicit RecordedCamera(const std::filesystem::path& folder);
 
     const CameraInfo& info() const override { return intrinsics_.camera; }
@@ -36,7 +36,7 @@ public:
 
 private:
     void checkColourSize() const;
-    std::string read(const IndexLine& line, FrameSlot& slot) const; // what is wrong; empty = read
+    std::string read(const IndexLine& line, FrameSlot& slot) const; // the fault; empty = read
     void toDepth(std::span<uint16_t> ranges) const;
     Frame lease(uint32_t index, FrameSlot& slot) const;
     void tellOfLinks(const IndexLine& line);
@@ -52,13 +52,13 @@ private:
     std::vector<float> axisShare_; // z of a unit step along each ray; empty = pictures hold z
     uint32_t cursor_ = 0;          // next data line
     uint32_t skipped_ = 0;
-    uint32_t named_ = 0;                     // lines before this one are counted
-    bool any_ = false;                       // a frame was good
-    bool toldOfLinks_ = false;               // that lead out of the folder: once
+    uint32_t named_ = 0;                     // lines before this one are already counted
+    bool any_ = false;                       // a valid frame was seen
+    bool toldOfLinks_ = false;               // warn about links out of the folder once
     std::unordered_set<std::string> judged_; // folders of pictures
     std::optional<double> lastStamp_;        // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;
-    std::vector<std::string> unnamed_; // skipped frames that the log has not named yet
+    std::vector<std::string> unnamed_; // skipped frames that are not logged yet
 };
 
 } // namespace fathom

@@ -97,7 +97,8 @@ struct Candidate {
     size_t depth, colour;
 };
 
-// All close pairs, closest first; a bounded number a depth picture, so that equal stamps cost no square.
+// All close pairs, closest first; a bounded number per depth image, so that equal stamps do not cause
+// quadratic cost.
 std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
                                   const std::vector<StampedFile>& colour, double within) {
     std::vector<Candidate> pairs;
@@ -118,7 +119,7 @@ std::vector<Candidate> closePairs(const std::vector<StampedFile>& depth,
     return pairs;
 }
 
-// In order of `depth`.
+// In the order of `depth`.
 std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vector<StampedFile> colour,
                                  double within) {
     std::stable_sort(colour.begin(), colour.end(),

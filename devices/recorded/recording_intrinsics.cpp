@@ -16,7 +16,7 @@ std::array<double, 5> readDistortion(const JsonField& lens) {
     const auto list = lens.find("distortion");
     const std::vector<double> given = list ? list->numbers() : std::vector<double>{};
     if (std::all_of(given.begin(), given.end(), [](double k) { return k == 0.0; })) {
-        return all; // whatever the model
+        return all; // for any model
     }
     if (const auto model = lens.find("distortion_model")) {
         constexpr std::array<std::string_view, 4> kKnown{"plumb_bob", "Brown Conrady", "brown_conrady",
@@ -32,7 +32,7 @@ std::array<double, 5> readDistortion(const JsonField& lens) {
     return all;
 }
 
-// Rays are found by inverting the distortion: a lens that folds the picture over has none.
+// Rays need the inverse of the distortion, which does not exist when the lens folds the image.
 bool invertible(const Intrinsics& lens) {
     for (uint32_t i = 0; i < 25; ++i) {
         const uint32_t column = i % 5, row = i / 5;
@@ -73,7 +73,7 @@ Pose readPose(const JsonField& node) {
     return {{t[0], t[1], t[2]}, quat / length};
 }
 
-// British or American.
+// Accepts British and American spelling.
 std::optional<JsonField> findColour(const JsonField& node, std::string_view american,
                                     std::string_view british) {
     const auto found = node.find(american);
@@ -105,13 +105,13 @@ void readTwoLenses(const JsonField& root, const JsonField& colour, CameraInfo& c
     if (camera.colour.width != camera.depth.width || camera.colour.height != camera.depth.height) {
         registered->refuse("false (with extrinsics_topic_tf) where depth and colour differ in size");
     }
-    camera.colour = camera.depth; // the depth picture's rays are the truth for both
+    camera.colour = camera.depth; // both use the rays of the depth image
 }
 
 void readOneLens(const JsonField& root, CameraInfo& camera) {
     camera.depth = readLens(root);
     camera.colour = camera.depth;
-    camera.registered = true; // one lens can mean nothing else
+    camera.registered = true; // a single lens implies registration
     const auto registered = root.find("registered_to_color");
     if (registered && !registered->boolean()) {
         registered->refuse("true, or blocks depth and color with extrinsics_topic_tf");
@@ -126,7 +126,7 @@ bool readWord(const JsonField& root, std::string_view key, std::string_view plai
     return field && field->text() == other;
 }
 
-// What a sonar or a laser scanner has beside a camera.
+// Fields of sonars and laser scanners.
 void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
     constexpr double kRadian = 3.14159265358979323846 / 180.0, kWidest = 85.0 * kRadian;
     Intrinsics& lens = intrinsics.camera.depth;

@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// Largest picture that is read [pixels].
+// Largest image [pixels].
 inline constexpr uint32_t kMaxImageWidth = 3840;
 inline constexpr uint32_t kMaxImageHeight = 2160;
 
@@ -27,9 +27,9 @@ struct RecordingIntrinsics {
 // true]. Two lenses: depth and color (or colour) blocks of the same keys, depth_scale_m_per_unit,
 // registered_to_color, and unless registered extrinsics_topic_tf {Depth, Color: {t [m], q_xyzw}}. Distortion
 // is Brown-Conrady k1 k2 p1 p2 [k3] (plumb_bob); other models are accepted only with all coefficients zero.
-// has_color: false (flat only) tells of a recording of depth alone. Of a sonar or laser scan (flat only):
-// projection: equal_angles (fx, fy in pixels a radian), depth_is: range, and beam {width_deg, sigma_m,
-// sigma_m_per_m}; its rgb/ pictures show strength as grey. Throws BadInput naming the file and field.
+// has_color: false (flat only) marks a recording without colour. Sonars and laser scans (flat only):
+// projection: equal_angles (fx, fy in pixels per radian), depth_is: range, and beam {width_deg, sigma_m,
+// sigma_m_per_m}; its rgb/ images show intensity as grey. Throws BadInput naming the file and field.
 RecordingIntrinsics readIntrinsics(const std::filesystem::path& file);
 
 } // namespace fathom

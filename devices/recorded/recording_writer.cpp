@@ -123,7 +123,7 @@ void RecordingWriter::write(const Job& job) const {
     }
 }
 
-// Lines go out in order, each once all before it are there.
+// Lines are written in order, each when all earlier ones are done.
 void RecordingWriter::done(const Job& job) {
     const std::string depth = text(job.image.stamp) + " " + numbered("depth", job.number);
     const std::string line =
@@ -153,7 +153,7 @@ void RecordingWriter::done(const Job& job) {
         }
         ++indexed_;
     }
-    poses_.flush(); // before the index tells of its pictures
+    poses_.flush(); // before the index lists its images
     index_.flush();
 }
 

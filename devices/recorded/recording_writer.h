@@ -18,17 +18,17 @@
 namespace fathom {
 
 // TUM RGB-D layout: rgb/NNNNNN.png, depth/NNNNNN.png, associations.txt (depth.txt alone without colour),
-// intrinsics.json, and poses.txt when frames carry poses. Pictures are encoded on threads of its own; add()
-// copies the frame and returns. The index gets a line once its pictures are whole on disk, in order, so that
-// a recording cut off anywhere is a shorter recording.
+// intrinsics.json, and poses.txt when frames carry poses. Images are encoded on worker threads; add() copies
+// the frame and returns. The index gets a line when its images are complete on disk, in order, so a truncated
+// recording is a valid, shorter one.
 class RecordingWriter {
 public:
     static constexpr size_t kWaiting = 90; // frames that may wait to be encoded: 3 s at 30 Hz
 
-    // Makes the folder; one that has an index already is refused (BadInput). Throws Error when it cannot be
-    // written. threads: of encoders.
+    // Creates the folder; rejects one that already has an index (BadInput). Throws Error when it cannot be
+    // written. threads: number of encoders.
     RecordingWriter(const std::filesystem::path& folder, const CameraInfo& camera, unsigned threads);
-    // As finish(), but says nothing of failures.
+    // As finish(), but ignores failures.
     ~RecordingWriter();
 
     // One depth picture with its colour picture, row by row, as the camera's info describes them.
@@ -38,20 +38,20 @@ public:
         std::vector<uint32_t> colour;
         std::optional<Pose> pose; // base_T_camera
     };
-    // Returns at once, or when there is room again while kWaiting frames wait. Throws what an encoder threw.
+    // Returns at once, or waits for room when kWaiting frames are queued. Rethrows an encoder's exception.
     void add(const Frame& frame);
     void add(Image image);
     // Whether add() would wait now.
     bool full() const;
-    // No more will come: returns at once, while what waits is written.
+    // Ends the input and returns at once; queued frames are still written.
     void close() noexcept;
-    // Whether nothing waits or is being written. Any thread.
+    // True when nothing is queued or being written. Any thread.
     bool written() const;
-    // Waits for all pictures. Throws what an encoder threw.
+    // Waits for all images. Rethrows an encoder's exception.
     void finish();
 
     uint32_t frames() const { return added_; }
-    double longestWait() const { return longestWait_; } // [s] that add() was held up
+    double longestWait() const { return longestWait_; } // [s] longest wait in add()
 
 private:
     struct Job {
@@ -69,7 +69,7 @@ private:
     mutable std::mutex mutex_;
     std::condition_variable work_, room_;
     std::deque<Job> waiting_;
-    std::map<uint32_t, std::string> indexLines_, poseLines_; // done, but an earlier one is not
+    std::map<uint32_t, std::string> indexLines_, poseLines_; // done, waiting for an earlier one
     uint32_t added_ = 0, indexed_ = 0, underWay_ = 0;
     double longestWait_ = 0.0;
     bool ending_ = false;

@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::string_view kSpace = " \t\r";
 constexpr uint64_t kMostBytes = 64u << 20;
-constexpr size_t kMostLines = 1'000'000; // nine hours of pictures; a line of two bytes becomes hundreds
-constexpr size_t kMostText = 16u << 20;  // the stamps of three hours of pictures; a byte of it becomes forty
+constexpr size_t kMostLines = 1'000'000; // nine hours of frames; bounds the memory of short lines
+constexpr size_t kMostText = 16u << 20;  // the stamps of three hours of frames; each byte needs up to forty
 
 std::string_view trim(std::string_view text) {
     const size_t begin = text.find_first_not_of(kSpace);
@@ -54,7 +54,7 @@ bool DataLines::next(TextLine& line) {
         if (in_.fail()) {
             return false;
         }
-        const auto taken = static_cast<size_t>(in_.gcount()); // with the line end, where there was one
+        const auto taken = static_cast<size_t>(in_.gcount()); // including the line end, if any
         const std::string_view text = trim({buffer_.data(), taken - (in_.eof() ? 0 : 1)});
         if (!text.empty() && text[0] != '#') {
             line.number = number_;

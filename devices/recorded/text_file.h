@@ -18,7 +18,8 @@ struct TextLine {
     std::string text;    // without the line end
 };
 
-// Lines that are neither blank nor comments (first character '#'), one at a time, of a file however long.
+// Lines that are neither blank nor comments (first character '#'), one at a time; the file may be of any
+// length.
 class DataLines {
 public:
     static constexpr size_t kLongest = 2048; // characters
@@ -35,7 +36,7 @@ private:
     uint32_t number_ = 0;
 };
 
-// All of them. Throws BadInput also when they are more than 1 000 000 or 64 MiB.
+// All lines. Throws BadInput also for more than 1 000 000 lines or 64 MiB.
 std::vector<TextLine> readDataLines(const std::filesystem::path& file);
 
 // Whole file. Throws BadInput when it cannot be read or is longer than 16 MiB.
@@ -44,7 +45,8 @@ std::string readTextFile(const std::filesystem::path& file);
 std::vector<std::string_view> splitWords(std::string_view line);                // at spaces and tabs
 std::vector<std::string_view> splitFields(std::string_view line, char between); // trimmed, empty ones kept
 
-// The whole word as a number, whatever the locale. False when it is none; inf and nan count as numbers.
+// Parses the whole word as a number, independent of the locale. False when it is not one; inf and nan count
+// as numbers.
 bool parseNumber(std::string_view word, double& value);
 bool parseNumber(std::string_view word, uint32_t& value);
 

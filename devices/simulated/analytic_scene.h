@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Analytic scenes: lists of solids whose surfaces are known exactly, so that a picture of them has a truth.
+// Analytic scenes: lists of solids whose surfaces are known exactly, which gives simulated frames a ground
+// truth.
 #pragma once
 
 #include "devices/simulated/solid.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a Reach Alpha 5 and an ECA 5E Micro answer, as far as public sources tell: the far end of a serial
-// line for tests and dry runs. Plain functions of bytes and time.
+// Simulates the protocols of a Reach Alpha 5 and an ECA 5E Micro, as far as public sources describe them, for
+// tests and dry runs. Pure functions of bytes and time.
 #pragma once
 
 #include "devices/serial/eca_frame.h"
@@ -16,7 +16,7 @@ namespace fathom {
 class ArmSimulator {
 public:
     virtual ~ArmSimulator() = default;
-    // Bytes that came from the host; what the arm answers is appended to `out`.
+    // Takes bytes from the host; appends the arm's answers to `out`.
     virtual void receive(std::span<const uint8_t> bytes, std::vector<uint8_t>& out) = 0;
     virtual void step(double dt) = 0; // motors move for dt [s]
 };

@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-// What a random number is for; different purposes never share numbers.
+// Purpose of a random number; different purposes use independent numbers.
 enum class NoisePurpose : uint32_t { Depth, Dropout, Flying, Colour, Snow, Texture };
 
 // 64 well-mixed bits of (seed, frame, index, purpose): three rounds of the splitmix64 finaliser (Steele, Lea,

@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// Where the hand is to be, and what it presses, at one time.
+// Intended pose and buttons of the hand at one time.
 struct HandWaypoint {
     double t = 0.0;       // [s] since the run's start
     Pose deviceThandle;   // raw, device frame
@@ -24,8 +24,8 @@ public:
     // back. Two waypoints at the same time make a jump. Quaternions are normalised.
     explicit HandPath(std::vector<HandWaypoint> waypoints);
 
-    // Straight line and shortest arc between the waypoints round t; buttons of the last waypoint at or before
-    // t. Before the first waypoint the first, after the last the last (held).
+    // Interpolates linearly and by the shortest arc; buttons of the last waypoint at or before t. Clamps to
+    // the first and last waypoint.
     HandSample at(double t) const noexcept;
 
     double duration() const { return waypoints_.back().t; } // [s] time of the last waypoint

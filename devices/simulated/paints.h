@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the things in the simulated tank are painted with, chosen for what the camera sees through a metre of
-// water, which takes a third of the red: of all paints only what is to be seen comes out saturated.
+// Paints of the simulated tank, chosen for the view through a metre of water, which absorbs a third of the
+// red: only the valves appear saturated.
 #pragma once
 
 #include "devices/simulated/analytic_scene.h"

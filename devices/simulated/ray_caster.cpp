@@ -95,7 +95,7 @@ RayHit RayCaster::nearest(const dvec3& direction, std::span<const TileLists::Ent
     RayHit best{HUGE_VAL, -1};
     for (const TileLists::Entry& entry : tile) {
         if (entry.near > best.distance * axisShare) {
-            break; // sorted: nothing further on can be nearer
+            break; // sorted: later entries cannot be nearer
         }
         const double t = view_.enterSolid(scene_, entry.solid, direction);
         if (t < best.distance) {
@@ -122,7 +122,7 @@ float RayCaster::lampReaches(const dvec3& point, size_t own) const noexcept {
     }
     const double distance = glm::length(way);
     const dvec3 direction = way / distance;
-    // A convex solid cannot shade a side of its own that faces the lamp.
+    // A convex solid never shades its own side that faces the lamp.
     const bool convex = scene_.solids[own].kind != SolidKind::Torus;
     for (const TileLists::Entry& entry : lampView_.at(way.x / way.z, way.y / way.z)) {
         if (entry.near > way.z) {
@@ -132,7 +132,7 @@ float RayCaster::lampReaches(const dvec3& point, size_t own) const noexcept {
             continue;
         }
         const double t = lampView_.enterSolid(scene_, entry.solid, direction);
-        if (t < distance - 1e-4) { // the lit surface itself does not count
+        if (t < distance - 1e-4) { // ignore the lit surface itself
             return 0.0f;
         }
     }

@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// What water does to light over a range r [m]: colour * exp(-attenuation r) + veil (1 - exp(-scatter r)), as
+// Effect of water on light over a range r [m]: colour * exp(-attenuation r) + veil (1 - exp(-scatter r)), as
 // in the image formation model of underwater vision (Jaffe 1990; Akkaynak and Treibitz 2018), linear light.
 struct WaterOptics {
     glm::vec3 attenuation{0.52f, 0.11f, 0.07f}; // [1/m], red first
@@ -18,7 +18,7 @@ struct WaterOptics {
     glm::vec3 scatter{0.45f, 0.50f, 0.55f};     // [1/m]
 };
 
-// Tabulated every 2 mm, 0..6 m: six exponentials a pixel are more than the rays cost.
+// Tabulated every 2 mm, 0..6 m: six exponentials per pixel cost more than the rays.
 class Water {
 public:
     explicit Water(const WaterOptics& optics = {});
@@ -28,7 +28,7 @@ private:
     static constexpr size_t kEntries = 3000;
     static constexpr float kEntriesPerMetre = 500.0f;
     struct Step {
-        glm::vec3 left, veil; // share of the light that is left; light added
+        glm::vec3 left, veil; // transmitted fraction; added light
     };
     std::vector<Step> table_;
 };
@@ -39,7 +39,7 @@ public:
     RayCaster(AnalyticScene scene, bool water);
 
     // Spheres in front of, among or behind the scene's own solids, scene frame; seen from the next setView()
-    // on. They take no light away from anything. Their Solid indices follow those of the scene.
+    // on. They cast no shadows. Their Solid indices follow those of the scene.
     void setVisitors(std::span<const Sphere> spheres);
     void setView(const Pose& sceneTcamera, const Intrinsics& intrinsics);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Haptic devices without hardware: a hand that feels the forces, and one that only follows its path.
+// Simulated haptic devices: a hand that reacts to forces, and one that only follows its path.
 #pragma once
 
 #include "devices/haptic_device.h"
@@ -23,7 +23,7 @@ private:
     HandPath path_;
 };
 
-// What the simulated hand and its device are like.
+// Parameters of the simulated hand and its device.
 struct SimulatedHandOptions {
     HandLoop loop;
     double armLength = 0.05; // [m] k: inertia, rotational damping and stiffness are the linear ones times k^2

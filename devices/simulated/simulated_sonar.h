@@ -11,7 +11,7 @@
 
 namespace fathom {
 
-// What the sonar is like; equal options give equal pictures.
+// Parameters of the sonar; equal options give equal frames.
 struct SimulatedSonarOptions {
     uint32_t width = 160, height = 120; // beams, 1..1024 each
     double step = 0.0054541539;         // [rad] from beam to beam: 50 degrees across
@@ -21,7 +21,7 @@ struct SimulatedSonarOptions {
     bool noise = true;            // of the range, of the strength, beams without an echo
     double dropShare = 0.01;      // of the beams: those without an echo
     uint64_t seed = 1;
-    Pose baseTscene; // the sonar stands still
+    Pose baseTscene; // the sonar does not move
 };
 
 // Beam (u, v) is a pixel of a fan. Of nine rays, the axis and eight round it at the beam's half width, the
@@ -40,7 +40,7 @@ public:
     std::optional<double> framePeriod() const override { return 0.1; }
     std::string description() const override { return "simulated " + name_; }
 
-    // What a beam truly met; range 0 = nothing.
+    // True echo of a beam; range 0 = none.
     struct Echo {
         double range = 0.0; // [m]
         dvec3 point{0.0};   // base frame [m]

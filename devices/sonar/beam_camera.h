@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A source whose pictures are a sonar's or a laser scanner's, and whose file does not say how sharp its beams
-// are.
+// Adds beam parameters to a sonar or laser scan whose file has none.
 #pragma once
 
 #include "devices/camera.h"
@@ -10,7 +9,7 @@
 
 namespace fathom {
 
-// The source as it is, with the beam that the scene tells of.
+// The unchanged source with the beam of the scene.
 class BeamCamera final : public Camera {
 public:
     BeamCamera(std::unique_ptr<Camera> source, const BeamSigma& beam)

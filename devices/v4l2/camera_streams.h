@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The streams of one plugging-in of a V4l2Camera, kept until their last picture is given back.
+// The streams of a V4l2Camera from plug-in to unplugging, kept until the last frame is released.
 #pragma once
 
 #include "devices/v4l2/frame_metadata.h"
@@ -7,12 +7,12 @@
 
 namespace fathom {
 
-// Depth, colour where there is one, and metadata where the camera gives it.
+// Depth, optional colour, and optional metadata.
 struct V4l2Camera::Streams {
-    std::unique_ptr<MetadataStream> metadata; // of depth; may be none. Runs before the first picture
+    std::unique_ptr<MetadataStream> metadata; // of depth; optional. Runs before the first frame
     CaptureStream depth;
     std::optional<CaptureStream> colour;
-    std::atomic<uint32_t> leased{0}; // depth buffers in frames
+    std::atomic<uint32_t> leased{0}; // depth buffers leased by frames
 
     Streams(ChosenNodes nodes, const StreamRequest& depthRequest, const StreamRequest& colourRequest)
         : metadata(MetadataStream::beside(nodes.depth))
@@ -21,7 +21,7 @@ struct V4l2Camera::Streams {
             colour.emplace(std::move(*nodes.colour), colourRequest);
         }
     }
-    // The oldest depth picture that is ready, with when its exposure began where that is told.
+    // The oldest depth frame that is ready, with its start of exposure if reported.
     std::optional<CapturedBuffer> takeDepth() {
         auto buffer = depth.take();
         if (buffer && metadata) {

@@ -74,7 +74,7 @@ void CaptureStream::negotiate() {
     stride_ = format.fmt.pix.bytesperline;
 }
 
-// A rate that the camera has not is no reason to refuse: the one it took is known afterwards.
+// An unsupported rate is not an error: the driver reports the rate that it chose.
 void CaptureStream::setRate() {
     v4l2_streamparm parameters{};
     parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
@@ -105,7 +105,7 @@ void CaptureStream::map() {
         if (node_.control(VIDIOC_QUERYBUF, &buffer) != 0) {
             fail("buffers");
         }
-        // Read and write: memory of pages that may only be read cannot be imported by every GPU driver.
+        // Read and write: not every GPU driver can import read-only pages.
         void* at = ::mmap(nullptr, buffer.length, PROT_READ | PROT_WRITE, MAP_SHARED, node_.descriptor(),
                           static_cast<off_t>(buffer.m.offset));
         if (at == MAP_FAILED) {
@@ -152,7 +152,7 @@ void CaptureStream::restart() {
 std::optional<CapturedBuffer> CaptureStream::take() {
     v4l2_buffer buffer = bufferAt(0);
     if (node_.control(VIDIOC_DQBUF, &buffer) != 0) {
-        if (errno == EAGAIN || errno == EIO) { // EIO: one picture's transfer failed, the next may not
+        if (errno == EAGAIN || errno == EIO) { // EIO: the transfer of one frame failed
             return std::nullopt;
         }
         throw DeviceLost(node_.file().string() + ": " + std::strerror(errno));

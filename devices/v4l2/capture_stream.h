@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One stream of pictures from a video node: four mapped buffers that go round between driver and camera.
+// One video stream: four mapped buffers that alternate between driver and camera.
 #pragma once
 
 #include "devices/v4l2/video_node.h"
@@ -13,51 +13,50 @@
 
 namespace fathom {
 
-// What a stream is asked for; the driver may give another rate, never another size or format.
+// Requested format; the driver may choose another rate, but not another size or format.
 struct StreamRequest {
     uint32_t fourcc = 0;
     VideoSize size;     // [pixels]
     double rate = 30.0; // [1/s]
 };
 
-// One filled buffer: the camera's until it is given back to the stream.
+// One filled buffer, owned by the camera until it is returned to the stream.
 struct CapturedBuffer {
     uint32_t index = 0;
-    uint32_t sequence = 0;          // the driver's frame counter; a gap = frames that never came here
+    uint32_t sequence = 0;          // the driver's frame counter; a gap = lost frames
     double stamp = 0.0;             // [s] CLOCK_MONOTONIC, start of exposure where the driver knows it
-    std::optional<double> exposure; // [s] start of exposure as the camera itself tells it
+    std::optional<double> exposure; // [s] start of exposure as reported by the camera
     std::span<const std::byte> bytes;
-    std::shared_ptr<const void> memory; // whole pages, from the first of `bytes` on
-    bool damaged = false;               // the driver says so
+    std::shared_ptr<const void> memory; // whole pages, starting at the first of `bytes`
+    bool damaged = false;               // marked by the driver
 };
 
-// Pictures missing between two numbers of a driver's counter, which begins anew after 2^32 - 1. 0 where it
-// went back: a stream that was started anew.
+// Frames missing between two values of the driver's counter, which wraps after 2^32 - 1. 0 when it went back,
+// after a restart.
 constexpr uint32_t missingBetween(uint32_t before, uint32_t after) {
     const uint32_t step = after - before;
     return step == 0 || step >= 1u << 31 ? 0 : step - 1;
 }
 
-// Streams from construction to destruction. One thread takes; any thread gives back. Buffers stay mapped, at
-// the same addresses, as long as the object lives or somebody holds their memory, even when the camera is
-// gone.
+// Streams from construction to destruction. One thread takes; any thread returns. Buffers stay mapped at the
+// same addresses while the object or any user of their memory exists, even after the camera is unplugged.
 class CaptureStream {
 public:
     static constexpr uint32_t kBuffers = 4;
 
-    // Throws BadInput, with what the device offers, when it gives another format, size or too few buffers;
-    // DeviceLost when it goes meanwhile.
+    // Throws BadInput, with the device's offer, for another format or size or too few buffers; DeviceLost
+    // when it is unplugged meanwhile.
     CaptureStream(VideoNode node, const StreamRequest& request);
     ~CaptureStream();
     CaptureStream(const CaptureStream&) = delete;
     CaptureStream& operator=(const CaptureStream&) = delete;
 
-    // The oldest picture that is ready, or nothing; never waits. Throws DeviceLost when the device is gone.
+    // The oldest frame that is ready, or nothing; never waits. Throws DeviceLost when the device is
+    // unplugged.
     std::optional<CapturedBuffer> take();
-    // The picture has been read. Of a device that is gone: nothing happens.
+    // Returns a buffer. No effect when the device is gone.
     void giveBack(uint32_t index) noexcept;
-    // Stops and starts again: for a stream that has gone silent. Pictures not given back yet stay valid.
-    // Throws DeviceLost.
+    // Restarts a silent stream. Frames that are still leased stay valid. Throws DeviceLost.
     void restart();
 
     const VideoNode& node() const { return node_; }
@@ -66,7 +65,7 @@ public:
     double period() const { return period_; }               // [s] as the driver set it
     uint32_t queued() const { return queued_.load(); }      // buffers that the driver can fill
     uint64_t missing() const { return missing_; }           // frames lost before take(): sequence gaps
-    bool exposureStamps() const { return exposureStamps_; } // stamps are of the start of exposure
+    bool exposureStamps() const { return exposureStamps_; } // stamps mark the start of exposure
     uint32_t taken() const { return kBuffers - queued_.load(); }
 
 private:
@@ -87,7 +86,7 @@ private:
         size_t size = 0;             // [bytes]
     };
     std::array<Buffer, kBuffers> buffers_;
-    std::array<std::atomic<bool>, kBuffers> held_{}; // by the camera's side
+    std::array<std::atomic<bool>, kBuffers> held_{}; // held by the camera
     std::atomic<uint32_t> queued_{0};
     std::optional<uint32_t> lastSequence_;
     uint64_t missing_ = 0;

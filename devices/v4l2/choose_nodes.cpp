@@ -57,7 +57,7 @@ VideoNode openDepth(const CameraRequest& request, const std::optional<KnownCamer
     return node;
 }
 
-// How good a colour picture of that node would be: place in the list of formats; the list's end = none.
+// Rank of the node's best colour format in the list of formats; end of the list = none.
 size_t colourRank(const VideoNode& node, uint32_t asked) {
     const auto all = colourFormats();
     for (size_t i = 0; i < all.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which video nodes and formats serve a request.
+// Selects video nodes and formats for a request.
 #pragma once
 
 #include "devices/v4l2/camera_request.h"
@@ -8,7 +8,7 @@
 
 namespace fathom {
 
-// The nodes that serve a request, opened, and the format (fourcc) to ask each for.
+// The opened nodes for a request, each with its format (fourcc).
 struct ChosenNodes {
     VideoNode depth;
     uint32_t depthFormat = 0;
@@ -16,12 +16,12 @@ struct ChosenNodes {
     uint32_t colourFormat = 0;
 };
 
-// A camera that was open once and is looked for again, wherever its nodes are now.
+// Identity of a lost camera, to find it again at any node.
 struct KnownCamera {
     std::string depthIdentity, colourIdentity; // VideoNode::identity(); colour empty = none
 };
 
-// Throws BadInput that says what there is instead.
+// Throws BadInput that lists what is available.
 ChosenNodes chooseNodes(const CameraRequest& request, const std::optional<KnownCamera>& known = std::nullopt);
 
 } // namespace fathom

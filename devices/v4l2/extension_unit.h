@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A UVC extension unit of a camera, found by its GUID and asked through the kernel (UVCIOC_CTRL_QUERY).
+// A UVC extension unit of a camera, found by GUID and accessed through the kernel (UVCIOC_CTRL_QUERY).
 // Sources: UVC 1.5 specification 3.7.2.6 (descriptor), linux/uvcvideo.h.
 #pragma once
 
@@ -24,8 +24,8 @@ public:
     // Empty when the camera has no such unit.
     static std::optional<ExtensionUnit> find(const VideoNode& node, const UnitGuid& guid);
 
-    // Length of a control's value [bytes]. Like get() and set() throws Error naming the control, with what
-    // the kernel says (a stalled request among it).
+    // Length of a control's value [bytes]. Like get() and set(), throws Error with the control and the
+    // kernel's error (for example a stalled request).
     uint16_t length(uint8_t selector) const;
     std::vector<uint8_t> get(uint8_t selector, uint16_t length) const;
     void set(uint8_t selector, std::span<const uint8_t> value) const;

@@ -36,9 +36,9 @@ v4l2_buffer bufferAt(uint32_t index) {
     return buffer;
 }
 
-// The driver makes it right after the video node: the next number of the same interface.
+// The driver creates it right after the video node: the next number of the same interface.
 fs::path nodeBeside(const fs::path& video) {
-    constexpr unsigned long kFar = 8; // numbers that others may hold between
+    constexpr unsigned long kFar = 8; // other devices may use the numbers in between
     const std::string name = video.filename().string();
     const auto deviceOf = [](const std::string& node) {
         std::error_code failed;
@@ -59,13 +59,13 @@ fs::path nodeBeside(const fs::path& video) {
 } // namespace
 
 std::optional<double> pipeLatencyOf(std::span<const uint8_t> buffer) {
-    constexpr size_t kStamp = 10, kCaptureTiming = 40; // bytes: the driver's own words; the block
+    constexpr size_t kStamp = 10, kCaptureTiming = 40; // bytes: the driver's header; the metadata block
     constexpr uint32_t kTiming = 0x80000001u, kLatencyTold = 0x20;
     constexpr uint8_t kPts = 0x04, kScr = 0x08; // stamps in the payload header
     if (buffer.size() < kStamp + 2) {
         return std::nullopt;
     }
-    const size_t end = kStamp + buffer[kStamp]; // that byte is the header's length, itself included
+    const size_t end = kStamp + buffer[kStamp]; // that byte is the header length, including itself
     const uint8_t flags = buffer[kStamp + 1];
     size_t at = kStamp + 2 + ((flags & kPts) != 0 ? 4 : 0) + ((flags & kScr) != 0 ? 6 : 0);
     if (end > buffer.size()) {
@@ -155,7 +155,7 @@ void MetadataStream::gather() {
 
 std::optional<double> MetadataStream::exposureStart(uint32_t sequence, double stamp) {
     gather();
-    const auto same = [=](const Told& told) { // numbers begin anew with the stream, stamps do not
+    const auto same = [=](const Told& told) { // sequence numbers restart with the stream, stamps do not
         return told.sequence == sequence && std::abs(told.stamp - stamp) < 1e-4;
     };
     const auto found = std::find_if(told_.begin(), told_.end(), same);

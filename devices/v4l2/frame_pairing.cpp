@@ -8,8 +8,8 @@ namespace fathom {
 namespace {
 
 constexpr double kAtOnce = 0.55, kAtMost = 1.0; // of the colour's period
-constexpr size_t kWaiting = 2;                  // depth pictures that may wait: of four buffers
-constexpr size_t kColours = 2;                  // that are kept: the driver needs the rest
+constexpr size_t kWaiting = 2;                  // depth frames that may wait, of four buffers
+constexpr size_t kColours = 2;                  // kept colour frames; the driver needs the other buffers
 
 } // namespace
 
@@ -52,7 +52,7 @@ const CapturedBuffer* FramePairing::nearest(double stamp) const {
     return best;
 }
 
-// The newest one at or before `stamp` may still be the nearest of the next depth picture.
+// The newest one at or before `stamp` may still be the nearest to the next depth frame.
 void FramePairing::dropColourBefore(double stamp) {
     while (colour_.size() > 1 && colour_[1].stamp <= stamp) {
         used_.push_back(colour_.front());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which colour picture goes with which depth picture of two streams that are not synchronous: by time stamp.
+// Pairs colour and depth frames of two unsynchronised streams by time stamp.
 #pragma once
 
 #include "devices/v4l2/capture_stream.h"
@@ -11,37 +11,36 @@
 
 namespace fathom {
 
-// One thread. Holds what it is given until it lets it go by next() or released(); knows nothing of buffers
-// but their stamps.
+// One thread. Keeps each buffer until next() or released() returns it; uses only the stamps.
 //
-// A depth picture takes the colour picture nearest in time. A colour within 0.55 of the colour's period is
-// taken at once (none nearer can come but by jitter); otherwise it waits until a later colour or a third
-// depth picture settles it; nothing within a whole period: the depth picture is let go unpaired. A colour
-// picture serves every depth picture that it is nearest to.
+// A depth frame is paired with the colour frame nearest in time. A colour frame within 0.55 of the colour
+// period is taken at once (only jitter could bring a nearer one); otherwise the depth frame waits for a later
+// colour frame or a third depth frame. With none within a whole period, the depth frame is released unpaired.
+// A colour frame pairs with every depth frame that it is nearest to.
 class FramePairing {
 public:
-    // A depth picture and the colour picture nearest to it in time, where one is near enough.
+    // A depth frame and the nearest colour frame, if close enough.
     struct Pair {
         CapturedBuffer depth;
         std::optional<CapturedBuffer> colour;
     };
 
-    // colourPeriod [s]: 0 = there is no colour, each depth picture is a pair.
+    // colourPeriod [s]: 0 = no colour, each depth frame is a pair.
     explicit FramePairing(double colourPeriod);
 
     // The next buffer of that stream, in order.
     void depth(const CapturedBuffer& buffer);
     void colour(const CapturedBuffer& buffer);
 
-    // The next depth picture, in order, that is settled. Its colour stays with the pairing: use it before the
-    // next call of anything here.
+    // The next settled depth frame, in order. Its colour stays owned by the pairing: use it before the next
+    // call.
     std::optional<Pair> next();
-    // Buffers that are no longer needed and in no pair, since the last call: depth unpaired, colour used up.
+    // Buffers released since the last call: unpaired depth and used colour.
     std::vector<CapturedBuffer> unpairedDepth() { return std::exchange(unpaired_, {}); }
     std::vector<CapturedBuffer> usedColour() { return std::exchange(used_, {}); }
-    // Everything held is let go, as unpaired and used up.
+    // Releases everything as unpaired and used.
     void letGo();
-    // Everything held is forgotten (the streams start anew).
+    // Forgets everything (the streams restart).
     void clear();
 
 private:

@@ -7,7 +7,7 @@ namespace fathom {
 
 namespace {
 
-// A decoder's set-up costs more than a small picture does: one a thread.
+// One decoder per thread, because its set-up costs more than decoding a small image.
 class Decoder {
 public:
     Decoder()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One JPEG picture of a motion-JPEG stream, decoded by libjpeg-turbo.
+// Decodes one JPEG of a motion-JPEG stream with libjpeg-turbo.
 #pragma once
 
 #include "devices/v4l2/video_node.h"
@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-// R8 G8 B8 A8 (0xAABBGGRR), alpha 255. Returns what is wrong with it, empty when it was decoded whole;
-// another size than `size` is wrong. Any thread.
+// R8 G8 B8 A8 (0xAABBGGRR), alpha 255. Returns the fault, or empty when it was decoded completely; a size
+// other than `size` is a fault. Any thread.
 std::string readJpeg(std::span<const std::byte> bytes, VideoSize size, std::span<uint32_t> out);
 
 } // namespace fathom

@@ -34,8 +34,8 @@ LiveCalibration fromFile(const CameraRequest& request, const ChosenNodes& nodes)
     return calibration;
 }
 
-// The camera's own colour, or none where it has no table of it: what a D430, without a colour sensor, offers
-// as colour is an infrared picture. Who asked for that colour gets the reason.
+// Keeps the camera's colour only when it has a colour table: a D430 has no colour sensor and offers infrared
+// as colour. A request for that colour gets the reason.
 void addColour(const realsense::Mailbox& mailbox, const CameraRequest& request, VideoSize size,
                ChosenNodes& nodes, CameraInfo& info) {
     try {

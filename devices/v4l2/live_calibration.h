@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lenses, depth unit and extrinsics of a live camera: from a file of the user's, or from the camera itself.
+// Lenses, depth unit and extrinsics of a live camera, from a user's file or from the camera.
 #pragma once
 
 #include "devices/v4l2/choose_nodes.h"
@@ -8,13 +8,13 @@
 namespace fathom {
 
 struct LiveCalibration {
-    CameraInfo info;    // of the pictures to be streamed
-    std::string origin; // where the figures come from, for the user
+    CameraInfo info;    // of the streams
+    std::string origin; // source of the values, for display
 };
 
-// Throws BadInput when neither has them, or when they are of other sizes than the request's. A RealSense
-// without a colour calibration (D430: it has no such sensor) goes on with depth alone, said in the log: then
-// the colour node that was chosen by itself is let go.
+// Throws BadInput when neither has them, or when their size differs from the request. A RealSense without
+// colour calibration (D430 has no colour sensor) continues with depth only, with a log line; an automatically
+// chosen colour node is then released.
 LiveCalibration calibrationFor(const CameraRequest& request, ChosenNodes& nodes);
 
 } // namespace fathom

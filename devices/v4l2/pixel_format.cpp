@@ -34,7 +34,7 @@ void yuvRow(const uint8_t* in, uint32_t width, bool lumaFirst, uint32_t* out) {
     for (uint32_t x = 0; x < width; x += 2, in += 4) {
         const auto pair = rgbaOfYuyv(yuyvWord(in, lumaFirst));
         out[x] = pair[0];
-        if (x + 1 < width) { // the last pair's second half may lie outside
+        if (x + 1 < width) { // the second pixel of the last pair may be outside
             out[x + 1] = pair[1];
         }
     }
@@ -124,7 +124,7 @@ void unpackDepth(const DepthLayout& layout, VideoSize size, uint32_t stride, std
 
 namespace {
 
-// What is wrong with it; empty when it is whole.
+// Returns the fault; empty when it is complete.
 std::string shortColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes) {
     const size_t wanted = imageBytes(fourcc, size, stride);
     if (wanted == 0 || depthLayout(fourcc)) {

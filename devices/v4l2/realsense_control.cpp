@@ -31,7 +31,7 @@ uint32_t word(std::span<const uint8_t> bytes, size_t at) {
 
 std::optional<Mailbox> Mailbox::find(const VideoNode& depth) {
     const auto unit = ExtensionUnit::find(depth, kDepthUnitGuid);
-    // Other makers' cameras have a unit of this GUID with controls of other lengths.
+    // Cameras of other vendors use the same GUID with controls of other lengths.
     if (!unit || unit->length(kMailbox) != kBytes) {
         return std::nullopt;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A RealSense D4xx asked for its calibration over the UVC extension unit of its depth camera: no
+// Reads the calibration of a RealSense D4xx over the UVC extension unit of its depth camera, without
 // librealsense.
 #pragma once
 
@@ -11,18 +11,18 @@
 
 namespace fathom::realsense {
 
-// The mailbox ("hardware monitor"): 1024 bytes there, 1024 back. Source: librealsense, src/hw-monitor.h.
+// The mailbox ("hardware monitor"): 1024 bytes each way. Source: librealsense, src/hw-monitor.h.
 class Mailbox {
 public:
-    // Empty when the camera has no such extension unit. The node must outlive it.
+    // Empty when the camera has no such unit. The node must outlive it.
     static std::optional<Mailbox> find(const VideoNode& depth);
 
-    // The answer's data. Throws Error when the camera refuses the command or answers another one.
+    // Data of the answer. Throws Error when the camera rejects the command or answers another one.
     std::vector<uint8_t> ask(uint32_t command, uint32_t parameter = 0) const;
 
-    // kDepthTable or kColourTable, header included, as realsense_tables.h takes it apart. Throws as ask().
+    // kDepthTable or kColourTable, header included, for realsense_tables.h. Throws as ask().
     std::vector<uint8_t> calibrationTable(uint32_t number) const;
-    // Metres of one depth unit; 0.001 (said in the log) where the firmware does not tell.
+    // Metres per depth unit; 0.001, with a log line, when the firmware does not report it.
     double depthUnit() const;
 
 private:

@@ -106,7 +106,7 @@ struct Normalised {
     double fx = 0.0, cx = 0.0, fy = 0.0, cy = 0.0;
 };
 
-// The lens of a picture from figures that are normalised to -1..1 over it.
+// The lens of an image from parameters normalised to -1..1.
 Intrinsics lensOver(const Normalised& k, VideoSize size) {
     return {.width = size.width,
             .height = size.height,
@@ -116,7 +116,7 @@ Intrinsics lensOver(const Normalised& k, VideoSize size) {
             .cy = 0.5 * (1.0 + k.cy) * size.height};
 }
 
-// Of a colour sensor of its own: a picture of another shape is cut from the one that was calibrated.
+// Separate colour sensor: an image of another aspect ratio is a crop of the calibrated one.
 Intrinsics ownSensorLens(Normalised k, VideoSize calibrated, VideoSize size) {
     const double was = calibrated.width > 0 && calibrated.height > 0
                            ? static_cast<double>(calibrated.height) / calibrated.width
@@ -127,7 +127,7 @@ Intrinsics ownSensorLens(Normalised k, VideoSize calibrated, VideoSize size) {
     return lensOver(k, size);
 }
 
-// The picture in another size: scaled alike in both directions until it covers that, the rest cut off evenly.
+// The image in another size: scaled uniformly until it covers that size, then cropped symmetrically.
 Intrinsics covering(const Intrinsics& lens, VideoSize size) {
     const double scale = std::max(static_cast<double>(size.width) / lens.width,
                                   static_cast<double>(size.height) / lens.height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The calibration tables that a RealSense D4xx keeps, taken apart. Source of the layouts: librealsense
+// Parsers for the calibration tables of a RealSense D4xx. Source of the layouts: librealsense
 // (Apache-2.0), src/ds/d400/d400-private.{h,cpp}.
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace fathom::realsense {
 
-// Numbers by which the camera is asked for its tables.
+// Table numbers.
 constexpr uint32_t kDepthTable = 25;
 constexpr uint32_t kColourTable = 32;
 
-// All throw Error that says what is wrong: length, table number or checksum.
+// All throw Error for a wrong length, table number or checksum.
 
-// Lens of the rectified depth picture of that size, no distortion. table: 576 bytes, header included.
+// Lens of the rectified depth image of that size, without distortion. table: 576 bytes, header included.
 Intrinsics depthLens(std::span<const uint8_t> table, VideoSize size);
 
-// What the colour table says of pictures of one size.
+// Content of the colour table for one image size.
 struct ColourTable {
     Intrinsics lens;
     Pose colourTdepth; // maps points of the depth camera to the colour camera
 };
-// Where colour comes from, which says what its sizes show of the sensor.
+// Source of colour, which determines how its sizes are cropped from the sensor.
 enum class ColourSensor { Own, D405 };
 constexpr uint16_t kD405 = 0x0b5b; // USB product number
 ColourTable colourLens(std::span<const uint8_t> table, VideoSize size,

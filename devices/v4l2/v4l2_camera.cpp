@@ -18,7 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kPollMs = 50;
-constexpr double kFirstFrame = 5.0; // [s] that a camera may take to start
+constexpr double kFirstFrame = 5.0; // [s] start-up time of a camera
 
 double secondsSince(Clock::time_point t) {
     return std::chrono::duration<double>(Clock::now() - t).count();
@@ -55,7 +55,7 @@ void V4l2Camera::open() {
     depthWatch_ = colourWatch_ = {grace(), false};
 }
 
-// Retired streams stay as long as a frame shows their memory.
+// Retired streams are kept while a frame uses their memory.
 void V4l2Camera::close() {
     arrivals_.clear();
     pairing_.clear();
@@ -69,7 +69,7 @@ void V4l2Camera::close() {
 }
 
 void V4l2Camera::reopen() {
-    close(); // an unplugged device keeps its number as long as its memory is mapped
+    close(); // an unplugged device keeps its number while its memory is mapped
     try {
         streams_ = std::make_unique<Streams>(chooseNodes(request_, known_), depthRequest_, colourRequest_);
     } catch (const BadInput& e) {
@@ -113,7 +113,7 @@ std::optional<Frame> V4l2Camera::next() {
     }
 }
 
-// Everything that the driver has ready, in order of capture.
+// Reads everything that the driver has ready, in order of capture.
 void V4l2Camera::gather() {
     const size_t before = arrivals_.size();
     while (const auto buffer = streams_->takeDepth()) {
@@ -130,7 +130,7 @@ void V4l2Camera::gather() {
     }
 }
 
-// A driver without a free buffer throws away what comes then, not what it has: all that it gives is old.
+// A driver without a free buffer drops new frames and keeps old ones, so everything it returns is old.
 bool V4l2Camera::starved() const {
     return streams_->depth.queued() == 0 || (streams_->colour && streams_->colour->queued() == 0);
 }
@@ -170,7 +170,7 @@ void V4l2Camera::wait() {
     ::poll(ready, 2, kPollMs);
     for (const pollfd& one : ready) {
         if (one.fd >= 0 && (one.revents & POLLERR) != 0 && (one.revents & POLLIN) == 0) {
-            // Unplugged (gather() learns it), or not streaming: nothing to wait for either way.
+            // Unplugged (gather() detects it), or not streaming: nothing to wait for.
             std::this_thread::sleep_for(std::chrono::milliseconds(5));
         }
     }
@@ -195,7 +195,7 @@ std::optional<Frame> V4l2Camera::settle() {
     }
     std::optional<Frame> frame;
     for (size_t i = 0; i < pairs.size(); ++i) {
-        if (i + 1 < pairs.size()) { // a newer one is here
+        if (i + 1 < pairs.size()) { // a newer one is available
             ++overtaken_;
             streams_->depth.giveBack(pairs[i].depth.index);
         } else {
@@ -239,7 +239,7 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
     }
     content.index = delivered_++;
     content.sourceNumber = delivered_;
-    lastStamp_ = pair.depth.stamp; // what colour is compared with, too: the same driver's
+    lastStamp_ = pair.depth.stamp; // colour stamps of the same driver are compared with it
     lastCapture_ = std::max(lastCapture_, pair.depth.exposure.value_or(pair.depth.stamp));
     content.captureTime = lastCapture_;
     exposuresTold_ += pair.depth.exposure ? 1 : 0;
@@ -253,7 +253,7 @@ std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {
     return Frame(content, [slot, streams = streams_.get(), buffer = pair.depth.index] {
         slot->release();
         streams->depth.giveBack(buffer);
-        --streams->leased; // last: the streams may go now
+        --streams->leased; // last, because it may free the streams
     });
 }
 

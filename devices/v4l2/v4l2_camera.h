@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A live depth camera, with colour where it has any, through the kernel's V4L2: no maker's library.
+// A live depth camera, with colour where it has any, through the kernel's V4L2, without vendor libraries.
 #pragma once
 
 #include "devices/camera.h"
@@ -13,22 +13,21 @@
 
 namespace fathom {
 
-// Depth of 16-bit rows without gaps is leased where the driver put it (no copy, and a GPU that imports the
-// host's memory reads it there) while the driver keeps two buffers; anything else is unpacked into memory of
-// the camera's own. Colour is unpacked, too, but for YUYV and UYVY of an even width, which are copied as they
-// are. Capture times are CLOCK_MONOTONIC [s]: when the first bytes of the picture came from a UVC camera,
-// which its driver calls the start of exposure; when the exposure began where a RealSense D4xx and the kernel
-// tell it (frame_metadata.h). Colour is paired by the driver's stamps. Frames count from 0; each is new
-// (source number index + 1).
+// Depth in 16-bit rows without gaps is leased in place (no copy, and a GPU that imports host memory reads it
+// there) while the driver keeps two buffers; everything else is unpacked into the camera's own memory. Colour
+// is unpacked as well, except YUYV and UYVY of even width, which are copied packed. Capture times are
+// CLOCK_MONOTONIC [s]: arrival of the first bytes for a UVC camera, which its driver calls start of exposure;
+// the actual start of exposure when a RealSense D4xx and the kernel report it (frame_metadata.h). Colour is
+// paired by the driver's stamps. Frame indices start at 0; the source number is index + 1.
 //
-// next() gives the newest pair there is, none from before a pause in which the driver ran out of buffers
-// (every one, in order, with everyFrame). A damaged, short or unpaired picture is skipped, counted, named in
-// the log. A stream without pictures for `silence` is started anew, and after twice that the camera counts as
-// lost. When it is lost (unplugged), next() throws DeviceLost, and looks for the same camera again at each
-// later call.
+// next() returns the newest pair, and none from before a pause in which the driver ran out of buffers (with
+// everyFrame: every pair, in order). A damaged, short or unpaired frame is skipped, counted and logged. A
+// stream without frames for `silence` is restarted; after twice that the camera counts as lost. When it is
+// lost (unplugged), next() throws DeviceLost and searches the same camera again on each later call.
 class V4l2Camera final : public Camera {
 public:
-    // Throws BadInput: no such device, no such format or size (it says what there is), no intrinsics.
+    // Throws BadInput for an unknown device, an unavailable format or size (lists the available ones), or
+    // missing intrinsics.
     explicit V4l2Camera(const CameraRequest& request);
     ~V4l2Camera() override;
 
@@ -37,15 +36,15 @@ public:
     uint32_t skipped() const override { return skipped_; }
     std::string description() const override;
     bool live() const override { return true; }
-    // Gaps in the driver's counter of depth, and pictures that a newer one overtook before they were asked
-    // for. A colour picture that is missing costs no pair as long as its neighbour is near enough.
+    // Gaps in the driver's depth counter plus frames superseded before they were read. A missing colour frame
+    // loses no pair while a neighbour is close enough.
     uint64_t lost() const override;
     uint64_t lostColour() const; // gaps in the driver's counter of colour
     std::optional<double> framePeriod() const override { return depthPeriod_; }
 
     uint64_t overtaken() const { return overtaken_; }
     uint64_t copied() const { return copied_; }     // frames whose depth was not leased in place
-    uint64_t restarts() const { return restarts_; } // silent streams that were started anew
+    uint64_t restarts() const { return restarts_; } // restarts of silent streams
     // Frames whose capture time is the start of exposure as the camera's own metadata tell it.
     uint64_t exposuresTold() const { return exposuresTold_; }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a pair of the driver's buffers to a frame's pictures.
+// Fills a frame from a pair of driver buffers.
 #include "devices/v4l2/camera_streams.h"
 #include "devices/v4l2/pixel_format.h"
 #include "devices/v4l2/v4l2_camera.h"
@@ -39,7 +39,7 @@ std::string V4l2Camera::fillColour(const CapturedBuffer& colour, FrameSlot& slot
                 slot.colour());
 }
 
-// False when bytes are missing.
+// Returns false when bytes are missing.
 bool V4l2Camera::fillDepth(const CapturedBuffer& depth, FrameSlot& slot, Frame::Content& content) {
     const uint32_t stride = streams_->depth.stride();
     if (depth.bytes.size() < imageBytes(depthRequest_.fourcc, depthRequest_.size, stride)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One /dev/videoN of the kernel's Video4Linux2: what it is, what it offers, and its file descriptor.
+// One /dev/videoN of Video4Linux2: identity, formats and file descriptor.
 // Source: docs.kernel.org/userspace-api/media/v4l.
 #pragma once
 
@@ -30,22 +30,22 @@ constexpr uint32_t fourccOf(const char (&name)[5]) {
 // Owns an open descriptor (read-write, non-blocking, closed on exec). Move-only.
 class VideoNode {
 public:
-    // Throws BadInput when the file is missing, may not be opened, or is no streaming capture device.
+    // Throws BadInput when the file is missing, cannot be opened, or is not a streaming capture device.
     explicit VideoNode(const std::filesystem::path& file);
     ~VideoNode();
     VideoNode(VideoNode&& other) noexcept;
     VideoNode& operator=(VideoNode&& other) noexcept;
 
-    // ioctl that is repeated when a signal cuts it short; 0 or -1 with errno.
+    // ioctl with retry on EINTR; 0 or -1 with errno.
     int control(unsigned long request, void* argument) const noexcept;
 
     int descriptor() const { return descriptor_; }
     const std::filesystem::path& file() const { return file_; }
     const std::string& card() const { return card_; } // the camera's name
-    // The same for all nodes of one camera, and again when it is plugged in again: USB vendor:product:serial,
-    // the bus path where there is no serial number.
+    // Equal for all nodes of one camera and after replugging: USB vendor:product:serial, or the bus path
+    // without a serial number.
     const std::string& identity() const { return identity_; }
-    // USB vendor and product number, 0 when it is no USB device; the folder of the USB device in /sys.
+    // USB vendor and product number, 0 when it is not a USB device; the folder of the USB device in /sys.
     uint16_t vendor() const { return vendor_; }
     uint16_t product() const { return product_; }
     const std::filesystem::path& usbFolder() const { return usbFolder_; }
@@ -65,12 +65,11 @@ private:
     int descriptor_ = -1;
 };
 
-// Whether it is a node that gives no pictures but what a camera tells of each (UVC cameras have one a
-// stream).
+// True for a metadata node, which delivers no images (UVC cameras have one per stream).
 bool isMetadataNode(const std::filesystem::path& file) noexcept;
 
-// All capture nodes that can be opened, in order of their numbers. `refused`, when given, gets a line for
-// each that cannot, those for metadata left out.
+// All capture nodes that can be opened, in order of their numbers. `refused`, when given, gets one line per
+// node that cannot be opened, except metadata nodes.
 std::vector<VideoNode> openVideoNodes(std::vector<std::string>* refused = nullptr);
 
 } // namespace fathom

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera behind a flat window under water: what refraction does to its rays and its stereo depth. The
-// window is parallel to the picture; the glass's own thickness counts as air.
+// A camera behind a flat window under water: the effect of refraction on its rays and its stereo depth. The
+// window is parallel to the image plane; the thickness of the glass counts as air.
 #pragma once
 
 #include "engine/types/camera_info.h"
@@ -18,7 +18,7 @@ struct FlatPort {
 // (Snell).
 double waterSlope(const FlatPort& port, double air) noexcept;
 
-// How the camera sees in water, from how it sees in air. All figures are for points between nearZ and farZ.
+// The camera model in water, derived from the model in air, for points between nearZ and farZ.
 struct WaterLens {
     Intrinsics lens; // rays in water, from the centre of projection, nearest to the true ones
     std::vector<float>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera calibrated in air, used under water behind a flat port: corrects its lenses and its depth.
+// Adapts a camera that was calibrated in air to use behind a flat port under water: corrects lenses and
+// depth.
 #pragma once
 
 #include "devices/camera.h"
