@@ -60,7 +60,7 @@ ClockKeeper::~ClockKeeper() {
     end();
 }
 
-// It holds nothing that must be put in order. Where even SIGKILL waits for the driver, init gets it.
+// The process holds no state, so it is killed. If even SIGKILL blocks in the driver, init reaps it.
 void ClockKeeper::end() noexcept {
     ::close(std::exchange(life_, -1));
     ::close(std::exchange(answer_, -1));
@@ -87,7 +87,7 @@ bool ClockKeeper::held() noexcept {
         if (told > 0 && (waited.revents & POLLIN) != 0 && ::read(answer_, &byte, 1) == 1) {
             held_ = held_ || byte == kClockHeld;
         } else if (told > 0 || (!held_ && std::chrono::steady_clock::now() > until)) {
-            end(); // it has ended, or says nothing
+            end(); // it has ended or does not answer
         } else if (held_) {
             break;
         }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds an NVIDIA GPU at its full clock while it waits for pictures (--hold-clock). Its driver lowers the
-// clock of a device that is asked little, to a sixth between pictures, and raises it too late for a
-// millisecond of passes; it does not while a CUDA context exists. A process of its own makes one and nothing
-// else: what that driver reserves and starts is then no part of a process whose memory is locked and whose
-// threads are placed.
+// Holds an NVIDIA GPU at its full clock while it waits for pictures (--hold-clock). The driver lowers the
+// clock of an idle device between frames, to a sixth, and raises it too late for a millisecond of passes,
+// except while a CUDA context exists. A separate process creates one, so that the memory and threads of the
+// CUDA driver stay out of the engine's process, whose memory is locked and whose threads are pinned.
 #pragma once
 
 #include "apps/global_options.h"
@@ -15,7 +14,7 @@
 
 namespace fathom {
 
-// The program's own first argument for that process; it ends with its standard input.
+// First argument that starts this process; it exits when its standard input closes.
 inline constexpr const char* kKeepClockCommand = "keep-clock";
 inline constexpr char kClockHeld = '1'; // its answer
 
@@ -25,15 +24,15 @@ std::string hexOf(const std::array<uint8_t, 16>& uuid);
 // One thread.
 class ClockKeeper {
 public:
-    // Starts the process when the options ask for it. Without it everything is as always, and one warning
-    // says why, here or from there.
+    // Starts the process when the options request it. A failure changes nothing else and logs one warning,
+    // here or in that process.
     ClockKeeper(const GlobalOptions& options, const DeviceFacts& device);
     ClockKeeper(const ClockKeeper&) = delete;
     ClockKeeper& operator=(const ClockKeeper&) = delete;
-    ~ClockKeeper(); // ends it; a driver that hangs is not waited for
+    ~ClockKeeper(); // ends it without waiting for a hanging driver
 
-    // Waits until it has said whether the clock is held, for some seconds at most, and then ends it: for who
-    // measures. Later: whether it is still.
+    // For measurements: waits some seconds at most until the process reports whether the clock is held, and
+    // ends it otherwise. Later calls report whether it still is.
     bool held() noexcept;
 
 private:

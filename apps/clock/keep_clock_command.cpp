@@ -16,8 +16,8 @@ namespace fathom {
 
 namespace {
 
-// Of NVIDIA's CUDA driver API, by its documented binary interface: the library comes with the driver that the
-// Vulkan device is of, or there is none, so that nothing is linked.
+// Loads NVIDIA's CUDA driver API at run time through its documented ABI; the library is part of the driver,
+// so nothing is linked.
 class CudaDriver {
 public:
     CudaDriver()
@@ -28,7 +28,7 @@ public:
         check(call<unsigned>("cuInit")(0), "cuInit");
     }
 
-    // A context on the device of that id, until the process ends.
+    // Creates a context on that device until the process ends.
     void occupy(const std::string& id) {
         int count = 0;
         check(call<int*>("cuDeviceGetCount")(&count), "cuDeviceGetCount");
@@ -71,7 +71,7 @@ private:
 
 void keepClock(const std::string& id, const std::string& name) {
     std::signal(SIGPIPE, SIG_IGN);
-    ::unsetenv("CUDA_VISIBLE_DEVICES"); // Vulkan sees all
+    ::unsetenv("CUDA_VISIBLE_DEVICES"); // Vulkan ignores it
     try {
         CudaDriver().occupy(id);
     } catch (const Error& e) {
@@ -79,7 +79,7 @@ void keepClock(const std::string& id, const std::string& name) {
         return;
     }
     char byte = kClockHeld;
-    if (::write(STDOUT_FILENO, &byte, 1) == 1) { // else nobody is there any more
+    if (::write(STDOUT_FILENO, &byte, 1) == 1) { // else the parent has ended
         while (::read(STDIN_FILENO, &byte, 1) > 0) {
         }
     }

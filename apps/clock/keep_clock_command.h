@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The process behind --hold-clock (clock_keeper.h). The program starts it by itself: it is in no help.
+// The process behind --hold-clock (clock_keeper.h). Started by the program itself and hidden from the help.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -12,7 +12,7 @@ namespace fathom {
 
 namespace {
 
-// Nothing is computed: every physical device that Vulkan names, refused ones with the reason.
+// Lists every physical device that Vulkan reports, with the reason for rejected ones.
 void printComputeDevices(std::ostream& out, const GlobalOptions& global) {
     try {
         const gpu::Instance instance(global.validation());

@@ -126,7 +126,7 @@ int printEndpoints(std::ostream& out, const std::filesystem::path& folder) {
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
                       const std::filesystem::path& endpoints) {
     auto files = findDeviceFiles(root);
-    std::erase_if(files, [](const DeviceFile& f) { // it belongs to the camera before it
+    std::erase_if(files, [](const DeviceFile& f) { // part of the camera listed before it
         return f.kind == DeviceFile::Kind::Camera && isMetadataNode(f.node);
     });
     for (const DeviceFile& file : files) {

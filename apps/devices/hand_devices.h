@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras, hands, arms and doors that are plugged in, what they can do, and why something cannot be used.
+// Lists attached cameras, haptic devices, arms and device sockets, with their capabilities and the reason
+// when one cannot be used.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +8,7 @@
 
 namespace fathom {
 
-// Looks at sysfs and at the doors in `doors`; opens nothing but to see whether it may be.
+// Reads sysfs and the sockets in `doors`; opens a device only to test permission.
 void printHandDevices(std::ostream& out, const std::filesystem::path& root,
                       const std::filesystem::path& endpoints);
 

@@ -19,7 +19,8 @@ namespace {
 void guardArm(const std::string& protocol) {
     using Protocol = SceneArm::Driver::Protocol;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE}) {
-        std::signal(signal, SIG_IGN); // whoever ends everything ends the engine, and then this is needed
+        std::signal(signal, SIG_IGN); // a signal to the whole group also ends the engine, which is when this
+                                      // process is needed
     }
     int kind = 0;
     socklen_t size = sizeof kind;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom arm-guardian PROTOCOL`: what the program starts beside itself for a real arm
-// (apps/binding/arm_watchdog.h). Nobody types it.
+// `fathom arm-guardian PROTOCOL`: the watchdog process that the program starts for a real arm
+// (apps/binding/arm_watchdog.h). Not for manual use.
 #pragma once
 
 namespace CLI {

@@ -25,7 +25,7 @@ struct GuardOptions {
     std::string device;                      // its id; empty = the first
 };
 
-// Real-time priority, on any CPU: the engine's haptic thread has one for itself and they take turns.
+// Real-time priority on any CPU: the engine's haptic thread has its own CPU, and the two alternate.
 void hurry() {
     ThreadPlacement placement = ThreadPlacement::ofThisProcess();
     placement.haptic = placement.all;

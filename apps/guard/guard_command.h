@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom guard falcon`: the small process that owns a haptic device, so that no end of the engine leaves a
-// force on the hand.
+// `fathom guard falcon`: the watchdog process that owns a haptic device, so that no crash of the engine
+// leaves a force on the hand.
 #pragma once
 
 namespace CLI {

@@ -22,8 +22,8 @@ constexpr int kRing[16][2] = {{5, 0},  {5, 2},   {4, 4},   {2, 5},   {0, 5},  {-
                               {-5, 0}, {-5, -2}, {-4, -4}, {-2, -5}, {0, -5}, {2, -5}, {4, -4}, {5, -2}};
 constexpr int kMargin = 7;          // [pixels] from the picture's edge
 constexpr double kWeakest = 0.2;    // of the strongest response
-constexpr double kOff = 0.35;       // of a square's edge, that a corner may be off its prediction
-constexpr size_t kSeeds = 12;       // corners to begin a grid at
+constexpr double kOff = 0.35;       // of a square's edge: tolerance of a predicted corner
+constexpr size_t kSeeds = 12;       // seed corners of grids
 constexpr double kWindow = 2.0;     // [pixels] sigma of the quadric's weights
 constexpr int kLeastContrast = 160; // of the response: 10 grey levels at every sample
 
@@ -40,7 +40,7 @@ struct Image {
     }
 };
 
-// Large where opposite samples are alike and those a quarter further are not.
+// Large where opposite samples agree and samples a quarter turn away differ.
 int response(const Image& image, int x, int y) {
     std::array<int, 16> ring{};
     int sum = 0, across = 0, along = 0;
@@ -58,7 +58,7 @@ int response(const Image& image, int x, int y) {
     return across - along - std::abs(16 * near / 5 - sum);
 }
 
-// The stationary point of the quadric that fits the picture about `guess`.
+// Stationary point of a quadric fitted to the image around `guess`.
 std::optional<dvec2> saddle(const Image& image, dvec2 guess) {
     const dvec2 first = guess;
     for (int round = 0; round < 4; ++round) {
@@ -149,7 +149,7 @@ std::optional<size_t> nearest(const std::vector<dvec2>& points, const dvec2& to,
     return best;
 }
 
-// From one corner outwards, each neighbour where the squares about it lead one to expect it.
+// Grows a grid from one corner; each neighbour is predicted from the squares around it.
 std::map<Cell, Grown> grow(const std::vector<dvec2>& points, size_t seed) {
     const dvec2 origin = points[seed];
     const auto side = nearest(points, origin, 1e9, [&](size_t i) { return i != seed; });
@@ -189,7 +189,7 @@ std::map<Cell, Grown> grow(const std::vector<dvec2>& points, size_t seed) {
     return grid;
 }
 
-// Row by row, when the grid is whole and of that size, upright or lying.
+// Row by row, when the grid is complete and of that size, in either orientation.
 std::vector<dvec2> rowByRow(const std::map<Cell, Grown>& grid, int columns, int rows) {
     if (grid.size() != static_cast<size_t>(columns) * static_cast<size_t>(rows)) {
         return {};
@@ -213,7 +213,7 @@ std::vector<dvec2> rowByRow(const std::map<Cell, Grown>& grid, int columns, int 
     return corners;
 }
 
-// Right-handed as it is read, and begun at the corner beyond which it is dark.
+// Reorders to a right-handed grid that starts at the corner whose outer square is dark.
 void putUpright(const Image& image, std::vector<dvec2>& corners, size_t columns) {
     const dvec2 right = corners[1] - corners[0], down = corners[columns] - corners[0];
     if (right.x * down.y - right.y * down.x < 0.0) {

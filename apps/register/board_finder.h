@@ -28,8 +28,8 @@ public:
         : camera_(camera)
         , place_(place) {}
 
-    // All inner corners: where the colour camera's rays through them meet the plane that the depth between
-    // them makes. None when some corner is not seen, or depth makes no plane (seen_plane.h).
+    // All inner corners: intersections of the colour camera's rays with the plane fitted to the depth between
+    // them. Empty when a corner is not visible or the depth is not planar (seen_plane.h).
     std::vector<PointPair> find(const Frame& frame);
 
 private:

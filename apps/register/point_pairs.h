@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same points in the frames of camera and base, from a file.
+// Corresponding points in the camera frame and the base frame, from a file.
 #pragma once
 
 #include "apps/register/rigid_fit.h"

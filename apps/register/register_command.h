@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom register SCENE.yaml`: where the camera is in the base frame, from tags that it sees or from points.
+// `fathom register SCENE.yaml`: estimates the camera's pose in the base frame from visible tags, a chessboard
+// or points.
 #pragma once
 
 #include "apps/global_options.h"

@@ -63,7 +63,7 @@ RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source) {
             fit.worstName = pair.name;
         }
     }
-    // Six of the 3n measured numbers went into the pose.
+    // The pose uses six of the 3n degrees of freedom.
     fit.sigma = std::sqrt(squares / (count - 2.0));
     return fit;
 }

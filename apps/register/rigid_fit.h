@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pose that maps one set of points onto another, and how well it does.
+// Fits the pose that maps one point set onto another, with its residual.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -16,14 +16,13 @@ struct PointPair {
 
 struct RigidFit {
     Pose baseTcamera;
-    double sigma =
-        0.0; // [m] root of the mean square distance of the pairs, for the degrees of freedom that are left
+    double sigma = 0.0; // [m] RMS distance of the pairs, corrected for the remaining degrees of freedom
     double worst = 0.0; // [m] largest distance
     std::string worstName;
 };
 
 // Least squares (B. K. P. Horn, Closed-form solution of absolute orientation using unit quaternions, 1987).
-// Throws BadInput, naming `source`, for fewer than 4 pairs or points that lie on one line (within 1 mm).
+// Throws BadInput, that names `source`, for fewer than 4 pairs or collinear points (within 1 mm).
 RigidFit fitRigid(std::span<const PointPair> pairs, const std::string& source);
 
 } // namespace fathom

@@ -48,7 +48,7 @@ bool holds(const std::array<glm::dvec2, 4>& corners, const glm::dvec2& p) {
     return left == 0 || left == 4;
 }
 
-// Points of the depth picture that the colour camera sees inside the outline, in the colour camera's frame.
+// Depth points that project inside the outline of the colour image, in the colour camera's frame.
 std::vector<dvec3> depthInside(const Frame& frame, const CameraInfo& camera,
                                const std::array<glm::dvec2, 4>& outline) {
     std::vector<dvec3> points;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plane that depth makes of a flat target, and where the colour camera's rays meet it.
+// A plane fitted to the depth of a flat target, intersected with rays of the colour camera.
 #pragma once
 
 #include "engine/types/camera_info.h"
@@ -16,13 +16,13 @@ void greyOf(const Frame& frame, std::vector<uint8_t>& grey);
 
 class SeenPlane {
 public:
-    // Of the depth pixels that the colour camera sees inside a convex outline of its pixels (depth at an edge
-    // is the least certain of all). Nothing with fewer than 50 of them, or when they are off their plane by
-    // more than 1 % of its distance.
+    // Fits the depth pixels that project inside a convex outline in the colour image; depth is least certain
+    // at edges. Empty with fewer than 50 pixels, or when they deviate from the plane by more than 1 % of its
+    // distance.
     static std::optional<SeenPlane> inside(const Frame& frame, const CameraInfo& camera,
                                            const std::array<glm::dvec2, 4>& outline);
 
-    // Where the ray of a colour pixel meets it [m], in the depth camera's frame.
+    // Intersection of a colour pixel's ray with the plane [m], in the depth camera's frame.
     dvec3 at(const glm::dvec2& colourPixel) const;
 
 private:

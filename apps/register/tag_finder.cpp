@@ -79,7 +79,7 @@ std::vector<TagFinder::Corners> TagFinder::detect(const Frame& frame) {
         if (places_.count(one->id) != 0 && one->hamming == 0) {
             Corners corners{one->id, {}};
             for (size_t k = 0; k < 4;
-                 ++k) { // its pixel (0, 0) is the corner of the first pixel, ours the centre
+                 ++k) { // the library's (0, 0) is the corner of the first pixel, Fathom's its centre
                 corners.pixels[k] = {one->p[k][0] - 0.5, one->p[k][1] - 0.5};
             }
             tags.push_back(corners);

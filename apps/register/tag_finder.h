@@ -13,8 +13,7 @@
 
 namespace fathom {
 
-// A printed tag of the family 36h11. Its frame: origin in its middle, x to its right, y down, z into it, as
-// it is read.
+// A printed tag of the family 36h11. Its frame: origin in its middle, x to the right, y down, z into the tag.
 struct TagPlace {
     double size = 0.0; // [m] edge of the black square
     Pose baseTtag;
@@ -28,10 +27,9 @@ public:
     TagFinder(const CameraInfo& camera, std::map<int, TagPlace> places);
     ~TagFinder();
 
-    // The four corners of every known tag in the frame: where the rays of the colour camera through them meet
-    // the plane that the depth inside the tag makes (depth at an edge is the least certain of all). A tag
-    // with fewer than 50 depth pixels, or whose depth is off its plane by more than 1 % of its distance, is
-    // left out.
+    // The four corners of every known tag in the frame: intersections of the colour camera's rays with the
+    // plane fitted to the depth inside the tag (depth is least certain at edges). Tags with fewer than 50
+    // depth pixels, or whose depth deviates from the plane by more than 1 % of its distance, are skipped.
     std::vector<PointPair> find(const Frame& frame);
 
 private:

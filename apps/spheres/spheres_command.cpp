@@ -27,7 +27,7 @@ struct SpheresOptions {
     MeshOptions file;
     std::string up, link;
     bool compare = false;
-    std::vector<std::string> given; // of the options that ask for a mesh
+    std::vector<std::string> given; // options that need a mesh
 };
 
 const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "--drop-stray",
@@ -89,7 +89,7 @@ void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
                    maker.rows());
 }
 
-// A flat set that another program made becomes a tree.
+// Converts a flat set from another program to a tree.
 bool isSet(const std::filesystem::path& file) {
     const std::string kind = file.extension().string();
     return kind == ".urdf" || kind == ".yaml" || kind == ".yml" || kind == ".sph";

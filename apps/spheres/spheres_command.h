@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom spheres MESH --out TOOL.sph`: from a mesh to a sphere tree that contains it, and how well.
+// `fathom spheres MESH --out TOOL.sph`: makes a sphere tree that contains a mesh, and measures it.
 #pragma once
 
 namespace CLI {

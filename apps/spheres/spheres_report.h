@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `fathom spheres` says about a mesh and its spheres.
+// The report of `fathom spheres`.
 #pragma once
 
 #include "engine/model/cover_measure.h"
@@ -12,18 +12,18 @@
 
 namespace fathom {
 
-struct CoverRow { // one way to put spheres round the mesh
+struct CoverRow { // one method of covering the mesh
     std::string name;
     size_t leaves = 0;
     CoverMeasure measure;
     double seconds = 0.0;
 };
 
-// What the file held and what was done about it; one line a thing, nothing for a faultless mesh but its size.
+// Facts of the file and changes by cleaning, one line each; only the size for a clean mesh.
 void printMesh(std::ostream& out, const LoadedMesh& loaded);
 void printRows(std::ostream& out, const std::vector<CoverRow>& rows);
 
-// Worst and mean protrusion over leaf count, one curve a name; logarithmic axes.
+// Worst and mean protrusion over leaf count, one curve per method; logarithmic axes.
 void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
                     const std::vector<CoverRow>& rows);
 
