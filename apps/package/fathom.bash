@@ -1,6 +1,6 @@
-# Completion of the command `fathom` for bash. Asks the program itself, so that it is never behind.
+# Bash completion for `fathom`. It reads the program's own --help, so it is never out of date.
 
-# The words of a help text: its long options, and the names below "Subcommands:".
+# Prints the long options of a help text, and the names below "Subcommands:".
 _fathom_words() {
     "$@" --help 2>/dev/null | awk '
         /^Subcommands:/ { names = 1; next }
