@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs every block of every document of the tree that begins with ```runnable. Each document has a folder of its own that looks like the
-# repository's root with the built tree at build/, so commands run as printed and write nothing into the tree. The built program is
-# first in PATH; $OUT is an empty folder. A block is a case. Ends with 'docs: N passed, N failed'.
+# Runs every block of a document that begins with ```runnable, and checks that links between documents resolve: files and headings.
+# Each document runs in a folder that looks like the repository's root with the built tree at build/, so commands run as written and
+# what they write stays out of the tree. The built program is first in PATH, and $OUT is an empty folder.
+# Ends with 'docs: N passed, N failed'. A block is a case, and so are the links of a document.
 #   docs_test.sh BUILD_FOLDER
 set -uo pipefail
 build=$(realpath "$1")
@@ -10,8 +11,39 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH="$build:$PATH"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-passed=0 failed=0
+passed=0 failed=0 blocks=0
+
+# Prints the anchors of a document as GitHub makes them: of its headings, and <a id="...">.
+anchors() {
+    awk '/^ *```/ { code = !code; next }
+         code { next }
+         /^#+ / { heading = tolower($0); sub(/^#+ /, "", heading); gsub(/\]\([^)]*\)/, "", heading)
+                  gsub(/[^a-z0-9_ -]/, "", heading); gsub(/ /, "-", heading); print heading }
+         { while (match($0, /<a id="[^"]+"/)) { print substr($0, RSTART + 7, RLENGTH - 8); $0 = substr($0, RSTART + RLENGTH) } }' "$1"
+}
+
+# Prints the links of a document that lead nowhere.
+broken_links() {
+    awk '/^ *```/ { code = !code; next }
+         code { next }
+         { while (match($0, /\]\([^) ]+\)/)) { print substr($0, RSTART + 2, RLENGTH - 3); $0 = substr($0, RSTART + RLENGTH) } }' "$1" |
+        grep -vE '^[a-z]+:' | while read -r link; do
+        local file=${link%%#*} target=$1
+        [ -z "$file" ] || target=$(dirname "$1")/$file
+        if [ ! -e "$target" ] || { [[ $link == *#* ]] && ! anchors "$target" | grep -qxF -- "${link#*#}"; }; then
+            echo "$link"
+        fi
+    done
+}
+
 while read -r document; do
+    broken=$(broken_links "$document")
+    if [ -z "$broken" ]; then
+        passed=$((passed + 1))
+    else
+        echo "ERROR: $document: links lead nowhere:" $broken
+        failed=$((failed + 1))
+    fi
     root=$scratch/${document//\//_}
     export OUT=$root.out
     mkdir -p "$root" "$OUT"
@@ -22,6 +54,7 @@ while read -r document; do
     awk -v to="$scratch/block" '/^```runnable/ { n++; file = sprintf("%s.%02d", to, n); next } /^```/ { file = "" } file { print > file }' "$document"
     for block in "$scratch"/block.*; do
         [ -e "$block" ] || continue
+        blocks=$((blocks + 1))
         if grep -qE '(^|[;&|(]|build/) *(\./run|ctest)( |$)' "$block"; then
             echo "ERROR: $document: a runnable block must not build or run the tests"
             failed=$((failed + 1))
@@ -36,7 +69,7 @@ while read -r document; do
         rm -f "$block"
     done
 done < <(find . \( -name build -o -name out -o -name '.?*' \) -prune -o -name '*.md' -print | cut -c3- | sort)
-[ "$passed" -gt 0 ] || { echo "ERROR: no document has a runnable block"; failed=$((failed + 1)); }
+[ "$blocks" -gt 0 ] || { echo "ERROR: no document has a runnable block"; failed=$((failed + 1)); }
 echo "docs: took $SECONDS s"
 echo "docs: $passed passed, $failed failed"
 [ "$failed" = 0 ]
