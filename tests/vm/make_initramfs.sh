@@ -16,8 +16,9 @@ for applet in sh mount insmod switch_root mkdir; do ln -s busybox "$tree/bin/$ap
 for module in virtio_pci 9pnet_virtio 9p overlay; do
     modprobe -d "$kernel" -S "$release" --show-depends "$module" | awk '$1 == "insmod" { print $2 }'
 done | awk '!seen[$0]++' | while read -r file; do
-    cp "$file" "$tree/modules/"
-    basename "$file"
+    name=$(basename "$file" .xz)
+    case $file in *.xz) xz -dc "$file" ;; *) cat "$file" ;; esac >"$tree/modules/$name" # Debian 13 compresses them; busybox loads plain ones
+    echo "$name"
 done >"$tree/modules/order"
 
 cat >"$tree/init" <<'INIT'

@@ -48,6 +48,7 @@ fetch_kernel() {
     (cd "$cache" && apt-get download "$package" >download.log 2>&1) || skip "the kernel's package $package cannot be downloaded"
     dpkg-deb -x "$cache"/"$package"_*.deb "$cache/kernel.new"
     rm -f "$cache"/*.deb
+    [ -e "$cache/kernel.new/lib" ] || ln -s usr/lib "$cache/kernel.new/lib" # Debian 13 has modules in /usr/lib
     mv "$cache/kernel.new" "$cache/kernel"
 }
 exec 9>"$cache/lock"
@@ -88,7 +89,7 @@ status=0
 timeout --foreground "$seconds" qemu-system-x86_64 -M pc "${machine[@]}" -m "${FATHOM_VM_MIB:-2048}" -nodefaults -no-user-config -no-reboot \
     -display none -serial file:"$share/kernel.log" -serial stdio -kernel "$cache"/kernel/boot/vmlinuz-* -initrd "$cache/initramfs.gz" \
     -append "console=ttyS0 panic=-1 nokaslr mitigations=off random.trust_cpu=on no_timer_check" -device virtio-rng-pci \
-    $(readonly_share hostroot /) $(readonly_share modules "$cache/kernel/lib/modules") \
+    $(readonly_share hostroot /) $(readonly_share modules "$(realpath "$cache/kernel/lib/modules")") \
     -fsdev local,id=share,path="$share",security_model=none -device virtio-9p-pci,fsdev=share,mount_tag=share </dev/null || status=$?
 
 if [ -n "$out" ]; then
