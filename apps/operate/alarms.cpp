@@ -14,15 +14,10 @@ namespace fathom::operate {
 
 namespace {
 
-std::string print(const char* form, double value) {
+template <class Value>
+std::string print(const char* form, Value value) {
     char text[128];
     std::snprintf(text, sizeof text, form, value);
-    return text;
-}
-
-std::string print(const char* form, const char* word) {
-    char text[128];
-    std::snprintf(text, sizeof text, form, word);
     return text;
 }
 
@@ -52,7 +47,7 @@ void Alarms::set(bool on, Level level, const char* key, const std::string& words
         }
         return;
     }
-    if (on && !at->active) { // again: latched anew
+    if (on && !at->active) { // latched again
         at->since = t;
         at->acknowledged = false;
     }
@@ -63,16 +58,15 @@ void Alarms::set(bool on, Level level, const char* key, const std::string& words
 void Alarms::raise(Level level, const std::string& key, const std::string& words, double t) {
     set(false, level, key.c_str(), words, t);
     set(true, level, key.c_str(), words, t);
-    set(false, level, key.c_str(), words, t); // an event: latched, not lasting
+    set(false, level, key.c_str(), words, t); // an event: latched but not active
 }
 
-// No picture for long: whoever is to blame is named. The camera is not while a GPU that was lost has made no
-// set.
+// Names the cause when frames stop: the GPU until it has processed a frame again, otherwise the camera.
 void Alarms::stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone) {
     const bool stale = tick.sceneAge > haptics.staleAfter;
     lostFrame_ = deviceGone ? tick.frame : lostFrame_;
     waits_ = deviceGone || (waits_ && stale && tick.frame == lostFrame_);
-    set(waits_, Level::Warning, "gpu", "GPU is gone: no picture, forces fade; it is looked for", tick.t);
+    set(waits_, Level::Warning, "gpu", "GPU lost: no frames, forces fade; reopening", tick.t);
     set(!waits_ && tick.sceneAge > 5.0 * haptics.staleAfter, Level::Warning, "camera",
         print("Camera silent: scene %.1f s old", tick.sceneAge), tick.t);
     set(stale, Level::Caution, "stale",
@@ -83,16 +77,16 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
                   const Health& health) {
     const double now = run.anyTurn() ? run.step().record.t : 0.0;
     set(health.handGone, Level::Warning, "hand",
-        "Haptic device is gone: forces are off, the tool stays; it is looked for", now);
+        "Haptic device lost: forces off, the tool stays; reconnecting", now);
     set(!health.recorderFailed.empty(), Level::Caution, "recorder",
-        "Recording has ended: " + health.recorderFailed, now);
+        "Recording stopped: " + health.recorderFailed, now);
     if (run.anyTurn()) {
         const StepRecord& r = run.step().record;
         const Rates rates = run.rates();
         const double force = glm::length(r.wrench.force), torque = glm::length(r.wrench.torque);
-        set(!r.finite, Level::Warning, "finite", "A number was not finite: zero wrench", r.t);
+        set(!r.finite, Level::Warning, "finite", "Non-finite value: zero wrench", r.t);
         set(r.state == StepState::Trapped, Level::Warning, "trapped",
-            "Tool trapped: no motion obeys every region", r.t);
+            "Tool trapped: no motion satisfies every region", r.t);
         stepScene(r, haptics, health.gpuGone);
         set(force > 0.98 * haptics.forceLimit, Level::Caution, "force",
             print("Force at its limit of %.1f N", haptics.forceLimit), r.t);
@@ -100,22 +94,23 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
             print("Torque at its limit of %.2f N m", haptics.torqueLimit), r.t);
         set(rates.worstPeriodMs > 1e4 * haptics.period, Level::Caution, "overrun",
             print("Haptic overrun: a period of %.1f ms", rates.worstPeriodMs), r.t);
-        set(r.state == StepState::Escape, Level::Caution, "escape",
-            "New data lies over the tool: it is let out", r.t);
-        set(r.marginPassive < kMarginNoise, Level::Caution, "passive", "Springs beyond the passive bound",
+        set(r.state == StepState::Escape, Level::Caution, "escape", "New data covers the tool: it moves out",
+            r.t);
+        set(r.marginPassive < kMarginNoise, Level::Caution, "passive", "Springs exceed the passivity bound",
             r.t);
         const ArmState arm = run.step().driven ? run.step().told.state : ArmState::Follows;
-        set(isFault(arm), Level::Warning, "arm",
-            print("Arm %s: it stands still, and so does the tool", armStateName(arm)), r.t);
+        set(isFault(arm), Level::Warning, "arm", print("Arm %s: arm and tool are stopped", armStateName(arm)),
+            r.t);
         set(glm::distance(r.tool.position, r.device.position) > 0.10, Level::Advisory, "apart",
-            "Hand and tool are over 100 mm apart", r.t);
-        set(console.frozen, Level::Advisory, "frozen", "Fixtures are frozen: the camera moves nothing", r.t);
+            "Hand and tool are more than 100 mm apart", r.t);
+        set(console.frozen, Level::Advisory, "frozen", "Fixtures frozen: camera frames do not change them",
+            r.t);
         for (const GuidancePose& g : run.scene().set.guidance) {
             const bool named = g.fixture < scene.fixtures.size() && !isSpare(scene.fixtures[g.fixture]);
             if (named) {
                 const std::string& name = scene.fixtures[g.fixture].name;
                 set(!g.present, Level::Advisory, ("target " + name).c_str(),
-                    "No target: too few points of '" + name + "'", r.t);
+                    "No target: too few points in '" + name + "'", r.t);
             }
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Alarms in three levels, in words and with a sign, latched until the pilot has acknowledged them.
+// Alarms in three levels, each with text and a sign, latched until the pilot acknowledges them.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -25,33 +25,33 @@ const char* levelName(Level level);
 const char* levelSign(Level level);
 ImU32 levelColour(Level level);
 
-// What no turn tells.
+// Conditions that are not in a step record.
 struct Health {
-    bool gpuGone = false;       // and no other one is there yet
-    bool handGone = false;      // the haptic device is away or silent
-    std::string recorderFailed; // why nothing is recorded any more; empty = it is well
+    bool gpuGone = false;       // lost and not reopened yet
+    bool handGone = false;      // the haptic device is disconnected or silent
+    std::string recorderFailed; // why the recording ended; empty = no failure
 };
 
 class Alarms {
 public:
-    // Looks at the run; once a window frame.
+    // Evaluates all rules; called once per window frame.
     void step(Console& console, const RunView& run, const HapticOptions& haptics, const Scene& scene,
               const Health& health = {});
-    // Raises one that no rule sees.
+    // Raises an alarm outside the rules.
     void raise(Level level, const std::string& key, const std::string& words, double t);
 
-    // Shown: active, or latched and not yet acknowledged. Highest level first,
-    // of one level what is not acknowledged, and what is still on, before the rest.
+    // Active alarms and latched ones that are not acknowledged. Sorted by level; within a level,
+    // unacknowledged and active alarms come first.
     std::vector<const Alarm*> shown() const;
-    const Alarm* worst() const; // of those not acknowledged; null when none
+    const Alarm* worst() const; // the first unacknowledged one; null when none
     std::vector<std::string> inWords() const;
 
 private:
     void set(bool on, Level level, const char* key, const std::string& words, double t);
     void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone);
     std::vector<Alarm> alarms_;
-    bool waits_ = false;     // for the first picture after the GPU was lost
-    int64_t lostFrame_ = -1; // newest picture while it was
+    bool waits_ = false;     // for the first frame after the GPU was lost
+    int64_t lostFrame_ = -1; // newest frame at that time
 };
 
 void drawAlarms(Console& console, const Alarms& alarms);

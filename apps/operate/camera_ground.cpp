@@ -18,7 +18,7 @@ struct Tint {
 };
 constexpr Tint kRegion{237, 41, 36}, kUnknown{196, 202, 255}, kDark{16, 18, 34}, kPicked{40, 220, 235};
 
-// share of 256
+// share: of 256
 uint32_t blend(uint32_t below, Tint tint, int share) {
     const auto mix = [&](uint32_t shift, int value) {
         const int under = static_cast<int>(below >> shift & 0xffu);
@@ -31,10 +31,6 @@ uint32_t greyOf(uint16_t depth, double metresPerUnit) {
     const double z = depth * metresPerUnit;
     const auto level = static_cast<uint32_t>(std::clamp(230.0 - 70.0 * z, 40.0, 230.0));
     return 0xff000000u | level << 16 | level << 8 | level;
-}
-
-dvec3 centreOf(const Fixtures& set, size_t i) {
-    return set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]}, double{set.spheres.z[i]});
 }
 
 } // namespace
@@ -60,7 +56,7 @@ void CameraGround::paintImage(const SceneSnapshot& scene, const Selection& selec
         uint32_t* row = pixels_.data() + static_cast<size_t>(v) * static_cast<size_t>(view_.width());
         for (int u = 0; u < view_.width(); ++u) {
             const uint32_t su = static_cast<uint32_t>(u / view_.scale);
-            // With two lenses the hatch is where the depth picture has its holes, not corrected for parallax.
+            // With separate cameras the hatch ignores parallax: it marks the holes of the depth image.
             const size_t d = dv * camera.depth.width + su * camera.depth.width / lens.width;
             const uint16_t depth = known ? scene.set.depth[d] : 0;
             row[u] = coloured ? scene.colour[sv * lens.width + su] | 0xff000000u
@@ -84,42 +80,28 @@ void CameraGround::paintRegions(const Fixtures& set) {
     if (set.frame < 0 || set.spheres.size() == 0) {
         return;
     }
-    const uint32_t pixels = set.camera.depth.pixels();
-    Silhouette seen(view_), held(view_);
-    bool anyHeld = false;
-    for (size_t i = 0; i < set.spheres.size(); ++i) {
-        const bool isHeld = set.spheres.source[i] >= pixels;
-        (isHeld ? held : seen).add(centreOf(set, i), double{set.spheres.radius[i]});
-        anyHeld = anyHeld || isHeld;
-    }
-    const std::vector<uint8_t> seenMask = seen.mask();
-    std::vector<uint8_t> heldMask = anyHeld ? held.mask() : std::vector<uint8_t>();
+    const RegionMasks masks = regionMasks(view_, set);
     for (int v = 0; v < view_.height(); ++v) {
         const size_t first = static_cast<size_t>(v) * static_cast<size_t>(view_.width());
         for (int u = 0; u < view_.width(); ++u) {
             const size_t i = first + static_cast<size_t>(u);
-            if (seenMask[i] != 0) {
+            if (masks.seen[i] != 0) {
                 pixels_[i] = blend(pixels_[i], kRegion, (u + v) % kHatch < kLine ? 128 : 62);
-            } else if (anyHeld && heldMask[i] != 0) {
+            } else if (masks.held[i] != 0) {
                 pixels_[i] = blend(pixels_[i], kRegion, (u - v + 4096) % kHatch < kLine ? 96 : 30);
             }
         }
     }
-    for (size_t i = 0; i < set.spheres.size(); ++i) { // the points that the regions stand on
-        const auto p = view_.ofBase(centreOf(set, i));
+    for (size_t i = 0; i < set.spheres.size(); ++i) { // the points of the regions
+        const auto p = view_.ofBase(regionCentre(set, i));
         if (p && p->x >= 0.0 && p->y >= 0.0 && p->x < view_.width() && p->y < view_.height()) {
             uint32_t& target = pixels_[static_cast<size_t>(p->y) * static_cast<size_t>(view_.width()) +
                                        static_cast<size_t>(p->x)];
             target = blend(target, {255, 140, 122}, 170);
         }
     }
-    seen_ = traceOutline(seenMask, view_.width(), view_.height(), kLeastOutline);
-    if (anyHeld) {
-        for (size_t i = 0; i < heldMask.size(); ++i) {
-            heldMask[i] = static_cast<uint8_t>(heldMask[i] & ~seenMask[i] & 1);
-        }
-        held_ = traceOutline(heldMask, view_.width(), view_.height(), kLeastOutline);
-    }
+    seen_ = traceOutline(masks.seen, view_.width(), view_.height(), kLeastOutline);
+    held_ = traceOutline(masks.held, view_.width(), view_.height(), kLeastOutline);
 }
 
 } // namespace fathom::operate

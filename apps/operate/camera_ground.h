@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera's picture as the pilot sees it: regions tinted and hatched, and hatched in another way where the
-// camera has not seen how far things are.
+// The camera image of the window: regions tinted and hatched; unobserved areas (no depth) use a second hatch.
 #pragma once
 
 #include "apps/operate/snapshots.h"
@@ -11,20 +10,20 @@
 
 namespace fathom::operate {
 
-// Which pixels of the colour picture a preview selects; empty = no preview.
+// Which depth pixels a preview selects; empty = no preview.
 using Selection = std::vector<uint8_t>;
 
-// Made anew for each picture. Colours and meaning are those of overlay.png.
+// Composed per frame. Colours have the meaning they have in overlay.png.
 class CameraGround {
 public:
-    // selection: of the depth picture's size or empty; marked cyan.
+    // selection: size of the depth image, or empty; drawn in cyan.
     void compose(const SceneSnapshot& scene, const Selection& selection);
 
     const std::vector<uint32_t>& pixels() const { return pixels_; } // 0xAABBGGRR, view().width() x height()
     const ImageView& view() const { return view_; }
     const std::vector<OutlineLine>& seenOutline() const { return seen_; }
     const std::vector<OutlineLine>& heldOutline() const { return held_; }
-    double unknownShare() const { return unknown_; } // of the picture without depth, 0..1
+    double unknownShare() const { return unknown_; } // share of the image without depth, 0..1
 
 private:
     void paintImage(const SceneSnapshot& scene, const Selection& selection);

@@ -9,16 +9,15 @@
 
 namespace fathom::operate {
 
-// Owners before their borrowers.
 struct Canvas::OnDevice {
-    // Of a window; of one that is offscreen, none.
+    // The surface of a window; null when offscreen.
     class Surface {
     public:
         Surface(const Window& window, const gpu::Instance& instance)
             : instance_(instance)
             , handle_(window.offscreen() ? VK_NULL_HANDLE : window.makeSurface(instance)) {}
         ~Surface() {
-            if (handle_ != VK_NULL_HANDLE) { // else the instance may have no such call
+            if (handle_ != VK_NULL_HANDLE) { // offscreen, the instance may lack the extension
                 vkDestroySurfaceKHR(instance_.handle(), handle_, nullptr);
             }
         }
@@ -38,7 +37,7 @@ struct Canvas::OnDevice {
         }
         painter.emplace(instance, device, swapchain ? &*swapchain : nullptr);
     }
-    // A window has one surface at a time with images on it.
+    // A window allows one surface with swapchain images at a time.
     void renewSurface(const Window& window, const gpu::Instance& instance) {
         swapchain->leave();
         surface.reset();
@@ -103,25 +102,25 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
         if (onDevice_) {
             onDevice_->painter->uploadFonts();
         } else {
-            ImGui::GetIO().Fonts->Build(); // the next frame measures words
+            ImGui::GetIO().Fonts->Build(); // the next frame measures text
         }
     }
 }
 
 void Canvas::shoot(Console& console) {
     if (!onDevice_) {
-        console.tell("no screenshot: the GPU is gone");
+        console.notify("no screenshot: the GPU is lost");
         return;
     }
     const auto file = shots_ / ("screenshot-" + std::to_string(console.shots + 1) + ".png");
     try {
         onDevice_->painter->screenshot(file);
         ++console.shots;
-        console.tell("screenshot " + file.string());
+        console.notify("screenshot " + file.string());
     } catch (const DeviceFailed&) {
         throw;
     } catch (const Error& e) {
-        console.tell(e.what());
+        console.notify(e.what());
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run draws on: surface, painter, letters; and screenshots of it.
+// What the window draws with: surface, painter, fonts and screenshots.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -11,28 +11,27 @@
 
 namespace fathom::operate {
 
-// Thread: the window's. Window and instance outlive it, a device what is open on it.
+// Thread: the window's. Window and instance outlive it; a device outlives what is open on it.
 class Canvas {
 public:
-    // shots: folder of screenshots. Nothing is on a device yet.
+    // shots: folder of screenshots. Uses no device before open().
     Canvas(const Window& window, const gpu::Instance& instance, double textScale,
            std::filesystem::path shots);
     ~Canvas();
     Canvas(const Canvas&) = delete;
     Canvas& operator=(const Canvas&) = delete;
 
-    // Everything that is on a device, made on this one; between two ImGui frames. Throws Error, DeviceLost:
-    // then nothing is on it.
+    // Creates all device objects; call between two ImGui frames. Throws Error, DeviceLost: then none exist.
     void open(gpu::Device& device);
-    void drop(); // all of it destroyed; counts, letters and what is asked for stay
+    void drop(); // destroys all device objects; keeps counts, fonts and pending requests
     bool isOpen() const { return onDevice_ != nullptr; }
 
-    // The ImGui frame that is open, over the layers; then the screenshot and the size of letters that the
-    // console asks for. Without a device the frame ends unseen. Throws DeviceFailed: to be dropped.
+    // Draws the open ImGui frame over the layers, then handles requests for screenshots and font size.
+    // Without a device the frame is discarded. Throws DeviceFailed: call drop().
     void finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy);
 
     const Letters& letters() const { return letters_; }
-    struct Counts {                      // so far, on all devices
+    struct Counts {                      // totals over all devices
         uint64_t drawn = 0, yielded = 0; // frames
         uint32_t swapchains = 0;
     };
@@ -47,7 +46,7 @@ private:
     std::filesystem::path shots_;
     double scale_;
     std::unique_ptr<OnDevice> onDevice_; // null: no device
-    Counts before_;                      // on devices that are gone
+    Counts before_;                      // of devices that were dropped
     Letters letters_;
 };
 

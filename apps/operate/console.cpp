@@ -6,13 +6,13 @@
 namespace fathom::operate {
 
 Pose Orbit::pose() const {
-    const dquat turn = glm::angleAxis(-yaw, dvec3(0, 1, 0)) * glm::angleAxis(-pitch, dvec3(1, 0, 0));
-    return {centre - turn * dvec3(0, 0, distance), turn};
+    const dquat rotation = glm::angleAxis(-yaw, dvec3(0, 1, 0)) * glm::angleAxis(-pitch, dvec3(1, 0, 0));
+    return {centre - rotation * dvec3(0, 0, distance), rotation};
 }
 
-void Console::tell(std::string words) {
+void Console::notify(std::string text) {
     constexpr double kShown = 5.0; // [s]
-    notice = std::move(words);
+    notice = std::move(text);
     noticeUntil = ImGui::GetTime() + kShown;
 }
 
@@ -30,8 +30,23 @@ Scene::Window Console::settings() const {
 }
 
 void markPlace(Console& console, const std::string& name) {
-    const ImVec2 a = ImGui::GetItemRectMin(), b = ImGui::GetItemRectMax();
-    console.places[name] = {a.x, a.y, b.x - a.x, b.y - a.y};
+    markPlace(console, name, ImGui::GetItemRectMin(), ImGui::GetItemRectSize());
+}
+
+void markPlace(Console& console, const std::string& name, ImVec2 corner, ImVec2 size) {
+    console.places[name] = {corner.x, corner.y, size.x, size.y};
+}
+
+bool markedButton(Console& console, const char* label, const std::string& name) {
+    const bool pressed = ImGui::SmallButton(label);
+    markPlace(console, name);
+    return pressed;
+}
+
+void colouredText(ImU32 colour, const char* text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, colour);
+    ImGui::TextWrapped("%s", text);
+    ImGui::PopStyleColor();
 }
 
 } // namespace fathom::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pilot has set and asked for: the window's own state. Window thread only.
+// The state of the window: settings and requests of the pilot. Window thread only.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -13,7 +13,7 @@
 
 namespace fathom::operate {
 
-// Where the eye of the 3D view is: looks at `centre` from `distance`, turned by yaw about the base's y and
+// The eye of the 3D view: looks at `centre` from `distance`, rotated by yaw about the base's y axis and by
 // pitch.
 struct Orbit {
     dvec3 centre{0.0, 0.0, 0.8}; // [m] base frame
@@ -23,26 +23,26 @@ struct Orbit {
 
 enum class Tab { Fixtures, Why, Alarms, Help };
 
-// A pixel of the colour picture that the pilot points at, and what it would select.
+// A colour that the pilot picks in the camera view, and the fixture class it would add.
 struct Pick {
     bool active = false; // waiting for a click, or showing a preview
-    bool taken = false;  // a click was made
+    bool taken = false;  // a pixel was chosen
     uint32_t u = 0, v = 0;
-    FixtureClass gates; // what would be added
-    int row = -1;       // of the class whose gates are changed; -1 = a new one
-    bool fresh = false; // what it selects has not been looked at yet
+    FixtureClass gates; // the class to add
+    int row = -1;       // of the class whose gates are edited; -1 = a new class
+    bool fresh = false; // the preview has not been computed yet
 };
 
-// Where one is in a recording; of a run that is not one, `on` is false and nothing else counts.
+// The position in a recording. `on` is false, and the rest unused, in a live run.
 struct TimeLine {
     bool on = false, playing = false;
-    bool dragged = false;    // the pilot holds the head
+    bool dragged = false;    // the pilot drags the marker
     double t = 0.0;          // [s] shown
     double duration = 0.0;   // [s]
     double speed = 1.0;      // of playing
-    uint32_t image = 0;      // shown, from 0
-    uint32_t images = 0;     // there are
-    bool wholeMemory = true; // held points of earlier pictures are there, too
+    uint32_t image = 0;      // frame shown, from 0
+    uint32_t images = 0;     // number of frames
+    bool wholeMemory = true; // points held from earlier frames are included
 };
 
 struct Console {
@@ -52,7 +52,7 @@ struct Console {
     bool paused = false;       // traces
     bool recording = false;
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
-    bool remake = false; // the window's images
+    bool remake = false; // the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
     uint32_t shots = 0; // screenshots written
     int treeLevel = -1; // shown in the 3D view; -1 = none
@@ -62,31 +62,35 @@ struct Console {
     TimeLine timeLine;
     Pick pick;
     ShapeKind placing = ShapeKind::None; // the next click on the cloud puts one there
-    std::optional<dvec3> placedFrom; // base point where a line or an axis begins: the next click is its way
-    bool panels = false;             // arrows and Enter are the panels', not the tool's
-    std::optional<ImVec2> cursor;    // [pixels] the keyboard's, while it aims
+    std::optional<dvec3> placedFrom;     // start of a line or an axis [m, base]: the next click is its end
+    bool panels = false;                 // arrows and Enter go to the panels, not to the tool
+    std::optional<ImVec2> cursor;        // [pixels] of the keyboard, while it aims
     bool aims() const { return (pick.active && !pick.taken) || placing != ShapeKind::None; }
 
-    std::string pilotWanted; // of the scene's; empty = as it is
+    std::string pilotWanted; // name of a pilot to switch to; empty = no request
 
-    int editedBoxRow = -1; // whose box is being dragged
+    int editedBoxRow = -1; // fixture whose box is being dragged
     Box editedBox;
-    int editedRow = -1; // whose slider is being dragged: the fixture changes when it is let go
+    int editedRow = -1; // slider being dragged; the fixture changes when it is released
     float editedMillimetres = 0.0f;
 
-    std::string hovered;      // words about the block that the mouse points at
-    std::string notice;       // one line about the last thing done, with
+    std::string hovered;      // explanation of the block under the mouse
+    std::string notice;       // one line about the last action
     double noticeUntil = 0.0; // [s] of ImGui's clock
-    void tell(std::string words);
-    // What the scene file keeps of this, and back. textScale: 0 = the file's.
+    void notify(std::string text);
+    // The settings that a scene file stores. chosenTextScale: 0 = as in the file.
     void takeSettings(const Scene& scene, double chosenTextScale);
     Scene::Window settings() const;
 
-    // Where things were drawn last, by name: for those who drive the window from outside.
+    // Where items were drawn last, by name; written to --state for programs that drive the window.
     std::map<std::string, std::array<float, 4>> places; // x, y, width, height
 };
 
-// Remembers where the last ImGui item is.
+// Records the rectangle of the last ImGui item, or of a view.
+void markPlace(Console& console, const std::string& name, ImVec2 corner, ImVec2 size);
 void markPlace(Console& console, const std::string& name);
+// A small button whose rectangle is recorded under `name`; true when pressed.
+bool markedButton(Console& console, const char* label, const std::string& name);
+void colouredText(ImU32 colour, const char* text);
 
 } // namespace fathom::operate

@@ -11,17 +11,12 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kHueReach = 12.0;  // [degree] to each side of what was picked
+constexpr double kHueReach = 12.0;  // [degree] on each side of the picked hue
 constexpr double kToneReach = 0.28; // of saturation and lightness
-constexpr uint32_t kPatch = 2;      // [pixels] about the click whose colours are averaged
+constexpr uint32_t kPatch = 2;      // [pixels] around the click, averaged
 constexpr size_t kMostHistory = 64;
 
-bool inBand(const std::optional<Band>& band, double value) {
-    return !band || (band->lo <= band->hi ? value >= band->lo && value <= band->hi
-                                          : value >= band->lo || value <= band->hi);
-}
-
-// The colour of a depth pixel as the gates see it.
+// The colour of a depth pixel as the gates use it: without the water's attenuation.
 uint32_t colourFor(const Scene& scene, const SceneSnapshot& snapshot, uint32_t u, uint32_t v, uint32_t rgba) {
     const CameraInfo& camera = snapshot.set.camera;
     const uint16_t raw = snapshot.set.depth[static_cast<size_t>(v) * camera.depth.width + u];
@@ -38,7 +33,7 @@ bool selects(const FixtureClass& gates, uint32_t rgba) {
            inBand(gates.saturation, hsl.saturation) && inBand(gates.lightness, hsl.lightness);
 }
 
-// Index into the colour picture of a depth pixel; parallax of two lenses is left out here.
+// Index into the colour image of a depth pixel; ignores parallax between two cameras.
 size_t colourPixel(const CameraInfo& camera, uint32_t u, uint32_t v) {
     return static_cast<size_t>(v * camera.colour.height / camera.depth.height) * camera.colour.width +
            u * camera.colour.width / camera.depth.width;
@@ -62,6 +57,11 @@ dquat turnTo(const dvec3& n) {
 }
 
 } // namespace
+
+bool inBand(const std::optional<Band>& band, double value) {
+    return !band || (band->lo <= band->hi ? value >= band->lo && value <= band->hi
+                                          : value >= band->lo || value <= band->hi);
+}
 
 FixtureEditor::FixtureEditor(const Scene& scene,
                              std::function<void(const Scene&, const std::vector<Shape>&)> onChange)
@@ -103,7 +103,7 @@ void FixtureEditor::pickAt(Console& console, const SceneSnapshot& snapshot, glm:
     }
     gates.hue = Band{std::fmod(hue - kHueReach + 360.0, 360.0), std::fmod(hue + kHueReach, 360.0)};
     gates.saturation = around(saturation);
-    gates.saturation->lo = std::max(0.08, gates.saturation->lo); // grey pixels carry any hue
+    gates.saturation->lo = std::max(0.08, gates.saturation->lo); // the hue of grey pixels is undefined
     gates.saturation->hi = 1.0;
     gates.lightness = around(lightness);
     console.pick.taken = true;
@@ -151,10 +151,10 @@ bool FixtureEditor::takePicked(Console& console) {
     const auto spare = row >= 0 ? next.fixtures.begin() + std::min(row, count)
                                 : std::find_if(next.fixtures.begin(), next.fixtures.end(), isSpare);
     const bool added = console.pick.taken && spare != next.fixtures.end() &&
-                       (row < 0 || spare->name == console.pick.gates.name); // an undo may have moved rows
+                       (row < 0 || spare->name == console.pick.gates.name); // undo may have moved rows
     if (added) {
         *spare = console.pick.gates;
-        enact(std::move(next));
+        apply(std::move(next));
     }
     console.pick = Pick{};
     selection_.clear();
@@ -177,19 +177,18 @@ bool FixtureEditor::place(ShapeKind kind, const dvec3& base, const dvec3& normal
                                                : dvec3(0.05, 0, 0);
     Scene next = scene_;
     next.fixtures.push_back(shape);
-    enact(std::move(next));
+    apply(std::move(next));
     return true;
 }
 
-bool FixtureEditor::change(size_t row, const FixtureClass& to) {
+void FixtureEditor::change(size_t row, const FixtureClass& to) {
     Scene next = scene_;
     next.fixtures.at(row) = to;
-    enact(std::move(next));
-    return true;
+    apply(std::move(next));
 }
 
-// A class of points leaves its row as a spare one; a shape goes.
-bool FixtureEditor::remove(size_t row) {
+// The row of a class of points becomes a spare row; the row of a shape is erased.
+void FixtureEditor::remove(size_t row) {
     Scene next = scene_;
     FixtureClass& f = next.fixtures.at(row);
     if (f.isPoints()) {
@@ -199,18 +198,17 @@ bool FixtureEditor::remove(size_t row) {
     } else {
         next.fixtures.erase(next.fixtures.begin() + static_cast<std::ptrdiff_t>(row));
     }
-    enact(std::move(next));
-    return true;
+    apply(std::move(next));
 }
 
-void FixtureEditor::enact(Scene next) {
+void FixtureEditor::apply(Scene next) {
     past_.push_back(scene_.fixtures);
     if (past_.size() > kMostHistory) {
         past_.erase(past_.begin());
     }
     future_.clear();
     scene_ = std::move(next);
-    tell();
+    notifyChange();
 }
 
 void FixtureEditor::keep(const Scene::Window& window, const std::string& pilot) {
@@ -218,26 +216,23 @@ void FixtureEditor::keep(const Scene::Window& window, const std::string& pilot) 
     scene_.choosePilot(pilot);
 }
 
-bool FixtureEditor::undo() {
-    if (past_.empty()) {
+bool FixtureEditor::restore(std::vector<std::vector<FixtureClass>>& from,
+                            std::vector<std::vector<FixtureClass>>& to) {
+    if (from.empty()) {
         return false;
     }
-    future_.push_back(std::move(scene_.fixtures));
-    scene_.fixtures = std::move(past_.back());
-    past_.pop_back();
-    tell();
+    to.push_back(std::exchange(scene_.fixtures, std::move(from.back())));
+    from.pop_back();
+    notifyChange();
     return true;
 }
 
+bool FixtureEditor::undo() {
+    return restore(past_, future_);
+}
+
 bool FixtureEditor::redo() {
-    if (future_.empty()) {
-        return false;
-    }
-    past_.push_back(std::move(scene_.fixtures));
-    scene_.fixtures = std::move(future_.back());
-    future_.pop_back();
-    tell();
-    return true;
+    return restore(future_, past_);
 }
 
 void FixtureEditor::showFixtures(const Scene& scene) {
@@ -247,7 +242,7 @@ void FixtureEditor::showFixtures(const Scene& scene) {
     future_.clear();
 }
 
-void FixtureEditor::tell() {
+void FixtureEditor::notifyChange() {
     shapes_ = shapesOf(scene_);
     onChange_(scene_, shapes_);
 }

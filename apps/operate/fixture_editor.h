@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixtures made by hand while the run goes on: picked by colour, changed, placed by a click, undone, saved.
+// Edits fixtures during a run: picks colours, changes and places fixtures, undoes, saves.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -15,7 +15,7 @@
 
 namespace fathom::operate {
 
-// The scene as the pilot has made it, with its history. Tells the run of every change through `onChange`.
+// The edited scene with its undo history. Calls `onChange` after every change.
 class FixtureEditor {
 public:
     FixtureEditor(const Scene& scene, std::function<void(const Scene&, const std::vector<Shape>&)> onChange);
@@ -23,40 +23,41 @@ public:
     const Scene& scene() const { return scene_; }
     const std::vector<Shape>& shapes() const { return shapes_; }
 
-    // What a click on this pixel would select: gates about its colour, histogram of hues, the points.
+    // Sets the gates around the colour of this pixel, and computes the preview.
     void pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel);
-    // The preview of the gates as they are now.
+    // Computes selection and hue histogram for the present gates.
     void preview(Console& console, const SceneSnapshot& snapshot);
-    // Puts the picked class into a spare row, false when there is none left; or its gates into the row that
-    // they are of.
+    // Puts the picked class into a spare row (false when none is left), or the edited gates into their row.
     bool takePicked(Console& console);
-    // An authored shape at a base point with the surface's normal.
+    // Adds an authored shape at a point of the base frame with the normal of the surface.
     bool place(ShapeKind kind, const dvec3& base, const dvec3& normal);
-    bool change(size_t row, const FixtureClass& to); // one step of history
-    bool remove(size_t row);
+    void change(size_t row, const FixtureClass& to); // one undo step
+    void remove(size_t row);
     bool undo();
     bool redo();
-    // What a pilot or the window is set to: part of the file, no part of the history.
+    // Settings of window and pilot: saved in the file, not part of the undo history.
     void keep(const Scene::Window& window, const std::string& pilot);
-    // Writes `fixtures:`, `pilot:` and `window:` of the scene file anew and leaves the rest of it; returns
-    // what happened in words.
+    // Replaces `fixtures:`, `pilot:` and `window:` in the scene file, keeps the rest, and returns a message.
     std::string save() const;
-    // Of the scene file with the fixtures in force; spares: with rows for classes that wait for a pick, too,
-    // so that each class has its row whatever was removed.
+    // Text of the scene file with the present fixtures. spares: includes spare rows, so that each class keeps
+    // its row number.
     std::string text(bool spares = false) const;
-    // Other fixtures than the pilot's, told to nobody: those of another moment. The history ends.
+    // Shows the fixtures of another moment without calling onChange. Clears the history.
     void showFixtures(const Scene& scene);
 
-    const std::vector<uint8_t>& selection() const { return selection_; } // of the depth picture
+    const std::vector<uint8_t>& selection() const { return selection_; } // size of the depth image
     uint64_t selectionNumber() const { return selectionNumber_; }        // changes with it
     size_t selectedPoints() const { return selected_; }
-    const std::array<float, 72>& hues() const { return hues_; } // of the picture, 5 degrees each, largest 1
+    const std::array<float, 72>& hues() const {
+        return hues_;
+    } // of the image, 5 degrees per bin, largest bin = 1
     bool canUndo() const { return !past_.empty(); }
     bool canRedo() const { return !future_.empty(); }
 
 private:
-    void enact(Scene next);
-    void tell();
+    void apply(Scene next);
+    void notifyChange();
+    bool restore(std::vector<std::vector<FixtureClass>>& from, std::vector<std::vector<FixtureClass>>& to);
 
     Scene scene_;
     std::vector<Shape> shapes_;
@@ -68,12 +69,15 @@ private:
     std::array<float, 72> hues_{};
 };
 
-// What a recording keeps of the fixtures in force.
+// The fixtures as a recording stores them.
 RecordedScene recordedScene(const FixtureEditor& editor);
 
-// Keys and buttons of the editor, whatever panel is open; once a frame.
-void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);
-// The panel. Inside the tab that is open.
+// Whether a value is inside a band; without a band every value is.
+bool inBand(const std::optional<Band>& band, double value);
+
+// Handles keys and buttons of the editor, whatever panel is open; once per window frame.
+void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);
+// Draws the panel inside the open tab.
 void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot);
 
 } // namespace fathom::operate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The panel of fixtures: what there is, what a picked colour would add, shapes to place.
+// The fixtures panel: existing fixtures, the preview of a picked colour, shapes to place.
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/holding_panel.h"
 #include "apps/operate/keys.h"
@@ -26,7 +26,7 @@ bool bandSlider(const char* name, std::optional<Band>& band, float most) {
     return changed;
 }
 
-// Hues of the picture as bars in their own colours, the gate bright.
+// Histogram of the image's hues in their own colours; hues inside the gate are bright.
 void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
     const float width = ImGui::GetContentRegionAvail().x, height = 38.0f;
     const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -34,9 +34,7 @@ void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
     list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(12, 16, 23, 255), 3.0f);
     for (size_t i = 0; i < hues.size(); ++i) {
         const double hue = 5.0 * static_cast<double>(i) + 2.5;
-        const bool in =
-            gates.hue && (gates.hue->lo <= gates.hue->hi ? hue >= gates.hue->lo && hue <= gates.hue->hi
-                                                         : hue >= gates.hue->lo || hue <= gates.hue->hi);
+        const bool in = gates.hue && inBand(gates.hue, hue);
         ImVec4 rgb(0, 0, 0, in ? 1.0f : 0.45f);
         ImGui::ColorConvertHSVtoRGB(static_cast<float>(hue / 360.0), 0.85f, 0.95f, rgb.x, rgb.y, rgb.z);
         const float x = at.x + width * static_cast<float>(i) / 72.0f;
@@ -54,7 +52,7 @@ void histogram(const std::array<float, 72>& hues, const FixtureClass& gates) {
 void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
     if (!console.pick.taken) {
         ImGui::TextColored(ImColor(colour::kPicked),
-                           "Click on a colour in the camera view, or arrows and Enter.  Esc: leave");
+                           "Click on a colour in the camera view, or use arrows and Enter.  Esc: cancel");
         return;
     }
     FixtureClass& gates = console.pick.gates;
@@ -86,8 +84,7 @@ void pickPanel(Console& console, FixtureEditor& editor, const SceneSnapshot& sna
     markPlace(console, "add");
 }
 
-// Radius of a class of points or a size of a shape [m]; true when the pilot let go of a new one. id: of the
-// slider among all.
+// Slider for a radius or size [m]; true when it is released at a new value. id: unique among all sliders.
 bool sizeSlider(Console& console, double& size, const char* word, const std::string& place, int id) {
     float millimetres = static_cast<float>(1e3 * size);
     const bool dragged = console.editedRow == id;
@@ -110,7 +107,8 @@ bool sizeSlider(Console& console, double& size, const char* word, const std::str
     return done;
 }
 
-// Radius, or what the shape has: of a box three edges, of a cylinder radius and height.
+// Radius of a class of points, or the sizes of a shape: three edges of a box, radius and height of a
+// cylinder.
 bool sizes(Console& console, FixtureClass& now, int row) {
     if (now.isPoints()) {
         return now.role == Role::Forbidden &&
@@ -130,7 +128,7 @@ bool sizes(Console& console, FixtureClass& now, int row) {
     return done;
 }
 
-// One fixture: name, role, sizes; a change is one step of history when the slider is let go.
+// One fixture: name, role, sizes. Releasing a slider makes one undo step.
 void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot& snapshot) {
     const FixtureClass before = editor.scene().fixtures[i];
     FixtureClass now = before;
@@ -140,8 +138,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     ImGui::SameLine();
     ImGui::TextUnformatted(now.name.c_str());
     ImGui::SameLine(ImGui::GetContentRegionAvail().x - 22.0f);
-    const bool gone = ImGui::SmallButton("x");
-    markPlace(console, "remove " + now.name);
+    const bool removed = markedButton(console, "x", "remove " + now.name);
     bool done = false;
     if (now.isPoints()) {
         int role = guides ? 1 : 0;
@@ -150,9 +147,9 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
         now.role = role == 0 ? Role::Forbidden : Role::Guidance;
         ImGui::SameLine();
     }
-    const bool endless =
+    const bool unbounded =
         now.shape == ShapeKind::Plane || now.shape == ShapeKind::Line || now.shape == ShapeKind::Axis;
-    if (now.isPoints() ? now.role == Role::Forbidden : !endless) {
+    if (now.isPoints() ? now.role == Role::Forbidden : !unbounded) {
         done = sizes(console, now, static_cast<int>(i)) || done;
     } else {
         ImGui::NewLine();
@@ -160,7 +157,7 @@ void row(Console& console, FixtureEditor& editor, size_t i, const SceneSnapshot&
     if (now.isPoints()) {
         done = drawHolding(console, now, static_cast<int>(i), snapshot) || done;
     }
-    if (gone) {
+    if (removed) {
         editor.remove(i);
     } else if (done) {
         editor.change(i, now);
@@ -175,21 +172,20 @@ void placeButtons(Console& console) {
     ImGui::TextDisabled("Place:");
     for (const auto& [name, kind] : kKinds) {
         ImGui::SameLine(0.0f, 5.0f);
-        if (ImGui::SmallButton(name)) {
+        if (markedButton(console, name, std::string("place ") + name)) {
             console.placing = console.placing == kind ? ShapeKind::None : kind;
             console.placedFrom.reset();
         }
-        markPlace(console, std::string("place ") + name);
     }
     if (console.placing != ShapeKind::None) {
         ImGui::TextColored(ImColor(colour::kPicked),
-                           "Click on a surface in the camera view, or arrows and Enter.  Esc: leave");
+                           "Click on a surface in the camera view, or use arrows and Enter.  Esc: cancel");
     }
 }
 
 } // namespace
 
-void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
+void handleFixtureKeys(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
     const ImGuiIO& io = ImGui::GetIO();
     const auto control = [&](int key) { return io.KeyCtrl && keyPressed(key); };
     if (keyPressed(GLFW_KEY_ESCAPE)) {
@@ -202,26 +198,25 @@ void listenForFixtures(Console& console, FixtureEditor& editor, const SceneSnaps
         console.pick.taken && !console.panels && !io.WantTextInput && keyPressed(GLFW_KEY_ENTER);
     if (adds || console.addPicked) {
         const std::string name = console.pick.gates.name;
-        console.tell(editor.takePicked(console) ? "'" + name + "' is in force"
-                                                : "no room: 8 classes of points at most");
+        console.notify(editor.takePicked(console) ? "'" + name + "' is active"
+                                                  : "not added: at most 8 classes of points");
     }
     if ((control(GLFW_KEY_Z) || console.undo) && editor.undo()) {
-        console.tell("undone");
+        console.notify("undone");
     }
     if ((control(GLFW_KEY_Y) || console.redo) && editor.redo()) {
-        console.tell("done again");
+        console.notify("redone");
     }
     if (control(GLFW_KEY_S) || console.save) {
         editor.keep(console.settings(), editor.scene().pilot);
-        console.tell(editor.save());
+        console.notify(editor.save());
     }
     console.undo = console.redo = console.save = console.addPicked = false;
 }
 
 void drawFixtures(Console& console, FixtureEditor& editor, const SceneSnapshot& snapshot) {
     const auto button = [&](const char* name) {
-        const bool hit = ImGui::SmallButton(name);
-        markPlace(console, name);
+        const bool hit = markedButton(console, name, name);
         ImGui::SameLine();
         return hit;
     };

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image on the device with its own memory: what the window draws into, and pictures that come from the
-// CPU.
+// An image on the device with its own memory: the render target of the window, and images from the CPU.
 #pragma once
 
 #include "engine/gpu/buffer.h"
 
 namespace fathom::operate {
 
-// sRGB-encoded values, passed through as they are. Pictures come from the CPU; what is drawn has the order of
-// most screens, which may then have it byte by byte.
+// sRGB-encoded values without conversion: kImage from the CPU, kDrawn for the render target, in the byte
+// order of most displays.
 constexpr VkFormat kImage = VK_FORMAT_R8G8B8A8_UNORM, kDrawn = VK_FORMAT_B8G8R8A8_UNORM;
 
-// One colour image. Move-only. Whoever records keeps track of the layout.
+// One colour image. Move-only. The recorder of commands tracks its layout.
 class FrameTexture {
 public:
     FrameTexture() = default;
@@ -38,7 +37,7 @@ private:
     VkExtent2D size_{};
 };
 
-// Layout change of a whole image, everything before visible to everything after.
+// Changes the layout of a whole image; all earlier writes are visible to all later commands.
 void changeLayout(VkCommandBuffer commands, VkImage image, VkImageLayout from, VkImageLayout to);
 
 } // namespace fathom::operate

@@ -2,6 +2,7 @@
 #include "apps/operate/holding_panel.h"
 
 #include "apps/operate/theme.h"
+#include "apps/replay/silhouette.h"
 
 #include <imgui.h>
 #include <limits>
@@ -10,16 +11,15 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kRoom = 0.01; // [m] of a new box about the points
+constexpr double kRoom = 0.01; // [m] margin of a new box around the points
 
-// About the class's points as they are now, or about the middle of nothing.
+// Around the present points of the class; without points, around a point 1 m in front of the camera.
 Box boxAbout(const Fixtures& set, int row) {
     constexpr double kFar = std::numeric_limits<double>::infinity();
     Box box{dvec3(kFar), dvec3(-kFar)};
     for (size_t i = 0; i < set.spheres.size(); ++i) {
         if (set.spheres.fixture[i] == row) {
-            const dvec3 at = set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]},
-                                                double{set.spheres.z[i]});
+            const dvec3 at = regionCentre(set, i);
             box = {glm::min(box.min, at), glm::max(box.max, at)};
         }
     }
@@ -30,7 +30,7 @@ Box boxAbout(const Fixtures& set, int row) {
     return {box.min - kRoom, box.max + kRoom};
 }
 
-// True when the pilot let go of a corner that he dragged.
+// True when a dragged corner is released.
 bool corner(Console& console, const char* name, const std::string& place, dvec3& corner, bool& dragged) {
     float v[] = {static_cast<float>(corner.x), static_cast<float>(corner.y), static_cast<float>(corner.z)};
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 40.0f * static_cast<float>(console.textScale));
@@ -62,30 +62,27 @@ bool boxCorners(Console& console, FixtureClass& now, int row) {
 
 bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapshot& snapshot) {
     bool done = false;
-    if (ImGui::SmallButton(now.frozen ? "Let go" : "Hold still")) {
+    if (markedButton(console, now.frozen ? "Release" : "Freeze", "hold " + now.name)) {
         now.frozen = !now.frozen;
         done = true;
     }
-    markPlace(console, "hold " + now.name);
     ImGui::SameLine();
-    if (ImGui::SmallButton(now.box ? "No box" : "Box")) {
+    if (markedButton(console, now.box ? "No box" : "Box", "box " + now.name)) {
         now.box = now.box ? std::nullopt : std::optional(boxAbout(snapshot.set, row));
         console.editedBoxRow = -1;
         done = true;
     }
-    markPlace(console, "box " + now.name);
     ImGui::SameLine();
-    if (ImGui::SmallButton("Colour")) { // its gates in the panel of a picked colour, there to be changed
+    if (markedButton(console, "Colour", "colour " + now.name)) { // edits the gates of this class
         console.pick = Pick{};
         console.pick.active = console.pick.taken = true;
         console.pick.gates = now;
         console.pick.row = row;
         console.pick.fresh = true;
     }
-    markPlace(console, "colour " + now.name);
     if (now.frozen) {
         ImGui::SameLine();
-        ImGui::TextColored(ImColor(colour::kCaution), "held still");
+        ImGui::TextColored(ImColor(colour::kCaution), "frozen");
     }
     if (now.box && !done) {
         done = boxCorners(console, now, row);
@@ -104,10 +101,9 @@ void drawPilots(Console& console, const Scene& scene) {
         if (chosen) {
             ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyle().Colors[ImGuiCol_TabActive]);
         }
-        if (ImGui::SmallButton(pilot.name.c_str()) && !chosen) {
+        if (markedButton(console, pilot.name.c_str(), "pilot " + pilot.name) && !chosen) {
             console.pilotWanted = pilot.name;
         }
-        markPlace(console, "pilot " + pilot.name);
         if (chosen) {
             ImGui::PopStyleColor();
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What holds a class of points in place: its box, and being frozen; and who the pilot is.
+// Controls for the box and the frozen state of a class of points, and for the pilot.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -7,10 +7,10 @@
 
 namespace fathom::operate {
 
-// Inside the row of the panel. True when the pilot has changed `now` for good: one step of history.
+// Draws inside the row of the fixture. True when `now` has changed: one undo step.
 bool drawHolding(Console& console, FixtureClass& now, int row, const SceneSnapshot& snapshot);
 
-// A button a pilot; nothing when the scene has none. Asks through console.pilotWanted.
+// One button per pilot of the scene; sets console.pilotWanted.
 void drawPilots(Console& console, const Scene& scene);
 
 } // namespace fathom::operate

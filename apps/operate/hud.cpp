@@ -24,7 +24,7 @@ void words(ImFont* font, ImU32 colour, const std::string& text) {
     ImGui::PopFont();
 }
 
-// A figure with its name below.
+// A value with its name below.
 void figure(const HudInput& input, const std::string& value, const char* name, ImU32 colour = colour::kText) {
     ImGui::SameLine(0.0f, 22.0f);
     ImGui::BeginGroup();
@@ -33,18 +33,18 @@ void figure(const HudInput& input, const std::string& value, const char* name, I
     ImGui::EndGroup();
 }
 
-// A bar from 0 to the limit, with the limit marked and told in words.
+// A bar from 0 to the limit, with the limit as a mark and as text.
 void bar(const HudInput& input, const char* name, double value, double limit, const char* unit,
          ImU32 colour) {
     const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetTextLineHeight() * 0.72f;
     const double share = limit > 0.0 ? value / limit : 0.0;
     words(input.letters.body, colour::kText, print("%s %.2f %s", name, value, unit));
-    const std::string told = print("limit %.3g %s%s", limit, unit, share > 0.98 ? "  SATURATED" : "");
-    ImGui::SameLine(std::max(0.0f, width - ImGui::CalcTextSize(told.c_str()).x));
-    words(input.letters.small, share > 0.98 ? colour::kWarning : colour::kQuiet, told);
+    const std::string right = print("limit %.3g %s%s", limit, unit, share > 0.98 ? "  SATURATED" : "");
+    ImGui::SameLine(std::max(0.0f, width - ImGui::CalcTextSize(right.c_str()).x));
+    words(input.letters.small, share > 0.98 ? colour::kWarning : colour::kQuiet, right);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float limitAt = width * 0.9f; // room beyond the limit, so that its mark is seen
+    const float limitAt = width * 0.9f; // space beyond the limit keeps its mark visible
     list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(34, 43, 57, 255), 3.0f);
     list.AddRectFilled(at, {at.x + limitAt * static_cast<float>(std::clamp(share, 0.0, 1.1)), at.y + height},
                        colour, 3.0f);
@@ -53,7 +53,7 @@ void bar(const HudInput& input, const char* name, double value, double limit, co
     ImGui::Dummy({width, height + 2.0f});
 }
 
-// What it does, and how far the joint that is worst is from where the tool has it.
+// The state of the arm and the largest deviation of a joint from its setpoint.
 void armFigure(const HudInput& input) {
     const MeasuredArm& arm = *input.arm;
     const std::string state = armStateName(arm.state);
@@ -68,7 +68,7 @@ void armFigure(const HudInput& input) {
 }
 
 std::string marginText(double margin) {
-    return std::isfinite(margin) ? print("%+.2f N s/m", margin) : std::string("not known");
+    return std::isfinite(margin) ? print("%+.2f N s/m", margin) : std::string("unknown");
 }
 
 void passes(const HudInput& input) {
@@ -114,13 +114,13 @@ Mode modeOf(const Console& console, const RunView& run) {
 
 namespace {
 
-// The end of a long name says more than its beginning.
+// Keeps the end of a long name, which distinguishes it.
 std::string shortened(const std::string& text) {
     constexpr size_t kMost = 38;
     return text.size() <= kMost ? text : "..." + text.substr(text.size() - kMost);
 }
 
-// What is recorded, or where in a recording one looks.
+// The state of the recorder, or the position in a recording.
 void recorderFigure(const Console& console, const HudInput& input) {
     if (console.timeLine.on) {
         figure(input,
@@ -155,7 +155,7 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
     figure(input, print("%.0f Hz", rates.hapticHz), "haptic rate");
     figure(input, print("%.2f ms", rates.worstPeriodMs), "worst period, 1 s",
            slow ? colour::kCaution : colour::kText);
-    if (!console.timeLine.on) { // of a recording, pictures come as one looks
+    if (!console.timeLine.on) { // playback has no camera rate
         figure(input, print("%.1f Hz", rates.cameraHz), "camera rate");
     }
     const bool stale = record.sceneAge > input.haptics.staleAfter;
@@ -172,9 +172,9 @@ void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 siz
         markPlace(console, "head arm held");
     }
     if (input.handGone) {
-        figure(input, "GONE", "haptic device", colour::kWarning);
+        figure(input, "LOST", "haptic device", colour::kWarning);
     }
-    figure(input, print("%.0f %%", 100.0 * input.unknownShare), "not seen");
+    figure(input, print("%.0f %%", 100.0 * input.unknownShare), "unobserved");
     figure(input, print("%.0f Hz", input.windowHz), "window");
     recorderFigure(console, input);
     if (console.frozen) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pilot must always see: mode, rates, ages, margins, force and torque against their limits,
-// recorder.
+// What the pilot always sees: mode, rates, ages, margins, force and torque with their limits, recorder.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -14,7 +13,7 @@
 
 namespace fathom::operate {
 
-// The word for what forces do now, its sign and its colour: never colour alone.
+// The state of the forces as word, sign and colour, so that it never depends on colour alone.
 struct Mode {
     const char* word = "";
     const char* sign = "";
@@ -22,7 +21,7 @@ struct Mode {
 };
 Mode modeOf(const Console& console, const RunView& run);
 
-// [N s/m] The bound is met exactly by automatic stiffness; a period measured a little longer is no news.
+// [N s/m] Automatic stiffness meets the bound exactly, so a slightly longer period must not raise an alarm.
 constexpr double kMarginNoise = -0.1;
 
 struct HudInput {
@@ -32,15 +31,15 @@ struct HudInput {
     const std::vector<std::string>& passNames;
     const Letters& letters;
     std::string title;
-    double unknownShare = 0.0; // of the picture without depth
+    double unknownShare = 0.0; // share of the image without depth
     double windowHz = 0.0;
-    bool driven = false;               // by a device or a path; else mouse and keyboard drive
-    const MeasuredArm* arm = nullptr;  // null = none that is real
-    bool handGone = false;             // the haptic device is away
+    bool driven = false;               // by a device or a path; otherwise by mouse and keyboard
+    const MeasuredArm* arm = nullptr;  // null = no real arm
+    bool handGone = false;             // the haptic device is disconnected
     std::vector<std::string> armHolds; // measured_arm.h
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);
-void drawGauges(Console& console, const HudInput& input); // inside the window that is open
+void drawGauges(Console& console, const HudInput& input); // inside the open ImGui window
 
 } // namespace fathom::operate

@@ -22,7 +22,7 @@ MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const S
     }
     ArmPosture posture = run.measured()->posture;
     const ArmPosture& tool = row.record.arm.posture;
-    posture.grasp = std::isfinite(posture.grasp) ? posture.grasp : tool.grasp; // jaws that nobody moves
+    posture.grasp = std::isfinite(posture.grasp) ? posture.grasp : tool.grasp; // jaws that are not driven
     measured.age = std::max(0.0, row.record.t - run.measured()->t);
     measured.spheres = armSpheres(arm, posture);
     measured.tip = arm->tipAt(posture).position;
@@ -56,10 +56,10 @@ std::vector<std::string> armHolds(const ArmRig* arm, const StepRecord& tick) {
         }
     }
     if (tick.arm.atLimits > 0 && holds.empty()) {
-        holds.emplace_back("joints at their full speed");
+        holds.emplace_back("joints at full speed");
     }
     if (tick.arm.singular) {
-        holds.emplace_back("arm near a singular posture: it moves slowly there");
+        holds.emplace_back("arm near a singularity: it moves slowly");
     }
     if (tick.arm.graspHeld) {
         holds.emplace_back("jaws held: a finger would enter a region");

@@ -55,11 +55,11 @@ void OperatorRun::startRecording() {
         const std::string left = copySceneFiles(session_.scene, folder); // before the recorder's own
         recorder_.start(folder, editor_->text(), session_.camera->info(), recordedScene(*editor_));
         recordingTo_ = folder.string();
-        console_.tell("recording to " + recordingTo_ +
-                      (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));
+        console_.notify("recording to " + recordingTo_ +
+                        (left.empty() ? "" : ", without " + left + ": beyond the scene file's folder"));
     } catch (const std::exception& e) {
         console_.recording = false;
-        console_.tell(e.what());
+        console_.notify(e.what());
     }
 }
 
@@ -78,9 +78,9 @@ void OperatorRun::followRecorder() {
         recorder_.finish();
         const std::string failure = recorder_.failure();
         const uint64_t lost = recorder_.lost();
-        console_.tell(std::to_string(recorder_.images()) + " pictures recorded in " + recordingTo_ +
-                      (lost > 0 ? ", " + std::to_string(lost) + " left out: the disk was too slow" : "") +
-                      (failure.empty() ? "" : ", then: " + failure));
+        console_.notify(std::to_string(recorder_.images()) + " pictures recorded in " + recordingTo_ +
+                        (lost > 0 ? ", " + std::to_string(lost) + " left out: the disk was too slow" : "") +
+                        (failure.empty() ? "" : ", then: " + failure));
         recordingTo_.clear();
     }
 }
@@ -89,9 +89,9 @@ void OperatorRun::exportTraces() {
     const auto file = std::filesystem::path(options_.shots) / "traces.csv";
     try {
         traces_.exportCsv(view_, file);
-        console_.tell("traces written to " + file.string());
+        console_.notify("traces written to " + file.string());
     } catch (const Error& e) {
-        console_.tell(e.what());
+        console_.notify(e.what());
     }
 }
 

@@ -169,7 +169,7 @@ void OperatorRun::followPilot() {
     editor_->keep(console_.settings(), name);
     makeEngine(raw, stays ? &last.tool : nullptr);
     resumeThreads();
-    console_.tell(name + " flies now: arm the forces");
+    console_.notify(name + " flies now: arm the forces");
 }
 
 } // namespace fathom::operate

@@ -11,7 +11,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMostLead = 90.0; // pictures, however long points are held
+constexpr double kMostLead = 90.0; // [frames] however long points are held
 
 } // namespace
 
@@ -21,8 +21,8 @@ PastScene::PastScene(OperateSession& session)
     , lead_(
           static_cast<uint32_t>(std::min(kMostLead, std::ceil(session.scene.holdSeconds / kPeriod) + 1.0))) {
     if (images_ == 0) {
-        throw BadInput(session.camera->description(), "recording",
-                       "its pictures come one after the other only", "a recording folder (TUM RGB-D)");
+        throw BadInput(session.camera->description(), "recording", "it has no random access to frames",
+                       "a recording folder (TUM RGB-D)");
     }
 }
 
@@ -67,7 +67,7 @@ void PastScene::show(uint32_t index, bool whole, SnapshotSink& sink) {
     for (uint32_t i = first; i <= index; ++i) {
         const bool more = process(i, image);
         good = good || more;
-        i = more ? std::max(i, image.report.index) : index; // a bad picture gives the next good one
+        i = more ? std::max(i, image.report.index) : index; // skips a bad frame
     }
     asked_ = index;
     any_ = true;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pictures of a recording through the passes again, any of them at any time.
+// Processes the frames of a recording again, in any order.
 #pragma once
 
 #include "apps/operate/operate_session.h"
@@ -9,26 +9,26 @@
 
 namespace fathom::operate {
 
-// Thread: the window's; no other uses the session's frame cycle.
+// Thread: the window's, the only user of the session's frame cycle.
 class PastScene {
 public:
-    // Throws BadInput when one cannot choose among the session's pictures.
+    // Throws BadInput when the source cannot seek.
     explicit PastScene(OperateSession& session);
 
-    static constexpr double kPeriod = 1.0 / 30.0; // [s] from picture to picture, as in `replay`
+    static constexpr double kPeriod = 1.0 / 30.0; // [s] between frames, as in `replay`
 
     uint32_t images() const { return images_; }
-    // Leaves picture `index` (or the next good one) and its fixtures in `sink`. whole: with the points that
-    // are held from pictures before it, which takes a run through those; otherwise of this picture alone.
-    // Nothing when that is what is shown already.
+    // Sends frame `index` (or the next good one) and its fixtures to `sink`. whole: includes points held from
+    // earlier frames, which are processed first; otherwise this frame alone. Does nothing when it is shown
+    // already.
     void show(uint32_t index, bool whole, SnapshotSink& sink);
     bool whole() const { return whole_; }
-    uint32_t shown() const { return shown_; } // the picture's own index
-    void retake() { any_ = false; }           // the next show() makes the picture anew, on another device
-    // Other fixtures, of the same classes of points; the next show() makes the picture anew.
+    uint32_t shown() const { return shown_; } // index of the frame
+    void retake() { any_ = false; }           // the next show() processes the frame again, on another device
+    // Changes fixtures with the same classes of points; the next show() processes the frame again.
     void setScene(const Scene& scene);
-    // The pilot's own, of the picture that is shown, when they are others than at the call before; else null.
-    // While pictures were without a set of their own, all fixtures held, they have one here.
+    // The recorded fixtures of the shown frame when they changed since the last call; otherwise null. Frames
+    // recorded while fixtures were frozen get a set of their own here.
     const Scene* newScene() { return std::exchange(newScene_, nullptr); }
 
 private:
@@ -39,7 +39,7 @@ private:
     uint32_t images_, lead_;
     uint32_t asked_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;
-    const SceneEdit* edit_ = nullptr; // in force
+    const SceneEdit* edit_ = nullptr; // active
     const Scene* newScene_ = nullptr;
 };
 

@@ -98,7 +98,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     console_.timeLine.images = past_.images();
     console_.timeLine.duration = durationOf(past_, log_);
     if (log_.moments.empty()) {
-        console_.tell("no hand.csv or wrench.csv there: pictures only");
+        console_.notify("no hand.csv or wrench.csv there: pictures only");
     }
 }
 
@@ -155,7 +155,7 @@ void PlaybackRun::lookForDevice() {
         return;
     }
     log::warn("GPU is back");
-    console_.tell("The GPU was gone and is back");
+    console_.notify("The GPU was gone and is back");
     past_.retake();
     screen_.redraw();
 }
@@ -195,9 +195,9 @@ void PlaybackRun::listen() {
         console_.exportCsv = false;
         try {
             traces_.exportCsv(view_, std::filesystem::path(options_.shots) / "traces.csv");
-            console_.tell("traces written");
+            console_.notify("traces written");
         } catch (const Error& e) {
-            console_.tell(e.what());
+            console_.notify(e.what());
         }
     }
 }

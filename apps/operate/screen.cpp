@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/screen.h"
 
-#include "apps/operate/hover.h"
+#include "apps/operate/contact_tooltip.h"
 #include "apps/operate/steering.h"
 #include "apps/operate/why_panel.h"
+#include "apps/replay/silhouette.h"
 
 #include <algorithm>
 #include <utility>
@@ -32,8 +33,7 @@ dvec3 middleOf(const Fixtures& set, std::span<const Sphere> arm) {
     if (!set.spheres.x.empty()) {
         dvec3 low(1e300), high(-1e300);
         for (size_t i = 0; i < set.spheres.x.size(); ++i) {
-            const dvec3 at = set.origin + dvec3(set.spheres.x[i], set.spheres.y[i], set.spheres.z[i]);
-            low = glm::min(low, at), high = glm::max(high, at);
+            low = glm::min(low, regionCentre(set, i)), high = glm::max(high, regionCentre(set, i));
         }
         for (const Sphere& s : arm) {
             low = glm::min(low, s.centre), high = glm::max(high, s.centre);
@@ -137,7 +137,7 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
                                editor.shapes(), input.arm, input.measured, large};
         drawMarks(list, marks);
         if (large) {
-            drawHover(console, list, marks);
+            drawContactTooltip(console, list, marks);
         }
         const char* name = port == &*cameraPort_    ? "camera"
                            : console.treeLevel >= 0 ? "3D, tree bounds"
@@ -272,7 +272,7 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
         console.tab = Tab::Fixtures;
     }
     drawTabs(console, editor, alarms, input, rooms.tabs);
-    listenForFixtures(console, editor, input.run.scene());
+    handleFixtureKeys(console, editor, input.run.scene());
     drawAlarm(console, alarms);
     drawHint(console, input);
     for (const auto& [name, room] :

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/space_ground.h"
 
+#include "apps/replay/silhouette.h"
+
 #include <algorithm>
 #include <cmath>
 #include <glm/mat3x3.hpp>
@@ -18,10 +20,6 @@ uint32_t dimmed(uint32_t colour) {
         return ((colour >> shift & 0xffu) * 215 / 256 + 12) << shift;
     };
     return 0xff000000u | channel(0) | channel(8) | channel(16);
-}
-
-dvec3 centreOf(const Fixtures& set, size_t i) {
-    return set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]}, double{set.spheres.z[i]});
 }
 
 } // namespace
@@ -146,13 +144,13 @@ void SpaceGround::splatArm(std::span<const Sphere> arm) {
 void SpaceGround::splatRegions(const Fixtures& set) {
     double cost = 0.0;
     for (size_t i = 0; i < set.spheres.size(); i += 8) {
-        const double z = std::max(kNearest, view_.cameraTbase.apply(centreOf(set, i)).z);
+        const double z = std::max(kNearest, view_.cameraTbase.apply(regionCentre(set, i)).z);
         const double r = view_.lens.fx * double{set.spheres.radius[i]} / z;
         cost += 8.0 * 3.14 * r * r;
     }
     const size_t step = std::max<size_t>(1, static_cast<size_t>(std::ceil(cost / kMostPixels)));
     for (size_t i = 0; i < set.spheres.size(); i += step) {
-        const dvec3 c = view_.cameraTbase.apply(centreOf(set, i));
+        const dvec3 c = view_.cameraTbase.apply(regionCentre(set, i));
         const double radius = double{set.spheres.radius[i]};
         if (c.z < radius + kNearest) {
             continue;
@@ -195,10 +193,10 @@ void SpaceGround::boundBlocks(const Fixtures& set, int level) {
     for (const auto& [block, members] : blocks) {
         Sphere bound{dvec3(0.0), 0.0};
         for (size_t i : members) {
-            bound.centre += centreOf(set, i) / static_cast<double>(members.size());
+            bound.centre += regionCentre(set, i) / static_cast<double>(members.size());
         }
         for (size_t i : members) {
-            bound.radius = std::max(bound.radius, glm::distance(bound.centre, centreOf(set, i)) +
+            bound.radius = std::max(bound.radius, glm::distance(bound.centre, regionCentre(set, i)) +
                                                       double{set.spheres.radius[i]});
         }
         bounds_.push_back(bound);

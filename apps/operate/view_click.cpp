@@ -55,16 +55,16 @@ void placeAt(Console& console, FixtureEditor& editor, const dvec3& base, const d
     const bool goes = console.placing == ShapeKind::Line || console.placing == ShapeKind::Axis;
     if (goes && !console.placedFrom) {
         console.placedFrom = base;
-        console.tell("and now where it leads to");
+        console.notify("and now where it leads to");
         return;
     }
     const dvec3 way = goes ? base - *console.placedFrom : normal;
     if (goes && glm::length(way) < kShortest) {
-        console.tell("too near: click where it leads to");
+        console.notify("too near: click where it leads to");
         return;
     }
     const bool placed = editor.place(console.placing, goes ? *console.placedFrom : base, way);
-    console.tell(placed ? "placed" : "no room: 16 shapes at most");
+    console.notify(placed ? "placed" : "no room: 16 shapes at most");
     console.placing = ShapeKind::None;
     console.placedFrom.reset();
 }
@@ -76,7 +76,7 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
     const auto pixel = screen.colourPixelAt(at);
     if (!pixel || console.spaceIsLarge) {
         if (console.aims()) {
-            console.tell("in the camera view: Tab swaps");
+            console.notify("in the camera view: Tab swaps");
         }
         return;
     }
@@ -93,7 +93,7 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
     const Cloud cloud(scene.set);
     const auto base = cloud.at(u, v);
     if (!base) {
-        console.tell("no depth there: click on a surface");
+        console.notify("no depth there: click on a surface");
         return;
     }
     placeAt(console, editor, *base, cloud.normalAt(u, v));

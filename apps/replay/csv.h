@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row of a CSV file as text: commas without spaces, numbers with 17 significant digits (a double
-// survives).
+// One row of a CSV file as text: commas without spaces, numbers with 17 significant digits, which restore a
+// double exactly.
 #pragma once
 
 #include <cstdint>
@@ -9,14 +9,14 @@
 
 namespace fathom {
 
-// The text keeps its memory between rows.
+// Reuses its memory from row to row.
 class CsvRow {
 public:
-    // Not finite is written nan, inf or -inf (never -nan), which the usual readers take as numbers.
+    // Writes nan, inf or -inf (never -nan), which common readers accept.
     void add(double value);
     void add(int64_t value);
-    void add(std::string_view word); // must hold no comma, quote or line break
-    // Ends the row; the next add() starts a new one. The view lives until then.
+    void add(std::string_view word); // without comma, quote or line break
+    // Ends the row. The view is valid until the next add(), which starts a new row.
     std::string_view end();
 
 private:

@@ -3,6 +3,7 @@
 
 #include "apps/replay/image.h"
 #include "apps/replay/plot_axis.h"
+#include "apps/replay/plot_colours.h"
 
 #include <algorithm>
 #include <array>
@@ -12,8 +13,6 @@ namespace fathom {
 
 namespace {
 
-constexpr Colour kPaper{1.0, 1.0, 1.0}, kInk{0.10, 0.14, 0.19}, kQuiet{0.39, 0.43, 0.48},
-    kGrid{0.885, 0.895, 0.91};
 constexpr std::array<Colour, 6> kLines{{{0.16, 0.42, 0.80},
                                         {0.80, 0.45, 0.10},
                                         {0.15, 0.55, 0.30},
@@ -23,15 +22,18 @@ constexpr std::array<Colour, 6> kLines{{{0.16, 0.42, 0.80},
 constexpr int kWidth = 960, kHeight = 600;
 constexpr double kLeft = 96.0, kRight = 930.0, kTop = 110.0, kBottom = 530.0;
 
-// An axis that may count in decades.
+// A linear axis, or a logarithmic one in decades.
 struct Scale {
     PlotAxis axis;
     bool log = false;
 
     bool has(double value) const { return std::isfinite(value) && (!log || value > 0.0); }
     double at(double value) const { return axis.at(log ? std::log10(value) : value); }
-    // Whole decades; where only few are in sight 2 and 5 as well.
-    std::vector<PlotTick> logTicks(int most) const {
+    // Whole decades on a logarithmic axis, and 2 and 5 as well when the range is short.
+    std::vector<PlotTick> ticks(int most) const {
+        if (!log) {
+            return ticksOf(axis, most);
+        }
         std::vector<PlotTick> ticks;
         const double range = axis.hi - axis.lo, step = std::max(1.0, std::ceil(range / most));
         for (double decade = std::floor(axis.lo); decade <= axis.hi + 1e-9; decade += step) {
@@ -43,12 +45,6 @@ struct Scale {
             }
         }
         return ticks;
-    }
-    std::vector<PlotTick> ticks(int most) const {
-        if (!log) {
-            return ticksOf(axis, most);
-        }
-        return logTicks(most);
     }
 };
 
@@ -67,11 +63,11 @@ Scale scaleOf(const std::vector<PlotCurve>& curves, bool ofX, double from, doubl
     if (!(lo <= hi)) {
         lo = 0.0, hi = 1.0;
     }
-    if (scale.log && hi - lo < 0.5) { // a decade at least, or there is nothing to read off
+    if (scale.log && hi - lo < 0.5) { // at least a decade, so that some tick has a label
         const double middle = 0.5 * (lo + hi);
         lo = middle - 0.5, hi = middle + 0.5;
     }
-    // Room above and below, and never a range of nothing; a linear axis of amounts starts at 0.
+    // Leave room above and below, avoid an empty range, and start a linear axis of amounts at 0.
     const double range = hi - lo > 1e-12 * std::abs(hi) ? hi - lo : std::max(std::abs(hi), 1e-9);
     const bool fromZero = !scale.log && lo >= 0.0 && lo < 0.5 * hi;
     scale.axis = {fromZero ? 0.0 : lo - (ofX ? 0.0 : 0.05 * range),
@@ -80,23 +76,15 @@ Scale scaleOf(const std::vector<PlotCurve>& curves, bool ofX, double from, doubl
 }
 
 void drawGrid(const Image& image, const Scale& x, const Scale& y) {
-    image.setColour(kGrid);
-    cairo_set_line_width(image.cr(), 1.0);
     for (const PlotTick& tick : x.ticks(9)) {
         const double at = x.axis.at(tick.value);
-        image.setColour(kGrid);
-        cairo_move_to(image.cr(), at, kTop);
-        cairo_line_to(image.cr(), at, kBottom);
-        cairo_stroke(image.cr());
-        image.text(at, kBottom + 20.0, tick.label, 13.0, kQuiet, Align::Centre);
+        image.line(at, kTop, at, kBottom, kGrid, 1.0);
+        image.text(at, kBottom + 20.0, tick.label, 13.0, kQuietInk, Align::Centre);
     }
     for (const PlotTick& tick : y.ticks(7)) {
         const double at = y.axis.at(tick.value);
-        image.setColour(kGrid);
-        cairo_move_to(image.cr(), kLeft, at);
-        cairo_line_to(image.cr(), kRight, at);
-        cairo_stroke(image.cr());
-        image.text(kLeft - 8.0, at + 4.0, tick.label, 13.0, kQuiet, Align::Right);
+        image.line(kLeft, at, kRight, at, kGrid, 1.0);
+        image.text(kLeft - 8.0, at + 4.0, tick.label, 13.0, kQuietInk, Align::Right);
     }
 }
 
@@ -117,8 +105,7 @@ void drawCurve(const Image& image, const Scale& x, const Scale& y, const PlotCur
     cairo_stroke(cr);
     for (size_t i = 0; i < count && count <= 60; ++i) {
         if (x.has(curve.x[i]) && y.has(curve.y[i])) {
-            cairo_arc(cr, x.at(curve.x[i]), y.at(curve.y[i]), 3.5, 0.0, 6.283185307179586);
-            cairo_fill(cr);
+            image.dot(x.at(curve.x[i]), y.at(curve.y[i]), 3.5, colour);
         }
     }
 }
@@ -126,9 +113,7 @@ void drawCurve(const Image& image, const Scale& x, const Scale& y, const PlotCur
 void drawLegend(const Image& image, const std::vector<PlotCurve>& curves) {
     double left = kLeft;
     for (size_t i = 0; i < curves.size(); ++i) {
-        image.setColour(kLines[i % kLines.size()]);
-        cairo_rectangle(image.cr(), left, 84.0, 18.0, 4.0);
-        cairo_fill(image.cr());
+        image.box(left, 84.0, 18.0, 4.0, kLines[i % kLines.size()]);
         image.text(left + 24.0, 91.0, curves[i].name, 13.0, kInk);
         left += 44.0 + image.textWidth(curves[i].name, 13.0);
     }
@@ -141,18 +126,14 @@ void writeCurvePlot(const std::filesystem::path& file, const std::string& title,
     const Image image(kWidth, kHeight, kPaper);
     const Scale x = scaleOf(curves, true, kLeft, kRight), y = scaleOf(curves, false, kBottom, kTop);
     image.text(24.0, 36.0, title, 20.0, kInk, Align::Left, true);
-    image.text(24.0, 60.0, subtitle, 13.0, kQuiet);
+    image.text(24.0, 60.0, subtitle, 13.0, kQuietInk);
     drawGrid(image, x, y);
     for (size_t i = 0; i < curves.size(); ++i) {
         drawCurve(image, x, y, curves[i], kLines[i % kLines.size()]);
     }
     drawLegend(image, curves);
     image.text(0.5 * (kLeft + kRight), kBottom + 52.0, curves.front().xLabel, 15.0, kInk, Align::Centre);
-    cairo_save(image.cr());
-    cairo_translate(image.cr(), 26.0, 0.5 * (kTop + kBottom));
-    cairo_rotate(image.cr(), -1.5707963267948966);
-    image.text(0.0, 0.0, curves.front().yLabel, 15.0, kInk, Align::Centre);
-    cairo_restore(image.cr());
+    image.textUpwards(26.0, 0.5 * (kTop + kBottom), curves.front().yLabel, 15.0, kInk);
     image.writePng(file);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One picture of curves over common axes, linear or logarithmic.
+// Draws curves over common axes, linear or logarithmic, as a PNG file.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ struct PlotCurve {
     bool logX = false, logY = false;
 };
 
-// 960 x 600 pixels. The labels of the axes carry the units; values that have no place (not finite, <= 0 on a
-// logarithmic axis) are left out. Throws Error that names the file.
+// 960 x 600 pixels. Axis labels include the units. Skips values that are not finite, or <= 0 on a logarithmic
+// axis. Throws Error that names the file.
 void writeCurvePlot(const std::filesystem::path& file, const std::string& title, const std::string& subtitle,
                     const std::vector<PlotCurve>& curves);
 

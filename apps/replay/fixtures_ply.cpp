@@ -2,6 +2,7 @@
 #include "apps/replay/fixtures_ply.h"
 
 #include "apps/replay/output_file.h"
+#include "apps/replay/silhouette.h"
 
 #include <bit>
 #include <string>
@@ -42,8 +43,8 @@ void writeFixturesPly(const std::filesystem::path& file, const Fixtures& set) {
     for (size_t i = 0; i < spheres.size(); ++i) {
         char vertex[kVertexBytes];
         char* next = vertex;
-        for (double value : {set.origin.x + double{spheres.x[i]}, set.origin.y + double{spheres.y[i]},
-                             set.origin.z + double{spheres.z[i]}, double{spheres.radius[i]}}) {
+        const dvec3 at = regionCentre(set, i);
+        for (double value : {at.x, at.y, at.z, double{spheres.radius[i]}}) {
             next = putLittleEndian(next, std::bit_cast<uint64_t>(value));
         }
         next = putLittleEndian(next, uint32_t{spheres.fixture[i]});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes the region spheres of one fixture set as a binary PLY file, and reads nothing back.
+// Writes the region spheres of one fixture set as a binary PLY file.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -8,12 +8,12 @@
 
 namespace fathom {
 
-// The name inside --out: fixtures/NNNNNN.ply, six digits or more of the set's frame index.
+// The path below --out: fixtures/NNNNNN.ply, the frame index with at least six digits.
 std::filesystem::path fixturesFileName(int64_t frame);
 
-// One vertex a region sphere, in the set's order: double x y z (base frame [m]: the float position added to
-// the set's origin in float64), double radius [m], int class (row of Scene::fixtures), int held (1: not seen
-// in this frame). Little-endian on every machine. Throws Error that names the file.
+// One vertex per region sphere, in the order of the set: double x y z (base frame [m], float position plus
+// origin in float64), double radius [m], int class (row of Scene::fixtures), int held (1: not seen in this
+// frame). Always little-endian. Throws Error that names the file.
 void writeFixturesPly(const std::filesystem::path& file, const Fixtures& set);
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes frames.csv, one row a used frame, in constant memory.
+// Writes frames.csv, one row per processed frame, in constant memory.
 #pragma once
 
 #include "apps/replay/csv.h"
@@ -13,9 +13,9 @@ namespace fathom {
 
 class FramesCsv {
 public:
-    // The passes fix the columns: `<pass>_ms` each. Throws Error that names the file, as all do.
+    // Each pass has a column `<pass>_ms`. Every call throws Error that names the file.
     FramesCsv(const std::filesystem::path& file, std::vector<std::string> passes);
-    // A pass that the row lacks is unknown there; a pass that the file lacks is an Error.
+    // A pass missing in the frame is written as unknown; a pass without a column is an Error.
     void add(const FrameRecord& frame);
     void commit();
 

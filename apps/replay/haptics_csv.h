@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes haptics.csv, one row a tick, in constant memory, and the digest over its numbers.
+// Writes haptics.csv, one row per tick, in constant memory, and computes the digest of its numbers.
 #pragma once
 
 #include "apps/replay/csv.h"
@@ -11,7 +11,7 @@ namespace fathom {
 
 class HapticsCsv {
 public:
-    explicit HapticsCsv(const std::filesystem::path& file); // throws Error that names the file, as all do
+    explicit HapticsCsv(const std::filesystem::path& file); // every call throws Error that names the file
     void add(const TickRecord& tick);
     void commit();
     std::string digest() const { return digest_.hex(); }

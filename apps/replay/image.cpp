@@ -12,7 +12,7 @@ namespace {
 
 struct PngSink {
     OutputFile& file;
-    std::exception_ptr failure; // cairo is C: nothing may be thrown through it
+    std::exception_ptr failure; // exceptions must not pass through cairo, which is C
 };
 
 cairo_status_t writeChunk(void* closure, const unsigned char* bytes, unsigned int count) {
@@ -32,7 +32,7 @@ void selectFont(cairo_t* cr, double size, bool bold) {
     cairo_set_font_size(cr, size);
 }
 
-// Cairo stops drawing for good at a byte that is no UTF-8, and such bytes can stand in a device's name.
+// A byte that is not UTF-8 puts a cairo context into an error state for good; device names may contain one.
 std::string drawable(const std::string& words) {
     std::string result;
     for (size_t i = 0; i < words.size(); ++i) {
@@ -58,7 +58,7 @@ Image::Image(int width, int height, Colour background)
     if (const cairo_status_t status = cairo_status(cr_); status != CAIRO_STATUS_SUCCESS) {
         cairo_destroy(cr_);
         cairo_surface_destroy(surface_);
-        throw Error("picture of " + std::to_string(width) + " x " + std::to_string(height) + ": " +
+        throw Error("image of " + std::to_string(width) + " x " + std::to_string(height) + ": " +
                     cairo_status_to_string(status));
     }
     setColour(background);
@@ -74,6 +74,26 @@ void Image::setColour(Colour colour) const {
     cairo_set_source_rgba(cr_, colour.r, colour.g, colour.b, colour.a);
 }
 
+void Image::line(double x0, double y0, double x1, double y1, Colour colour, double width) const {
+    setColour(colour);
+    cairo_set_line_width(cr_, width);
+    cairo_move_to(cr_, x0, y0);
+    cairo_line_to(cr_, x1, y1);
+    cairo_stroke(cr_);
+}
+
+void Image::box(double x, double y, double width, double height, Colour colour) const {
+    setColour(colour);
+    cairo_rectangle(cr_, x, y, width, height);
+    cairo_fill(cr_);
+}
+
+void Image::dot(double x, double y, double radius, Colour colour) const {
+    setColour(colour);
+    cairo_arc(cr_, x, y, radius, 0.0, 6.283185307179586);
+    cairo_fill(cr_);
+}
+
 void Image::text(double x, double y, const std::string& words, double size, Colour colour, Align align,
                  bool bold) const {
     const std::string shown = drawable(words);
@@ -85,6 +105,15 @@ void Image::text(double x, double y, const std::string& words, double size, Colo
     setColour(colour);
     cairo_show_text(cr_, shown.c_str());
     cairo_new_path(cr_);
+}
+
+void Image::textUpwards(double x, double y, const std::string& words, double size, Colour colour,
+                        bool bold) const {
+    cairo_save(cr_);
+    cairo_translate(cr_, x, y);
+    cairo_rotate(cr_, -1.5707963267948966);
+    text(0.0, 0.0, words, size, colour, Align::Centre, bold);
+    cairo_restore(cr_);
 }
 
 double Image::textWidth(const std::string& words, double size, bool bold) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A raster picture to draw on with cairo, and how it becomes a PNG file.
+// A raster image drawn with cairo and written as a PNG file.
 #pragma once
 
 #include <cairo.h>
@@ -17,8 +17,8 @@ struct Colour {
 
 enum class Align { Left, Centre, Right };
 
-// Pixel (0, 0) is the top left corner's; coordinates are in pixels, y down, pixel centres at halves. Throws
-// Error when cairo cannot give the memory.
+// Coordinates are pixels from the top left corner, y down, with pixel centres at halves. Throws Error when
+// cairo runs out of memory.
 class Image {
 public:
     Image(int width, int height, Colour background);
@@ -31,18 +31,24 @@ public:
     cairo_t* cr() const { return cr_; }
 
     void setColour(Colour colour) const;
-    // (x, y) is the left end, middle or right end of the base line; size in pixels an em.
+    void line(double x0, double y0, double x1, double y1, Colour colour, double width) const;
+    void box(double x, double y, double width, double height, Colour colour) const; // filled
+    void dot(double x, double y, double radius, Colour colour) const;
+    // (x, y) is the left end, middle or right end of the base line; size: pixels per em.
     void text(double x, double y, const std::string& words, double size, Colour colour,
               Align align = Align::Left, bool bold = false) const;
+    // Reads upwards, centred at (x, y): the label of a vertical axis.
+    void textUpwards(double x, double y, const std::string& words, double size, Colour colour,
+                     bool bold = false) const;
     double textWidth(const std::string& words, double size, bool bold = false) const;
 
-    // Direct access to row v: width() pixels 0xAARRGGBB, premultiplied. End with endPixels() before drawing
-    // on.
+    // Direct access to row v: width() pixels 0xAARRGGBB, premultiplied. Call endPixels() before drawing
+    // again.
     void beginPixels() const;
     uint32_t* row(int v) const;
     void endPixels() const;
 
-    // Whole or not at all; throws Error that names the file.
+    // Leaves no partial file. Throws Error that names the file.
     void writePng(const std::filesystem::path& file) const;
 
 private:

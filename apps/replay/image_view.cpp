@@ -20,15 +20,15 @@ std::optional<glm::dvec2> ImageView::ofCamera(const dvec3& point) const {
     if (!(point.z >= kNearest)) {
         return std::nullopt;
     }
-    const glm::dvec2 centre = pinhole(lens, point); // a pixel's centre is at its whole number
+    const glm::dvec2 centre = pinhole(lens, point); // pixel centres are at integers
     const double factor = scale;
     return (centre + 0.5) * factor + distortionShift(point);
 }
 
 glm::dvec2 ImageView::distortionShift(const dvec3& point) const {
     const glm::dvec2 straight = pinhole(lens, point);
-    // The polynomial of a lens holds inside its picture; far outside it folds back and would throw points
-    // into it.
+    // The distortion polynomial is valid inside the image. Far outside it folds back and would map points
+    // into the image.
     const double marginU = 0.5 * lens.width, marginV = 0.5 * lens.height;
     const bool near = straight.x > -marginU && straight.x < lens.width + marginU && straight.y > -marginV &&
                       straight.y < lens.height + marginV;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where things of the base frame lie in an enlarged picture of the camera.
+// Projects points of the base frame into an enlarged camera image.
 #pragma once
 
 #include "engine/types/camera_info.h"
@@ -9,8 +9,8 @@
 
 namespace fathom {
 
-// An output pixel is 1 / scale of a camera pixel; pixel coordinates here are of the enlarged picture, with
-// (0, 0) at its top left corner.
+// A camera pixel becomes scale x scale pixels. Pixel coordinates refer to the enlarged image, with (0, 0) at
+// its top left corner.
 struct ImageView {
     Intrinsics lens;
     Pose cameraTbase;
@@ -19,15 +19,14 @@ struct ImageView {
     int width() const { return static_cast<int>(lens.width) * scale; }
     int height() const { return static_cast<int>(lens.height) * scale; }
 
-    // Enlarged-picture pixel of a point [m], lens distortion included; empty when it is not in front of the
-    // camera.
+    // The enlarged pixel of a point [m], with lens distortion; empty when it is not in front of the camera.
     std::optional<glm::dvec2> ofBase(const dvec3& point) const { return ofCamera(cameraTbase.apply(point)); }
     std::optional<glm::dvec2> ofCamera(const dvec3& point) const;
-    // What the distortion adds to the pinhole pixel of a camera point with z > 0 [enlarged pixels].
+    // The distortion of a camera point with z > 0, relative to the pinhole pixel [enlarged pixels].
     glm::dvec2 distortionShift(const dvec3& point) const;
 };
 
-// The view of the colour picture, or of the depth picture (`ofDepth`), enlarged by the least whole factor
+// The view of the colour image, or of the depth image (`ofDepth`), enlarged by the smallest integer factor
 // that makes it at least `leastWidth` pixels wide.
 ImageView imageView(const CameraInfo& camera, const Pose& baseTcamera, bool ofDepth, int leastWidth);
 

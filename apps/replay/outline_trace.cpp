@@ -9,10 +9,10 @@ namespace fathom {
 namespace {
 
 struct Corner {
-    int u, v; // a corner of pixels: the top left one of pixel (u, v)
+    int u, v; // the top left corner of pixel (u, v)
 };
 
-// Walks along the border of a mask, pixels inside on the right hand.
+// Walks along the border of a mask with the inside to the right.
 class Walker {
 public:
     Walker(const std::vector<uint8_t>& mask, int width, int height)
@@ -24,7 +24,7 @@ public:
     bool inside(int u, int v) const {
         return u >= 0 && v >= 0 && u < width_ && v < height_ && mask_[at(u, v)] != 0;
     }
-    // A top edge (the pixel is inside, the one above is not) that no walk has taken.
+    // A top edge (pixel inside, pixel above outside) that no walk has visited.
     bool fresh(int u, int v) const { return inside(u, v) && !inside(u, v - 1) && seen_[at(u, v)] == 0; }
 
     std::vector<Corner> walk(int u, int v) {
@@ -52,10 +52,10 @@ private:
         return static_cast<size_t>(v) * static_cast<size_t>(width_) + static_cast<size_t>(u);
     }
 
-    // Left when the pixel ahead to the left is inside (diagonal neighbours belong together), else straight on
-    // while the one ahead to the right is, else right.
+    // Turns left when the pixel ahead-left is inside (diagonal neighbours are connected), goes straight when
+    // the pixel ahead-right is inside, and turns right otherwise.
     int next(const Corner& c, int heading) const {
-        // The pixel that touches the corner: ahead-left and ahead-right of each heading, from the corner.
+        // The pixel ahead-left of the corner for each heading.
         constexpr int kLeftU[4] = {0, 0, -1, -1}, kLeftV[4] = {-1, 0, 0, -1};
         const int right = (heading + 1) % 4;
         if (inside(c.u + kLeftU[heading], c.v + kLeftV[heading])) {
@@ -69,7 +69,7 @@ private:
     std::vector<uint8_t> seen_;
 };
 
-// Mean over a window along the line: takes the staircase out of a border between pixels.
+// Moving average along the line: removes the staircase of a border between pixels.
 OutlineLine smooth(const OutlineLine& line, bool closed) {
     const auto count =
         static_cast<std::ptrdiff_t>(line.size()) - (closed ? 1 : 0); // a closed line repeats its start
@@ -89,7 +89,7 @@ OutlineLine smooth(const OutlineLine& line, bool closed) {
     return result;
 }
 
-// The pieces of a closed walk that do not run along the picture's edge.
+// The pieces of a closed walk that do not follow the edge of the image.
 void appendPieces(const std::vector<Corner>& corners, int width, int height,
                   std::vector<OutlineLine>& lines) {
     const auto edge = [&](const Corner& a, const Corner& b) {
@@ -111,7 +111,7 @@ void appendPieces(const std::vector<Corner>& corners, int width, int height,
     if (piece.size() < 2) {
         return;
     }
-    // The walk began inside the last piece: the first piece goes on from it.
+    // The walk began inside the last piece, so the first piece continues it.
     lines.push_back(smooth(piece, whole));
     if (!whole && lines.size() > before + 1 && lines[before].front() == lines.back().back()) {
         lines.back().insert(lines.back().end(), lines[before].begin() + 1, lines[before].end());

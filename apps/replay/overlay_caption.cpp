@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caption of overlay.png: what was felt at that moment, and what each mark means.
+// The caption of overlay.png: state and force at that moment, and the legend.
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
 
@@ -30,7 +30,7 @@ std::string moment(const OverlayInput& input) {
     return text;
 }
 
-// Draws the legend's entries in a row; the swatches are the marks themselves, small.
+// Draws the entries of the legend in one row; each swatch is a small version of the mark.
 class Legend {
 public:
     Legend(const Canvas& canvas, double left, double base)
@@ -60,11 +60,9 @@ public:
 
     void dots(const char* words) {
         for (double k : {0.15, 0.38, 0.61, 0.84}) {
-            cairo_rectangle(canvas_.image.cr(), x_ + k * swatch(), middle() - canvas_.size,
-                            2.0 * canvas_.size, 2.0 * canvas_.size);
+            canvas_.image.box(x_ + k * swatch(), middle() - canvas_.size, 2.0 * canvas_.size,
+                              2.0 * canvas_.size, {1.0, 0.60, 0.54});
         }
-        canvas_.image.setColour({1.0, 0.60, 0.54});
-        cairo_fill(canvas_.image.cr());
         name(words);
     }
 
@@ -128,15 +126,12 @@ void drawCaption(const Canvas& canvas, const OverlayInput& input, double caption
     }
     Legend legend(canvas, margin, top + 0.80 * captionHeight);
     if (input.set != nullptr && input.set->frame >= 0) {
-        const auto& source = input.set->spheres.source;
-        const uint32_t pixels = input.set->camera.depth.pixels();
-        if (!source.empty()) {
+        if (input.set->spheres.size() > 0) {
             legend.region("forbidden region", false);
-            if (std::any_of(source.begin(), source.end(),
-                            [pixels](uint32_t slot) { return slot >= pixels; })) {
-                legend.region("held", true);
+            if (regionMasks(canvas.view, *input.set).anyHeld) {
+                legend.region("held region", true);
             }
-            legend.dots("its points");
+            legend.dots("region points");
         }
         const auto& targets = input.set->guidance;
         if (std::any_of(targets.begin(), targets.end(), [](const GuidancePose& g) { return g.present; })) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ground of overlay.png: the camera's colour picture, or its depth as grey.
+// The background of overlay.png: the colour image, or the depth image as grey.
 #include "apps/replay/overlay_layers.h"
 
 #include <algorithm>
@@ -10,13 +10,13 @@ namespace fathom::overlay {
 
 namespace {
 
-constexpr uint32_t kNothing = 0xff10141au; // a pixel without depth, or no picture at all: 0xAARRGGBB
+constexpr uint32_t kNothing = 0xff10141au; // 0xAARRGGBB without depth or without any image
 
 uint32_t fromColour(uint32_t abgr) {
     return 0xff000000u | (abgr & 0xffu) << 16 | (abgr & 0xff00u) | (abgr >> 16 & 0xffu);
 }
 
-// Grey by the share of nearer pixels in the range that holds most of the picture: near is bright.
+// Maps the range from the 2nd to the 98th percentile to grey; near is bright.
 std::vector<uint32_t> depthAsGrey(std::span<const uint16_t> depth) {
     std::vector<uint16_t> valid;
     std::copy_if(depth.begin(), depth.end(), std::back_inserter(valid), [](uint16_t z) { return z != 0; });
@@ -77,7 +77,7 @@ void drawCameraImage(const Canvas& canvas, const OverlayInput& input) {
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_BILINEAR);
     cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
     cairo_paint(cr);
-    // A little darker, so that lines stand out from bright walls too.
+    // Darkened slightly, so that lines stand out from bright walls.
     canvas.image.setColour(kShade.alpha(0.16));
     cairo_paint(cr);
     cairo_restore(cr);

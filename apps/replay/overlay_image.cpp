@@ -14,7 +14,7 @@ void writeOverlay(const std::filesystem::path& file, const OverlayInput& input) 
     const ImageView view =
         imageView(input.camera, input.baseTcamera, !overlay::hasColour(input), kLeastWidth);
     if (view.width() <= 0 || view.height() <= 0) {
-        throw Error(file.string() + ": the camera has no picture size");
+        throw Error(file.string() + ": the camera has no image size");
     }
     const double size = std::max(1.0, view.width() / 1280.0);
     const int caption = static_cast<int>(std::lround(88.0 * size));

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// overlay.png: the camera's last picture with all that the hand felt in it: regions, guidance, tool, hand,
-// force.
+// Draws overlay.png: the last camera image with regions, guidance, tool, hand and force.
 #pragma once
 
 #include "apps/replay/tick_record.h"
@@ -20,8 +19,8 @@ struct OverlayInput {
     CameraInfo camera;
     Pose baseTcamera;
     std::span<const uint32_t>
-        colour; // 0xAABBGGRR, of the size of camera.colour; empty or another size: depth as grey
-    std::span<const uint16_t> depth;     // raw units, of the size of camera.depth; empty: a plain ground
+        colour; // 0xAABBGGRR, size of camera.colour; otherwise the depth is drawn as grey
+    std::span<const uint16_t> depth;     // raw units, size of camera.depth; empty: plain background
     const Fixtures* set = nullptr;       // regions and guidance; null or frame -1: none
     std::vector<std::string> classNames; // rows of Scene::fixtures
     std::span<const Sphere> leaves;      // tool frame [m]
@@ -29,10 +28,11 @@ struct OverlayInput {
     std::string title;                   // scene and source
 };
 
-// Enlarged by a whole factor to at least 960 pixels wide, a caption with legend below. Regions: translucent
-// red, hatched, outlined (held ones hatched the other way and dashed); guidance: blue cross, disc and normal;
-// tool: solid outline; hand: dashed; force: amber arrow. Time grows with the spheres' height in pixels: 60 k
-// spheres of 100 pixels take well under a second. Throws Error that names the file.
+// Enlarges the image by an integer factor to at least 960 pixels wide and adds a caption with a legend.
+// Regions: translucent red, hatched and outlined (held regions hatched the other way and dashed). Guidance:
+// blue cross, disc and normal. Tool: solid outline; hand: dashed; force: amber arrow. Time grows with the
+// height of the spheres in pixels: 60,000 spheres of 100 pixels take less than a second. Throws Error that
+// names the file.
 void writeOverlay(const std::filesystem::path& file, const OverlayInput& input);
 
 } // namespace fathom

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of overlay.png, lowest first. Each draws itself whole; none knows the others.
+// The layers of overlay.png, lowest first. Layers are independent of each other.
 #pragma once
 
 #include "apps/replay/image.h"
 #include "apps/replay/image_view.h"
 #include "apps/replay/overlay_image.h"
+#include "apps/replay/silhouette.h"
 
 namespace fathom::overlay {
 
@@ -14,11 +15,11 @@ constexpr Colour kTool{1.0, 1.0, 1.0};
 constexpr Colour kForce{1.0, 0.76, 0.20};
 constexpr Colour kShade{0.03, 0.04, 0.06};
 
-// The picture to draw on, where it shows the base frame, and by how much lines and letters grow with it.
+// The image, its view of the base frame, and the scale of lines and text.
 struct Canvas {
     const Image& image;
     const ImageView& view;
-    double size; // 1 at a width of 1280 pixels and below
+    double size; // 1 up to a width of 1280 pixels
 };
 
 bool hasColour(const OverlayInput& input);
@@ -28,12 +29,14 @@ void drawGuidance(const Canvas& canvas, const OverlayInput& input);
 void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input); // above tool and hand
 void drawTool(const Canvas& canvas, const OverlayInput& input);
 void drawForce(const Canvas& canvas, const OverlayInput& input);
-// Below the picture, from its lower edge on.
+// Below the camera image.
 void drawCaption(const Canvas& canvas, const OverlayInput& input, double captionHeight);
 
-// Strokes the current path over a dark edge, so that it is seen on any ground.
+// Adds the lines to the current path.
+void tracePath(const Canvas& canvas, const std::vector<OutlineLine>& lines);
+// Strokes the current path over a dark edge, so that it is visible on any background.
 void strokeOnShade(const Canvas& canvas, Colour colour, double width, bool dashed = false);
-// Line from a to b with a head at b; nothing for a length below two pixels.
+// An arrow from a to b; draws nothing when shorter than two pixels.
 void arrow(const Canvas& canvas, glm::dvec2 a, glm::dvec2 b, Colour colour, double width);
 
 } // namespace fathom::overlay

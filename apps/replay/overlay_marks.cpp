@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The marks on top of overlay.png: guidance targets, the tool and the hand, the force.
+// The marks of overlay.png: guidance targets, tool and hand, force.
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
 #include "apps/replay/silhouette.h"
@@ -13,28 +13,22 @@ namespace {
 
 using Pixel = std::optional<glm::dvec2>;
 
-void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour colour) {
+// Text with its left end at `at`, or its right end there (`toLeft`); kept inside the image.
+void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour colour, bool toLeft = false) {
     const double size = 14.0 * canvas.size;
     const double width = canvas.image.textWidth(text, size, true);
-    at.x = std::clamp(at.x, 6.0, std::max(6.0, canvas.view.width() - width - 8.0));
+    at.x = std::clamp(toLeft ? at.x - width : at.x, 6.0, std::max(6.0, canvas.view.width() - width - 8.0));
     at.y = std::clamp(at.y, 1.6 * size, canvas.view.height() - 8.0);
-    canvas.image.setColour(kShade.alpha(0.66));
-    cairo_rectangle(canvas.image.cr(), at.x - 5.0, at.y - 1.08 * size, width + 10.0, 1.5 * size);
-    cairo_fill(canvas.image.cr());
+    canvas.image.box(at.x - 5.0, at.y - 1.08 * size, width + 10.0, 1.5 * size, kShade.alpha(0.66));
     canvas.image.text(at.x, at.y, text, size, colour, Align::Left, true);
-}
-
-// Two unit vectors that with n make a right angle each.
-void acrossOf(const dvec3& n, dvec3& a, dvec3& b) {
-    a = glm::normalize(glm::cross(std::abs(n.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), n));
-    b = glm::cross(n, a);
 }
 
 void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
     constexpr double kRadius = 0.025; // [m]
     constexpr int kCorners = 64;
-    dvec3 a, b;
-    acrossOf(normal, a, b);
+    const dvec3 a =
+        glm::normalize(glm::cross(std::abs(normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), normal));
+    const dvec3 b = glm::cross(normal, a);
     cairo_t* cr = canvas.image.cr();
     for (int i = 0; i < kCorners; ++i) {
         const double angle = 6.283185307179586 * i / kCorners;
@@ -86,26 +80,19 @@ void target(const Canvas& canvas, const GuidancePose& guidance) {
 }
 
 void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pose& pose, bool dashed) {
-    Silhouette silhouette(canvas.view);
+    std::vector<Sphere> spheres;
     for (const Sphere& leaf : leaves) {
-        silhouette.add(pose.apply(leaf.centre), leaf.radius);
+        spheres.push_back({pose.apply(leaf.centre), leaf.radius});
     }
-    cairo_t* cr = canvas.image.cr();
-    const auto lines = traceOutline(silhouette.mask(), canvas.view.width(), canvas.view.height(), 0);
-    for (const OutlineLine& line : lines) {
-        cairo_move_to(cr, line.front().x, line.front().y);
-        for (const glm::dvec2& point : line) {
-            cairo_line_to(cr, point.x, point.y);
-        }
-    }
+    tracePath(canvas, outlineOf(canvas.view, spheres));
     if (!dashed) {
         canvas.image.setColour(kTool.alpha(0.16));
-        cairo_fill_preserve(cr);
+        cairo_fill_preserve(canvas.image.cr());
     }
     strokeOnShade(canvas, kTool, dashed ? 1.8 : 2.4, dashed);
 }
 
-// The single leaves, as the paper draws its tool; too many would be a grey blot.
+// The single leaves, as in the figures of the paper; skipped where too many would only be a grey area.
 void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pose& pose) {
     constexpr size_t kMost = 96;
     if (leaves.size() < 2 || leaves.size() > kMost) {
@@ -127,6 +114,15 @@ void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
 }
 
 } // namespace
+
+void tracePath(const Canvas& canvas, const std::vector<OutlineLine>& lines) {
+    for (const OutlineLine& line : lines) {
+        cairo_move_to(canvas.image.cr(), line.front().x, line.front().y);
+        for (const glm::dvec2& point : line) {
+            cairo_line_to(canvas.image.cr(), point.x, point.y);
+        }
+    }
+}
 
 void strokeOnShade(const Canvas& canvas, Colour colour, double width, bool dashed) {
     cairo_t* cr = canvas.image.cr();
@@ -217,7 +213,9 @@ void drawForce(const Canvas& canvas, const OverlayInput& input) {
         return;
     }
     arrow(canvas, *from, *to, kForce, 3.4);
-    words(canvas, *to + glm::dvec2(12.0 * canvas.size, 0.0), shortNumber(glm::length(force)) + " N", kForce);
+    const bool toLeft = to->x < from->x; // beyond the tip, so that the text does not cover the arrow
+    words(canvas, *to + canvas.size * glm::dvec2(toLeft ? -14.0 : 14.0, 5.0),
+          shortNumber(glm::length(force)) + " N", kForce, toLeft);
 }
 
 } // namespace fathom::overlay

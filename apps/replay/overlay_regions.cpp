@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forbidden regions in overlay.png: tint and hatch inside their silhouette, its outline, the points they
-// stand on.
+// The forbidden regions in overlay.png: tinted and hatched silhouettes, their outlines, and the points that
+// caused them.
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/silhouette.h"
 
@@ -11,32 +11,6 @@ namespace fathom::overlay {
 
 namespace {
 
-struct RegionMasks {
-    std::vector<uint8_t> seen, held; // held: where no seen region is
-    bool anyHeld = false;
-};
-
-dvec3 centreOf(const Fixtures& set, size_t i) {
-    return set.origin + dvec3(double{set.spheres.x[i]}, double{set.spheres.y[i]}, double{set.spheres.z[i]});
-}
-
-RegionMasks masksOf(const Canvas& canvas, const Fixtures& set) {
-    const uint32_t pixels = set.camera.depth.pixels();
-    Silhouette seen(canvas.view), held(canvas.view);
-    RegionMasks masks;
-    for (size_t i = 0; i < set.spheres.size(); ++i) {
-        const bool isHeld = set.spheres.source[i] >= pixels;
-        (isHeld ? held : seen).add(centreOf(set, i), double{set.spheres.radius[i]});
-        masks.anyHeld = masks.anyHeld || isHeld;
-    }
-    masks.seen = seen.mask();
-    masks.held = held.mask();
-    for (size_t i = 0; i < masks.held.size(); ++i) {
-        masks.held[i] = static_cast<uint8_t>(masks.held[i] & ~masks.seen[i] & 1);
-    }
-    return masks;
-}
-
 uint32_t blend(uint32_t below, Colour colour, double alpha) {
     const auto channel = [&](int shift, double value) {
         const double under = below >> shift & 0xffu;
@@ -45,8 +19,8 @@ uint32_t blend(uint32_t below, Colour colour, double alpha) {
     return 0xff000000u | channel(16, colour.r) | channel(8, colour.g) | channel(0, colour.b);
 }
 
-// 0..1: how much of the pixel at `along` lies on a line of the hatch; lines run at 45 degrees, softened by a
-// pixel.
+// Coverage 0..1 of the pixel at `along` by a line of the hatch; lines run at 45 degrees with edges one pixel
+// soft.
 double hatchAt(int along, double period, double width) {
     const double inPeriod = std::fmod(along + 1e6 * period, period);
     const double distance = std::min(inPeriod, period - inPeriod);
@@ -73,24 +47,18 @@ void tint(const Canvas& canvas, const RegionMasks& masks) {
 }
 
 void outline(const Canvas& canvas, const std::vector<uint8_t>& mask, bool dashed) {
-    constexpr size_t kLeast = 24; // specks of a few pixels are no region's edge
-    cairo_t* cr = canvas.image.cr();
-    for (const OutlineLine& line : traceOutline(mask, canvas.view.width(), canvas.view.height(), kLeast)) {
-        cairo_move_to(cr, line.front().x, line.front().y);
-        for (const glm::dvec2& point : line) {
-            cairo_line_to(cr, point.x, point.y);
-        }
-    }
+    constexpr size_t kLeast = 24; // [pixels] ignores specks
+    tracePath(canvas, traceOutline(mask, canvas.view.width(), canvas.view.height(), kLeast));
     strokeOnShade(canvas, kRegion, 2.4, dashed);
 }
 
-// A dot a point, set pixel by pixel: there may be as many as the picture has pixels.
+// One dot per point, set pixel by pixel: there may be as many points as pixels.
 void points(const Canvas& canvas, const Fixtures& set) {
     const int width = canvas.view.width(), height = canvas.view.height();
     const int dot = std::max(1, static_cast<int>(std::lround(1.6 * canvas.size)));
     canvas.image.beginPixels();
     for (size_t i = 0; i < set.spheres.size(); ++i) {
-        const auto pixel = canvas.view.ofBase(centreOf(set, i));
+        const auto pixel = canvas.view.ofBase(regionCentre(set, i));
         if (!pixel || !(pixel->x >= 0.0 && pixel->y >= 0.0 && pixel->x < width && pixel->y < height)) {
             continue;
         }
@@ -112,7 +80,7 @@ void drawRegions(const Canvas& canvas, const Fixtures& set) {
     if (set.spheres.size() == 0) {
         return;
     }
-    const RegionMasks masks = masksOf(canvas, set);
+    const RegionMasks masks = regionMasks(canvas.view, set);
     tint(canvas, masks);
     points(canvas, set);
     if (masks.anyHeld) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A linear axis with round steps: where the ticks are, what they read, where a value lies in the picture.
+// A linear axis with round steps: tick positions, tick labels, and the pixel of a value.
 #pragma once
 
 #include <string>
@@ -15,7 +15,8 @@ struct PlotAxis {
     double at(double value) const { return from + (value - lo) / (hi - lo) * (to - from); }
 };
 
-// Step of 1, 2 or 5 times a power of ten that cuts a range into at most `most` parts (range > 0, most >= 1).
+// The step of 1, 2 or 5 times a power of ten that divides a range into at most `most` parts (range > 0,
+// most >= 1).
 double roundStep(double range, int most);
 
 struct PlotTick {
@@ -23,13 +24,13 @@ struct PlotTick {
     std::string label;
 };
 
-// The ticks of the axis, as many digits in each label as the step needs and no more.
+// Each label has as many digits as the step needs.
 std::vector<PlotTick> ticksOf(const PlotAxis& axis, int most);
 
-// A number for people: four significant digits, no exponent between 0.0001 and 100000.
+// Four significant digits; no exponent between 0.0001 and 100000.
 std::string shortNumber(double value);
 
-// The same without trailing zeros, for values that somebody chose: "20", "0.5".
+// Without trailing zeros, for settings: "20", "0.5".
 std::string roundNumber(double value);
 
 } // namespace fathom

@@ -12,10 +12,10 @@ namespace {
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 struct Range {
-    double lo, hi; // of a ray's slope; empty when hi < lo
+    double lo, hi; // slopes of rays; empty when hi < lo
 };
 
-// Slopes y/z between the two tangents from the eye to the circle that the sphere casts on the (y, z) plane.
+// Slopes y/z of the two tangents from the eye to the projection of the sphere on the (y, z) plane.
 Range slopesOf(double y, double z, double radius) {
     const double distance = std::hypot(y, z);
     if (distance <= radius) {
@@ -42,8 +42,7 @@ Range runAt(const dvec3& c, double k, double y) {
     if (a < 0.0) {
         return b * b < a * d ? Range{0.0, -1.0} : Range{(-b + root) / a, (-b - root) / a};
     }
-    // The cone holds a ray in the plane of the row: the run goes on without end to the side where the sphere
-    // is.
+    // The eye's cone contains a direction in the plane of the row: the run is unbounded on the sphere's side.
     if (a == 0.0 || c.x == 0.0) {
         return {-kEverywhere, kEverywhere};
     }
@@ -67,11 +66,11 @@ void Silhouette::add(const dvec3& baseCentre, double radius) {
     const double scale = view_.scale;
     const double fx = view_.lens.fx * scale, fy = view_.lens.fy * scale;
     const glm::dvec2 shift = c.z > 0.0 ? view_.distortionShift(c) : glm::dvec2(0.0);
-    // Picture coordinates of the ray (0, 0, 1), moved by the distortion.
+    // Image coordinates of the ray (0, 0, 1), shifted by the distortion.
     const double u0 = (view_.lens.cx + 0.5) * scale + shift.x;
     const double v0 = (view_.lens.cy + 0.5) * scale + shift.y;
     const Range rows = k <= 0.0 ? Range{-kEverywhere, kEverywhere} : slopesOf(c.y, c.z, radius);
-    // Of the pixels, those whose centre (v + 0.5) lies inside.
+    // Rows whose centre (v + 0.5) is inside.
     const double first = std::max(0.0, std::ceil(v0 + fy * rows.lo - 0.5));
     const double last = std::min(height_ - 1.0, std::floor(v0 + fy * rows.hi - 0.5));
     for (double v = first; v <= last; v += 1.0) {
@@ -105,6 +104,29 @@ std::vector<uint8_t> Silhouette::mask() const {
         ++step;
     }
     return mask;
+}
+
+RegionMasks regionMasks(const ImageView& view, const Fixtures& set) {
+    const uint32_t pixels = set.camera.depth.pixels();
+    Silhouette seen(view), held(view);
+    for (size_t i = 0; i < set.spheres.size(); ++i) {
+        (set.spheres.source[i] >= pixels ? held : seen)
+            .add(regionCentre(set, i), double{set.spheres.radius[i]});
+    }
+    RegionMasks masks{seen.mask(), held.mask(), false};
+    for (size_t i = 0; i < masks.held.size(); ++i) {
+        masks.held[i] = static_cast<uint8_t>(masks.held[i] & ~masks.seen[i] & 1);
+        masks.anyHeld = masks.anyHeld || masks.held[i] != 0;
+    }
+    return masks;
+}
+
+std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere> spheres) {
+    Silhouette silhouette(view);
+    for (const Sphere& sphere : spheres) {
+        silhouette.add(sphere.centre, sphere.radius);
+    }
+    return traceOutline(silhouette.mask(), view.width(), view.height(), 0);
 }
 
 } // namespace fathom

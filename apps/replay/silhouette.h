@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Outline of many spheres together, as a camera sees it: their union as a mask, and the mask's border as
-// lines.
+// The outline of many spheres as a camera sees it: their union as a mask, and the border of a mask as lines.
 #pragma once
 
 #include "apps/replay/image_view.h"
+#include "engine/contact/fixtures.h"
+#include "engine/types/sphere_tree.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace fathom {
 
-// Each sphere costs its height in pixels, not its area: it adds one run a row, and the runs are summed up at
-// the end. The run is exact for a pinhole (the silhouette is a cone's section, an ellipse off the axis); the
-// lens distortion is taken at the sphere's centre.
+// A sphere costs its height in pixels, not its area: it adds one run per row, and mask() sums the runs. Runs
+// are exact for a pinhole, where the silhouette is a conic section; lens distortion is evaluated at the
+// centre of the sphere.
 class Silhouette {
 public:
     explicit Silhouette(const ImageView& view);
 
     void add(const dvec3& baseCentre, double radius); // [m]
-    // 1 where some sphere covers the centre of the pixel; width x height, rows from the top.
+    // 1 where a sphere covers the centre of the pixel; width x height, row-major.
     std::vector<uint8_t> mask() const;
 
 private:
@@ -26,13 +28,28 @@ private:
 
     const ImageView view_;
     int width_, height_;
-    std::vector<int32_t> steps_; // by row, width + 1: how many runs begin less how many ended
+    std::vector<int32_t> steps_; // rows of width + 1: runs that begin minus runs that ended
 };
+
+// Centre of a region sphere in the base frame [m].
+inline dvec3 regionCentre(const Fixtures& set, size_t i) {
+    const RegionSpheres& s = set.spheres;
+    return set.origin + dvec3(double{s.x[i]}, double{s.y[i]}, double{s.z[i]});
+}
+
+// Which pixels of a view the regions of a set cover.
+struct RegionMasks {
+    std::vector<uint8_t> seen, held; // held: only where no seen region is
+    bool anyHeld = false;            // some pixel of `held` is set
+};
+RegionMasks regionMasks(const ImageView& view, const Fixtures& set);
 
 using OutlineLine = std::vector<glm::dvec2>; // [pixels], corners of pixels, smoothed
 
-// Borders of a mask as lines between pixels, inside to the right; a line that meets the picture's edge ends
-// there, every other is closed (first point = last point). Borders shorter than `least` pixels are left out.
+// The borders of a mask as lines between pixels, with the inside to the right. A line ends at the edge of the
+// image; all others are closed (first point = last point). Skips borders shorter than `least` pixels.
 std::vector<OutlineLine> traceOutline(const std::vector<uint8_t>& mask, int width, int height, size_t least);
+// The outline of spheres in the base frame.
+std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere> spheres);
 
 } // namespace fathom

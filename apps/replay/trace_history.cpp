@@ -52,7 +52,7 @@ void TraceHistory::add(const TickRecord& tick) {
         now.torqueMin = now.torqueMax = glm::length(tick.wrench.torque);
         raise(torquePeak_, now.torqueMax, tick.t);
     }
-    now.guidance = tick.guidance > 0.0 ? tick.guidance : 0.0; // a NaN is none
+    now.guidance = tick.guidance > 0.0 ? tick.guidance : 0.0; // NaN counts as none
     now.states[static_cast<uint8_t>(tick.state)] = 1;
     now.ticks = 1;
     now.newFrames = tick.frame != lastFrame_;

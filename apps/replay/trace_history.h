@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The course of a whole run in constant memory: minima and maxima over equal stretches of ticks, fine enough
-// to draw.
+// A whole run in constant memory: minima and maxima over groups of ticks of equal size, fine enough to draw.
 #pragma once
 
 #include "apps/replay/tick_record.h"
@@ -11,7 +10,7 @@
 
 namespace fathom {
 
-// A stretch of neighbouring ticks. A maximum below its minimum: no finite value in it.
+// A group of consecutive ticks. A maximum below its minimum means that it has no finite value.
 struct TraceBin {
     double begin = 0.0, end = 0.0;              // [s] times of the first and of the last tick
     double forceMin = 0.0, forceMax = -1.0;     // [N] of the norm
@@ -19,13 +18,13 @@ struct TraceBin {
     double guidance = 0.0;                      // largest w
     std::array<uint32_t, kTickStates> states{}; // ticks in each state
     uint32_t ticks = 0;
-    uint32_t newFrames = 0; // ticks that began to obey another frame
+    uint32_t newFrames = 0; // ticks that first used another frame
 
     uint32_t in(TickState state) const { return states[static_cast<uint8_t>(state)]; }
 };
 
-// Keeps `capacity` bins at most: when they are full, neighbours are merged and each bin covers twice as many
-// ticks. No peak is ever lost. One tick a bin, so exact, while the run is shorter than the capacity.
+// Keeps at most `capacity` bins. When they are full, neighbours are merged and each bin covers twice as many
+// ticks; peaks are kept. A run shorter than the capacity has one tick per bin and is exact.
 class TraceHistory {
 public:
     explicit TraceHistory(size_t capacity = 16384); // even, at least 2
@@ -45,7 +44,7 @@ private:
     void halve();
 
     size_t capacity_;
-    uint64_t stride_ = 1; // ticks a bin
+    uint64_t stride_ = 1; // ticks per bin
     std::vector<TraceBin> bins_;
     uint64_t ticks_ = 0, newFrames_ = 0;
     int64_t lastFrame_ = -1;

@@ -8,7 +8,7 @@ namespace fathom {
 namespace {
 
 constexpr double kFlickerShare = 0.02;
-constexpr size_t kSlots = 1000; // the time resolution of phases; bounds the work of merging them
+constexpr size_t kSlots = 1000; // time resolution of the phases; bounds the work of merging
 
 PhaseKind kindOf(const TraceBin& bin) {
     if (bin.in(TickState::Trapped) > 0) {
@@ -35,7 +35,7 @@ void append(std::vector<Phase>& phases, const Phase& next) {
     }
 }
 
-// Runs of equal kind over at most kSlots groups of bins: in each group the kind that most of its bins have.
+// Runs of equal kind over at most kSlots groups of bins; a group has the kind of most of its bins.
 std::vector<Phase> runs(const std::vector<TraceBin>& bins) {
     std::vector<Phase> phases;
     const size_t group = (bins.size() + kSlots - 1) / kSlots;
@@ -52,7 +52,7 @@ std::vector<Phase> runs(const std::vector<TraceBin>& bins) {
     return phases;
 }
 
-// Gives the phase at `index` to its longer neighbour; neighbours of one kind then become one phase.
+// Merges the phase at `index` into its longer neighbour, and then neighbours of the same kind.
 void absorb(std::vector<Phase>& phases, size_t index) {
     const auto length = [&](size_t i) { return phases[i].end - phases[i].begin; };
     const bool hasLeft = index > 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The few phases that a run falls into, lettered A, B, C ... as in the figures of the paper.
+// Divides a run into a few phases, lettered A, B, C ... as in the figures of the paper.
 #pragma once
 
 #include "apps/replay/trace_history.h"
@@ -10,7 +10,7 @@ namespace fathom {
 
 enum class PhaseKind { Off, Free, Contact, Guidance, Fading, Trapped };
 
-// The word for a phase. Escaping counts as contact.
+// Escaping counts as contact.
 const char* phaseName(PhaseKind kind);
 
 struct Phase {
@@ -18,9 +18,8 @@ struct Phase {
     PhaseKind kind = PhaseKind::Free;
 };
 
-// Neighbouring phases differ in kind, follow each other without gaps and cover the run; at most `most`
-// (1..26). What is shorter than 2 % of the run is taken for a flicker of its longer neighbour. Guidance goes
-// before contact.
+// At most `most` (1..26) phases that cover the run without gaps; neighbours differ in kind. A phase shorter
+// than 2 % of the run is merged into its longer neighbour. Guidance takes precedence over contact.
 std::vector<Phase> findPhases(const TraceHistory& history, size_t most = 26);
 
 } // namespace fathom

@@ -14,8 +14,8 @@ struct Span {
     double from, to; // [pixels]
 };
 
-// Stretches of bins that satisfy `chosen`, at least a pixel wide; those that touch are one, so that
-// translucent paint is never laid on twice.
+// Spans of the bins that satisfy `chosen`, at least one pixel wide. Spans that touch are merged, so that
+// translucent paint is applied once.
 template <class Chosen>
 std::vector<Span> spansOf(const std::vector<TraceBin>& bins, const PlotAxis& time, Chosen chosen) {
     std::vector<Span> spans;
@@ -38,12 +38,10 @@ std::vector<Span> spansOf(const std::vector<TraceBin>& bins, const PlotAxis& tim
 void fill(const Image& image, const std::vector<Span>& spans, const Panel& panel, Colour colour,
           bool hatched) {
     for (const Span& span : spans) {
-        image.setColour(colour);
-        cairo_rectangle(image.cr(), span.from, panel.top, span.to - span.from, panel.bottom - panel.top);
-        cairo_fill(image.cr());
+        const double width = span.to - span.from, height = panel.bottom - panel.top;
+        image.box(span.from, panel.top, width, height, colour);
         if (hatched) {
-            hatch(image, span.from, panel.top, span.to - span.from, panel.bottom - panel.top,
-                  kAlarm.alpha(0.55));
+            hatch(image, span.from, panel.top, width, height, kAlarm.alpha(0.55));
         }
     }
 }
@@ -65,7 +63,7 @@ Colour colourOf(PhaseKind kind) {
     return kIdle.alpha(0.10);
 }
 
-// Swatch and words; returns where the next entry starts.
+// Draws a swatch with its text; returns the x of the next entry.
 template <class Swatch>
 double entry(const Image& image, double x, const std::string& words, Swatch swatch) {
     constexpr double kSwatch = 30.0, kGap = 10.0, kApart = 34.0;
@@ -74,23 +72,13 @@ double entry(const Image& image, double x, const std::string& words, Swatch swat
     return x + kSwatch + kGap + image.textWidth(words, 15.0) + kApart;
 }
 
-void box(const Image& image, double x, double y, double w, double h, Colour colour) {
-    image.setColour(colour);
-    cairo_rectangle(image.cr(), x, y, w, h);
-    cairo_fill(image.cr());
-}
-
 } // namespace
 
 void dashedLine(const Image& image, double from, double to, double y) {
     cairo_t* cr = image.cr();
     const double dashes[] = {8.0, 5.0};
     cairo_set_dash(cr, dashes, 2, 0.0);
-    image.setColour(kAlarm);
-    cairo_set_line_width(cr, 1.6);
-    cairo_move_to(cr, from, y);
-    cairo_line_to(cr, to, y);
-    cairo_stroke(cr);
+    image.line(from, y, to, y, kAlarm, 1.6);
     cairo_set_dash(cr, nullptr, 0, 0.0);
 }
 
@@ -100,7 +88,7 @@ void hatch(const Image& image, double x, double y, double width, double height, 
     cairo_save(cr);
     cairo_rectangle(cr, x, y, width, height);
     cairo_clip(cr);
-    // Lines of one lattice over the whole picture, so that neighbouring spans continue each other's.
+    // All spans share one lattice of lines, so that the hatch continues across neighbours.
     const double first = kApart * static_cast<double>(static_cast<int64_t>((x - height) / kApart) - 1);
     for (double foot = first; foot < x + width + height; foot += kApart) {
         cairo_move_to(cr, foot, y + height);
@@ -138,11 +126,11 @@ void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotA
     for (const Phase& phase : findPhases(history)) {
         const double from = time.at(phase.begin);
         const double width = std::max(1.0, time.at(phase.end) - from);
-        box(image, from, kStripTop, width, kStripBottom - kStripTop, colourOf(phase.kind));
+        image.box(from, kStripTop, width, kStripBottom - kStripTop, colourOf(phase.kind));
         if (phase.kind == PhaseKind::Trapped) {
             hatch(image, from, kStripTop, width, kStripBottom - kStripTop, kAlarm.alpha(0.5));
         }
-        box(image, from - 0.5, kStripTop, 1.0, kTorqueBottom - kStripTop, kInk.alpha(0.22));
+        image.box(from - 0.5, kStripTop, 1.0, kTorqueBottom - kStripTop, kInk.alpha(0.22));
         const std::string name(1, letter++);
         const std::string words = phaseName(phase.kind);
         const double middle = from + 0.5 * width;
@@ -166,7 +154,7 @@ bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotA
     }
     for (const TraceBin& bin : history.bins()) {
         if (bin.newFrames > 0) {
-            box(image, time.at(bin.begin) - 0.6, panel.bottom - 8.0, 1.2, 8.0, kQuietInk.alpha(0.8));
+            image.box(time.at(bin.begin) - 0.6, panel.bottom - 8.0, 1.2, 8.0, kQuietInk.alpha(0.8));
         }
     }
     return true;
@@ -176,12 +164,12 @@ void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool
                 const std::string& remark) {
     double x = kLeft;
     x = entry(image, x, "norm", [&](double left, double top, double w, double h) {
-        box(image, left, top + 0.5 * h - 1.1, w, 2.2, kTrace);
+        image.box(left, top + 0.5 * h - 1.1, w, 2.2, kTrace);
     });
     const auto band = [&](bool present, const char* words, Colour colour, bool hatched) {
         if (present) {
             x = entry(image, x, words, [&](double left, double top, double w, double h) {
-                box(image, left, top, w, h, colour);
+                image.box(left, top, w, h, colour);
                 if (hatched) {
                     hatch(image, left, top, w, h, kAlarm.alpha(0.55));
                 }
@@ -195,7 +183,7 @@ void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool
     if (frameTicks) {
         x = entry(image, x, "new frame", [&](double left, double top, double w, double h) {
             for (double k : {0.2, 0.5, 0.8}) {
-                box(image, left + k * w, top + 0.5 * h, 1.2, 8.0, kQuietInk);
+                image.box(left + k * w, top + 0.5 * h, 1.2, 8.0, kQuietInk);
             }
         });
     }

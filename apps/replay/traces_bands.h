@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies behind the traces of traces.png: shaded bands, the strip of lettered phases, the frame ticks, the
-// legend.
+// The background of traces.png: shaded bands, the strip of lettered phases, frame ticks, the legend.
 #pragma once
 
 #include "apps/replay/image.h"
@@ -15,7 +14,7 @@ struct Panel {
     double top, bottom; // [pixels]
 };
 
-// Which kinds of band a run has, so that the legend names those alone.
+// The kinds of band in a run; the legend names only these.
 struct BandsSeen {
     bool contact = false, guidance = false, alarm = false, idle = false;
 };
@@ -23,15 +22,14 @@ struct BandsSeen {
 BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel);
 void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotAxis& time);
-// Ticks at the panel's foot where a new frame came into force; none when they would run together (returns
-// false).
+// Ticks at the foot of the panel where a new frame became active. Returns false, and draws none, where they
+// would run together.
 bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel);
 void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool limits,
                 const std::string& remark);
-// The line of a limit.
 void dashedLine(const Image& image, double from, double to, double y);
-// Diagonal lines over a rectangle, for what must not be told by colour alone.
+// Diagonal lines over a rectangle, so that its meaning does not depend on colour alone.
 void hatch(const Image& image, double x, double y, double width, double height, Colour colour);
 
 } // namespace fathom::traces

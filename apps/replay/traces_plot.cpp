@@ -24,7 +24,7 @@ struct Series {
     Panel panel;
 };
 
-// From zero to a round value above the peak; up to the limit when the trace comes near it.
+// From zero to a round value above the peak; includes the limit when the trace comes near it.
 PlotAxis valueAxis(const Series& series) {
     constexpr double kNear = 0.55;
     const double peak = series.peak.value;
@@ -32,7 +32,7 @@ PlotAxis valueAxis(const Series& series) {
     if (series.limit && *series.limit > 0.0 && peak >= kNear * *series.limit) {
         top = std::max(top, 1.12 * *series.limit);
     }
-    // A trace of rounding errors still gets a scale; below this a value is nothing that a hand could feel.
+    // Rounding errors must not set the scale: no hand feels less than this.
     top = std::max(top, 1e-6);
     const double step = roundStep(top, 8);
     return {0.0, step * std::ceil(top / step), series.panel.bottom, series.panel.top};
@@ -46,44 +46,32 @@ PlotAxis timeAxis(const TraceHistory& history) {
         end = begin + 1.0; // an empty run, or one of a single tick
     } else {
         end += (end - begin) /
-               static_cast<double>(history.ticks() - 1); // the last tick lasts as long as the others
+               static_cast<double>(history.ticks() - 1); // the last tick is as long as the others
     }
     return {begin, end, kLeft, kRight};
 }
 
 void drawFrameAndGrid(const Image& image, const Series& series, const PlotAxis& time, const PlotAxis& value,
                       bool timeLabels) {
-    cairo_t* cr = image.cr();
     const Panel& panel = series.panel;
-    cairo_set_line_width(cr, 1.0);
     for (const PlotTick& tick : ticksOf(value, 6)) {
         const double y = std::round(value.at(tick.value)) + 0.5;
-        image.setColour(tick.value == 0.0 ? kQuietInk : kGrid);
-        cairo_move_to(cr, kLeft, y);
-        cairo_line_to(cr, kRight, y);
-        cairo_stroke(cr);
+        image.line(kLeft, y, kRight, y, tick.value == 0.0 ? kQuietInk : kGrid, 1.0);
         image.text(kLeft - 12.0, y + 5.0, tick.label, 15.0, kInk, Align::Right);
     }
     for (const PlotTick& tick : ticksOf(time, 12)) {
         const double x = std::round(time.at(tick.value)) + 0.5;
-        image.setColour(kGrid);
-        cairo_move_to(cr, x, panel.top);
-        cairo_line_to(cr, x, panel.bottom);
-        cairo_stroke(cr);
+        image.line(x, panel.top, x, panel.bottom, kGrid, 1.0);
         if (timeLabels) {
             image.text(x, panel.bottom + 24.0, tick.label, 15.0, kInk, Align::Centre);
         }
     }
-    cairo_save(cr);
-    cairo_translate(cr, 36.0, 0.5 * (panel.top + panel.bottom));
-    cairo_rotate(cr, -0.5 * 3.14159265358979);
-    image.text(0.0, 0.0, std::string(series.title) + " [" + series.unit + "]", 17.0, kInk, Align::Centre,
-               true);
-    cairo_restore(cr);
+    image.textUpwards(36.0, 0.5 * (panel.top + panel.bottom),
+                      std::string(series.title) + " [" + series.unit + "]", 17.0, kInk, true);
 }
 
-// One point a bin, or the extremes of each pixel column when there are more bins than that. A column without
-// a finite value breaks the line.
+// One point per bin, or the extremes of each pixel column when there are more bins than columns. A column
+// without a finite value breaks the line.
 void traceLine(const Image& image, const TraceHistory& history, const Series& series, const PlotAxis& time,
                const PlotAxis& value) {
     cairo_t* cr = image.cr();
@@ -103,12 +91,8 @@ void traceLine(const Image& image, const TraceHistory& history, const Series& se
             drawing = false;
             continue;
         }
-        if (drawing) {
-            cairo_line_to(cr, x, value.at(hi));
-        } else {
-            cairo_move_to(cr, x, value.at(hi));
-        }
-        cairo_line_to(cr, x, value.at(lo) + 0.01); // a lone point is still a dot
+        (drawing ? cairo_line_to : cairo_move_to)(cr, x, value.at(hi));
+        cairo_line_to(cr, x, value.at(lo) + 0.01); // so that a single point is drawn as a dot
         drawing = true;
     }
     image.setColour(kTrace);
@@ -119,17 +103,15 @@ void traceLine(const Image& image, const TraceHistory& history, const Series& se
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_BUTT);
 }
 
-// Words over the traces on a pale ground, so that grid and trace do not cross them.
+// Text on a pale background, so that it stays readable over grid and trace.
 void label(const Image& image, double x, double y, const std::string& words, Colour colour, Align align) {
     const double width = image.textWidth(words, 14.5);
     const double left = align == Align::Left ? x : align == Align::Right ? x - width : x - 0.5 * width;
-    image.setColour(kPaper.alpha(0.82));
-    cairo_rectangle(image.cr(), left - 5.0, y - 14.5, width + 10.0, 20.0);
-    cairo_fill(image.cr());
+    image.box(left - 5.0, y - 14.5, width + 10.0, 20.0, kPaper.alpha(0.82));
     image.text(x, y, words, 14.5, colour, align);
 }
 
-// True when the limit's line is in the picture; otherwise its value is written in the corner.
+// Returns true when the axis reaches the limit; otherwise writes its value in the corner.
 bool drawLimit(const Image& image, const Series& series, const PlotAxis& value) {
     if (!series.limit || !std::isfinite(*series.limit)) {
         return false;
@@ -152,15 +134,9 @@ void drawPeak(const Image& image, const Series& series, const PlotAxis& time, co
               "zero throughout", kQuietInk, Align::Centre);
         return;
     }
-    cairo_t* cr = image.cr();
-    const double x = time.at(series.peak.t);
-    const double y = value.at(series.peak.value);
-    image.setColour(kPaper);
-    cairo_arc(cr, x, y, 5.5, 0.0, 6.2832);
-    cairo_fill(cr);
-    image.setColour(kTrace);
-    cairo_arc(cr, x, y, 3.8, 0.0, 6.2832);
-    cairo_fill(cr);
+    const double x = time.at(series.peak.t), y = value.at(series.peak.value);
+    image.dot(x, y, 5.5, kPaper);
+    image.dot(x, y, 3.8, kTrace);
     char seconds[40];
     std::snprintf(seconds, sizeof seconds, " at %.3f s", series.peak.t);
     const bool toLeft = x > 0.5 * (kLeft + kRight);
@@ -179,36 +155,35 @@ std::string remark(const TraceHistory& history) {
 void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels) {
     const Image image(kWidth, kHeight, kPaper);
     const PlotAxis time = timeAxis(history);
-    const Series force{"Force",
-                       "N",
-                       &TraceBin::forceMin,
-                       &TraceBin::forceMax,
-                       history.forcePeak(),
-                       labels.forceLimit,
-                       {kForceTop, kForceBottom}};
-    const Series torque{"Torque",
-                        "N m",
-                        &TraceBin::torqueMin,
-                        &TraceBin::torqueMax,
-                        history.torquePeak(),
-                        labels.torqueLimit,
-                        {kTorqueTop, kTorqueBottom}};
+    const Series series[] = {{"Force",
+                              "N",
+                              &TraceBin::forceMin,
+                              &TraceBin::forceMax,
+                              history.forcePeak(),
+                              labels.forceLimit,
+                              {kForceTop, kForceBottom}},
+                             {"Torque",
+                              "N m",
+                              &TraceBin::torqueMin,
+                              &TraceBin::torqueMax,
+                              history.torquePeak(),
+                              labels.torqueLimit,
+                              {kTorqueTop, kTorqueBottom}}};
     image.text(kLeft, kTitleBase, labels.title, 28.0, kInk, Align::Left, true);
     image.text(kLeft, kSubtitleBase, labels.subtitle, 16.0, kQuietInk);
     BandsSeen seen;
-    bool limits = false;
-    bool frameTicks = false;
-    for (const Series* series : {&force, &torque}) {
-        seen = drawBands(image, history, time, series->panel);
+    bool limits = false, frameTicks = false;
+    for (const Series& one : series) {
+        seen = drawBands(image, history, time, one.panel);
     }
     drawPhaseStrip(image, history, time);
-    for (const Series* series : {&force, &torque}) {
-        const PlotAxis value = valueAxis(*series);
-        drawFrameAndGrid(image, *series, time, value, series == &torque);
-        frameTicks = drawFrameTicks(image, history, time, series->panel) || frameTicks;
-        limits = drawLimit(image, *series, value) || limits;
-        traceLine(image, history, *series, time, value);
-        drawPeak(image, *series, time, value);
+    for (const Series& one : series) {
+        const PlotAxis value = valueAxis(one);
+        drawFrameAndGrid(image, one, time, value, &one == &series[1]);
+        frameTicks = drawFrameTicks(image, history, time, one.panel) || frameTicks;
+        limits = drawLimit(image, one, value) || limits;
+        traceLine(image, history, one, time, value);
+        drawPeak(image, one, time, value);
     }
     image.text(0.5 * (kLeft + kRight), kTorqueBottom + 54.0, "time [s]", 17.0, kInk, Align::Centre, true);
     drawLegend(image, seen, frameTicks, limits, remark(history));

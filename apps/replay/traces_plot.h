@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// traces.png: force norm over torque norm against time, as the paper's Figs. 4 and 5, with the phases
-// lettered.
+// Draws traces.png: the norms of force and torque over time with lettered phases, as Figs. 4 and 5 of the
+// paper.
 #pragma once
 
 #include "apps/replay/trace_history.h"
@@ -18,9 +18,9 @@ struct TracesLabels {
     std::optional<double> torqueLimit; // [N m]
 };
 
-// 1600 x 1000 pixels, two panels over one time axis [s]. Below the traces: sand where in contact, blue where
-// guidance was on, hatched red where escaping or trapped, grey where off or fading. Any run length, an empty
-// run too. Throws Error that names the file.
+// 1600 x 1000 pixels, two panels over one time axis [s]. The background is sand in contact, blue with
+// guidance, hatched red when escaping or trapped, grey when off or fading. Takes a run of any length, also an
+// empty one. Throws Error that names the file.
 void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels);
 
 } // namespace fathom

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/hover.h"
+#include "apps/operate/contact_tooltip.h"
 
 #include "apps/operate/theme.h"
 #include "apps/operate/why_panel.h"
+#include "apps/replay/silhouette.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +14,9 @@ namespace fathom::operate {
 namespace {
 
 constexpr float kNear = 18.0f;   // [pixels] of a contact point
-constexpr double kLasting = 0.1; // [s] since the last turn that it stopped
+constexpr double kLasting = 0.1; // [s] since the last tick in which it stopped the tool
 
-// The region's sphere that the touch is against; a shape's and a surface's are drawn anyway.
+// The region sphere of a contact; shapes and surfaces are drawn anyway.
 std::optional<Sphere> regionOf(const Touch& touch, const Fixtures& set) {
     if (touch.kind != ContactRow::Kind::Sphere) {
         return std::nullopt;
@@ -26,15 +27,14 @@ std::optional<Sphere> regionOf(const Touch& touch, const Fixtures& set) {
         return std::nullopt;
     }
     const auto i = static_cast<size_t>(at - sources.begin());
-    const dvec3 local(double{set.spheres.x[i]}, double{set.spheres.y[i]}, double{set.spheres.z[i]});
-    return Sphere{set.origin + local, double{set.spheres.radius[i]}};
+    return Sphere{regionCentre(set, i), double{set.spheres.radius[i]}};
 }
 
 float pixelsBetween(ImVec2 a, ImVec2 b) {
     return std::hypot(a.x - b.x, a.y - b.y);
 }
 
-// The block whose contact the mouse is at: nearest first.
+// The block whose contact is nearest to the mouse; null when none is near.
 const Block* blockAt(const MarksInput& input, ImVec2 mouse) {
     const Block* best = nullptr;
     float least = kNear;
@@ -64,13 +64,13 @@ void drawRegion(ImDrawList& list, const MarksInput& input, const Touch& touch) {
 
 } // namespace
 
-void drawHover(Console& console, ImDrawList& list, const MarksInput& input) {
+void drawContactTooltip(Console& console, ImDrawList& list, const MarksInput& input) {
     console.hovered.clear();
     console.places.erase("contact");
     if (!input.run.blocks().empty()) {
         const auto at = input.port.of(input.run.blocks().front().touch.point);
         if (at) {
-            console.places["contact"] = {at->x - 2.0f, at->y - 2.0f, 4.0f, 4.0f};
+            markPlace(console, "contact", {at->x - 2.0f, at->y - 2.0f}, {4.0f, 4.0f});
         }
     }
     const ImGuiIO& io = ImGui::GetIO();
