@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What arm.csv and the summary say of limits, from postures that nobody could have taken.
+// Limits in arm.csv and in the summary, from postures beyond them.
 #include "apps/replay/arm_report.h"
 
 #include "tests/apps/scratch_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registration on a chessboard: a known pose comes back from a drawn picture with depth.
+// Registration on a chessboard: recovers a known pose from a rendered image with depth.
 #include "apps/register/board_corners.h"
 #include "apps/register/board_finder.h"
 #include "engine/types/error.h"
@@ -94,7 +94,7 @@ struct BoardImage {
 
 } // namespace
 
-TEST_CASE("Corners of a chessboard are found to a fifth of a pixel, in its own order however it is turned") {
+TEST_CASE("Corners of a chessboard are found to 0.2 pixels, in the board's order at any rotation") {
     for (const double turn : {0.0, 0.6, 1.6, 3.1, -2.2}) {
         CAPTURE(turn);
         const BoardImage image(turn);

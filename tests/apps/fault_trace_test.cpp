@@ -31,7 +31,7 @@ TickRow turnAt(double t, bool finite = true) {
 struct Traced {
     explicit Traced(const std::filesystem::path& folder)
         : trace(folder, 0.001, next) {}
-    // One turn a millisecond over [from, to), `broken` among them.
+    // One tick per millisecond over [from, to), including `broken`.
     void ticks(double from, double to, double broken = -1.0) {
         for (auto i = static_cast<int>(std::lround(from * 1000.0)); i < std::lround(to * 1000.0); ++i) {
             const double t = 0.001 * i;
@@ -53,7 +53,7 @@ std::vector<std::string> linesOf(const std::filesystem::path& file) {
 
 } // namespace
 
-TEST_CASE("A turn that is not finite leaves the turns of the two seconds before it, and itself as the last") {
+TEST_CASE("A non-finite tick writes the ticks of the two seconds before it and itself as the last") {
     const ScratchFolder folder;
     Traced run(folder.path());
     run.ticks(0.0, 5.0, 4.5);
@@ -85,7 +85,7 @@ TEST_CASE(
     CHECK(std::stod(lines[1]) >= 0.2);
 }
 
-TEST_CASE("Turns that are not finite leave one file a minute, and a run on a clock of its own begins anew") {
+TEST_CASE("Non-finite ticks write at most one file per minute, and a run with its own clock starts again") {
     const ScratchFolder folder;
     Traced run(folder.path());
     run.ticks(1.0, 1.1, 1.05);
@@ -98,7 +98,7 @@ TEST_CASE("Turns that are not finite leave one file a minute, and a run on a clo
     CHECK(linesOf(folder.path() / "fault-0.100.csv").size() == 102); // nothing of the run before
 }
 
-TEST_CASE("A run whose turns are all finite leaves no file, and one that cannot be written ends nothing") {
+TEST_CASE("A run with finite ticks writes no file, and a file that cannot be written stops nothing") {
     const ScratchFolder folder;
     Traced run(folder.path());
     run.ticks(0.0, 3.0);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `fathom devices` prints of hands, cameras and doors: on a made-up /sys and /dev, with real sockets.
+// Output of `fathom devices` for haptic devices, cameras and endpoints, on a fake /sys and /dev with real
+// sockets.
 #include "apps/devices/hand_devices.h"
 #include "devices/bridge/socket_server.h"
 #include "tests/apps/scratch_folder.h"
@@ -51,7 +52,7 @@ void usbDevice(const fs::path& root, const std::string& vendor, const std::strin
 } // namespace
 
 TEST_CASE(
-    "A door with a bridge behind it is offered, one whose bridge is gone is refused, and a file is none") {
+    "An endpoint with a running bridge is listed, a stale endpoint is rejected, and a file is no endpoint") {
     const testing::ScratchFolder root, endpoints;
     CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or door found\n");
     CHECK(printed(root.path(), "") == "no camera, haptic device or door found\n");
@@ -66,7 +67,7 @@ TEST_CASE(
               "\n          a bridge listens; --hand-device " + live + "\n");
 }
 
-TEST_CASE("A camera that cannot be asked says why, and doors are listed after devices") {
+TEST_CASE("A camera that cannot be queried shows the reason, and endpoints are listed after devices") {
     const testing::ScratchFolder root, endpoints;
     fs::create_directories(root.path() / "sys/class/video4linux/video3");
     testing::put(root.path() / "sys/class/video4linux/video3/name", "a camera\n");
@@ -80,7 +81,7 @@ TEST_CASE("A camera that cannot be asked says why, and doors are listed after de
     CHECK(text.find("door    ") > text.find("camera  "));
 }
 
-TEST_CASE("A camera of OpenNI2 that no driver knows is listed as a camera, with the reason") {
+TEST_CASE("An OpenNI2 camera without a driver is listed with the reason") {
     if (kSanitized) { // OpenNI2 unloads its drivers with what they have not freed: leaks without a name
         return;
     }

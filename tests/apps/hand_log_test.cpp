@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand recorded beside pictures.
+// A hand path recorded with frames.
 #include "apps/record/hand_log.h"
 
 #include "devices/recorded/hand_csv.h"
@@ -49,13 +49,13 @@ void awaitSamples(const HandLog& log, uint64_t more) {
 
 } // namespace
 
-TEST_CASE("Between two recorded pictures the hand's path runs as it ran between their captures") {
+TEST_CASE("Between two recorded frames the hand path keeps its course between their captures") {
     const ScratchFolder folder;
     double pushed = 0.0;
     std::vector<double> captured;
     {
         HandLog log(std::make_unique<Clockwork>(pushed), folder.path() / "hand.csv");
-        awaitSamples(log, 3); // before the first picture: left out
+        awaitSamples(log, 3); // before the first frame: skipped
         for (const uint64_t ticks : {5u, 40u, 12u}) {
             captured.push_back(now());
             log.frame(captured.back());
@@ -80,7 +80,7 @@ TEST_CASE("Between two recorded pictures the hand's path runs as it ran between 
     CHECK(pushed == 0.0); // no force while recording
 }
 
-TEST_CASE("A hand without a picture leaves a file without a row") {
+TEST_CASE("A hand path without a frame gives a file without rows") {
     const ScratchFolder folder;
     double pushed = 0.0;
     HandLog log(std::make_unique<Clockwork>(pushed), folder.path() / "hand.csv");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Histograms of times and what is said of them.
+// Histograms of times and their report.
 #include "apps/latency/latency_report.h"
 
 #include "engine/types/error.h"
@@ -53,7 +53,7 @@ TEST_CASE("Percentiles of a histogram are those of the sorted values, rounded up
     }
 }
 
-TEST_CASE("What is longer than the bins is counted, and its largest is told exactly") {
+TEST_CASE("Values beyond the last bin are counted, and the largest is exact") {
     Histogram h;
     h.add(1e6);
     h.add(19'999.5);
@@ -96,7 +96,7 @@ TEST_CASE(
     CHECK(residentMemory() > 1.0);
 }
 
-TEST_CASE("The report has every turn in a row of its table and in a bin of its file") {
+TEST_CASE("The report counts every tick in its table and in its file") {
     std::vector<LatencyPart> parts(2);
     parts[0].load = "idle";
     parts[1].load = "frames";

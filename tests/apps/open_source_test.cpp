@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene's port does to a camera, and to a recording of what a run used.
+// How the port of a scene corrects a camera, and a recording of processed frames.
 #include "apps/binding/open_source.h"
 
 #include "devices/recorded/recording_writer.h"
@@ -12,7 +12,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// One picture of a wall 1 m away.
+// One frame of a wall 1 m away.
 void record(const std::filesystem::path& folder, const CameraInfo& camera) {
     const std::vector<uint16_t> depth(camera.depth.pixels(), 1000);
     Frame::Content content;
@@ -33,7 +33,7 @@ CameraInfo plainCamera() {
 
 } // namespace
 
-TEST_CASE("A recording of what a camera saw is corrected for the port, one of what a run used is not again") {
+TEST_CASE("A recording of raw frames is corrected for the port, a recording of processed frames is not") {
     const ScratchFolder folder;
     Scene scene;
     Scene::Port port;

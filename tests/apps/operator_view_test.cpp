@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window makes of turns, without a window: rates, blocks, modes, alarms, the columns of a trace.
+// The window's view of ticks, without a window: rates, blocks, modes, alarms, columns of a trace.
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/trace_columns.h"
@@ -22,7 +22,7 @@ struct NoSink final : RunSink {
     void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override {}
 };
 
-// A run whose turns a test makes.
+// A run with ticks made by the test.
 struct ViewedRun {
     TickRow row;
     NoSink nothing;
@@ -62,7 +62,7 @@ using Words = std::vector<std::string>;
 
 } // namespace
 
-TEST_CASE("Rates are those of the last second, its longest period among them") {
+TEST_CASE("Rates are of the last second, including its longest period") {
     ViewedRun run;
     for (int i = 0; i < 500; ++i) {
         run.step(0.010); // long ago
@@ -81,7 +81,8 @@ TEST_CASE("Rates are those of the last second, its longest period among them") {
     CHECK(run.view.rates().hapticHz == 0.0);
 }
 
-TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins anew after a quarter second") {
+TEST_CASE(
+    "A block lasts while its touches continue, keeps its depth, and starts again after 0.25 s without any") {
     ViewedRun run;
     run.touch(3, 0.002);
     run.touch(3, 0.007);
@@ -104,7 +105,7 @@ TEST_CASE("A block is one as long as it goes on, keeps its depth, and begins ane
     CHECK(run.view.blocks()[0].touch.leaf == 39);
 }
 
-TEST_CASE("The mode says what forces do, in words") {
+TEST_CASE("The mode describes the state of the forces") {
     ViewedRun run;
     const auto mode = [&](StepState state, double guidance = 0.0) {
         run.row.record.state = state;
@@ -125,7 +126,7 @@ TEST_CASE("The mode says what forces do, in words") {
     CHECK(mode(StepState::Trapped, 0.5) == "TRAPPED");
 }
 
-TEST_CASE("An alarm stays until it is over and acknowledged, and is latched anew when it comes again") {
+TEST_CASE("An alarm stays until it is over and acknowledged, and is latched again when it returns") {
     ViewedRun run;
     CHECK(run.step().empty());
     run.row.record.state = StepState::Trapped;
@@ -148,7 +149,7 @@ TEST_CASE("An alarm stays until it is over and acknowledged, and is latched anew
     CHECK(run.step() == Words{"WARNING active trapped"});
 }
 
-TEST_CASE("Alarms come by their level, the highest first, and one that is acknowledged is not the worst") {
+TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is not the worst") {
     ViewedRun run;
     run.console.frozen = true;
     run.row.record.wrench.force = {run.haptics.forceLimit, 0.0, 0.0};
@@ -164,7 +165,7 @@ TEST_CASE("Alarms come by their level, the highest first, and one that is acknow
     CHECK(run.step().end()[-2] == "ADVISORY latched note"); // before what is acknowledged
 }
 
-TEST_CASE("Whoever is to blame for an old scene is named: the camera, or a GPU that is gone") {
+TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
     ViewedRun run;
     run.row.record.sceneAge = 2.0 * run.haptics.staleAfter;
     CHECK(run.step() == Words{"CAUTION active stale"});
@@ -173,17 +174,17 @@ TEST_CASE("Whoever is to blame for an old scene is named: the camera, or a GPU t
     CHECK(run.step({.gpuGone = true}) ==
           Words{"WARNING active gpu", "WARNING latched camera", "CAUTION active stale"});
     run.console.acknowledge = true;
-    CHECK(run.step()[0] == "WARNING active acknowledged gpu"); // its first picture is not there yet
+    CHECK(run.step()[0] == "WARNING active acknowledged gpu"); // before its first frame
     run.row.record.sceneAge = 0.0;
     CHECK(run.step().empty());
 }
 
-TEST_CASE("A trace shows in each column all that its samples reach, and joins the columns") {
+TEST_CASE("Each column of a trace covers the range of its samples and joins its neighbours") {
     std::deque<TraceSample> trace;
     for (int i = 0; i < 10000; ++i) {
         TraceSample sample;
         sample.t = 0.001 * i;
-        sample.force.x = i == 4321 ? 9.0f : i < 5000 ? 1.0f : 2.0f; // one turn's spike, and a step
+        sample.force.x = i == 4321 ? 9.0f : i < 5000 ? 1.0f : 2.0f; // a spike of one tick, and a step
         trace.push_back(sample);
     }
     std::map<int, std::pair<float, float>> columns;
@@ -209,7 +210,7 @@ TEST_CASE("A trace shows in each column all that its samples reach, and joins th
     CHECK(columns.empty());
 }
 
-TEST_CASE("An outline is drawn with few points and stays within a quarter of a pixel of all of them") {
+TEST_CASE("A thinned outline has few points and stays within 0.25 pixels of all of them") {
     for (const double radius : {0.0, 3.0, 30.0, 300.0, 3000.0}) {
         CAPTURE(radius);
         std::vector<ImVec2> all; // a closed circle, its points about a pixel apart

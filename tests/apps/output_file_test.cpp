@@ -9,7 +9,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("a file takes its name only when it is committed and replaces what stood there whole") {
+TEST_CASE("a file appears under its name only when committed, and replaces the old file as a whole") {
     const ScratchFolder folder;
     const auto path = folder.path() / "a.csv";
     put(path, "before");
@@ -23,7 +23,7 @@ TEST_CASE("a file takes its name only when it is committed and replaces what sto
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("a file that is given up leaves the old one as it was and nothing beside it") {
+TEST_CASE("a file without commit leaves the old one unchanged and no temporary file") {
     const ScratchFolder folder;
     const auto path = folder.path() / "a.csv";
     put(path, "before");
@@ -32,7 +32,7 @@ TEST_CASE("a file that is given up leaves the old one as it was and nothing besi
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("writes of any size come out in order: none, one byte, beyond the buffer, and a moved file") {
+TEST_CASE("writes of any size keep their order: none, one byte, beyond the buffer, and a moved file") {
     const ScratchFolder folder;
     std::string expected;
     OutputFile first(folder.path() / "a.bin");

@@ -104,7 +104,7 @@ TEST_CASE("the silhouette of random spheres is the set of pixels whose ray hits 
     }
 }
 
-TEST_CASE("the outline of a mask is closed inside the picture, open at its edge, and goes round holes") {
+TEST_CASE("the outline of a mask is closed inside the image, open at its edge, and surrounds holes") {
     const int width = 40, height = 30;
     std::vector<uint8_t> mask(width * height);
     CHECK(traceOutline(mask, width, height, 0).empty());
@@ -153,7 +153,7 @@ TEST_CASE("a point projects to the same pixel as the lens says, through distorti
     CHECK(!view.ofBase(baseTcamera.apply({0, 0, -0.5})).has_value());
 }
 
-TEST_CASE("the overlay is red over a region, has the picture's colour outside, and is at least 960 wide") {
+TEST_CASE("the overlay is red over a region, has the image's colour outside, and is at least 960 wide") {
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);
@@ -164,11 +164,10 @@ TEST_CASE("the overlay is red over a region, has the picture's colour outside, a
     const int u = static_cast<int>((80.3 + 150.0 * -0.2 + 0.5) * 6), v = static_cast<int>((60.7 + 0.5) * 6);
     CHECK(image.red(u + 20, v + 20) > image.red(900, 60) + 30);
     CHECK(image.blue(u + 20, v + 20) < image.blue(900, 60));
-    CHECK(image.blue(900, 60) > image.red(900, 60) + 50); // byte order of the picture: its blue stays blue
+    CHECK(image.blue(900, 60) > image.red(900, 60) + 50); // byte order: blue stays blue
 }
 
-TEST_CASE(
-    "without colour the depth is drawn as grey, without either a plain ground, and a run without a set too") {
+TEST_CASE("without colour the depth is drawn as grey, without both a plain background, also without a set") {
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);

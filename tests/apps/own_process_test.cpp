@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program's own processes: what they are given, and that they are given nothing else.
+// Child processes inherit the given files and no others.
 #include "apps/binding/own_process.h"
 
 #include <array>
@@ -58,7 +58,7 @@ TEST_CASE("In a child: its descriptors" * doctest::skip()) {
     std::fflush(stdout);
 }
 
-TEST_CASE("A process of the program's own has the files it is given, in their places, and no other") {
+TEST_CASE("A child process has the given files at the given descriptors and no others") {
     const int zero = ::open("/dev/zero", O_RDONLY);
     const int kept = ::fcntl(zero, F_DUPFD, 20); // no FD_CLOEXEC: only the closing of all keeps it out
     ::close(zero);
@@ -76,7 +76,7 @@ TEST_CASE("A process of the program's own has the files it is given, in their pl
     CHECK(has(said, "session 1"));
 }
 
-TEST_CASE("Where standard error was closed, what has its number now does not get to the child") {
+TEST_CASE("With standard error closed, the file that reuses its number does not reach the child") {
     const int saved = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, 10);
     REQUIRE(saved >= 0);
     ::close(STDERR_FILENO);
@@ -93,7 +93,7 @@ TEST_CASE("Where standard error was closed, what has its number now does not get
     }
 }
 
-TEST_CASE("A file that is not open, or more files than there are places for, start no process") {
+TEST_CASE("A closed file, or too many files, start no process") {
     pid_t process = -1;
     const char* words[] = {"tests", kChild, nullptr};
     const std::vector<int> many(9, kNullDevice);

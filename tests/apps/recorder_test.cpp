@@ -31,7 +31,7 @@ CameraInfo someCamera() {
     return camera;
 }
 
-// Pictures a 30th of a second apart, each with turns of one touch after it.
+// Frames at 30 Hz, each followed by ticks with one touch.
 class Session {
 public:
     explicit Session(Recorder& recorder, int ticks = 33)
@@ -108,7 +108,7 @@ private:
 
 } // namespace
 
-TEST_CASE("A recording that is stopped is whole: every picture, every turn until the last one's end") {
+TEST_CASE("A stopped recording is complete: every frame, and every tick until the end of the last frame") {
     const ScratchFolder scratch;
     const auto folder = scratch.path() / "rec";
     Recorder recorder;
@@ -136,7 +136,7 @@ TEST_CASE("A disk that is full ends a recording by name, and what had room can b
     const ScratchFolder scratch;
     struct Case {
         rlim_t bytes;
-        int ticks; // a picture
+        int ticks; // per frame
         const char* file;
     };
     for (const auto& [bytes, ticks, file] : {Case{30000, 33, "wrench.csv"}, Case{3000, 0, "000000.png"}}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Registration: known poses come back from points and from tags in drawn pictures.
+// Registration: recovers known poses from points and from tags in rendered images.
 #include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
 #include "apps/register/tag_finder.h"

@@ -25,7 +25,7 @@ fixtures:
 tool: {spheres: [[0, 0, 0, 0.01]]}
 )";
 
-// An editor, a recorder and pictures, as a session has them.
+// An editor, a recorder and frames, as in a session.
 struct Pilot {
     Pilot()
         : scene(loaded()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The turns of a recording, written and read.
+// The ticks of a recording, written and read.
 #include "apps/operate/tick_log.h"
 
 #include "engine/types/error.h"
@@ -45,7 +45,7 @@ void write(const std::filesystem::path& folder, const std::vector<uint32_t>& tou
     wrench << std::setprecision(17) << wrenchHead() << "\n";
     touched << std::setprecision(17) << touchesHead() << "\n";
     for (size_t i = 0; i < touches.size(); ++i) {
-        writeTurn(wrench, touched, 0.1 * static_cast<double>(i), static_cast<int64_t>(i) - 1,
+        writeTick(wrench, touched, 0.1 * static_cast<double>(i), static_cast<int64_t>(i) - 1,
                   step(0.3 + static_cast<double>(i), touches[i]));
     }
 }
@@ -95,7 +95,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A folder without turns is empty, and one of before there were poses is read without them") {
+TEST_CASE("A folder without ticks is empty, and an old recording is read without poses") {
     const ScratchFolder folder;
     CHECK(readTickLog(folder.path()).moments.empty());
     put(folder.path() / kWrenchFile, "t_s,fx,fy,fz,tx,ty,tz,contacts,state\n0.5,1,2,3,0,0,0,2,2\n");

@@ -97,7 +97,7 @@ TEST_CASE("values that are not finite leave a gap and never a number") {
     CHECK(history.forcePeak().value == 1.0);
 }
 
-TEST_CASE("phases follow the states, take flicker for what is round it, and put guidance before contact") {
+TEST_CASE("phases follow the states, merge flicker into its neighbours, and prefer guidance to contact") {
     TraceHistory history;
     for (int i = 0; i < 4000; ++i) {
         const bool touching = (i >= 1000 && i < 2000 && i % 200 >= 20) || i >= 3500;
@@ -181,7 +181,7 @@ TEST_CASE("the force trace lies where its axis says, over 1 tick, 1 s and 1 h") 
     }
 }
 
-TEST_CASE("an empty run, a run of zeros and a run of NaN draw a picture and say that there was nothing") {
+TEST_CASE("an empty run, a run of zeros and a run of NaN give an image without a trace") {
     const ScratchFolder folder;
     TraceHistory zeros, nothing;
     for (int i = 0; i < 500; ++i) {

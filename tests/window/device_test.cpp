@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device in the pilot's hand, instead of mouse and keyboard.
+// The window driven by a haptic device instead of mouse and keyboard.
 #include "tests/rig/played_device.h"
 #include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
@@ -39,7 +39,7 @@ bool pressUntilFelt(const WindowRig& rig, PlayedDevice& device) {
 
 } // namespace
 
-TEST_CASE("A haptic device at its door drives the tool in the window and feels the region; the space bar "
+TEST_CASE("A haptic device at its endpoint drives the tool in the window and feels the region; the space bar "
           "lets it go") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
@@ -78,8 +78,7 @@ TEST_CASE("A haptic device at its door drives the tool in the window and feels t
     CHECK(rig.output().find("validation") == std::string::npos);
 }
 
-TEST_CASE(
-    "A haptic device that goes away takes its force with it, is told of, and goes on where the tool is") {
+TEST_CASE("A haptic device that disconnects loses its force, is reported, and resumes where the tool is") {
     WindowRig rig;
     const auto endpoint = rig.folder() / "hand.door";
     std::optional<PlayedDevice> device;
@@ -104,7 +103,7 @@ TEST_CASE(
     CHECK(rig.close() == 0);
 }
 
-TEST_CASE("A haptic device that is not there, or stands beside a recording, is refused in one line") {
+TEST_CASE("A missing haptic device, or one given with a recording, is rejected in one line") {
     WindowRig rig;
     CHECK(rig.close() == 0);
     const auto scene = rig.folder() / "scene.yaml";

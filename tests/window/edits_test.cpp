@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// A recording in which fixtures are edited, played again and looked back at.
+// A recording with edited fixtures: replayed and shown on the time line.
 #include "tests/rig/run_fathom.h"
 #include "tests/window/felt.h"
 #include "tests/window/window_rig.h"
 
 #include <doctest/doctest.h>
 #include <fstream>
-#include <sstream>
 
 using namespace fathom;
 using namespace fathom::window;
@@ -14,29 +13,12 @@ using nlohmann::json;
 
 namespace {
 
-// Column of a table, as many rows as it has.
-std::vector<int> columnOf(const std::filesystem::path& file, size_t column) {
-    std::ifstream in(file);
-    std::vector<int> values;
-    std::string line;
-    std::getline(in, line);
-    while (std::getline(in, line)) {
-        std::stringstream row(line);
-        std::string cell;
-        for (size_t i = 0; i <= column; ++i) {
-            std::getline(row, cell, ',');
-        }
-        values.push_back(std::stoi(cell));
-    }
-    return values;
-}
-
-void waitTurns(const WindowRig& rig, int ticks) {
+void waitTicks(const WindowRig& rig, int ticks) {
     const auto now = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + ticks; }));
 }
 
-// Against the bump; the red class goes and a sphere comes; both are undone; all is held still for a while.
+// Pushes against the bump, removes the red class, adds a sphere, undoes both, freezes everything for a while.
 void fly(const WindowRig& rig) {
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
@@ -44,45 +26,41 @@ void fly(const WindowRig& rig) {
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
     rig.push();
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
-    waitTurns(rig, 500);
+    waitTicks(rig, 500);
     rig.click("remove red");
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] == 0 && s["run"]["contacts"] == 0; }));
     rig.click("place sphere");
     rig.click("camera", 0.8, 0.2);
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
-    waitTurns(rig, 1000);
+    waitTicks(rig, 1000);
     rig.key("ctrl+z");
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 0; }));
     rig.key("ctrl+z");
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 200; }));
     rig.key("f");
-    waitTurns(rig, 500);
+    waitTicks(rig, 500);
     rig.key("f");
-    waitTurns(rig, 500);
+    waitTicks(rig, 500);
     rig.key("r");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("pictures recorded"));
 }
 
 } // namespace
 
-TEST_CASE(
-    "What the pilot edits while a recording is made is obeyed by its replay and shown on its time line, "
-    "from the same picture on") {
+TEST_CASE("Edits during a recording take effect in its replay and on its time line from the same frame on") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     fly(rig);
     const auto folder = rig.folder() / "recording-1", out = rig.folder() / "out";
-    const std::vector<int> images = columnOf(folder / "edits.csv", 0),
-                           still = columnOf(folder / "edits.csv", 3);
-    REQUIRE(images.size() == 7); // start, removed, placed, twice undone, held, let go
+    const std::vector<double> images = columnIn(folder / "edits.csv", 0),
+                              still = columnIn(folder / "edits.csv", 3);
+    REQUIRE(images.size() == 7); // start, removed, placed, undone twice, frozen, released
     CHECK(images[0] == 0);
-    CHECK(still == std::vector<int>{0, 0, 0, 0, 0, 1, 0});
+    CHECK(still == std::vector<double>{0, 0, 0, 0, 0, 1, 0});
     const ProgramRun run =
         runFathom({"replay", folder.string(), "--device", "llvmpipe", "--out", out.string()});
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
-    const std::vector<int> spheres = columnOf(out / "frames.csv", 4);
+    const std::vector<double> spheres = columnIn(out / "frames.csv", 4);
     REQUIRE(static_cast<int>(spheres.size()) > images[6]);
     for (int i = 0; i < static_cast<int>(spheres.size()); ++i) {
         CAPTURE(i);
@@ -93,7 +71,7 @@ TEST_CASE(
     const auto felt = feltIn(folder / "wrench.csv", 1, 7), again = feltIn(out / "haptics.csv", 15, 21);
     REQUIRE(firstContact(felt) > 0.0);
     CHECK(std::abs(firstContact(felt) - firstContact(again)) < 0.25);
-    constexpr double kAfter = 0.2; // [s] until every turn obeys the newer set
+    constexpr double kAfter = 0.2; // [s] until every tick uses the newer set
     const double from = images[1] / 30.0 + kAfter, to = images[3] / 30.0 - kAfter;
     REQUIRE(to > from);
     for (const auto* rows : {&felt, &again}) {
@@ -118,7 +96,7 @@ TEST_CASE(
     CHECK_MESSAGE(code == 0, rig.output());
 }
 
-TEST_CASE("A shape that a scene file brings is removed while its classes of points go on") {
+TEST_CASE("A shape of a scene file is removed while its classes of points stay active") {
     WindowRig rig;
     const auto scene = rig.folder() / "shaped.yaml";
     std::string text = rig.sceneText();

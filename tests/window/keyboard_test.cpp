@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything without a mouse: panels, colours and places by keys alone; and the space bar, which has the last
-// word.
+// The window without a mouse: panels, colours and places by keys alone, and the priority of the space bar.
 #include "tests/window/window_rig.h"
 
 #include <cmath>
@@ -21,7 +20,7 @@ json later(const WindowRig& rig, int by = 4) {
 
 } // namespace
 
-TEST_CASE("Forces that are armed and let go within one frame are off, whichever key came last") {
+TEST_CASE("Forces armed and turned off within one frame are off, whatever the order of the keys") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     for (int i = 0; i < 6; ++i) {
@@ -35,7 +34,7 @@ TEST_CASE("Forces that are armed and let go within one frame are off, whichever 
     closeQuietly(rig);
 }
 
-TEST_CASE("A key that is struck faster than frames are drawn counts each time") {
+TEST_CASE("Key presses faster than the frame rate all count") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["console"]["tree_level"] == -1; }));
     rig.xdo("key --delay 50 t t t"); // faster still would be one that is held
@@ -46,7 +45,7 @@ TEST_CASE("A key that is struck faster than frames are drawn counts each time") 
     closeQuietly(rig);
 }
 
-TEST_CASE("Keys that are struck with Ctrl and without it within one frame all count") {
+TEST_CASE("Key presses with and without Ctrl within one frame all count") {
     WindowRig rig;
     const json before = rig.state();
     const double scale = before["console"]["text_scale"];
@@ -59,7 +58,7 @@ TEST_CASE("Keys that are struck with Ctrl and without it within one frame all co
     closeQuietly(rig);
 }
 
-TEST_CASE("F6 takes arrows and Enter to the panels and back; the space bar presses nothing there") {
+TEST_CASE("F6 gives arrows and Enter to the panels and back; the space bar presses nothing there") {
     WindowRig rig;
     const json before = rig.atRest();
     REQUIRE(!before.is_null());
@@ -96,7 +95,7 @@ TEST_CASE("F6 takes arrows and Enter to the panels and back; the space bar press
     closeQuietly(rig);
 }
 
-TEST_CASE("A colour is picked by a cursor that arrows move and Enter takes") {
+TEST_CASE("The arrow keys move a cursor and Enter picks the colour under it") {
     WindowRig rig;
     const json before = rig.atRest();
     REQUIRE(!before.is_null());

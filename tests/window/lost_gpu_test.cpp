@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GPU that is lost under the open window (a layer below the program says so), by the passes or by the
-// painter: hand and keys go on, and everything is as it was when there is one again.
+// Loss of the GPU, reported by a Vulkan layer to passes or painter: hand and keys keep working, and the state
+// is restored when the GPU is back.
 #include "tests/rig/losing.h"
 #include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
@@ -39,7 +39,7 @@ struct LosingRig {
         return window.await(
             [&](const json& s) { return s["gpu"]["there"] == true && s["gpu"]["made_anew"] == madeAnew; });
     }
-    // All that the program has told since a turn.
+    // The states since a tick.
     std::vector<json> since(const json& tick) const {
         std::vector<json> states;
         std::ifstream in(window.folder() / "state.jsonl");
@@ -129,7 +129,7 @@ TEST_CASE(
         REQUIRE(rig.await([&](const json& s) {
             return s["run"]["pictures"] > before["run"]["pictures"].get<int>() + 10 &&
                    s["window"]["frames"] > before["window"]["frames"].get<int>() + 10 &&
-                   force(s) > 1.0; // softer springs where turns come late
+                   force(s) > 1.0; // late ticks soften the springs
         }));
         const json after = rig.state();
         CHECK(after["window"]["swapchains"] > before["window"]["swapchains"]);
@@ -199,9 +199,7 @@ TEST_CASE(
     const std::string said{std::istreambuf_iterator<char>(names), {}};
     CHECK(said.find("GPU is gone") != std::string::npos);
     rig.key("F12");
-    CHECK(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("no screenshot") != std::string::npos;
-    }));
+    CHECK(rig.awaitNotice("no screenshot"));
     rig.key("space");
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
     const auto ticks = rig.state()["run"]["turns"].get<int>();
@@ -260,7 +258,7 @@ TEST_CASE("A recording that is looked at is there again after the loss of a GPU,
         CHECK(rig.shoot("gpu-past-" + call).share(rig.place("camera"), isRed) ==
               doctest::Approx(red).epsilon(0.1));
     }
-    rig.key("Right"); // the next picture goes through the passes of the new device
+    rig.key("Right"); // the next frame is processed on the new device
     CHECK(rig.await([&](const json& s) {
         return s["console"]["time_line"]["picture"] > before["console"]["time_line"]["picture"];
     }));

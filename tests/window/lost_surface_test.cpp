@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's images and its surface, taken away by a layer below the program: the device stays, and nothing
-// else notices.
+// Loss of swapchain and surface, reported by a Vulkan layer: the device stays, and nothing else is affected.
 #include "tests/rig/losing.h"
 #include "tests/window/window_rig.h"
 

@@ -44,8 +44,7 @@ void pushIntoBump(WindowRig& rig) {
 
 } // namespace
 
-TEST_CASE(
-    "The window shows the camera's picture, its forbidden region red and what it has not seen hatched") {
+TEST_CASE("The window shows the camera image, the forbidden region in red and unobserved areas hatched") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0 && s["run"]["turns"] > 200; }));
     const Screenshot shot = rig.shoot("camera");
@@ -107,7 +106,7 @@ TEST_CASE("Keys and wheel drive the tool to the region's surface, where it stops
     silent(rig);
 }
 
-TEST_CASE("Forces that are armed in contact come up turn by turn, and slowly") {
+TEST_CASE("Forces armed in contact ramp up slowly, tick by tick") {
     constexpr double kFull = 0.9;
     WindowRig rig;
     pushIntoBump(rig);
@@ -124,9 +123,7 @@ TEST_CASE("Forces that are armed in contact come up turn by turn, and slowly") {
     const auto armed = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > armed + 3000; }));
     rig.key("r");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("pictures recorded"));
     const auto felt = feltIn(rig.folder() / "recording-1" / "wrench.csv", 1, 7);
     const double most = std::max_element(felt.begin(), felt.end(), [](const Felt& a, const Felt& b) {
                             return a.force < b.force;
@@ -150,7 +147,7 @@ TEST_CASE("Guidance comes with G, is drawn blue, and pulls") {
     rig.key("g");
     REQUIRE(
         rig.await([](const json& s) { return s["run"]["guidance_w"] > 0.95 && s["run"]["force_N"] > 0.05; }));
-    // A machine that is busy with other things may hold pictures back for a moment: forces fade, then come
+    // A machine that is busy with other things may delay frames for a moment: forces fade, then come
     // again.
     bool blue = false;
     for (int tries = 0; tries < 10 && !blue; ++tries) {
@@ -163,7 +160,7 @@ TEST_CASE("Guidance comes with G, is drawn blue, and pulls") {
     silent(rig);
 }
 
-TEST_CASE("A colour is picked by a click, previewed, added, obeyed, undone, done again and saved") {
+TEST_CASE("A colour is picked by a click, previewed, added, used, undone, redone and saved") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0; }));
     const auto before = rig.state()["run"]["spheres"].get<size_t>();
@@ -188,15 +185,13 @@ TEST_CASE("A colour is picked by a click, previewed, added, obeyed, undone, done
     REQUIRE(
         rig.await([&](const json& s) { return s["fixtures"].size() == 3 && s["run"]["spheres"] > before; }));
     rig.key("ctrl+s");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("3 fixtures saved") == 0;
-    }));
+    REQUIRE(rig.awaitNotice("3 fixtures saved"));
     CHECK(rig.sceneText().find("# a comment that saving must keep") != std::string::npos);
     CHECK(rig.sceneText().find("picked 1") != std::string::npos);
     silent(rig);
 }
 
-TEST_CASE("Frozen fixtures keep their set while pictures go on") {
+TEST_CASE("Frozen fixtures keep their set while frames arrive") {
     WindowRig rig;
     rig.key("f");
     REQUIRE(rig.await([](const json& s) { return s["console"]["frozen"] == true; }));
@@ -211,11 +206,11 @@ TEST_CASE("Frozen fixtures keep their set while pictures go on") {
     silent(rig);
 }
 
-TEST_CASE("Tab swaps the views, P holds the traces, E writes them, Q acknowledges") {
+TEST_CASE("Tab swaps the views, P pauses the traces, E writes them, Q acknowledges") {
     WindowRig rig;
     rig.key("Tab");
     REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
-    CHECK(rig.await([](const json& s) { // the next picture is laid out so
+    CHECK(rig.await([](const json& s) { // the layout of the next frame
         return s["console"]["places"]["space"][2] > s["console"]["places"]["camera"][2];
     }));
     rig.key("t");
@@ -224,8 +219,7 @@ TEST_CASE("Tab swaps the views, P holds the traces, E writes them, Q acknowledge
     rig.key("p");
     REQUIRE(rig.await([](const json& s) { return s["console"]["paused"] == true; }));
     rig.key("e");
-    REQUIRE(rig.await(
-        [](const json& s) { return s["console"]["notice"].get<std::string>().find("traces written") == 0; }));
+    REQUIRE(rig.awaitNotice("traces written"));
     std::ifstream csv(rig.folder() / "traces.csv");
     std::string head;
     std::getline(csv, head);
@@ -257,14 +251,14 @@ TEST_CASE("The window can be made smaller, larger and unmapped while it runs") {
     silent(rig);
 }
 
-TEST_CASE("A recording made with R is one that replay plays, with the force that the hand felt") {
+TEST_CASE("Replay plays a recording made with R with the force that the hand felt") {
     WindowRig rig;
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
     pushIntoBump(rig);
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
     const auto begun = rig.state()["run"]["turns"].get<int>();
-    bool even = true;              // every turn came when it was planned
+    bool even = true;              // every tick was on time
     for (int i = 0; i < 15; ++i) { // 3 s: the soft start ends
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         const json run = rig.state()["run"];
@@ -272,9 +266,7 @@ TEST_CASE("A recording made with R is one that replay plays, with the force that
     }
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > begun + 1500; }));
     rig.key("r");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("pictures recorded"));
     const std::filesystem::path folder = rig.folder() / "recording-1";
     const auto out = rig.folder() / "out";
     const ProgramRun run =
@@ -285,9 +277,9 @@ TEST_CASE("A recording made with R is one that replay plays, with the force that
     REQUIRE(firstContact(felt) > 0.0);
     CHECK(std::abs(firstContact(felt) - firstContact(again)) < 0.25);
     const double last = felt.back().force, replayed = again[again.size() - 200].force;
-    MESSAGE("felt " << last << " N, replayed " << replayed << " N, turns even: " << even);
+    MESSAGE("felt " << last << " N, replayed " << replayed << " N, ticks on time: " << even);
     CHECK(last > 1.0);
-    // Late turns make the springs softer for two seconds (StiffnessWatch); a replay is never late.
+    // Late ticks make the springs softer for two seconds (StiffnessWatch); a replay is never late.
     CHECK(replayed > 0.95 * last);
     if (even) {
         CHECK(std::abs(firstRise(felt) - firstRise(again)) < 0.4);

@@ -28,13 +28,11 @@ std::filesystem::path recordAPush(WindowRig& rig) {
     const auto pushed = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > pushed + 1500; }));
     rig.key("r");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("pictures recorded") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("pictures recorded"));
     return rig.folder() / "recording-1";
 }
 
-// The yellow square is red from this picture on.
+// The yellow square is red from this frame on.
 void paintRedFrom(const std::filesystem::path& folder, uint32_t first) {
     const Image image = bumpImage().paint({4, 16, 14, 30}, kRed);
     std::vector<uint8_t> bytes;
@@ -67,7 +65,7 @@ void dragTo(WindowRig& rig, double share) {
 // late.
 double freshMoment(const std::vector<Felt>& felt, const std::vector<double>& sceneAges) {
     constexpr double kAbout = 0.06; // [s] to either side: where the line is dragged to is not exact
-    double stale = felt.back().t;   // the earliest late turn after the moment
+    double stale = felt.back().t;   // the earliest late tick after the moment
     for (size_t i = felt.size(); i-- > 0 && felt[i].force > 1.0;) {
         if (sceneAges[i] > 0.09) {
             stale = felt[i].t;
@@ -84,8 +82,7 @@ double lineTime(const json& s) {
 
 } // namespace
 
-TEST_CASE(
-    "Dragging the time line of a recording shows picture, regions, tool, hand and force of that moment") {
+TEST_CASE("Dragging the time line of a recording shows image, regions, tool, hand and force of that moment") {
     WindowRig rig;
     const std::filesystem::path folder = recordAPush(rig);
     const std::vector<Felt> felt = feltIn(folder / "wrench.csv", 1, 7);
@@ -115,7 +112,7 @@ TEST_CASE(
     const auto at = std::lower_bound(felt.begin(), felt.end(), late["run"]["t"].get<double>() - 1e-7,
                                      [](const Felt& f, double t) { return f.t < t; });
     REQUIRE(at != felt.end());
-    CHECK(lineTime(late) > at->t - 1e-6); // the last turn until then, however late the next one came
+    CHECK(lineTime(late) > at->t - 1e-6); // the last tick before it, however late the next one was
     CHECK((at + 1 == felt.end() || (at + 1)->t > lineTime(late) - 1e-6));
     CHECK(late["run"]["force_N"].get<double>() == doctest::Approx(at->force).epsilon(1e-6));
     CHECK(late["run"]["force_N"] > 1.0);
@@ -128,7 +125,7 @@ TEST_CASE(
     CHECK_MESSAGE(code == 0, rig.output());
 }
 
-TEST_CASE("A recording is stepped by pictures and turns, and plays until it is told to stop") {
+TEST_CASE("Keys step a recording by frames and ticks, and play it until it is stopped") {
     WindowRig rig;
     const std::filesystem::path folder = recordAPush(rig);
     rig.reopen(rig.folder() / "scene.yaml", {"--recording", folder.string()});
@@ -147,7 +144,7 @@ TEST_CASE("A recording is stepped by pictures and turns, and plays until it is t
     const auto next = std::upper_bound(felt.begin(), felt.end(), before + 1e-6,
                                        [](double t, const Felt& f) { return t < f.t; });
     REQUIRE(next != felt.end());
-    rig.key("shift+Right"); // a turn, not a picture
+    rig.key("shift+Right"); // a tick, not a frame
     REQUIRE(rig.await([&](const json& s) { return lineTime(s) > before; }));
     CHECK(lineTime(rig.state()) == doctest::Approx(next->t).epsilon(1e-6));
     rig.key("End");
@@ -166,7 +163,7 @@ TEST_CASE("A recording is stepped by pictures and turns, and plays until it is t
     CHECK(rig.close() == 0);
 }
 
-TEST_CASE("What is no recording is refused in one line with exit code 2") {
+TEST_CASE("An input that is not a recording is rejected in one line with exit code 2") {
     const TemporaryFolder folder;
     folder.write("recording/hand.csv", "t_s,x,y,z,qw,qx,qy,qz,button\n");
     const ProgramRun none =

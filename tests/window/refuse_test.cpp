@@ -19,7 +19,7 @@ ProgramRun withDisplay(const char* display, const std::vector<std::string>& word
 
 } // namespace
 
-TEST_CASE("Without a display the window is refused in one line with exit code 2") {
+TEST_CASE("Without a display, operate reports it in one line and exits with code 2") {
     for (const char* display : {static_cast<const char*>(nullptr), ":987"}) {
         const ProgramRun run =
             withDisplay(display, {"operate", "apps/scenes/demo.yaml", "--device", "llvmpipe"});
@@ -30,7 +30,7 @@ TEST_CASE("Without a display the window is refused in one line with exit code 2"
     }
 }
 
-TEST_CASE("An offscreen size that is none is refused in one line with exit code 2") {
+TEST_CASE("An invalid offscreen size is rejected in one line with exit code 2") {
     for (const char* size : {"wide", "100x100", "1280", "1280x720x3", "9000x9000"}) {
         const ProgramRun run = runFathom({"operate", "apps/scenes/demo.yaml", "--offscreen", size});
         CHECK(run.exitCode == 2);
@@ -39,7 +39,7 @@ TEST_CASE("An offscreen size that is none is refused in one line with exit code 
     }
 }
 
-TEST_CASE("Offscreen the same frames are drawn without a display, and validation is silent") {
+TEST_CASE("Offscreen, the window draws without a display and without validation messages") {
     const ProgramRun run = withDisplay(nullptr, {"operate", "apps/scenes/demo.yaml", "--device", "llvmpipe",
                                                  "--offscreen", "800x500", "--validate", "--seconds", "2"});
     INFO(run.err);

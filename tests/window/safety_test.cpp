@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What keeps the pilot safe and tells why: alarms, forces off, shapes that stop the tool.
+// Safety in the window: alarms, forces off, shapes that stop the tool, and explanations.
 #include "tests/window/window_rig.h"
 
 #include <algorithm>
@@ -32,15 +32,14 @@ void hold(WindowRig& rig, const std::string& key, const std::function<bool(const
     rig.keyUp(key);
 }
 
-// A point of the wall, 600 mm away, under a share of the picture.
+// The point of the wall, 600 mm away, at a relative position in the image.
 glm::dvec3 wallAt(double u, double v) {
     return 0.6 * glm::dvec3((u * kWidth - 0.5 - kCx) / kFocal, (v * kHeight - 0.5 - kCy) / kFocal, 1.0);
 }
 
 } // namespace
 
-TEST_CASE(
-    "An alarm stays after its cause has gone, until it is acknowledged, and comes again with its cause") {
+TEST_CASE("An alarm stays until it is acknowledged, and is raised again with its cause") {
     WindowRig rig;
     rig.key("f");
     REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
@@ -66,7 +65,7 @@ TEST_CASE(
     closeQuietly(rig);
 }
 
-TEST_CASE("The space bar turns forces off while text is typed, when letters are text and no keys") {
+TEST_CASE("The space bar turns forces off during text input, when other keys are text") {
     WindowRig rig;
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
@@ -90,8 +89,7 @@ TEST_CASE("The space bar turns forces off while text is typed, when letters are 
     closeQuietly(rig);
 }
 
-TEST_CASE(
-    "A shape that is placed by a click stops the tool, which keys drive at it, and an undo lets it on") {
+TEST_CASE("A shape placed by a click stops the tool, and undo releases it") {
     constexpr double kU = 0.2, kV = 0.2, kRadius = 0.05, kLeaf = 0.01;
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
@@ -108,7 +106,7 @@ TEST_CASE(
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.5; }));
     const json stopped = rig.state();
     const double apart = glm::distance(vec(stopped["run"]["tool"]), centre);
-    CHECK(apart > kRadius + kLeaf - 0.012); // a pixel of the picture is 10 mm wide
+    CHECK(apart > kRadius + kLeaf - 0.012); // a pixel is 10 mm wide
     CHECK(apart < kRadius + kLeaf + 0.012);
     CHECK(glm::distance(vec(stopped["run"]["device"]), centre) < apart - 0.005); // the hand went on
     CHECK(stopped["why"].get<std::string>().find("'sphere 1', an authored shape") != std::string::npos);
@@ -122,7 +120,7 @@ TEST_CASE(
     closeQuietly(rig);
 }
 
-TEST_CASE("Pointing at the contact tells class, region sphere, depth and frame; elsewhere it tells nothing") {
+TEST_CASE("Pointing at the contact shows class, region sphere, depth and frame; elsewhere nothing") {
     WindowRig rig;
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));

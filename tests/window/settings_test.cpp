@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What belongs to a pilot and to a scene: profiles, settings that are kept, classes held still and boxed.
+// Pilot profiles, saved settings, frozen and boxed classes.
 #include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
 
@@ -38,7 +38,7 @@ double apart(const json& a, const json& b) {
 } // namespace
 
 TEST_CASE(
-    "A pilot is chosen by name or in the window: forces go off, the tool stays, springs and limits are his") {
+    "A pilot chosen by name or in the window turns forces off, keeps the tool, and sets springs and limits") {
     WindowRig rig;
     const auto scene = withPilots(rig);
     rig.reopen(scene, {"--pilot", "ben"});
@@ -74,9 +74,7 @@ TEST_CASE(
     CHECK(rig.state()["run"]["force_N"] <= 2.0 + 1e-6);
     rig.shoot("pilot");
     rig.key("ctrl+s");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("fixtures saved") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("fixtures saved"));
     CHECK(textOf(scene).find("\npilot: \"anna\"\n") != std::string::npos);
     CHECK(rig.close() == 0);
     CHECK(rig.output().find("validation") == std::string::npos);
@@ -87,7 +85,7 @@ TEST_CASE(
     CHECK(none.errorLines()[0].find("--pilot: carla (allowed: anna, ben)") != std::string::npos);
 }
 
-TEST_CASE("Size of letters and view are kept in the scene file, and the command line has the last word") {
+TEST_CASE("Text size and view are saved in the scene file, and the command line overrides them") {
     WindowRig rig;
     rig.key("ctrl+equal");
     rig.key("ctrl+equal");
@@ -96,9 +94,7 @@ TEST_CASE("Size of letters and view are kept in the scene file, and the command 
         return s["console"]["text_scale"] == 1.25 && s["console"]["large"] == "space";
     }));
     rig.key("ctrl+s");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("fixtures saved") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("fixtures saved"));
     rig.shoot("large-letters");
     rig.reopen(rig.folder() / "scene.yaml");
     CHECK(rig.state()["console"]["text_scale"] == 1.25);
@@ -109,9 +105,8 @@ TEST_CASE("Size of letters and view are kept in the scene file, and the command 
     closeQuietly(rig);
 }
 
-TEST_CASE(
-    "One class is held still, let go by undo and held again by redo, while pictures go on, also where a "
-    "scene asks the GPU for contacts") {
+TEST_CASE("A class is frozen, released by undo and frozen by redo while frames arrive, also with contacts on "
+          "the GPU") {
     WindowRig rig;
     std::ofstream(rig.folder() / "gpu.yaml") << rig.sceneText() << "contact: { where: gpu }\n";
     rig.reopen(rig.folder() / "gpu.yaml");
@@ -144,7 +139,7 @@ TEST_CASE(
     CHECK(rig.close() == 0);
 }
 
-TEST_CASE("A box about a class is dragged smaller, obeyed, undone and saved") {
+TEST_CASE("The box of a class is dragged smaller, takes effect, is undone and saved") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 0 && s["run"]["turns"] > 100; }));
     const int all = rig.state()["run"]["spheres"];
@@ -161,9 +156,7 @@ TEST_CASE("A box about a class is dragged smaller, obeyed, undone and saved") {
     }));
     rig.shoot("box");
     rig.key("ctrl+s");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("fixtures saved") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("fixtures saved"));
     CHECK(rig.sceneText().find("box: {min: [") != std::string::npos);
     rig.key("ctrl+z");
     REQUIRE(rig.await([&](const json& s) { return s["fixtures"][0]["box"] == box; }));

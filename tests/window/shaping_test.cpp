@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixtures that are shaped by hand while the run goes on: gates of a class in force, rulers, boxes.
+// Editing fixtures during a run: gates of an active class, lines, boxes.
 #include "tests/window/window_rig.h"
 
 #include <cmath>
@@ -13,7 +13,7 @@ using nlohmann::json;
 
 namespace {
 
-// The wall, 600 mm away, in the middle of this pixel of the picture.
+// The wall, 600 mm away, at the centre of this pixel.
 glm::dvec3 wallAtPixel(double u, double v) {
     return 0.6 * glm::dvec3((u - kCx) / kFocal, (v - kCy) / kFocal, 1.0);
 }
@@ -24,7 +24,7 @@ void clickPixel(const WindowRig& rig, double u, double v) {
 
 } // namespace
 
-TEST_CASE("The colour of a class in force is changed: previewed first, then obeyed, undone and done again") {
+TEST_CASE("The colour of an active class is changed: previewed, applied, undone and redone") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["spheres"] > 200; }));
     const auto spheres = rig.state()["run"]["spheres"].get<size_t>();
@@ -48,7 +48,7 @@ TEST_CASE("The colour of a class in force is changed: previewed first, then obey
     closeQuietly(rig);
 }
 
-TEST_CASE("A ruler goes from a first click to a second, a box stands on the surface and has three edges") {
+TEST_CASE("A line runs from a first click to a second; a box is placed on the surface and has three edges") {
     WindowRig rig;
     rig.xdo("windowsize --sync $W 1600 900"); // the panel has room for all rows
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100 && s["window"]["width"] == 1600; }));
@@ -56,17 +56,15 @@ TEST_CASE("A ruler goes from a first click to a second, a box stands on the surf
     REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 4; })); // laid out so
     rig.click("place line");
     clickPixel(rig, 8, 40);
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("where it leads") != std::string::npos;
-    }));
+    REQUIRE(rig.awaitNotice("click on its end"));
     CHECK(rig.state()["shapes"] == 0);
     clickPixel(rig, 28, 44);
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 1; }));
     const json line = rig.state()["fixtures"][2];
     CHECK(line["role"] == "guidance");
-    const glm::dvec3 way = glm::normalize(wallAtPixel(28, 44) - wallAtPixel(8, 40));
+    const glm::dvec3 direction = glm::normalize(wallAtPixel(28, 44) - wallAtPixel(8, 40));
     CHECK(glm::distance(vec(line["shape"]["at"]), wallAtPixel(8, 40)) < 0.011); // a pixel is 10 mm wide
-    CHECK(glm::dot(vec(line["shape"]["axis"]), way) > 0.99);
+    CHECK(glm::dot(vec(line["shape"]["axis"]), direction) > 0.99);
     rig.click("place box");
     clickPixel(rig, 54, 8);
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 2; }));
@@ -78,9 +76,7 @@ TEST_CASE("A ruler goes from a first click to a second, a box stands on the surf
     REQUIRE(rig.await([](const json& s) { return s["fixtures"][3]["shape"]["size"][2] > 0.12; }));
     CHECK(rig.state()["fixtures"][3]["shape"]["size"][0] == 0.1);
     rig.key("ctrl+s");
-    REQUIRE(rig.await([](const json& s) {
-        return s["console"]["notice"].get<std::string>().find("4 fixtures saved") == 0;
-    }));
+    REQUIRE(rig.awaitNotice("4 fixtures saved"));
     rig.reopen(rig.folder() / "scene.yaml");
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 2; }));
     CHECK(glm::distance(vec(rig.state()["fixtures"][2]["shape"]["axis"]), vec(line["shape"]["axis"])) < 1e-6);

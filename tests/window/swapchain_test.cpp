@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Window images that are lost, and what the window costs the haptic turn.
+// Lost swapchains, and the cost of the window for the haptic tick.
 #include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
 
@@ -28,8 +28,7 @@ bool isGrey(int r, int g, int b) { // the wall
 
 } // namespace
 
-TEST_CASE(
-    "Images of the window that are lost are made anew, again and again, while hand and pictures go on") {
+TEST_CASE("A lost swapchain is recreated, again and again, while hand and frames continue") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     for (int i = 0; i < 5; ++i) {
@@ -46,12 +45,12 @@ TEST_CASE(
     CHECK(rig.output().find("validation") == std::string::npos);
 }
 
-TEST_CASE("A minimised window draws nothing while the hand goes on, and is whole again afterwards") {
+TEST_CASE("A minimised window draws nothing while the hand continues, and is restored afterwards") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     rig.minimise(true);
     json still;
-    REQUIRE(rig.await([&](const json& s) { // no frame for 500 turns
+    REQUIRE(rig.await([&](const json& s) { // no frame for 500 ticks
         if (still.is_null() || s["window"]["frames"] != still["window"]["frames"]) {
             still = s;
         }

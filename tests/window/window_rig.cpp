@@ -67,7 +67,7 @@ int ended(pid_t child, double seconds) {
 
 void requireDisplay() {
     if (!installed("Xvfb") || !installed("xdotool")) {
-        std::puts("SKIPPED ALOUD: Xvfb and xdotool are not both installed, no window was tested");
+        std::puts("SKIPPED: Xvfb or xdotool is not installed, no window was tested");
         std::fflush(stdout);
         std::_Exit(77);
     }
@@ -180,9 +180,15 @@ bool WindowRig::await(const std::function<bool(const nlohmann::json&)>& wanted, 
     return false;
 }
 
+bool WindowRig::awaitNotice(const std::string& text) const {
+    return await([&](const nlohmann::json& s) {
+        return s["console"]["notice"].get<std::string>().find(text) != std::string::npos;
+    });
+}
+
 nlohmann::json WindowRig::atRest() const {
     constexpr double kStill = 5e-5; // [m]
-    constexpr int kTurns = 200;
+    constexpr int kTicks = 200;
     nlohmann::json since;
     const auto moved = [&](const nlohmann::json& now, const char* what) {
         double most = 0.0;
@@ -196,7 +202,7 @@ nlohmann::json WindowRig::atRest() const {
         if (since.is_null() || moved(now, "device") || moved(now, "tool")) {
             since = now;
         }
-        return now["run"]["turns"].get<int>() > since["run"]["turns"].get<int>() + kTurns;
+        return now["run"]["turns"].get<int>() > since["run"]["turns"].get<int>() + kTicks;
     });
     return rests ? state() : nlohmann::json();
 }
@@ -214,8 +220,7 @@ void WindowRig::xdo(const std::string& words) const {
     settle();
 }
 
-// Until what was done is taken and its outcome told: the frame that is on its way may have taken its events
-// already.
+// Waits two frames: the current frame may have read its events already.
 void WindowRig::settle() const {
     constexpr int kFrames = 2;
     const nlohmann::json before = state();
@@ -234,30 +239,28 @@ void WindowRig::keyUp(const std::string& name) const {
     xdo("keyup " + name);
 }
 
-// Down and up at once, so that none ever comes again by itself: a tap between two frames counts.
+// Pressed and released at once, so that the key never repeats: a tap between two frames counts.
 void WindowRig::key(const std::string& name) const {
     xdo("key " + name);
 }
 
-void WindowRig::click(const std::string& name, double u, double v) const {
+void WindowRig::point(const std::string& name, glm::dvec2 share) const {
     const auto at = place(name);
-    xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + u * at[2])) + " " +
-        std::to_string(std::lround(at[1] + v * at[3])));
+    xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + share.x * at[2])) + " " +
+        std::to_string(std::lround(at[1] + share.y * at[3])));
+}
+
+void WindowRig::click(const std::string& name, double u, double v) const {
+    point(name, {u, v});
     xdo("mousedown 1");
     xdo("mouseup 1");
 }
 
 void WindowRig::drag(const std::string& name, glm::dvec2 from, glm::dvec2 to) const {
-    const auto at = place(name);
-    const auto move = [&](double s) {
-        const glm::dvec2 p = from + s * (to - from);
-        xdo("mousemove --window $W " + std::to_string(std::lround(at[0] + p.x * at[2])) + " " +
-            std::to_string(std::lround(at[1] + p.y * at[3])));
-    };
-    move(0.0);
+    point(name, from);
     xdo("mousedown 1");
     for (int i = 1; i <= 8; ++i) {
-        move(i / 8.0);
+        point(name, from + i / 8.0 * (to - from));
     }
     xdo("mouseup 1");
 }
@@ -266,7 +269,7 @@ void WindowRig::wheel(int notches) const {
     xdo("click --delay 30 --repeat " + std::to_string(std::abs(notches)) + (notches > 0 ? " 4" : " 5"));
 }
 
-// Much further, and the tool slides off the bump's side.
+// Any farther, and the tool slides off the bump.
 void WindowRig::push() const {
     xdo("mousemove --window $W 300 300");
     for (int i = 0; i < 32 && state()["run"]["contacts"] == 0; ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built program in a display of its own, driven by keys and mouse from outside, watched through its state
-// file and its screenshots.
+// Runs the built program in its own X display, drives it by keys and mouse, and observes it through its state
+// file and screenshots.
 #pragma once
 
 #include "tests/rig/small_recording.h"
@@ -15,7 +15,7 @@
 
 namespace fathom::window {
 
-// Ends the program with 77 and says so aloud where Xvfb or xdotool is not installed.
+// Exits with 77 and a message where Xvfb or xdotool is not installed.
 void requireDisplay();
 
 struct Screenshot {
@@ -40,12 +40,13 @@ public:
     WindowRig(const WindowRig&) = delete;
     WindowRig& operator=(const WindowRig&) = delete;
 
-    // Newest whole line of the state file; null before the first.
+    // The newest complete line of the state file; null before the first.
     nlohmann::json state() const;
-    // Waits until the state satisfies `wanted`; false (and the last state in the log) when it never does.
+    // Waits until the state satisfies `wanted`; false, with the last state in the log, on a timeout.
     bool await(const std::function<bool(const nlohmann::json&)>& wanted, double seconds = 20.0) const;
-    // Waits until hand and tool have stood still for 200 turns; that state, null when they never do. A key
-    // that was let go drives the hand until a busy program has seen it.
+    bool awaitNotice(const std::string& text) const; // until the notice contains it
+    // Waits until hand and tool have not moved for 200 ticks; returns that state, or null when they keep
+    // moving. A busy program may see a key release late.
     nlohmann::json atRest() const;
     std::array<double, 4> place(const std::string& name) const; // x, y, width, height
 
@@ -58,7 +59,7 @@ public:
     void xdo(const std::string& words) const; // xdotool; $W is the window
     void push() const;            // the wheel, from where the hand begins into the bump by some millimetres
     void minimise(bool on) const; // as a window manager does
-    Screenshot shoot(const std::string& keep) const; // F12; `keep`: name under the kept pictures
+    Screenshot shoot(const std::string& keep) const; // F12; `keep`: file name among the kept images
 
     // Ends the program (exit code checked) and starts it anew on this scene or recording.
     void reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra = {});
@@ -70,6 +71,7 @@ public:
 private:
     void startDisplay();
     void startProgram(const std::filesystem::path& scene, const std::vector<std::string>& extra);
+    void point(const std::string& place, glm::dvec2 share) const; // moves the mouse
     void settle() const;
 
     TemporaryFolder folder_;
@@ -77,7 +79,7 @@ private:
     pid_t server_ = -1, program_ = -1;
 };
 
-// Closes it as a pilot does; the program ends with 0 and no validation message.
+// Closes the window; expects exit code 0 and no validation message.
 void closeQuietly(WindowRig& rig);
 
 // Three numbers of a state line.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An arm in the window that nobody drives but the tool: its jaws by a key, and its own limits in words.
+// A simulated arm in the window: jaws by a key, and its limits as text.
 #include "tests/window/window_rig.h"
 
 #include <algorithm>
@@ -29,9 +29,7 @@ void arms(WindowRig& rig) {
 
 } // namespace
 
-TEST_CASE(
-    "J closes the jaws of an arm and opens them, and a hand that goes where the arm does not reach is told "
-    "which joint holds it, while it does") {
+TEST_CASE("J closes and opens the jaws of an arm, and the window names the joint that limits the hand") {
     WindowRig rig;
     arms(rig);
     CHECK(rig.state()["run"]["grasp"] == 0.0);

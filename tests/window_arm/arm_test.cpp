@@ -86,8 +86,7 @@ bool isMeasured(int r, int g, int b) { // the colour of a ghost
 
 } // namespace
 
-TEST_CASE(
-    "Keys drive an arm up to a region and back; forces off hold it, and it stands when the window closes") {
+TEST_CASE("Keys drive an arm to a region and back; forces off hold it, and closing the window stops it") {
     ArmWindow w;
     REQUIRE(w.await([](const json& run) { return run["arm"] == "held" && run["turns"] > 100; }));
     w.meets();
@@ -151,7 +150,7 @@ TEST_CASE("An arm that falls silent or is unplugged while the pilot drives takes
     }
 }
 
-TEST_CASE("Another pilot takes over a real arm where it stands") {
+TEST_CASE("Another pilot takes over a real arm at its present posture") {
     ArmWindow w("pilots:\n  - {name: anna, stiffness: 300}\n  - {name: ben, stiffness: 150}\n");
     w.arms();
     w.drive("Page_Up", [](double depth) { return depth > kSurface - 0.05; });
