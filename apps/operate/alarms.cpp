@@ -163,11 +163,12 @@ void drawAlarms(Console& console, const Alarms& alarms) {
         ImGui::TextDisabled("No alarm.");
     }
     for (const Alarm* alarm : list) {
-        ImGui::PushStyleColor(ImGuiCol_Text,
-                              alarm->acknowledged ? colour::kQuiet : levelColour(alarm->level));
-        ImGui::TextWrapped("%s %s  %.1f s  %s%s", levelSign(alarm->level), levelName(alarm->level),
-                           alarm->since, alarm->words.c_str(), alarm->active ? "" : " (over)");
-        ImGui::PopStyleColor();
+        char since[32];
+        std::snprintf(since, sizeof since, "  %.1f s  ", alarm->since);
+        colouredText(alarm->acknowledged ? colour::kQuiet : levelColour(alarm->level),
+                     (levelSign(alarm->level) + std::string(" ") + levelName(alarm->level) + since +
+                      alarm->words + (alarm->active ? "" : " (over)"))
+                         .c_str());
     }
 }
 

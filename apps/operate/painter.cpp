@@ -19,24 +19,24 @@ namespace {
 constexpr uint64_t kLongWait = 2'000'000'000; // [ns]
 
 VkRenderPass makePass(VkDevice device) {
-    VkAttachmentDescription colour{};
-    colour.format = kDrawn;
-    colour.samples = VK_SAMPLE_COUNT_1_BIT;
-    colour.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD; // the pictures below
-    colour.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    colour.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-    colour.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    colour.initialLayout = colour.finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    // Loads the attachment, which holds the images below.
+    const VkAttachmentDescription colour{.format = kDrawn,
+                                         .samples = VK_SAMPLE_COUNT_1_BIT,
+                                         .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,
+                                         .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
+                                         .stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE,
+                                         .stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE,
+                                         .initialLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                                         .finalLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference reference{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
-    VkSubpassDescription subpass{};
-    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-    subpass.colorAttachmentCount = 1;
-    subpass.pColorAttachments = &reference;
-    VkRenderPassCreateInfo info{VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO};
-    info.attachmentCount = 1;
-    info.pAttachments = &colour;
-    info.subpassCount = 1;
-    info.pSubpasses = &subpass;
+    const VkSubpassDescription subpass{.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS,
+                                       .colorAttachmentCount = 1,
+                                       .pColorAttachments = &reference};
+    const VkRenderPassCreateInfo info{.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO,
+                                      .attachmentCount = 1,
+                                      .pAttachments = &colour,
+                                      .subpassCount = 1,
+                                      .pSubpasses = &subpass};
     VkRenderPass pass = VK_NULL_HANDLE;
     check(vkCreateRenderPass(device, &info, nullptr, &pass), "vkCreateRenderPass");
     return pass;
@@ -44,11 +44,11 @@ VkRenderPass makePass(VkDevice device) {
 
 VkDescriptorPool makeDescriptors(VkDevice device) {
     const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 4};
-    VkDescriptorPoolCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
-    info.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
-    info.maxSets = 4;
-    info.poolSizeCount = 1;
-    info.pPoolSizes = &size;
+    const VkDescriptorPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
+                                          .flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT,
+                                          .maxSets = 4,
+                                          .poolSizeCount = 1,
+                                          .pPoolSizes = &size};
     VkDescriptorPool pool = VK_NULL_HANDLE;
     check(vkCreateDescriptorPool(device, &info, nullptr, &pool), "vkCreateDescriptorPool");
     return pool;
@@ -60,19 +60,18 @@ Painter::Painter(gpu::Device& device, Swapchain* swapchain)
     : device_(device)
     , swapchain_(swapchain) {}
 
-// By way of the other constructor, after which the destructor takes back what was made before a failure.
+// Delegates, so that the destructor runs when a later step throws.
 Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain)
     : Painter(device, swapchain) {
     instance_ = instance.handle();
     descriptors_ = makeDescriptors(device.handle());
     pass_ = makePass(device.handle());
-    VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
-    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    pool.queueFamilyIndex = device.drawFamily();
+    const VkCommandPoolCreateInfo pool{VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO, nullptr,
+                                       VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT, device.drawFamily()};
     check(vkCreateCommandPool(device.handle(), &pool, nullptr, &pool_), "vkCreateCommandPool");
-    VkCommandBufferAllocateInfo allocate{VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
-    allocate.commandPool = pool_;
-    allocate.commandBufferCount = 1;
+    const VkCommandBufferAllocateInfo allocate{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
+                                               .commandPool = pool_,
+                                               .commandBufferCount = 1};
     check(vkAllocateCommandBuffers(device.handle(), &allocate, &commands_), "vkAllocateCommandBuffers");
     const VkFenceCreateInfo fence{VK_STRUCTURE_TYPE_FENCE_CREATE_INFO, nullptr, VK_FENCE_CREATE_SIGNALED_BIT};
     check(vkCreateFence(device.handle(), &fence, nullptr, &done_), "vkCreateFence");
@@ -82,7 +81,7 @@ Painter::Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* 
 }
 
 Painter::~Painter() {
-    if (flying_) { // a device that is lost answers at once
+    if (flying_) { // returns at once on a lost device
         vkWaitForFences(device_.handle(), 1, &done_, VK_TRUE, kLongWait);
     }
     stopPanels();
@@ -137,7 +136,7 @@ void Painter::stopPanels() {
     }
 }
 
-// The backend keeps every image of letters but the last one, so that it is made anew with them.
+// The backend never frees an old font texture, so the whole backend is restarted.
 void Painter::uploadFonts() {
     finished(kLongWait);
     stopPanels();
@@ -158,14 +157,14 @@ void Painter::resize(VkExtent2D size) {
     target_ = FrameTexture(device_, kDrawn, size,
                            VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-    VkFramebufferCreateInfo info{VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO};
     const VkImageView view = target_.view();
-    info.renderPass = pass_;
-    info.attachmentCount = 1;
-    info.pAttachments = &view;
-    info.width = size.width;
-    info.height = size.height;
-    info.layers = 1;
+    const VkFramebufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO,
+                                       .renderPass = pass_,
+                                       .attachmentCount = 1,
+                                       .pAttachments = &view,
+                                       .width = size.width,
+                                       .height = size.height,
+                                       .layers = 1};
     check(vkCreateFramebuffer(device_.handle(), &info, nullptr, &framebuffer_), "vkCreateFramebuffer");
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Puts a window frame together on the device: pictures from the CPU below, ImGui's triangles above, then to
-// the surface or, without one, nowhere. One frame in flight.
+// Composes a window frame on the device: CPU images below, ImGui above, then copies it to the surface if
+// there is one. One frame in flight.
 #pragma once
 
 #include "apps/operate/frame_texture.h"
@@ -21,35 +21,35 @@ struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0; // [pixels] of the window
 };
 
-// A picture of the CPU and where it goes, stretched. pixels empty: as before.
+// A CPU image, stretched to a rectangle. Empty pixels: unchanged.
 struct Layer {
     std::span<const uint32_t> pixels; // 0xAABBGGRR, width x height
     uint32_t width = 0, height = 0;
-    PixelRect where; // nothing when empty
+    PixelRect where; // not drawn when empty
 };
 
-// Thread: the window's. Needs an ImGui context while it lives. Everything throws DeviceFailed once the device
-// does not work any more; then it is to be destroyed, before the device.
+// Thread: the window's. Needs an ImGui context during its lifetime. Every call throws DeviceFailed when the
+// device is lost; then destroy it, before the device.
 class Painter {
 public:
-    // swapchain null: offscreen. Letters that are in ImGui's atlas are uploaded.
+    // swapchain null: offscreen. Uploads the font atlas of ImGui.
     Painter(const gpu::Instance& instance, gpu::Device& device, Swapchain* swapchain);
     ~Painter();
     Painter(const Painter&) = delete;
     Painter& operator=(const Painter&) = delete;
 
-    void uploadFonts(); // after the atlas has changed; nothing may be in flight
+    void uploadFonts(); // call when the atlas has changed
 
-    // Draws a frame of this size; later layers lie above. False when it was skipped: the frame before is not
-    // done, or the surface has no image yet. `busy` asks whether passes are on a queue that is shared: the
-    // frame then waits for up to kCourtesy and is skipped when they are still there.
+    // Draws a frame of this size; later layers are on top. Returns false when the frame is skipped because
+    // the previous one is not done or the surface has no image yet. `busy` returns whether compute passes run
+    // on a shared queue: the frame waits up to kCourtesy for them and is skipped if they still run.
     bool draw(VkExtent2D size, std::span<const Layer> layers, ImDrawData* data,
               const std::function<bool()>& busy);
-    // The last frame that was drawn. Waits for it.
+    // Waits for the last frame and writes it as a PNG file.
     void screenshot(const std::filesystem::path& file);
 
     uint64_t drawn() const { return drawn_; }
-    uint64_t yielded() const { return yielded_; } // frames left out for the passes
+    uint64_t yielded() const { return yielded_; } // frames skipped for compute passes
     static constexpr double kCourtesy = 0.012;    // [s]
     static constexpr size_t kMostLayers = 2;
 
@@ -58,7 +58,7 @@ private:
         FrameTexture image;
         gpu::Buffer staging;
     };
-    Painter(gpu::Device& device, Swapchain* swapchain); // without anything on the device
+    Painter(gpu::Device& device, Swapchain* swapchain); // creates no device objects
     void resize(VkExtent2D size);
     bool finished(uint64_t patience); // [ns]
     bool yields(const std::function<bool()>& busy);
@@ -84,7 +84,7 @@ private:
     FrameTexture target_;
     std::array<Staged, kMostLayers> staged_;
     std::array<bool, kMostLayers> fresh_{};
-    bool flying_ = false; // a submission whose end has not been seen
+    bool flying_ = false; // a submission may still be running
     uint64_t drawn_ = 0, yielded_ = 0;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a window frame is on the device, command by command; and how it comes back as a file.
+// Records the commands of a window frame, and reads it back for screenshots.
 #include "apps/operate/painter.h"
 #include "apps/replay/image.h"
 #include "engine/gpu/result.h"
@@ -47,7 +47,7 @@ void Painter::recordLayer(size_t i, const Layer& layer) {
     const int right = layer.where.x + layer.where.width, bottom = layer.where.y + layer.where.height;
     if (layer.where.width < 2 || layer.where.height < 2 || layer.where.x < 0 || layer.where.y < 0 ||
         right > static_cast<int>(target_.size().width) || bottom > static_cast<int>(target_.size().height)) {
-        return; // the window became smaller between two looks at its size: one frame without this picture
+        return; // the window has just shrunk: skip this image for one frame
     }
     VkImageBlit blit{};
     blit.srcSubresource = blit.dstSubresource = kWhole;
@@ -56,7 +56,7 @@ void Painter::recordLayer(size_t i, const Layer& layer) {
     blit.dstOffsets[1] = corner(right, bottom, 1);
     vkCmdBlitImage(commands_, staged.image.handle(), kSource, target_.handle(), kDestination, 1, &blit,
                    VK_FILTER_LINEAR);
-    changeLayout(commands_, target_.handle(), kDestination, kDestination); // layers lie above each other
+    changeLayout(commands_, target_.handle(), kDestination, kDestination); // later layers are on top
 }
 
 void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage shown) {
@@ -88,7 +88,7 @@ void Painter::record(std::span<const Layer> layers, ImDrawData* data, VkImage sh
 void Painter::recordToSurface(VkImage shown) {
     changeLayout(commands_, shown, VK_IMAGE_LAYOUT_UNDEFINED, kDestination);
     const VkExtent2D size = target_.size();
-    if (swapchain_->format() == kDrawn) { // a blit draws, and a software device draws slowly
+    if (swapchain_->format() == kDrawn) { // a copy is faster than a blit on a software device
         VkImageCopy copy{};
         copy.srcSubresource = copy.dstSubresource = kWhole;
         copy.extent = {size.width, size.height, 1};

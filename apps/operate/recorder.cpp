@@ -15,7 +15,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kFramePeriod = 1.0 / 30.0; // [s] of a replay
-constexpr size_t kMostNumbers = 60;         // pictures that a turn may have obeyed
+constexpr size_t kMostNumbers = 60;         // frames that a tick may have used
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -23,14 +23,14 @@ void put(std::ostream& out, const dvec3& v) {
 
 } // namespace
 
-// A recording that cannot go on ends; the session does not.
+// A failure ends the recording, not the session.
 template <class Job>
 void Recorder::orFail(const Job& job) {
     try {
         job();
     } catch (const std::exception& e) {
         failure_ = e.what();
-        log::warn("recording has ended: {}", failure_);
+        log::warn("recording stopped: {}", failure_);
         recording_.store(false);
         writer_->close();
     }
@@ -74,8 +74,8 @@ void Recorder::stop() {
         return;
     }
     orFail([this] {
-        if (images_ > 0) { // the turns since the last picture
-            flushTurns(lastCapture_, lastCapture_ + kFramePeriod,
+        if (images_ > 0) { // the ticks since the last frame
+            flushTicks(lastCapture_, lastCapture_ + kFramePeriod,
                        static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
         }
     });
@@ -92,7 +92,7 @@ void Recorder::finish() {
         return;
     }
     try {
-        writer_->finish(); // without the lock: the run's writer thread goes on meanwhile
+        writer_->finish(); // without the lock, so that the writer thread of the run can continue
     } catch (const std::exception& e) {
         const std::lock_guard lock(mutex_);
         failure_ = failure_.empty() ? e.what() : failure_;
@@ -124,7 +124,7 @@ void Recorder::frame(const PublishedFrame& frame, const Fixtures& set) {
 void Recorder::addImage(const PublishedFrame& frame, const Fixtures& set) {
     if (images_ > 0 && frame.t > lastCapture_) {
         const double start = static_cast<double>(images_ - 1) * kFramePeriod;
-        flushTurns(lastCapture_, frame.t, start, kFramePeriod / (frame.t - lastCapture_));
+        flushTicks(lastCapture_, frame.t, start, kFramePeriod / (frame.t - lastCapture_));
     } else {
         ticks_.clear();
     }
@@ -144,10 +144,10 @@ void Recorder::edit(uint64_t number, RecordedScene scene) {
     }
 }
 
-// The first file is that of the start: written once there is a second.
+// The file of the start is written with the first edit.
 void Recorder::addEdit(const PublishedFrame& frame) {
-    const auto inForce = [&] { return !upcoming_.empty() && upcoming_.front().first <= frame.edit; };
-    if (!inForce() && frame.still == still_) {
+    const auto takesEffect = [&] { return !upcoming_.empty() && upcoming_.front().first <= frame.edit; };
+    if (!takesEffect() && frame.still == still_) {
         return;
     }
     if (!edits_.isOpen()) {
@@ -156,7 +156,7 @@ void Recorder::addEdit(const PublishedFrame& frame) {
             putEdit(0, still_);
         }
     }
-    for (; inForce(); upcoming_.pop_front()) {
+    for (; takesEffect(); upcoming_.pop_front()) {
         edited_ = std::move(upcoming_.front().second);
     }
     still_ = frame.still;
@@ -186,21 +186,21 @@ void Recorder::step(const TickRow& row, const PublishedFrame*, bool, std::span<c
     }
 }
 
-void Recorder::flushTurns(double from, double to, double start, double scale) {
+void Recorder::flushTicks(double from, double to, double start, double scale) {
     while (!ticks_.empty() && ticks_.front().record.t < to) {
         if (ticks_.front().record.t >= from) {
-            putTurn(ticks_.front(), start + scale * (ticks_.front().record.t - from));
+            putTick(ticks_.front(), start + scale * (ticks_.front().record.t - from));
         }
         ticks_.pop_front();
     }
     hand_.flush();
-    wrench_.flush(); // before what touched in its turns
+    wrench_.flush(); // before the touches of its ticks
     touches_.flush();
 }
 
-void Recorder::putTurn(const TickRow& row, double t) {
+void Recorder::putTick(const TickRow& row, double t) {
     if (!(t > lastWritten_)) {
-        return; // a path's times ascend
+        return; // times in hand.csv must ascend
     }
     lastWritten_ = t;
     const Pose& hand = row.hand.deviceThandle;
@@ -209,7 +209,7 @@ void Recorder::putTurn(const TickRow& row, double t) {
     put(out, hand.position);
     out << "," << hand.rotation.w << "," << hand.rotation.x << "," << hand.rotation.y << ","
         << hand.rotation.z << "," << row.hand.buttons << "\n";
-    writeTurn(wrench_.lines(), touches_.lines(), t, imageOf(row.record.frame), row.record);
+    writeTick(wrench_.lines(), touches_.lines(), t, imageOf(row.record.frame), row.record);
 }
 
 int64_t Recorder::imageOf(int64_t frame) const {

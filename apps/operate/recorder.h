@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything of a session into a folder that `fathom replay FOLDER/scene.yaml` plays: pictures, hand, wrench
-// and the settings in force.
+// Records a session into a folder that `fathom replay FOLDER/scene.yaml` plays: frames, hand, wrench and the
+// active settings.
 #pragma once
 
 #include "apps/operate/snapshots.h"
@@ -16,37 +16,34 @@
 
 namespace fathom::operate {
 
-// What the fixtures of a recording are, at its start or from an edit on.
+// The fixtures of a recording at its start or after an edit.
 struct RecordedScene {
     std::string text;           // of a scene file
-    std::vector<uint32_t> held; // rows of classes that are held still
+    std::vector<uint32_t> held; // rows of frozen classes
 };
 
-// A TUM RGB-D folder with hand.csv (raw poses and buttons), wrench.csv and touches.csv (what the hand felt,
-// turn_log.h) and scene.yaml; where fixtures were edited meanwhile, also with edits.csv and the scenes that
-// it names (apps/binding/scene_edits.h).
-// Frame j of a replay comes at j / 30 s, so the times of hand and wrench are bent to that, frame by frame.
-// PNG files are written on a thread of the writer's; pictures that it cannot keep up with are counted in
-// lost(). A session that is killed leaves a shorter recording; so does a disk that is full, which ends it.
+// Writes a TUM RGB-D folder with scene.yaml, hand.csv (raw poses and buttons), and wrench.csv and touches.csv
+// (tick_log.h). Edited fixtures add edits.csv and the scenes it names (apps/binding/scene_edits.h).
+// Frame j of a replay comes at j / 30 s, so the times of hand and wrench are scaled to that per frame. A
+// thread of the writer writes the PNG files; lost() counts frames that it had no time for. A killed session
+// leaves a shorter recording; a full disk ends the recording.
 class Recorder final : public RunSink {
 public:
     ~Recorder() override { stop(); }
 
-    // Window thread. scene: the text of its file in force. Waits for what was recorded before. Throws Error
-    // that names what cannot be written.
+    // Window thread. scene: text of the active scene file. Waits for the previous recording. Throws Error
+    // that names the file.
     void start(const std::filesystem::path& folder, const std::string& scene, const CameraInfo& camera,
                const RecordedScene& edited = {});
-    // Window thread: the fixtures from change `number` on (PublishedFrame::edit), those of start() being
-    // `edited`. Nothing when it is not recording.
+    // Window thread: the fixtures from change `number` on (PublishedFrame::edit). Ignored when not recording.
     void edit(uint64_t number, RecordedScene scene);
-    // No more is recorded; returns while pictures that wait are still written. Nothing when it is not
-    // recording.
+    // Ends the recording and returns while queued frames are still written. Ignored when not recording.
     void stop();
     bool recording() const { return recording_.load(); }
-    bool writing() const; // still, after stop()
-    // Window thread: waits until all is on disk. After it the folder is whole.
+    bool writing() const; // queued frames after stop()
+    // Window thread: waits until everything is on disk.
     void finish();
-    // Why the last recording ended by itself; empty = it did not.
+    // Why the last recording failed; empty = it did not.
     std::string failure() const;
     uint64_t lost() const { return lost_.load(); }
     uint64_t images() const { return images_.load(); }
@@ -63,21 +60,22 @@ private:
     void addImage(const PublishedFrame& frame, const Fixtures& set);
     void addEdit(const PublishedFrame& frame);
     void putEdit(uint64_t image, bool still);
-    void flushTurns(double from, double to, double start, double scale);
-    void putTurn(const TickRow& row, double t);
+    void flushTicks(double from, double to, double start, double scale);
+    void putTick(const TickRow& row, double t);
     int64_t imageOf(int64_t frame) const; // of this recording; -1 = from before it
 
     std::atomic<bool> recording_{false};
     std::atomic<uint64_t> lost_{0}, images_{0};
-    mutable std::mutex mutex_; // of everything below; window and writer thread
+    mutable std::mutex mutex_; // guards all below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
-    std::deque<TickRow> ticks_;                        // since the last picture
-    std::deque<std::pair<int64_t, uint64_t>> numbers_; // of late pictures: index in the run, in the recording
+    std::deque<TickRow> ticks_; // since the last frame
+    std::deque<std::pair<int64_t, uint64_t>>
+        numbers_; // of recent frames: index in the run, index in the recording
     double lastCapture_ = -1.0, lastWritten_ = -1.0;
     LineFile hand_, wrench_, touches_, edits_;
     std::filesystem::path folder_;
-    RecordedScene edited_;                                    // in force
+    RecordedScene edited_;                                    // active
     std::deque<std::pair<uint64_t, RecordedScene>> upcoming_; // by number of the change
     uint32_t scenes_ = 0;                                     // files scene-N.yaml
     bool still_ = false;

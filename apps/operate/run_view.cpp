@@ -7,9 +7,9 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kSameBlock = 0.25; // [s] without a touch that end a block
+constexpr double kSameBlock = 0.25; // [s] without a touch end a block
 constexpr size_t kMostBlocks = 12;
-constexpr size_t kMostTurns = 1'000'000; // whose times are kept: a session lasts for hours
+constexpr size_t kMostTicks = 1'000'000; // whose times are kept; bounds the memory of a session of hours
 
 } // namespace
 
@@ -46,12 +46,12 @@ void RunView::take(const TickRow& row) {
     tick_ = row;
     ++ticks_;
     late_ += row.late ? 1 : 0;
-    if (micros_.size() < kMostTurns) {
+    if (micros_.size() < kMostTicks) {
         micros_.resize(micros_.size() + 1);
         wokenLate_.resize(micros_.size());
     }
-    micros_[(ticks_ - 1) % kMostTurns] = static_cast<float>(row.micros);
-    wokenLate_[(ticks_ - 1) % kMostTurns] = static_cast<float>(row.wokenLate * 1e6);
+    micros_[(ticks_ - 1) % kMostTicks] = static_cast<float>(row.micros);
+    wokenLate_[(ticks_ - 1) % kMostTicks] = static_cast<float>(row.wokenLate * 1e6);
     const StepRecord& r = row.record;
     if (row.driven && row.told.known) {
         measured_ = Measured{r.t - row.told.age, row.told.posture};

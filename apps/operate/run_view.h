@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's end of the run: the newest picture and turn, ten seconds of trace, rates.
+// The window's view of the run: newest frame and tick, ten seconds of trace, rates.
 #pragma once
 
 #include "apps/operate/snapshots.h"
@@ -11,12 +11,12 @@
 
 namespace fathom::operate {
 
-// One turn in the traces.
+// One tick in the traces.
 struct TraceSample {
     double t = 0.0;         // [s]
     glm::vec3 force{0.0f};  // [N] base axes
     glm::vec3 torque{0.0f}; // [N m]
-    int64_t frame = -1;     // obeyed
+    int64_t frame = -1;     // whose set was used
     StepState state = StepState::Off;
     bool guided = false, late = false;
 };
@@ -25,17 +25,17 @@ struct Rates { // of the last second
     double hapticHz = 0.0, worstPeriodMs = 0.0, cameraHz = 0.0;
 };
 
-// A block: something has kept the tool from following the hand, turn after turn.
+// A block: a contact that keeps the tool from following the hand over consecutive ticks.
 struct Block {
     Touch touch;                    // the newest one
-    int64_t sinceFrame = 0;         // obeyed when it began
+    int64_t sinceFrame = 0;         // whose set was used when it began
     double since = 0.0, last = 0.0; // [s]
-    double deepest = 0.0;           // [m] that the hand went beyond
+    double deepest = 0.0;           // [m] largest distance of the hand beyond it
     double beyond = 0.0;            // [m] now
-    double force = 0.0;             // [N] now, of the whole hand
+    double force = 0.0;             // [N] now, total on the hand
 };
 
-// Where a real arm was measured.
+// A measured posture of a real arm.
 struct Measured {
     double t = 0.0; // [s]
     ArmPosture posture;
@@ -48,26 +48,30 @@ public:
     explicit RunView(SnapshotSink& sink)
         : sink_(sink) {}
 
-    // Of a recording: all turns and pictures go, and these come in their place, as they were.
+    // Playback: rewind() discards all ticks; take() adds recorded ones.
     void rewind();
     void take(const TickRow& row);
 
-    // Takes over all that has come; true when there is a new picture.
+    // Reads everything new from the sink; true when there is a new frame.
     bool refresh();
 
     const SceneSnapshot& scene() const { return sink_.scene().front(); }
     const TickRow& step() const { return tick_; }
-    const std::optional<Measured>& measured() const { return measured_; } // the last time; empty = never
+    const std::optional<Measured>& measured() const {
+        return measured_;
+    } // the last measurement; empty = never
     bool anyTurn() const { return ticks_ > 0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
-    const std::deque<Block>& blocks() const { return blocks_; } // newest first; one a kind, fixture and leaf
+    const std::deque<Block>& blocks() const {
+        return blocks_;
+    } // newest first; one per kind, fixture and leaf
     Rates rates() const;
-    // Of the last million turns, in no order.
+    // Of the last million ticks, unordered.
     const std::vector<float>& stepMicros() const { return micros_; }
     const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // likewise
     uint64_t lateTurns() const { return late_; }
-    const std::vector<double>& passMs() const { return passMs_; } // of the last frame that had passes
+    const std::vector<double>& passMs() const { return passMs_; } // of the last frame with passes
 
 private:
     void noteBlocks(const TickRow& row);

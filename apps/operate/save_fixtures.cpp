@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The fixtures back into the scene file: their block is written anew, every other line stays as it is.
+// Writes the fixtures back into the scene file: replaces their block and keeps every other line.
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/operate_session.h"
 #include "engine/types/error.h"
@@ -93,7 +93,7 @@ void putRow(std::ostream& out, const FixtureClass& f) {
     out << " }\n";
 }
 
-// The file with another block of the top level key in place of the old one; at its end when there was none.
+// Replaces the block of a top-level key, or appends it.
 std::string withBlock(const std::string& old, const std::string& key, const std::string& block) {
     std::istringstream in(old);
     std::string result, line;
@@ -158,7 +158,7 @@ std::string FixtureEditor::save() const {
     const std::filesystem::path fresh = scene_.file.string() + ".new";
     std::ofstream(fresh) << text();
     try {
-        const Scene read = loadScene(fresh); // what cannot be read again takes no other file's place
+        const Scene read = loadScene(fresh); // replaces the old file only when the new one loads
         std::filesystem::rename(fresh, scene_.file);
         return std::to_string(read.fixtures.size()) + " fixtures saved to " + scene_.file.string();
     } catch (const std::exception& e) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The files that a scene file names, so that a copy of it elsewhere can be read.
+// Copies the files that a scene file names, so that a copy of the scene can be loaded elsewhere.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -9,9 +9,9 @@
 
 namespace fathom::operate {
 
-// Copies the tool's spheres, the arm's description and the hand's path into `folder`, under the names that
-// they have beside the scene file. Returns those that lie outside of the scene file's folder and so are left,
-// in words; empty = none. Throws std::filesystem::filesystem_error.
+// Copies the spheres of the tool, the description of the arm and the hand path into `folder`, under their
+// paths relative to the scene file. Returns a list of files outside the folder of the scene file, which are
+// skipped; empty = none. Throws std::filesystem::filesystem_error.
 std::string copySceneFiles(const Scene& scene, const std::filesystem::path& folder);
 
 } // namespace fathom::operate

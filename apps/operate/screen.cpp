@@ -28,7 +28,7 @@ bool sameOrbit(const Orbit& a, const Orbit& b) {
     return a.yaw == b.yaw && a.pitch == b.pitch && a.distance == b.distance && a.centre == b.centre;
 }
 
-// Middle of the regions and of the arm before them; without regions, of what the camera sees.
+// Centre of regions and arm; without regions, the median depth of the camera on its axis.
 dvec3 middleOf(const Fixtures& set, std::span<const Sphere> arm) {
     if (!set.spheres.x.empty()) {
         dvec3 low(1e300), high(-1e300);
@@ -94,7 +94,7 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
     orbit.centre = drawnOrbit_.centre;
     const bool moved = !sameOrbit(orbit, drawnOrbit_) || drawnLevel_ != console.treeLevel ||
                        drawnLarge_ != console.spaceIsLarge;
-    // Half of the window's pixels are enough for a cloud.
+    // Two thirds of the resolution are enough for a cloud.
     const auto width = static_cast<uint32_t>(std::clamp(spaceRoom.width * 2 / 3, 64, 1200));
     const auto height = static_cast<uint32_t>(std::clamp(spaceRoom.height * 2 / 3, 48, 900));
     const bool space = first || moved || width != space_.view().lens.width ||
@@ -119,14 +119,13 @@ void Screen::makeImages(const Console& console, const FixtureEditor& editor, con
                   spacePort_->where};
 }
 
-void Screen::drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input,
-                       const Rooms& rooms) {
+void Screen::drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     for (const ViewPort* port : {&*cameraPort_, &*spacePort_}) {
         const PixelRect& w = port->where;
         const bool large = port == large_;
-        list.PushClipRect({static_cast<float>(w.x), static_cast<float>(w.y)},
-                          {static_cast<float>(w.x + w.width), static_cast<float>(w.y + w.height)});
+        const ImVec2 corner = cornerOf(w), size = sizeOf(w);
+        list.PushClipRect(corner, {corner.x + size.x, corner.y + size.y});
         if (port == &*cameraPort_) {
             drawRegionOutlines(list, *port, camera_);
         } else {
@@ -142,17 +141,14 @@ void Screen::drawViews(Console& console, const FixtureEditor& editor, const Scre
         const char* name = port == &*cameraPort_    ? "camera"
                            : console.treeLevel >= 0 ? "3D, tree bounds"
                                                     : "3D";
-        drawWords(list, {static_cast<float>(w.x) + 8.0f, static_cast<float>(w.y) + 6.0f},
-                  large ? name : std::string(name) + "   Tab: swap", colour::kQuiet);
+        drawWords(list, {corner.x + 8.0f, corner.y + 6.0f}, large ? name : std::string(name) + "   Tab: swap",
+                  colour::kQuiet);
         list.PopClipRect();
-        console.places[port == &*cameraPort_ ? "camera" : "space"] = {
-            static_cast<float>(w.x), static_cast<float>(w.y), static_cast<float>(w.width),
-            static_cast<float>(w.height)};
+        markPlace(console, port == &*cameraPort_ ? "camera" : "space", corner, size);
     }
-    (void)rooms;
 }
 
-// In the large view, below its name: the worst alarm, in words.
+// The worst alarm as text, below the name of the large view.
 void Screen::drawAlarm(Console& console, const Alarms& alarms) const {
     console.places.erase("alarm");
     const Alarm* worst = alarms.worst();
@@ -165,19 +161,20 @@ void Screen::drawAlarm(Console& console, const Alarms& alarms) const {
     const ImVec2 at{static_cast<float>(large_->where.x) + 10.0f,
                     static_cast<float>(large_->where.y) + 1.2f * line + 8.0f};
     drawWords(*ImGui::GetBackgroundDrawList(), at, words, levelColour(worst->level));
-    console.places["alarm"] = {at.x, at.y, ImGui::CalcTextSize(words.c_str()).x, line};
+    markPlace(console, "alarm", at, {ImGui::CalcTextSize(words.c_str()).x, line});
 }
 
 namespace {
 
-// What to do next.
+// The keys that are useful in the present state.
 std::string hintOf(const Console& console, bool driven) {
     if (console.timeLine.on) {
-        return "A recording.   drag the time line   Space: play   arrows: pictures, with Shift turns   [ ]: "
-               "speed   Tab: 3D   F1: all keys";
+        return "Recording.   Drag the time line   Space: play   arrows: frames, with Shift ticks   [ ]: "
+               "speed   "
+               "Tab: 3D   F1: all keys";
     }
     if (console.aims()) {
-        return "Click, or arrows (Shift: slowly) and Enter   Esc: leave";
+        return "Click, or use arrows (Shift: slowly) and Enter   Esc: cancel";
     }
     if (console.panels) {
         return "Keyboard in the panels: arrows choose, Enter presses   Space: forces off   F6, Esc: back";
@@ -190,7 +187,7 @@ std::string hintOf(const Console& console, bool driven) {
 
 } // namespace
 
-// The keyboard's cursor, and words at the large view's lower edge.
+// The keyboard cursor, and the hint at the lower edge of the large view.
 void Screen::drawHint(Console& console, const ScreenInput& input) const {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     if (console.cursor) {
@@ -261,7 +258,7 @@ void Screen::drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, c
 void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input) {
     const Rooms rooms = arrange(ImGui::GetIO().DisplaySize, console.textScale, console.timeLine.on);
     makeImages(console, editor, input, rooms);
-    drawViews(console, editor, input, rooms);
+    drawViews(console, editor, input);
     drawHeadLine(console, input.hud, cornerOf(rooms.head), sizeOf(rooms.head));
     ImGui::SetNextWindowPos(cornerOf(rooms.gauges));
     ImGui::SetNextWindowSize(sizeOf(rooms.gauges));
@@ -275,11 +272,8 @@ void Screen::draw(Console& console, FixtureEditor& editor, Alarms& alarms, const
     handleFixtureKeys(console, editor, input.run.scene());
     drawAlarm(console, alarms);
     drawHint(console, input);
-    for (const auto& [name, room] :
-         {std::pair("traces room", &rooms.traces), std::pair("time line room", &rooms.timeLine)}) {
-        console.places[name] = {static_cast<float>(room->x), static_cast<float>(room->y),
-                                static_cast<float>(room->width), static_cast<float>(room->height)};
-    }
+    markPlace(console, "traces room", cornerOf(rooms.traces), sizeOf(rooms.traces));
+    markPlace(console, "time line room", cornerOf(rooms.timeLine), sizeOf(rooms.timeLine));
 }
 
 std::optional<glm::uvec2> Screen::colourPixelAt(ImVec2 at) const {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole screen: which view and panel goes where, and what is in them.
+// The layout of the window, and the content of views and panels.
 #pragma once
 
 #include "apps/operate/alarms.h"
@@ -16,7 +16,7 @@ struct ScreenInput {
     const RunView& run;
     const Tool& tool;
     const HudInput& hud;
-    bool freshImage = false;     // since the call before
+    bool freshImage = false;     // since the previous call
     std::span<const Sphere> arm; // base frame; empty = none
     const MeasuredArm& measured;
 };
@@ -24,14 +24,14 @@ struct ScreenInput {
 // Thread: the window's.
 class Screen {
 public:
-    // Draws into the ImGui frame that is open, and makes the pictures below it.
+    // Draws into the open ImGui frame, and composes the images below it.
     void draw(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input);
 
     std::span<const Layer> layers() const { return layers_; }
-    void redraw() { redraw_ = true; } // the pictures of the next draw() are whole: those before are lost
+    void redraw() { redraw_ = true; } // the next draw() composes both images; call it after a lost device
     const ViewPort& large() const { return *large_; }
     double unknownShare() const { return camera_.unknownShare(); }
-    // The pixel of the colour picture under a window point of the camera view; empty when it is not there.
+    // The pixel of the colour image under a point of the window; empty outside the camera view.
     std::optional<glm::uvec2> colourPixelAt(ImVec2 at) const;
 
 private:
@@ -41,8 +41,7 @@ private:
     static Rooms arrange(ImVec2 size, double scale, bool timeLine);
     void makeImages(const Console& console, const FixtureEditor& editor, const ScreenInput& input,
                     const Rooms& rooms);
-    void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input,
-                   const Rooms& rooms);
+    void drawViews(Console& console, const FixtureEditor& editor, const ScreenInput& input);
     void drawAlarm(Console& console, const Alarms& alarms) const;
     void drawHint(Console& console, const ScreenInput& input) const;
     void drawTabs(Console& console, FixtureEditor& editor, Alarms& alarms, const ScreenInput& input,

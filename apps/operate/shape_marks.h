@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Authored shapes and boxes as lines over a view.
+// Draws authored shapes and boxes as lines over a view.
 #pragma once
 
 #include "apps/operate/view_port.h"
@@ -9,7 +9,7 @@ namespace fathom::operate {
 
 void drawShape(ImDrawList& list, const ViewPort& port, const Shape& shape);
 void drawBox(ImDrawList& list, const ViewPort& port, const Shape& box, ImU32 colour);
-// Between two points of the base frame; nothing where either is behind the eye.
+// A line between two points of the base frame; skipped when either is behind the eye.
 void drawSegment(ImDrawList& list, const ViewPort& port, const dvec3& a, const dvec3& b, ImU32 colour,
                  float width);
 

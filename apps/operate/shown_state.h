@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run and a look back tell alike to who watches them from outside.
+// The state that a live run and playback both write to --state.
 #pragma once
 
 #include "apps/operate/alarms.h"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window knows of the run: copies that the writer thread leaves for it. The window reads them when
-// it likes and nobody waits for it.
+// Copies of run data for the window: the writer thread publishes them and never waits for the window.
 #pragma once
 
 #include "apps/binding/record_drain.h"
@@ -11,21 +10,21 @@
 
 namespace fathom::operate {
 
-// One picture and the fixture set that was in force with it.
+// One frame and its fixture set.
 struct SceneSnapshot {
     bool any = false;
-    FrameReport report; // passMs empty: the same picture again, or frozen
+    FrameReport report; // passMs empty: the same frame again, or frozen
     double t = 0.0;     // [s] capture time in the run
     Fixtures set;
     std::vector<uint32_t> colour;
-    uint64_t number = 0; // counts pictures
+    uint64_t number = 0; // counts frames
 };
 
-// Called on the writer thread. A window that falls behind loses the oldest of neither: pictures are
-// overwritten, turns that do not fit are counted in turns().dropped().
+// Called on the writer thread. A slow window gets the newest frame only; ticks that do not fit are counted in
+// ticks().dropped().
 class SnapshotSink final : public RunSink {
 public:
-    // also: gets everything too; outlives this.
+    // also: the next sink in the chain; outlives this.
     explicit SnapshotSink(RunSink& also)
         : also_(also)
         , ticks_(8192) {}

@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMostPixels = 2.5e6; // of all spheres of a picture
+constexpr double kMostPixels = 2.5e6; // of all spheres in an image
 constexpr double kNearest = 0.02;     // [m]
 
 uint32_t dimmed(uint32_t colour) {
@@ -36,7 +36,7 @@ void SpaceGround::compose(const SceneSnapshot& scene, const Orbit& orbit, uint32
     view_.scale = 1;
     const size_t count = static_cast<size_t>(width) * height;
     pixels_.resize(count);
-    for (uint32_t v = 0; v < height; ++v) { // a calm ground, a little lighter below
+    for (uint32_t v = 0; v < height; ++v) { // background: a vertical gradient
         const uint32_t level = 16 + 14 * v / height;
         std::fill_n(pixels_.begin() + static_cast<std::ptrdiff_t>(v) * width, width,
                     0xff000000u | (level + 10) << 16 | (level + 4) << 8 | level);
@@ -62,7 +62,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
     }
     const bool coloured = set.camera.registered && scene.colour.size() == lens.pixels();
     const Pose eyeTcamera = view_.cameraTbase * set.baseTcamera;
-    const glm::mat3 tick = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
+    const glm::mat3 rotation = glm::mat3(glm::mat3_cast(eyeTcamera.rotation));
     const glm::vec3 shift(eyeTcamera.position);
     const auto width = static_cast<int>(view_.lens.width), height = static_cast<int>(view_.lens.height);
     for (uint32_t v = 0; v < lens.height; ++v) {
@@ -74,7 +74,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
             const auto z = static_cast<float>(set.depth[i] * set.camera.metresPerUnit);
             const glm::dvec2 ray =
                 lens.fan ? lens.ray(u, v) : glm::dvec2((u - lens.cx) / lens.fx, (v - lens.cy) / lens.fy);
-            const glm::vec3 p = tick * (z * glm::vec3(glm::vec2(ray), 1.0f)) + shift;
+            const glm::vec3 p = rotation * (z * glm::vec3(glm::vec2(ray), 1.0f)) + shift;
             if (p.z < static_cast<float>(kNearest)) {
                 continue;
             }
@@ -87,7 +87,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
             const uint32_t colour = forbidden  ? 0xff3c4af0u
                                     : coloured ? dimmed(scene.colour[i])
                                                : 0xffa09890u;
-            for (int k = 0; k < 4; ++k) { // two by two, so that near surfaces have no holes
+            for (int k = 0; k < 4; ++k) { // 2x2 pixels, so that near surfaces have no holes
                 const size_t at = static_cast<size_t>(y + k / 2) * static_cast<size_t>(width) +
                                   static_cast<size_t>(x + k % 2);
                 if (p.z < depth_[at]) {
@@ -101,7 +101,7 @@ void SpaceGround::splatPoints(const SceneSnapshot& scene) {
 
 namespace {
 
-// A sphere as the eye sees it: each pixel with how much it faces the eye (1 = fully) and how far it is [m].
+// Calls put(pixel, facing, depth) for each pixel of a sphere: facing 1 = towards the eye, depth in [m].
 template <class Put>
 void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
     const auto width = static_cast<int>(lens.width), height = static_cast<int>(lens.height);
@@ -124,7 +124,7 @@ void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
 
 } // namespace
 
-// Solid and of one colour: it is no region, and no point of the cloud.
+// Solid and of one colour, to be distinct from regions and points.
 void SpaceGround::splatArm(std::span<const Sphere> arm) {
     for (const Sphere& sphere : arm) {
         const dvec3 c = view_.cameraTbase.apply(sphere.centre);
@@ -181,7 +181,7 @@ void SpaceGround::shadeRegions() {
     }
 }
 
-// The engine's tree lies on the device; these are the same blocks of pixels, bounded about their centroid.
+// The engine's tree is on the device; these are the same blocks of pixels, bounded around their centroid.
 void SpaceGround::boundBlocks(const Fixtures& set, int level) {
     const uint32_t edge = 4u << (2 * level);
     const uint32_t width = set.camera.depth.width, pixels = set.camera.depth.pixels();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The 3D view's picture: the cloud as the camera saw it and the surface of the regions, translucent, from any
-// side.
+// The image of the 3D view: the point cloud, and the translucent surface of the regions, from any side.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -12,8 +11,8 @@
 
 namespace fathom::operate {
 
-// Drawn on the CPU: points by depth test, regions as the nearest front of their spheres, blended where they
-// lie before the points. Of very many spheres every n-th is drawn, so that a picture costs a bounded time.
+// Rendered on the CPU: points with a depth test; regions as the front of their spheres, blended where they
+// are before the points. With very many spheres every n-th is drawn, which bounds the time per frame.
 class SpaceGround {
 public:
     void compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,
@@ -21,7 +20,7 @@ public:
 
     const std::vector<uint32_t>& pixels() const { return pixels_; } // 0xAABBGGRR
     const ImageView& view() const { return view_; }
-    // Bounds of 4x4, 16x16, ... pixels of regions at the level asked for: centre (base, [m]) and radius.
+    // Bounding spheres of blocks of 4x4, 16x16, ... pixels at the chosen level (base frame [m]).
     const std::vector<Sphere>& bounds() const { return bounds_; }
 
 private:

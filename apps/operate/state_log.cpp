@@ -51,7 +51,7 @@ json consoleOf(const Console& c) {
             {"places", c.places}};
 }
 
-// A real arm; null without one. Joints [rad], [m] are null while nobody measures them.
+// A real arm; null without one. Joints [rad], [m] are null while they are not measured.
 json armOf(const MeasuredArm* arm) {
     if (arm == nullptr || !arm->real) {
         return nullptr;
@@ -63,7 +63,7 @@ json armOf(const MeasuredArm* arm) {
             {"drawn", arm->isOff()}};
 }
 
-json turnOf(const RunView& run, const StateExtras& extras) {
+json runOf(const RunView& run, const StateExtras& extras) {
     const StepRecord& r = run.step().record;
     const Rates rates = run.rates();
     return {{"t", r.t},
@@ -130,7 +130,7 @@ void StateLog::write(const Console& console, const RunView& run, const StateExtr
     }
     next_ = t + kPeriod;
     json line = {{"console", consoleOf(console)},
-                 {"run", turnOf(run, extras)},
+                 {"run", runOf(run, extras)},
                  {"mode", extras.mode},
                  {"window",
                   {{"begun", extras.begun},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `--state FILE`: one JSON object a line, at most thirty a second: what the window shows and where, for who
-// watches it from outside.
+// Writes `--state FILE`: one JSON object per line, at most 30 per second, with what the window shows and
+// where, for tests and other programs.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -16,18 +16,18 @@ namespace fathom::operate {
 
 struct StateExtras {
     std::string mode;
-    uint64_t begun = 0, windowFrames = 0, yielded = 0; // frames: begun, drawn, left to passes
+    uint64_t begun = 0, windowFrames = 0, yielded = 0; // frames: begun, drawn, skipped for passes
     uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
     bool deviceThere = true;
-    uint32_t renewals = 0; // times that the device was made anew
+    uint32_t renewals = 0; // times that the device was recreated
     double unknownShare = 0.0;
-    std::vector<std::string> alarms;  // of those that are shown: level, word
-    const Scene* scene = nullptr;     // in force
+    std::vector<std::string> alarms;  // shown alarms: level, key
+    const Scene* scene = nullptr;     // active
     size_t shapes = 0, selected = 0;  // selected: points of the preview
-    const MeasuredArm* arm = nullptr; // null = none that is real
+    const MeasuredArm* arm = nullptr; // null = no real arm
     std::string hand;                 // the live device; empty = none
     bool handThere = true;
-    double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the pilot in force
+    double stiffness = 0.0, forceLimit = 0.0; // [N/m], [N] of the active pilot
     std::string why;                          // of the newest block
     std::vector<std::string> armHolds;        // measured_arm.h
 };
@@ -36,7 +36,7 @@ class StateLog {
 public:
     // An empty name writes nothing. Throws Error that names the file.
     explicit StateLog(const std::filesystem::path& file);
-    // Writes when it is time, or when `now`.
+    // Writes when the next line is due, or when `now`.
     void write(const Console& console, const RunView& run, const StateExtras& extras, bool now = false);
 
 private:

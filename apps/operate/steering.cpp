@@ -12,10 +12,10 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kSpeed = 0.12, kTurning = 0.9;        // [m/s], [rad/s] of a key held down
-constexpr double kWheel = 0.008;                       // [m] a notch
-constexpr float kCursor = 240.0f, kSlowCursor = 30.0f; // [pixels/s] of a key, with Shift
-constexpr double kClick = 4.0;                         // [pixels] a click may wander
+constexpr double kSpeed = 0.12, kTurning = 0.9;        // [m/s], [rad/s] while a key is down
+constexpr double kWheel = 0.008;                       // [m] per notch
+constexpr float kCursor = 240.0f, kSlowCursor = 30.0f; // [pixels/s] without and with Shift
+constexpr double kClick = 4.0;                         // [pixels] that a click may move
 
 bool pressed(int key) {
     return keyPressed(key);
@@ -26,28 +26,29 @@ bool pressed(int key) {
 std::span<const KeyHelp> keyHelp() {
     static constexpr std::array kHelp = {
         KeyHelp{"Space", "forces off, always"},
-        KeyHelp{"A", "arm: forces come up over 1.5 s"},
-        KeyHelp{"G", "guidance on, off"},
-        KeyHelp{"J", "close the jaws of an arm, open them"},
+        KeyHelp{"A", "arm: forces ramp up over 1.5 s"},
+        KeyHelp{"G", "guidance on or off"},
+        KeyHelp{"J", "close or open the jaws of an arm"},
         KeyHelp{"C held", "clutch: the hand moves, the tool stays"},
-        KeyHelp{"left drag, wheel", "move the tool, away and back"},
-        KeyHelp{"right drag", "turn the tool; in the 3D view turn the view"},
-        KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift turn it"},
+        KeyHelp{"left drag, wheel", "move the tool; wheel: along the view"},
+        KeyHelp{"right drag", "rotate the tool; in the 3D view, rotate the view"},
+        KeyHelp{"arrows, PgUp, PgDn", "move the tool; with Shift rotate it"},
         KeyHelp{"Tab", "swap camera and 3D view"},
-        KeyHelp{"T", "bounds of the region tree, level by level"},
+        KeyHelp{"T", "bounds of the region tree, next level"},
         KeyHelp{"F", "freeze the fixtures"},
-        KeyHelp{"K", "pick a colour: click, or arrows and Enter; look, Enter adds"},
+        KeyHelp{"K", "pick a colour: click, or arrows and Enter; Enter adds it"},
         KeyHelp{"Ctrl Z, Ctrl Y", "undo, redo of fixtures"},
         KeyHelp{"Ctrl S", "save the fixtures to the scene file"},
-        KeyHelp{"P, E", "hold the traces; write them as CSV"},
-        KeyHelp{"W", "why did it stop? Or point at the contact"},
+        KeyHelp{"P, E", "pause the traces; write them as CSV"},
+        KeyHelp{"W", "why the tool stopped; or point at the contact"},
         KeyHelp{"Q", "acknowledge alarms"},
-        KeyHelp{"R", "record, stop"},
-        KeyHelp{"of a recording", "Space plays; arrows: a picture, with Shift a turn; Home, End; [ ]: speed"},
+        KeyHelp{"R", "start or stop recording"},
+        KeyHelp{"in a recording",
+                "Space plays; arrows: one frame, with Shift one tick; Home, End; [ ]: speed"},
         KeyHelp{"F6", "keyboard to the panels: arrows choose, Enter presses; F6 or Esc: back"},
-        KeyHelp{"F11", "make the window's images anew"},
+        KeyHelp{"F11", "recreate the swapchain"},
         KeyHelp{"F12", "screenshot"},
-        KeyHelp{"Ctrl +, Ctrl -", "larger, smaller letters"},
+        KeyHelp{"Ctrl +, Ctrl -", "larger or smaller text"},
         KeyHelp{"F1", "this list"},
     };
     return kHelp;
@@ -62,7 +63,7 @@ void Steering::shift(const dvec3& base) {
     raw_.position += glm::conjugate(baseRdevice_) * base / scale_;
 }
 
-void Steering::step(const dvec3& base) {
+void Steering::rotate(const dvec3& base) {
     raw_.rotation = glm::normalize(rotationExp(glm::conjugate(baseRdevice_) * base) * raw_.rotation);
 }
 
@@ -89,17 +90,17 @@ void Steering::keys(Console& console) {
     }
 }
 
-// Of a crosshair in the large view, that Enter clicks with.
-void Steering::moveCursor(Console& console, const ViewPort& large, const dvec3& way) {
+// Moves the crosshair in the large view; Enter clicks there.
+void Steering::moveCursor(Console& console, const ViewPort& large, const dvec3& direction) {
     const PixelRect& w = large.where;
     ImVec2 at =
         console.cursor.value_or(ImVec2(static_cast<float>(w.x) + 0.5f * static_cast<float>(w.width),
                                        static_cast<float>(w.y) + 0.5f * static_cast<float>(w.height)));
     const ImGuiIO& io = ImGui::GetIO();
     const float step = (io.KeyShift ? kSlowCursor : kCursor) * std::min(0.1f, io.DeltaTime);
-    at.x = std::clamp(at.x + step * static_cast<float>(way.x), static_cast<float>(w.x),
+    at.x = std::clamp(at.x + step * static_cast<float>(direction.x), static_cast<float>(w.x),
                       static_cast<float>(w.x + w.width - 1));
-    at.y = std::clamp(at.y + step * static_cast<float>(way.y), static_cast<float>(w.y),
+    at.y = std::clamp(at.y + step * static_cast<float>(direction.y), static_cast<float>(w.y),
                       static_cast<float>(w.y + w.height - 1));
     console.cursor = at;
 }
@@ -112,21 +113,21 @@ void Steering::moveByKeys(Console& console, const ViewPort& large) {
     const auto axis = [](int plus, int minus) {
         return (keyDown(plus) ? 1.0 : 0.0) - (keyDown(minus) ? 1.0 : 0.0);
     };
-    const dvec3 way(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP),
-                    axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN));
-    if (way == dvec3(0.0)) {
+    const dvec3 direction(axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP),
+                          axis(GLFW_KEY_PAGE_UP, GLFW_KEY_PAGE_DOWN));
+    if (direction == dvec3(0.0)) {
         return;
     }
     if (console.aims()) {
-        moveCursor(console, large, way);
+        moveCursor(console, large, direction);
         return;
     }
     const double dt = std::min(0.1, double{io.DeltaTime});
     const dquat baseReye = glm::conjugate(large.view.cameraTbase.rotation);
     if (io.KeyShift) {
-        step(baseReye * (kTurning * dt * dvec3(-way.y, way.x, way.z)));
+        rotate(baseReye * (kTurning * dt * dvec3(-direction.y, direction.x, direction.z)));
     } else {
-        shift(baseReye * (kSpeed * dt * way));
+        shift(baseReye * (kSpeed * dt * direction));
     }
 }
 
@@ -141,7 +142,7 @@ void Steering::moveByMouse(Console& console, const ViewPort& large, double toolD
         console.orbit.yaw += 0.006 * io.MouseDelta.x;
         console.orbit.pitch = std::clamp(console.orbit.pitch + 0.006 * io.MouseDelta.y, -1.5, 1.5);
     } else if (orbiting_) {
-        step(baseReye * (0.006 * dvec3(-io.MouseDelta.y, io.MouseDelta.x, 0.0)));
+        rotate(baseReye * (0.006 * dvec3(-io.MouseDelta.y, io.MouseDelta.x, 0.0)));
     }
     if (io.MouseWheel != 0.0f && large.holds(io.MousePos) && !io.WantCaptureMouse) {
         if (io.KeyCtrl && console.spaceIsLarge) {
@@ -153,8 +154,8 @@ void Steering::moveByMouse(Console& console, const ViewPort& large, double toolD
     }
 }
 
-// The arrows are the tool's, or the cursor's, until the panels are asked for: they cannot be both.
-void Steering::turnToPanels(Console& console) {
+// The arrow keys move the tool or the cursor unless F6 gives them to the panels.
+void Steering::switchFocus(Console& console) {
     ImGuiIO& io = ImGui::GetIO();
     if (pressed(GLFW_KEY_F6)) {
         console.panels = !console.panels;
@@ -175,7 +176,7 @@ std::optional<ImVec2> Steering::step(Console& console, const ViewPort& large, do
     if (pressed(GLFW_KEY_F1)) {
         console.tab = Tab::Help;
     }
-    turnToPanels(console);
+    switchFocus(console);
     console.remake = console.remake || pressed(GLFW_KEY_F11);
     console.screenshot = console.screenshot || pressed(GLFW_KEY_F12);
     if (io.KeyCtrl && (pressed(GLFW_KEY_EQUAL) || pressed(GLFW_KEY_KP_ADD))) {

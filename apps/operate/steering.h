@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys and mouse: what they do to the console and, where no device is at hand, to the tool.
+// Keys and mouse: change the console and, without a haptic device, move the tool.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -10,7 +10,7 @@
 
 namespace fathom::operate {
 
-// Each key that does something, for the help; the first is the only one that works while text is typed.
+// All keys for the help panel; only the first works during text input.
 struct KeyHelp {
     const char* keys;
     const char* what;
@@ -21,21 +21,21 @@ class Steering {
 public:
     Steering(const Pose& start, const Scene::Hand& hand); // raw
 
-    // One window frame: reads ImGui's events. `large`: the view that the mouse drags in. toolDepth [m]: of
-    // the tool along that view's axis. Returns where the large view was clicked: by the mouse, when it was
-    // not dragged, or by Enter at the keyboard's cursor.
+    // Handles the input of one window frame. large: the view for mouse drags. toolDepth [m]: of the tool
+    // along the axis of that view. Returns where the large view was clicked, by the mouse without a drag or
+    // by Enter at the keyboard cursor.
     std::optional<ImVec2> step(Console& console, const ViewPort& large, double toolDepth);
     const Pose& pose() const { return raw_; }
 
 private:
     void keys(Console& console);
-    void turnToPanels(Console& console);
+    void switchFocus(Console& console);
     void moveByKeys(Console& console, const ViewPort& large);
-    void moveCursor(Console& console, const ViewPort& large, const dvec3& way);
+    void moveCursor(Console& console, const ViewPort& large, const dvec3& direction);
     std::optional<ImVec2> clickByMouse(const ViewPort& large);
     void moveByMouse(Console& console, const ViewPort& large, double toolDepth);
     void shift(const dvec3& base);
-    void step(const dvec3& base); // rotation vector [rad]
+    void rotate(const dvec3& base); // rotation vector [rad]
 
     Pose raw_;
     dquat baseRdevice_;

@@ -12,7 +12,7 @@ using gpu::check;
 
 namespace {
 
-// Values go through as they are: any 8-bit format without sRGB conversion will do.
+// Values are passed unchanged: any 8-bit format without sRGB conversion is accepted.
 VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "surface formats");
@@ -29,8 +29,8 @@ VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     throw Error("the window's surface offers no 8-bit format that this device can copy to");
 }
 
-// The window keeps its own time. A software device copies whole pictures: nothing tears, and its present call
-// needs no thread that waits for the display.
+// The window paces itself. A software device copies whole images, so Immediate does not tear and needs no
+// thread that waits for the display.
 VkPresentModeKHR chooseMode(const gpu::Device& device, VkSurfaceKHR surface) {
     uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfacePresentModesKHR(device.physical(), surface, &count, nullptr),
@@ -59,7 +59,7 @@ void Swapchain::moveTo(VkSurfaceKHR next) {
     check(vkGetPhysicalDeviceSurfaceSupportKHR(device_.physical(), device_.drawFamily(), next, &shows),
           "vkGetPhysicalDeviceSurfaceSupportKHR");
     if (shows == VK_FALSE) {
-        throw Error("device " + device_.facts().name + " cannot show pictures in this window");
+        throw Error("device " + device_.facts().name + " cannot present to this window");
     }
     format_ = chooseFormat(device_.physical(), next);
     surface_ = next;
@@ -84,7 +84,7 @@ bool Swapchain::good(VkResult result, const char* call) {
 }
 
 void Swapchain::destroyImages() {
-    device_.waitForDrawing(); // a picture on its way to the screen still waits for its semaphore
+    device_.waitForDrawing(); // a pending present still waits for its semaphore
     for (VkSemaphore semaphore : filled_) {
         vkDestroySemaphore(device_.handle(), semaphore, nullptr);
     }
@@ -162,7 +162,7 @@ VkImage Swapchain::acquire(VkSemaphore ready) {
     if (result == VK_NOT_READY || result == VK_TIMEOUT) {
         return VK_NULL_HANDLE;
     }
-    // Suboptimal is good enough to fill.
+    // A suboptimal image can still be filled.
     return good(result, "vkAcquireNextImageKHR") ? images_[index_] : VK_NULL_HANDLE;
 }
 

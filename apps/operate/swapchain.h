@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's images, made again when the window changes its size or loses them.
+// The swapchain of the window, recreated when the window changes size or loses it.
 #pragma once
 
 #include "engine/gpu/device.h"
@@ -8,26 +8,25 @@
 
 namespace fathom::operate {
 
-// The surface is the caller's and outlives this, or leave() comes before its end. Thread: the window's.
+// The surface belongs to the caller and outlives this, unless leave() is called first. Thread: the window's.
 class Swapchain {
 public:
-    // Throws Error when the device cannot show pictures on this surface.
+    // Throws Error when the device cannot present on this surface.
     Swapchain(gpu::Device& device, VkSurfaceKHR surface);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
     Swapchain& operator=(const Swapchain&) = delete;
 
-    // Makes the images anew for a window of this size; false when there is nothing to show (minimised).
+    // Recreates the images for a window of this size when needed; false when it is minimised.
     bool fit(VkExtent2D wanted);
-    void lose() { lost_ = true; } // the next fit() makes new ones
-    // After a call that says so the surface can show nothing any more: leave() it, and go on with another.
+    void lose() { lost_ = true; } // the next fit() recreates the images
+    // The surface is lost: call leave(), then moveTo() with a new one.
     bool surfaceLost() const { return surfaceLost_; }
-    void leave();                   // nothing is on the surface after it
+    void leave();                   // destroys everything on the surface
     void moveTo(VkSurfaceKHR next); // throws as the constructor
-    // The next image to fill, or null when there is none in time or the images are lost; `ready` is
-    // signalled.
+    // The next image to fill, and signals `ready`; null on a timeout or when the images are lost.
     VkImage acquire(VkSemaphore ready);
-    VkSemaphore filled() const { return filled_[index_]; } // to be signalled before show()
+    VkSemaphore filled() const { return filled_[index_]; } // must be signalled before show()
     void show();
 
     VkExtent2D size() const { return size_; }
@@ -45,7 +44,7 @@ private:
     VkSurfaceFormatKHR format_{};
     VkExtent2D size_{};
     std::vector<VkImage> images_;
-    std::vector<VkSemaphore> filled_; // one an image
+    std::vector<VkSemaphore> filled_; // one per image
     uint32_t index_ = 0, remade_ = 0;
     bool lost_ = true, surfaceLost_ = false;
 };

@@ -42,27 +42,27 @@ void applyTheme(double scale) {
     style.WindowPadding = {10.0f, 8.0f};
     style.ItemSpacing = {8.0f, 5.0f};
     style.FramePadding = {7.0f, 3.0f};
-    const auto set = [&](ImGuiCol which, int r, int g, int b, int a = 255) {
-        style.Colors[which] = ImColor(r, g, b, a);
-    };
-    set(ImGuiCol_WindowBg, 17, 22, 30);
-    set(ImGuiCol_ChildBg, 22, 28, 38);
-    set(ImGuiCol_Text, 228, 234, 242);
-    set(ImGuiCol_TextDisabled, 150, 162, 180);
-    set(ImGuiCol_FrameBg, 34, 43, 57);
-    set(ImGuiCol_FrameBgHovered, 46, 58, 77);
-    set(ImGuiCol_FrameBgActive, 56, 72, 96);
-    set(ImGuiCol_Button, 40, 52, 70);
-    set(ImGuiCol_ButtonHovered, 56, 74, 100);
-    set(ImGuiCol_ButtonActive, 70, 94, 128);
-    set(ImGuiCol_Header, 40, 52, 70);
-    set(ImGuiCol_HeaderHovered, 56, 74, 100);
-    set(ImGuiCol_Tab, 28, 36, 48);
-    set(ImGuiCol_TabActive, 52, 70, 96);
-    set(ImGuiCol_TabHovered, 64, 86, 118);
-    set(ImGuiCol_CheckMark, 92, 214, 150);
-    set(ImGuiCol_SliderGrab, 100, 140, 190);
-    set(ImGuiCol_Separator, 44, 55, 72);
+    const std::pair<ImGuiCol, ImColor> colours[] = {{ImGuiCol_WindowBg, ImColor(17, 22, 30)},
+                                                    {ImGuiCol_ChildBg, ImColor(22, 28, 38)},
+                                                    {ImGuiCol_Text, ImColor(228, 234, 242)},
+                                                    {ImGuiCol_TextDisabled, ImColor(150, 162, 180)},
+                                                    {ImGuiCol_FrameBg, ImColor(34, 43, 57)},
+                                                    {ImGuiCol_FrameBgHovered, ImColor(46, 58, 77)},
+                                                    {ImGuiCol_FrameBgActive, ImColor(56, 72, 96)},
+                                                    {ImGuiCol_Button, ImColor(40, 52, 70)},
+                                                    {ImGuiCol_ButtonHovered, ImColor(56, 74, 100)},
+                                                    {ImGuiCol_ButtonActive, ImColor(70, 94, 128)},
+                                                    {ImGuiCol_Header, ImColor(40, 52, 70)},
+                                                    {ImGuiCol_HeaderHovered, ImColor(56, 74, 100)},
+                                                    {ImGuiCol_Tab, ImColor(28, 36, 48)},
+                                                    {ImGuiCol_TabActive, ImColor(52, 70, 96)},
+                                                    {ImGuiCol_TabHovered, ImColor(64, 86, 118)},
+                                                    {ImGuiCol_CheckMark, ImColor(92, 214, 150)},
+                                                    {ImGuiCol_SliderGrab, ImColor(100, 140, 190)},
+                                                    {ImGuiCol_Separator, ImColor(44, 55, 72)}};
+    for (const auto& [which, colour] : colours) {
+        style.Colors[which] = colour;
+    }
     style.ScaleAllSizes(static_cast<float>(scale));
     ImGui::GetStyle() = style;
 }

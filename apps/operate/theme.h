@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours, letters and spacing of the window. Colours mean what they mean in overlay.png and traces.png.
+// Colours, fonts and spacing of the window. A colour has the same meaning as in overlay.png and traces.png.
 #pragma once
 
 #include <imgui.h>
@@ -11,7 +11,7 @@ constexpr ImU32 kRegion = IM_COL32(237, 41, 36, 255);
 constexpr ImU32 kRegionSoft = IM_COL32(255, 140, 122, 255);
 constexpr ImU32 kGuidance = IM_COL32(64, 153, 255, 255);
 constexpr ImU32 kTool = IM_COL32(255, 255, 255, 255);
-constexpr ImU32 kMeasured = IM_COL32(255, 120, 220, 255); // a real arm, where it is not as the tool has it
+constexpr ImU32 kMeasured = IM_COL32(255, 120, 220, 255); // a real arm that is off its setpoint
 constexpr ImU32 kForce = IM_COL32(255, 194, 51, 255);
 constexpr ImU32 kTouch = IM_COL32(255, 236, 120, 255);
 constexpr ImU32 kShade = IM_COL32(8, 10, 15, 165);
@@ -28,10 +28,10 @@ struct Letters {
     ImFont* body = nullptr;
     ImFont* small = nullptr;
     ImFont* bold = nullptr;
-    ImFont* large = nullptr; // figures of the head line
+    ImFont* large = nullptr; // values of the head line
 };
 
-// Fills the current context's atlas at this scale; ImGui's own letters where DejaVu is not installed.
+// Fills the font atlas of the current context; uses ImGui's own font where DejaVu is not installed.
 Letters loadLetters(double scale);
 void applyTheme(double scale);
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* kShortHead = "t_s,fx,fy,fz,tx,ty,tz,contacts,state";
 constexpr size_t kShort = 9, kAll = 37, kTouchColumns = 13;
-constexpr size_t kMostTurns = 4'000'000, kMostTouchRows = kMostTurns * kMostTouches;
+constexpr size_t kMostTicks = 4'000'000, kMostTouchRows = kMostTicks * kMostTouches;
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -58,7 +58,7 @@ public:
         const dquat q(values_[i + 3], values_[i + 4], values_[i + 5], values_[i + 6]);
         return {vec(i), glm::dot(q, q) > 0.0 ? glm::normalize(q) : dquat(1.0, 0.0, 0.0, 0.0)};
     }
-    // A whole number of at most `most` in column i.
+    // An integer from 0 to `most` in column i.
     uint32_t whole(size_t i, double most) const {
         const double value = values_[i];
         if (!(value >= 0.0 && value <= most && value == std::floor(value))) {
@@ -131,7 +131,7 @@ void readTouches(const std::filesystem::path& file, TickLog& log) {
         }
         Moment& moment = log.moments[tick];
         if (log.touches.size() >= kMostTouchRows || moment.touchCount >= kMostTouches) {
-            row.refuse("", "one more", "8 touches a turn");
+            row.refuse("", "one more", "8 touches per tick");
         }
         moment.firstTouch = moment.touchCount == 0 ? log.touches.size() : moment.firstTouch;
         ++moment.touchCount;
@@ -152,7 +152,7 @@ const char* touchesHead() {
     return "t_s,kind,fixture,leaf,source,x,y,z,nx,ny,nz,gap,multiplier";
 }
 
-void writeTurn(std::ostream& wrench, std::ostream& touches, double t, int64_t frame, const StepRecord& tick) {
+void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t frame, const StepRecord& tick) {
     wrench << t;
     put(wrench, tick.wrench.force);
     put(wrench, tick.wrench.torque);
@@ -190,8 +190,8 @@ TickLog readTickLog(const std::filesystem::path& folder) {
         if (!std::isfinite(row[0]) || (!log.moments.empty() && !(row[0] > log.moments.back().t))) {
             row.refuse(", t_s", std::to_string(row[0]), "later than the row before");
         }
-        if (log.moments.size() >= kMostTurns) {
-            row.refuse("", "one turn more", "4000000 turns");
+        if (log.moments.size() >= kMostTicks) {
+            row.refuse("", "one tick more", "4000000 ticks");
         }
         log.moments.push_back(momentFrom(row, log.poses));
     }

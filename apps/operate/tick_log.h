@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The turns of a recording as text: wrench.csv, a row a turn, and touches.csv, a row each condition that
-// pushed in one. Written by the recorder, read by who looks back.
+// The ticks of a recording as text: wrench.csv with one row per tick, and touches.csv with one row per
+// contact that pushed in a tick. Written by the recorder, read by playback.
 #pragma once
 
 #include "apps/binding/crossings.h"
@@ -11,7 +11,7 @@
 
 namespace fathom::operate {
 
-// One turn that was recorded. What an older recording does not tell is NaN.
+// One recorded tick. Values missing in older recordings are NaN.
 struct Moment {
     double t = 0.0; // [s] of the recording
     Wrench wrench;  // on the hand, base axes
@@ -20,7 +20,7 @@ struct Moment {
     double guidance = 0.0;  // w
     int guidanceClass = -1; // StepRecord's
     double sceneAge = kNotKnown, marginPassive = kNotKnown, marginUncoupled = kNotKnown;
-    int64_t frame = -1; // picture of the recording whose set it obeyed
+    int64_t frame = -1; // frame of the recording whose set was used
     Pose device, tool;  // base_T_tool
     ArmPosture arm;     // all zero without one
     size_t firstTouch = 0;
@@ -30,23 +30,23 @@ struct Moment {
 struct TickLog {
     std::vector<Moment> moments; // times ascend
     std::vector<Touch> touches;
-    bool poses = false; // device and tool are known
+    bool poses = false; // device and tool poses are recorded
 
-    // As the run's writer had it, without what no file tells.
+    // The step record, as far as the files contain it.
     StepRecord recordAt(size_t i) const;
 };
 
 inline constexpr const char* kWrenchFile = "wrench.csv";
 inline constexpr const char* kTouchesFile = "touches.csv";
-const char* wrenchHead(); // first line of either file
+const char* wrenchHead(); // header of the file
 const char* touchesHead();
 
-// Columns target and frame count from 1, 0 is none.
-// One turn at `t` [s] of the recording; `frame`: the picture that it obeyed, counted as in the recording.
-void writeTurn(std::ostream& wrench, std::ostream& touches, double t, int64_t frame, const StepRecord& tick);
+// Writes one tick at `t` [s] of the recording. frame: the frame of the recording whose set was used. Columns
+// target and frame count from 1; 0 is none.
+void writeTick(std::ostream& wrench, std::ostream& touches, double t, int64_t frame, const StepRecord& tick);
 
-// Both files of a folder; empty when it has no wrench.csv. Throws BadInput with file, line and column.
-// Takes wrench.csv of before there were poses in it, too. At most four million turns.
+// Reads both files of a folder; empty without wrench.csv. Throws BadInput with file, line and column. Accepts
+// the old wrench.csv without poses. At most four million ticks.
 TickLog readTickLog(const std::filesystem::path& folder);
 
 } // namespace fathom::operate

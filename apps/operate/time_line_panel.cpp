@@ -14,8 +14,14 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kTurn = 0.001; // [s] of a step where no turn tells more
+constexpr double kTick = 0.001; // [s] per step outside the recorded ticks
 constexpr double kSlowest = 1.0 / 16.0, kFastest = 4.0;
+
+// Starts from the beginning when the recording has ended.
+void togglePlay(TimeLine& line) {
+    line.playing = !line.playing;
+    line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
+}
 
 void stepFrames(TimeLine& line, int by) {
     const auto now = static_cast<int64_t>(std::floor(line.t / PastScene::kPeriod + 1e-6));
@@ -23,16 +29,16 @@ void stepFrames(TimeLine& line, int by) {
     line.playing = false;
 }
 
-// To the next or the previous recorded turn.
-void stepTurns(TimeLine& line, const std::vector<double>& times, int by) {
+// Moves to the next or previous recorded tick.
+void stepTicks(TimeLine& line, const std::vector<double>& times, int by) {
     constexpr double kSame = 1e-9; // [s]
     line.playing = false;
     if (by > 0) {
         const auto next = std::upper_bound(times.begin(), times.end(), line.t + kSame);
-        line.t = next == times.end() ? line.t + kTurn : *next;
+        line.t = next == times.end() ? line.t + kTick : *next;
     } else {
         const auto here = std::lower_bound(times.begin(), times.end(), line.t - kSame);
-        line.t = here == times.begin() ? line.t - kTurn : *(here - 1);
+        line.t = here == times.begin() ? line.t - kTick : *(here - 1);
     }
 }
 
@@ -61,12 +67,11 @@ void TimeLinePanel::listen(Console& console) const {
     const auto pressed = [](int key) { return keyPressed(key, true); };
     if (!io.WantTextInput && !io.KeyCtrl && !console.panels) {
         if (keyPressed(GLFW_KEY_SPACE)) {
-            line.playing = !line.playing;
-            line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
+            togglePlay(line);
         }
         for (const auto& [key, by] : {std::pair(GLFW_KEY_LEFT, -1), std::pair(GLFW_KEY_RIGHT, 1)}) {
             if (pressed(key)) {
-                io.KeyShift ? stepTurns(line, times_, by) : stepFrames(line, by);
+                io.KeyShift ? stepTicks(line, times_, by) : stepFrames(line, by);
             }
         }
         if (pressed(GLFW_KEY_HOME)) {
@@ -101,35 +106,33 @@ void TimeLinePanel::draw(Console& console, const Letters& letters, ImVec2 at, Im
 void TimeLinePanel::drawButtons(Console& console) const {
     TimeLine& line = console.timeLine;
     const auto button = [&](const char* label, const char* name) {
-        const bool hit = ImGui::SmallButton(label);
-        markPlace(console, name);
+        const bool hit = markedButton(console, label, name);
         ImGui::SameLine(0.0f, 5.0f);
         return hit;
     };
     if (button("|<", "to begin")) {
         line.t = 0.0;
     }
-    if (button("< picture", "back")) {
+    if (button("< frame", "back")) {
         stepFrames(line, -1);
     }
     if (button(line.playing ? "Pause (Space)" : "\xe2\x96\xb6 Play (Space)", "play")) {
-        line.playing = !line.playing;
-        line.t = line.playing && line.t >= line.duration ? 0.0 : line.t;
+        togglePlay(line);
     }
-    if (button("picture >", "forth")) {
+    if (button("frame >", "forth")) {
         stepFrames(line, 1);
     }
     if (button(">|", "to end")) {
         line.t = line.duration;
     }
     char text[160];
-    std::snprintf(text, sizeof text, "%.3f of %.3f s   picture %u of %u   speed %.3g   most %.2f N%s", line.t,
+    std::snprintf(text, sizeof text, "%.3f of %.3f s   frame %u of %u   speed %.3g   peak %.2f N%s", line.t,
                   line.duration, line.image + 1, line.images, line.speed, double{most_},
-                  line.wholeMemory ? "" : "   this picture alone");
+                  line.wholeMemory ? "" : "   this frame only");
     ImGui::TextDisabled("  %s", text);
 }
 
-// Force as it was felt, contact yellow, guidance blue, a tick a picture, and the head.
+// The recorded force, contact in yellow, guidance in blue, one mark per frame, and the position marker.
 void TimeLinePanel::drawStrip(Console& console) const {
     TimeLine& line = console.timeLine;
     const ImVec2 at = ImGui::GetCursorScreenPos(), room = ImGui::GetContentRegionAvail();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time line of a recording: a head to drag over the force that was felt, buttons, keys.
+// The time line of a recording: a marker to drag over the recorded force, buttons and keys.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -10,13 +10,13 @@
 
 namespace fathom::operate {
 
-// A recording in a few hundred columns.
+// Draws a recording as about a thousand columns.
 class TimeLinePanel {
 public:
     TimeLinePanel(const TickLog& log, double duration);
 
     // Thread: the window's; inside an ImGui frame. Changes console.timeLine only.
-    void listen(Console& console) const; // keys
+    void listen(Console& console) const; // handles keys
     void draw(Console& console, const Letters& letters, ImVec2 at, ImVec2 size) const;
 
 private:
@@ -29,7 +29,7 @@ private:
         bool contact = false, guided = false, any = false;
     };
     std::vector<Column> columns_;
-    std::vector<double> times_; // [s] of turns
+    std::vector<double> times_; // [s] of ticks
     float most_ = 0.0f;         // [N]
 };
 

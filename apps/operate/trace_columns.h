@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A trace of thousands of samples as one stroke a column of pixels, so that no spike is lost.
+// Draws a trace of thousands of samples as one stroke per pixel column, which keeps every spike.
 #pragma once
 
 #include "apps/operate/run_view.h"
@@ -9,9 +9,9 @@
 
 namespace fathom::operate {
 
-// draw(first, last, low, high) for columns that have samples, from left to right: from the least to the
-// greatest value(sample) there, and to the last one of the column before it. Columns beside each other with
-// the same values come as one. column(sample): where it falls; ascends.
+// Calls draw(first, last, low, high) from left to right for columns with samples: the range of value(sample)
+// in the column, extended to the last value of the previous column. Adjacent columns with the same range are
+// merged. column(sample) must ascend.
 template <class Column, class Value, class Draw>
 void eachColumn(const std::deque<TraceSample>& trace, Column&& column, Value&& value, Draw&& draw) {
     struct Stroke {

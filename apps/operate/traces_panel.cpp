@@ -28,7 +28,7 @@ struct Plot {
     }
 };
 
-// value(sample) as strokes (trace_columns.h).
+// Draws value(sample) as strokes (trace_columns.h).
 template <class Value>
 void curve(const Plot& plot, const std::deque<TraceSample>& trace, ImU32 colour, float width, Value&& value) {
     const auto column = [&](const TraceSample& sample) {
@@ -42,7 +42,7 @@ void curve(const Plot& plot, const std::deque<TraceSample>& trace, ImU32 colour,
     });
 }
 
-// Returns where its title ends.
+// Draws background, grid and limits; returns the x at which the title ends.
 float frame(const Plot& plot, const char* name, double limit, const char* unit) {
     plot.list.AddRectFilled(plot.at, {plot.at.x + plot.size.x, plot.at.y + plot.size.y},
                             IM_COL32(12, 16, 23, 255), 4.0f);
@@ -77,10 +77,10 @@ const char* wordOf(StepState state) {
     }
 }
 
-// Ticks where the set obeyed changes, and marks where the state does, each with its word unless that would
-// lie on the title or beyond the end. title: where it ends [pixels].
+// A tick where the active set changes, and a mark where the state changes, with its name where there is room.
+// title: x at which the title ends [pixels].
 void events(const Plot& plot, const std::deque<TraceSample>& trace, float title) {
-    constexpr float kRoom = 24.0f; // from mark to mark, and more for a word
+    constexpr float kRoom = 24.0f; // [pixels] between marks, more with a name
     float free = -1e9f;
     for (size_t i = 1; i < trace.size(); ++i) {
         const float x = plot.x(trace[i].t), bottom = plot.at.y + plot.size.y;
@@ -127,7 +127,8 @@ void drawOne(const Plot& plot, const std::deque<TraceSample>& trace, const char*
     events(plot, trace, title);
 }
 
-// Enough for what is there, in steps, so that the scale does not crawl; the limit shows when it is near.
+// Grows in steps, so that the scale does not change all the time; includes the limit when the trace is near
+// it.
 double scaleFor(double most, double limit) {
     double scale = limit / 64.0;
     while (scale < 1.08 * most) {
@@ -159,25 +160,19 @@ void TracesPanel::draw(Console& console, const HudInput& input, ImVec2 at, ImVec
 }
 
 void TracesPanel::drawControls(Console& console) {
-    if (ImGui::SmallButton(console.paused ? "Go on (P)" : "Hold (P)")) {
+    if (markedButton(console, console.paused ? "Resume (P)" : "Pause (P)", "pause")) {
         console.paused = !console.paused;
     }
-    markPlace(console, "pause");
     ImGui::SameLine();
-    if (ImGui::SmallButton("CSV (E)")) {
-        console.exportCsv = true;
+    console.exportCsv = markedButton(console, "CSV (E)", "csv") || console.exportCsv;
+    for (int axis = 0; axis < 3; ++axis) {
+        ImGui::SameLine();
+        ImGui::TextColored(ImColor(kAxes[axis]), "%c", "xyz"[axis]);
     }
-    markPlace(console, "csv");
-    ImGui::SameLine();
-    ImGui::TextColored(ImColor(kAxes[0]), "x");
-    ImGui::SameLine();
-    ImGui::TextColored(ImColor(kAxes[1]), "y");
-    ImGui::SameLine();
-    ImGui::TextColored(ImColor(kAxes[2]), "z");
     ImGui::SameLine();
     ImGui::TextDisabled(
-        "base axes, bold: size; torque about the tool's centre; ticks below: new fixture set; 10 s%s",
-        console.paused ? ", HELD" : "");
+        "base axes, bold: norm; torque about the tool centre; ticks below: new fixture set; 10 s%s",
+        console.paused ? ", PAUSED" : "");
 }
 
 void TracesPanel::drawCurves(const std::deque<TraceSample>& trace, const HapticOptions& limits) {
@@ -207,11 +202,8 @@ void TracesPanel::exportCsv(const RunView& run, const std::filesystem::path& fil
     out << std::setprecision(9) << "t_s,fx,fy,fz,tx,ty,tz,frame,state\n";
     for (const TraceSample& s : shown(run)) {
         out << s.t;
-        for (int i = 0; i < 3; ++i) {
-            out << "," << s.force[i];
-        }
-        for (int i = 0; i < 3; ++i) {
-            out << "," << s.torque[i];
+        for (const glm::vec3& v : {s.force, s.torque}) {
+            out << "," << v.x << "," << v.y << "," << v.z;
         }
         out << "," << s.frame << "," << static_cast<int>(s.state) << "\n";
     }

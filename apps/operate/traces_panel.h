@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ten seconds of force and torque with their limits, frame ticks and marks; and the same as a file.
+// Ten seconds of force and torque with their limits, frame ticks and marks; also exported as CSV.
 #pragma once
 
 #include "apps/operate/hud.h"
@@ -9,12 +9,11 @@
 
 namespace fathom::operate {
 
-// 1 kHz in a few hundred columns: the smallest and the largest value of each column are drawn. Holds a copy
-// of the trace while paused.
+// Draws the minimum and maximum of each pixel column. Keeps a copy of the trace while paused.
 class TracesPanel {
 public:
     void draw(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);
-    // The trace as it is shown: t_s,fx,fy,fz,tx,ty,tz,frame,state. Throws Error that names the file.
+    // Writes the shown trace: t_s,fx,fy,fz,tx,ty,tz,frame,state. Throws Error that names the file.
     void exportCsv(const RunView& run, const std::filesystem::path& file) const;
 
 private:

@@ -8,7 +8,7 @@ namespace fathom::operate {
 
 namespace {
 
-// Base points of a depth picture.
+// Points of a depth image in the base frame.
 class Cloud {
 public:
     explicit Cloud(const Fixtures& set)
@@ -27,16 +27,17 @@ public:
         return set_.baseTcamera.apply(raw * set_.camera.metresPerUnit * ray);
     }
 
-    // Of the surface there, towards the camera, from points around; back to the camera where there are none.
+    // Surface normal towards the camera, from neighbouring points; the direction to the camera without
+    // neighbours.
     dvec3 normalAt(int u, int v) const {
         const dvec3 back = glm::normalize(set_.baseTcamera.position - at(u, v).value_or(dvec3(0.0)));
-        for (const int reach : {4, 2, 1}) { // [pixels] wide is smooth
+        for (const int reach : {4, 2, 1}) { // [pixels] larger is smoother
             const auto left = at(u - reach, v), right = at(u + reach, v), up = at(u, v - reach),
                        down = at(u, v + reach);
             if (left && right && up && down) {
                 const dvec3 n = glm::cross(*down - *up, *right - *left);
                 const double length = glm::length(n);
-                // Steeper than 80 degrees is rather an edge between two surfaces.
+                // Steeper than 80 degrees is probably an edge between two surfaces.
                 if (length > 0.0 && std::abs(glm::dot(n, back)) > 0.17 * length) {
                     return (glm::dot(n, back) > 0.0 ? n : -n) / length;
                 }
@@ -49,22 +50,22 @@ private:
     const Fixtures& set_;
 };
 
-// A line or an axis goes from the first click to the second, anything else stands on the surface.
+// A line or an axis needs two clicks, its start and its end; other shapes are placed on the surface.
 void placeAt(Console& console, FixtureEditor& editor, const dvec3& base, const dvec3& normal) {
     constexpr double kShortest = 0.002; // [m]
-    const bool goes = console.placing == ShapeKind::Line || console.placing == ShapeKind::Axis;
-    if (goes && !console.placedFrom) {
+    const bool twoClicks = console.placing == ShapeKind::Line || console.placing == ShapeKind::Axis;
+    if (twoClicks && !console.placedFrom) {
         console.placedFrom = base;
-        console.notify("and now where it leads to");
+        console.notify("now click on its end");
         return;
     }
-    const dvec3 way = goes ? base - *console.placedFrom : normal;
-    if (goes && glm::length(way) < kShortest) {
-        console.notify("too near: click where it leads to");
+    const dvec3 direction = twoClicks ? base - *console.placedFrom : normal;
+    if (twoClicks && glm::length(direction) < kShortest) {
+        console.notify("too short: click farther away");
         return;
     }
-    const bool placed = editor.place(console.placing, goes ? *console.placedFrom : base, way);
-    console.notify(placed ? "placed" : "no room: 16 shapes at most");
+    const bool placed = editor.place(console.placing, twoClicks ? *console.placedFrom : base, direction);
+    console.notify(placed ? "placed" : "not placed: at most 16 shapes");
     console.placing = ShapeKind::None;
     console.placedFrom.reset();
 }
@@ -76,7 +77,7 @@ void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, 
     const auto pixel = screen.colourPixelAt(at);
     if (!pixel || console.spaceIsLarge) {
         if (console.aims()) {
-            console.notify("in the camera view: Tab swaps");
+            console.notify("click in the camera view: Tab swaps the views");
         }
         return;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A click on the camera's picture: picks a colour or places a shape, where the console waits for one.
+// Handles a click in the camera view: picks a colour or places a shape when the console waits for one.
 #pragma once
 
 #include "apps/operate/fixture_editor.h"
@@ -7,7 +7,7 @@
 
 namespace fathom::operate {
 
-// at: [pixels] of the window. Nothing happens when the camera's view is not the large one.
+// at: [pixels] of the window. Ignored when the camera view is not the large one.
 void clickInView(Console& console, FixtureEditor& editor, const Screen& screen, const SceneSnapshot& scene,
                  ImVec2 at);
 

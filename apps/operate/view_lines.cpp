@@ -19,7 +19,7 @@ void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, flo
 
 void thin(std::vector<ImVec2>& points) {
     constexpr float kOff = 0.25f; // [pixels]
-    constexpr size_t kMost = 16;  // points that a line stands for
+    constexpr size_t kMost = 16;  // points that one segment may replace
     const auto off = [&](size_t from, size_t to, size_t i) {
         const ImVec2 a = points[from], b = points[to], p = points[i];
         const float x = b.x - a.x, y = b.y - a.y;
@@ -39,7 +39,7 @@ void thin(std::vector<ImVec2>& points) {
         while (to + 1 < points.size() && to - from < kMost && straight(to + 1)) {
             ++to;
         }
-        points[++kept] = points[to]; // none that is still to be looked at: kept <= to
+        points[++kept] = points[to]; // overwrites only visited points: kept <= to
         from = to;
     }
     points.resize(std::min(points.size(), kept + 1));
@@ -53,17 +53,15 @@ void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLi
         for (const glm::dvec2& p : l) {
             points.push_back(port.ofFrame(p));
         }
+        constexpr size_t kDash = 7;
         if (!isDashed) {
             thin(points);
-            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour::kShade, 0, width + 2.0f);
-            list.AddPolyline(points.data(), static_cast<int>(points.size()), colour, 0, width);
-            continue;
         }
-        constexpr size_t kDash = 7;
-        for (size_t i = 0; i + 1 < points.size(); i += 2 * kDash) {
-            const size_t count = std::min(kDash, points.size() - i);
-            list.AddPolyline(points.data() + i, static_cast<int>(count), colour::kShade, 0, width + 2.0f);
-            list.AddPolyline(points.data() + i, static_cast<int>(count), colour, 0, width);
+        const size_t piece = isDashed ? kDash : std::max<size_t>(1, points.size());
+        for (size_t i = 0; i < points.size(); i += 2 * piece) {
+            const auto count = static_cast<int>(std::min(piece, points.size() - i));
+            list.AddPolyline(points.data() + i, count, colour::kShade, 0, width + 2.0f);
+            list.AddPolyline(points.data() + i, count, colour, 0, width);
         }
     }
 }

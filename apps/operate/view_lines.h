@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines over a view: dashed ones, and outlines that were traced in its picture.
+// Draws lines over a view: dashed lines and traced outlines.
 #pragma once
 
 #include "apps/operate/view_port.h"
@@ -10,11 +10,11 @@
 
 namespace fathom::operate {
 
-// dash, width, a, b: [pixels of the window].
+// All lengths in pixels of the window.
 void dashed(ImDrawList& list, ImVec2 a, ImVec2 b, ImU32 colour, float width, float dash);
 
-// Leaves out points that lie within a quarter of a pixel of a line between two that stay: each point that is
-// drawn costs a dozen triangles. First and last stay.
+// Removes points within 0.25 pixels of the line between two kept points: each drawn point costs a dozen
+// triangles. Keeps the first and the last point.
 void thin(std::vector<ImVec2>& points);
 
 void outline(ImDrawList& list, const ViewPort& port, const std::vector<OutlineLine>& lines, ImU32 colour,

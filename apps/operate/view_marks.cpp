@@ -16,10 +16,10 @@ namespace {
 constexpr double kCircle = 6.283185307179586;
 
 void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool ghost) {
-    Silhouette silhouette(input.port.view);
+    std::vector<Sphere> spheres;
     for (const Sphere& leaf : input.tool.leaves()) {
         const dvec3 centre = pose.apply(leaf.centre);
-        silhouette.add(centre, leaf.radius);
+        spheres.push_back({centre, leaf.radius});
         const auto at = input.port.of(centre);
         const double z = input.port.view.cameraTbase.apply(centre).z;
         if (at && !ghost && input.tool.leafCount() <= 96) {
@@ -28,37 +28,24 @@ void toolAt(ImDrawList& list, const MarksInput& input, const Pose& pose, bool gh
             list.AddCircle(*at, r, IM_COL32(255, 255, 255, 96), 40, 1.0f);
         }
     }
-    const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
-    outline(list, input.port, lines, ghost ? IM_COL32(190, 204, 224, 230) : colour::kTool,
-            ghost ? 1.6f : 2.2f, ghost);
+    outline(list, input.port, outlineOf(input.port.view, spheres),
+            ghost ? IM_COL32(190, 204, 224, 230) : colour::kTool, ghost ? 1.6f : 2.2f, ghost);
 }
 
-// What the arm covers of the view.
+// The silhouette of the arm.
 void armAt(ImDrawList& list, const MarksInput& input) {
-    if (input.arm.empty()) {
-        return;
-    }
-    Silhouette silhouette(input.port.view);
-    for (const Sphere& sphere : input.arm) {
-        silhouette.add(sphere.centre, sphere.radius);
-    }
-    const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
-    outline(list, input.port, lines, IM_COL32(150, 196, 235, 235), 1.8f, false);
+    outline(list, input.port, outlineOf(input.port.view, input.arm), IM_COL32(150, 196, 235, 235), 1.8f,
+            false);
 }
 
-// Where a real arm is and the tool's is not; grey while that is only where it was last.
+// A real arm that is off its setpoint; grey when the last measurement is old.
 void measuredAt(ImDrawList& list, const MarksInput& input) {
     const MeasuredArm& measured = input.measured;
     if (!measured.isOff()) {
         return;
     }
-    Silhouette silhouette(input.port.view);
-    for (const Sphere& sphere : measured.spheres) {
-        silhouette.add(sphere.centre, sphere.radius);
-    }
     const ImU32 colour = measured.known ? colour::kMeasured : colour::kQuiet;
-    const auto lines = traceOutline(silhouette.mask(), input.port.view.width(), input.port.view.height(), 0);
-    outline(list, input.port, lines, colour, 2.0f, true);
+    outline(list, input.port, outlineOf(input.port.view, measured.spheres), colour, 2.0f, true);
     const auto tip = input.port.of(measured.tip), tool = input.port.of(input.run.step().record.tool.position);
     if (!tip || !tool) {
         return;
@@ -236,7 +223,7 @@ void drawMarks(ImDrawList& list, const MarksInput& input) {
         return;
     }
     toolAt(list, input, record.device, true);
-    if (!isFinite(record.tool)) { // a recording that does not tell it
+    if (!isFinite(record.tool)) { // recordings without tool poses
         return;
     }
     armAt(list, input);

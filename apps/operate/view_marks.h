@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies over a view: outlines of regions, guidance, the tool and its ghost, contacts, the force.
+// Marks over a view: outlines of regions, guidance, tool and device ghost, contacts, force.
 #pragma once
 
 #include "apps/operate/camera_ground.h"
@@ -23,20 +23,20 @@ struct MarksInput {
     const Scene& scene; // names
     std::span<const Shape> shapes;
     std::span<const Sphere> arm; // base frame; empty = the tool moves freely
-    const MeasuredArm& measured; // a real one
-    bool names = true;           // words at guidance and force: too much in an inset
+    const MeasuredArm& measured; // of a real arm
+    bool names = true;           // text at guidance and force; off in an inset
 };
 
-// Every link's spheres in the base frame; nothing without an arm.
+// The spheres of every link in the base frame; empty without an arm.
 std::vector<Sphere> armSpheres(const ArmRig* arm, const ArmPosture& posture);
 
 void drawRegionOutlines(ImDrawList& list, const ViewPort& port, const CameraGround& ground);
 void drawBounds(ImDrawList& list, const ViewPort& port, std::span<const Sphere> bounds);
 void drawCameraFrustum(ImDrawList& list, const ViewPort& port, const Fixtures& set);
-// Shapes, guidance, device ghost, tool, contacts, force; lowest first.
+// Draws shapes, guidance, device ghost, tool, contacts and force, in this order.
 void drawMarks(ImDrawList& list, const MarksInput& input);
 
-// Words with a dark ground.
+// Text on a dark background.
 void drawWords(ImDrawList& list, ImVec2 at, const std::string& words, ImU32 colour);
 void drawArrow(ImDrawList& list, ImVec2 from, ImVec2 to, ImU32 colour, float width);
 

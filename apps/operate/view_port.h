@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A view in the window: how the base frame falls onto a rectangle of it, and back.
+// A view in the window: maps the base frame to a rectangle of the window and back.
 #pragma once
 
 #include "apps/operate/painter.h"
@@ -18,7 +18,7 @@ struct ViewPort {
     ImVec2 ofFrame(glm::dvec2 p) const {
         return {static_cast<float>(where.x + p.x * scale()), static_cast<float>(where.y + p.y * scale())};
     }
-    // Window pixel of a base point [m]; empty when it is not in front of the eye.
+    // Window pixel of a point of the base frame [m]; empty when it is not in front of the eye.
     std::optional<ImVec2> of(const dvec3& base) const {
         const auto p = view.ofBase(base);
         return p ? std::optional(ofFrame(*p)) : std::nullopt;
@@ -30,11 +30,11 @@ struct ViewPort {
         const double x = double{p.x} - where.x, y = double{p.y} - where.y;
         return x >= 0.0 && y >= 0.0 && x < where.width && y < where.height;
     }
-    // [m] that a window pixel is wide at this distance along the eye's axis.
+    // Width of a window pixel [m] at this distance along the axis of the eye.
     double metresPerPixel(double z) const { return z / (view.lens.fx * view.scale * scale()); }
 };
 
-// The largest rectangle of a picture's shape in the middle of `room`.
+// The largest centred rectangle in `room` with the aspect ratio width : height.
 inline PixelRect fitted(PixelRect room, double width, double height) {
     const double scale = std::min(room.width / width, room.height / height);
     const int w = std::max(2, static_cast<int>(width * scale)),

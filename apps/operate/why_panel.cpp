@@ -10,17 +10,17 @@ namespace fathom::operate {
 
 namespace {
 
-std::string whoHolds(const Block& block, const Scene& scene, const Fixtures& set) {
+std::string obstacle(const Block& block, const Scene& scene, const Fixtures& set) {
     const Touch& touch = block.touch;
     const std::string name = touch.fixture < scene.fixtures.size() && !isSpare(scene.fixtures[touch.fixture])
                                  ? "'" + scene.fixtures[touch.fixture].name + "'"
-                                 : "a fixture that is gone";
+                                 : "a removed fixture";
     switch (touch.kind) {
     case ContactRow::Kind::Sphere: {
         const uint32_t width = std::max(1u, set.camera.depth.width),
                        pixels = std::max(1u, set.camera.depth.pixels());
         const uint32_t pixel = touch.source % pixels;
-        const char* kept = touch.source >= 2 * pixels ? "), held still" // FrozenClasses moves them there
+        const char* kept = touch.source >= 2 * pixels ? "), frozen" // FrozenClasses moves them there
                            : touch.source >= pixels   ? "), held: not seen now"
                                                       : ")";
         return name + ", region sphere of pixel (" + std::to_string(pixel % width) + ", " +
@@ -31,7 +31,7 @@ std::string whoHolds(const Block& block, const Scene& scene, const Fixtures& set
     case ContactRow::Kind::Equality:
         return name + ", a line to slide along";
     case ContactRow::Kind::Behind:
-        return "the surface in front of the tool: it is behind what the camera sees";
+        return "the visible surface: the tool is behind it";
     }
     return name;
 }
@@ -45,31 +45,29 @@ std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& s
                   "%lld (%.2f s)",
                   block.touch.leaf, block.beyond * 1e3, block.deepest * 1e3, block.force,
                   static_cast<long long>(block.sinceFrame), block.since);
-    return whoHolds(block, scene, set) + rest;
+    return obstacle(block, scene, set) + rest;
 }
 
 void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds) {
     constexpr double kNow = 0.1; // [s]
     const double now = run.step().record.t;
     if (run.step().record.state == StepState::Trapped) {
-        ImGui::TextColored(ImColor(colour::kWarning), "Trapped: no motion obeys every region at once.");
+        ImGui::TextColored(ImColor(colour::kWarning), "Trapped: no motion satisfies every region.");
     }
     if (run.step().record.stalled) {
         ImGui::TextColored(ImColor(colour::kCaution),
-                           "Waiting for the next contact set: the tool moves fast.");
+                           "The tool moves fast: waiting for the next contact set.");
     }
     for (const std::string& hold : armHolds) {
         ImGui::TextColored(ImColor(colour::kCaution), "NOW  the arm: %s", hold.c_str());
     }
     if (run.blocks().empty()) {
-        ImGui::TextDisabled("Nothing has stopped the tool so far.");
+        ImGui::TextDisabled("Nothing has stopped the tool yet.");
     }
     for (const Block& block : run.blocks()) {
         const bool active = now - block.last < kNow;
-        ImGui::PushStyleColor(ImGuiCol_Text, active ? colour::kTouch : colour::kQuiet);
-        ImGui::TextWrapped("%s %s", active ? "NOW " : "over",
-                           whyBlocked(block, scene, run.scene().set).c_str());
-        ImGui::PopStyleColor();
+        colouredText(active ? colour::kTouch : colour::kQuiet,
+                     ((active ? "NOW  " : "over ") + whyBlocked(block, scene, run.scene().set)).c_str());
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Why did it stop? Each block in words: class, region sphere, depth, since which frame.
+// Explains each block: class, region sphere, depth, and since which frame.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -9,7 +9,7 @@
 
 namespace fathom::operate {
 
-// One block, as one sentence.
+// One block in one sentence.
 std::string whyBlocked(const Block& block, const Scene& scene, const Fixtures& set);
 // armHolds: measured_arm.h.
 void drawWhy(const RunView& run, const Scene& scene, const std::vector<std::string>& armHolds);

@@ -68,7 +68,7 @@ Window::Window(const std::string& offscreen, const std::string& title) {
     }
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr; // what is worth keeping is in the scene file
+    ImGui::GetIO().IniFilename = nullptr; // settings are stored in the scene file
     if (window_ != nullptr) {
         ImGui_ImplGlfw_InitForVulkan(window_, true);
         glfwSetKeyCallback(window_, key); // in place of ImGui's: holdTaps() passes the keys
@@ -93,14 +93,14 @@ void Window::holdTaps() {
     bool shift = live_[GLFW_KEY_LEFT_SHIFT] || live_[GLFW_KEY_RIGHT_SHIFT];
     std::vector<Tap> later;
     std::vector<int> seen;   // keys of taps so far
-    std::optional<int> mods; // of this frame: keys struck with other modifiers wait for the next one
+    std::optional<int> mods; // of this frame: presses with other modifiers wait for the next one
     for (const Tap& tap : taps_) {
         const auto key = static_cast<size_t>(tap.key);
         const bool now = std::find(seen.begin(), seen.end(), tap.key) != seen.end();
         const bool modifier = tap.key >= GLFW_KEY_LEFT_SHIFT && tap.key <= GLFW_KEY_RIGHT_SUPER;
         const bool other = !modifier && (!later.empty() || mods.value_or(tap.mods) != tap.mods);
         seen.push_back(tap.key);
-        if (other || now || shown_[key]) { // up for a frame, to go down again
+        if (other || now || shown_[key]) { // released for one frame, then pressed again
             down[key] = now && down[key];
             later.push_back(tap);
             continue;
@@ -120,7 +120,7 @@ void Window::holdTaps() {
 void Window::key(GLFWwindow* window, int key, int, int action, int mods) {
     auto* self = static_cast<Window*>(glfwGetWindowUserPointer(window));
     if (key == GLFW_KEY_SPACE && action == GLFW_PRESS) {
-        self->taps_.clear(); // keys struck before it no longer count
+        self->taps_.clear(); // discards earlier presses
         dropQueuedKeys();
     }
     if (key >= 0 && static_cast<size_t>(key) < self->live_.size()) {
@@ -155,7 +155,7 @@ void Window::beginFrame(double patience) {
     if (window_ != nullptr) {
         const double until = seconds() + patience;
         glfwPollEvents();
-        while (seconds() < until) { // events are taken at once, the frame keeps its time
+        while (seconds() < until) { // handles events at once and keeps the frame rate
             constexpr double kLook =
                 0.002; // [s] waiting on the connection itself would share it with the swapchain
             std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, until - seconds())));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window itself, or, offscreen, a stand-in of fixed size: events in, a size and a surface out.
+// The window, or an offscreen replacement of fixed size: handles events, provides size and surface.
 #pragma once
 
 #include "apps/operate/keys.h"
@@ -15,24 +15,24 @@ struct GLFWwindow;
 
 namespace fathom::operate {
 
-// Thread: main, for its toolkit asks for that. Makes and ends ImGui's context.
+// Thread: main, as GLFW requires. Owns the ImGui context.
 class Window {
 public:
-    // size: "WxH" for offscreen, empty for a window of 1280x720. Throws BadInput when there is no display or
-    // the size is none.
+    // offscreen: "WxH", or empty for a window of 1280x720. Throws BadInput without a display or for a bad
+    // size.
     Window(const std::string& offscreen, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    std::span<const char* const> extensions() const; // of the instance
+    std::span<const char* const> extensions() const; // that the instance needs
     VkSurfaceKHR makeSurface(const gpu::Instance& instance) const;
     bool offscreen() const { return window_ == nullptr; }
 
-    // Called at once when the key that turns forces off goes down, whatever widget has the focus.
+    // Called as soon as the key for forces off is pressed, whatever widget has the focus.
     std::function<void()> onForcesOff;
 
-    // Takes the events that have come, waits for some up to `patience` [s] and begins an ImGui frame.
+    // Handles events for `patience` [s] and begins an ImGui frame.
     void beginFrame(double patience);
     void setTitle(const std::string& title);
     bool closed() const;
@@ -40,8 +40,8 @@ public:
     VkExtent2D size() const; // [pixels]
 
 private:
-    // A key that went down and up between two frames still counts as pressed in the next one, and one that
-    // did so twice in the next but one, too.
+    // A key pressed and released between two frames counts as pressed in the next frame; a second press
+    // counts in the frame after the next.
     void holdTaps();
 
     static void key(GLFWwindow* window, int key, int scan, int action, int mods);
