@@ -73,7 +73,7 @@ struct BoardImage {
             return 190.0;
         }
         if (glm::length(p - dvec3(0.08, 0.04, 0.0)) < blot) {
-            return 120.0; // something lies on it
+            return 120.0; // covered
         }
         return (x + y) % 2 == 0 ? 30.0 : 220.0;
     }

@@ -107,7 +107,7 @@ TEST_CASE("an empty run gives a header alone") {
           "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms,publish_ms\n");
 }
 
-TEST_CASE("frames.csv has one column a pass, in order of the plan, whatever the order in the row") {
+TEST_CASE("frames.csv has one column per pass in the order of the plan, whatever the order in the row") {
     const ScratchFolder folder;
     FramesCsv csv(folder.path() / "f.csv", {"classify", "surface", "tree"});
     FrameRecord frame{5, 0.5, 100, 40, 30, 7, 9, 11, 0.25, {{"tree", 3.0}, {"classify", 1.0}}, 4.0};

@@ -72,7 +72,7 @@ TEST_CASE(
     part.frames = 1800;
     part.seconds = 60.2;
     part.tick.add(10.0);
-    CHECK_FALSE(soakHolds(part)); // nobody looked at memory
+    CHECK_FALSE(soakHolds(part)); // memory was not measured
     for (int i = 0; i < 100; ++i) {
         part.memory.push_back(200.0 + (i == 50 ? 100.0 : 0.0) + (i > 95 ? kMostGrowth : 0.0));
     }

@@ -74,7 +74,7 @@ struct TagImage {
         for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
             const uint32_t row = i / 640;
             int sum = 0;
-            for (int s = 0; s < 16; ++s) { // 4 x 4 rays a pixel
+            for (int s = 0; s < 16; ++s) { // 4 x 4 rays per pixel
                 const int line = s / 4;
                 const double u = i % 640 + (s % 4 - 1.5) / 4, v = row + (line - 1.5) / 4;
                 const dvec3 p =

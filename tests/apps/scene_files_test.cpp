@@ -9,7 +9,7 @@ using namespace fathom;
 using namespace fathom::operate;
 using namespace fathom::testing;
 
-TEST_CASE("Files that a scene names beside itself are copied under their names, and others are told of") {
+TEST_CASE("Files in the folder of a scene are copied under their names, and others are listed") {
     const ScratchFolder home, elsewhere, copy;
     std::filesystem::create_directories(home.path() / "tools");
     put(home.path() / "tools/jaw.sph", "spheres");

@@ -56,7 +56,7 @@ TEST_CASE("A haptic device at its endpoint drives the tool in the window and fee
     REQUIRE(
         rig.await([&](const json& s) { return z(s, "tool") > start + 0.015; })); // forces are off, it moves
     CHECK(device.fz == 0.0);
-    rig.keyDown("Up"); // keys do not drive beside a device
+    rig.keyDown("Up"); // keys do not move the tool when a device does
     rig.keyUp("Up");
     const json rests = rig.atRest();
     REQUIRE(!rests.is_null());

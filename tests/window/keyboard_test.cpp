@@ -64,7 +64,7 @@ TEST_CASE("F6 gives arrows and Enter to the panels and back; the space bar press
     REQUIRE(!before.is_null());
     rig.key("F6");
     REQUIRE(rig.await([](const json& s) { return s["console"]["panels"] == true; }));
-    // Whatever is chosen first, the way to the row of buttons is short, and Freeze lies at its right end.
+    // From any first item a few steps reach the row of buttons; Freeze is its last button.
     for (int i = 0; i < 4; ++i) {
         rig.key("Down");
     }

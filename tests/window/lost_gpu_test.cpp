@@ -73,8 +73,8 @@ void press(const WindowRig& rig) {
     REQUIRE(!rig.atRest().is_null());
 }
 
-// What is known of the time without a GPU: turns go on, the force is none half a second after the scene is
-// old; the tool stays where the last regions hold it.
+// Checks the states without a GPU: ticks continue, the force is zero 0.5 s after the scene is old, and the
+// tool stays outside the last regions.
 void checkGone(const std::vector<json>& states, const json& before) {
     std::vector<json> gone;
     std::copy_if(states.begin(), states.end(), std::back_inserter(gone),

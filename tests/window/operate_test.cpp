@@ -57,7 +57,7 @@ TEST_CASE("The window shows the camera image, the forbidden region in red and un
     };
     CHECK(shot.share(part(0.40, 0.35, 0.25, 0.3), isRed) > 0.5);   // the bump
     CHECK(shot.share(part(0.02, 0.02, 0.12, 0.12), isRed) < 0.02); // the wall
-    // The region reaches over grey wall beside the bump: hatched in red, within a line.
+    // The region covers grey wall next to the bump, hatched in red.
     const auto reddish = [](int r, int g, int b) { return r > g + 15 && r > b + 15; };
     CHECK(shot.share(part(0.33, 0.4, 0.035, 0.2), reddish) > 0.9);
     CHECK(shot.share(part(0.27, 0.4, 0.02, 0.2), reddish) < 0.02);
@@ -92,7 +92,7 @@ TEST_CASE("Keys and wheel drive the tool to the region's surface, where it stops
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.2; }));
     const json s = rig.state();
     const double hand = s["run"]["device"][2], tool = toolZ(s);
-    CHECK(hand > tool + 0.001); // the hand went on, the tool did not
+    CHECK(hand > tool + 0.001); // the hand moved on, the tool did not
     CHECK(s["run"]["touches"] > 0);
     rig.key("w");
     REQUIRE(rig.await([](const json& now) { return now["console"]["tab"] == 1; }));
@@ -244,7 +244,7 @@ TEST_CASE("The window can be made smaller, larger and unmapped while it runs") {
     CHECK(shot.width == 1600);
     rig.xdo("windowunmap --sync $W");
     const auto ticks = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 300; })); // the hand goes on
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 300; })); // the hand continues
     rig.xdo("windowmap --sync $W");
     const auto frames = rig.state()["window"]["frames"].get<int>();
     CHECK(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 5; }));

@@ -61,8 +61,7 @@ void dragTo(WindowRig& rig, double share) {
     }));
 }
 
-// [s] near the end, while the hand pushes: no turn about it fades because a busy machine's pictures were
-// late.
+// A moment [s] near the end, while the hand pushes, when no tick fades because a busy machine delayed frames.
 double freshMoment(const std::vector<Felt>& felt, const std::vector<double>& sceneAges) {
     constexpr double kAbout = 0.06; // [s] to either side: where the line is dragged to is not exact
     double stale = felt.back().t;   // the earliest late tick after the moment
@@ -157,7 +156,7 @@ TEST_CASE("Keys step a recording by frames and ticks, and play it until it is st
     rig.click("play");
     REQUIRE(rig.await([&](const json& s) { return s["console"]["time_line"]["playing"] == false; }));
     const double stopped = lineTime(rig.state());
-    rig.key("Tab"); // the window goes on, the recording does not
+    rig.key("Tab"); // the window continues, the recording does not
     REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
     CHECK(lineTime(rig.state()) == stopped);
     CHECK(rig.close() == 0);

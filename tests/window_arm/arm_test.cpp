@@ -115,8 +115,8 @@ TEST_CASE("Keys drive an arm to a region and back; forces off hold it, and closi
     CHECK(w.joints() == last);
 }
 
-TEST_CASE("An arm that falls silent or is unplugged while the pilot drives takes the force away, the window "
-          "says so, and both go on when it is back") {
+TEST_CASE("When an arm falls silent or is unplugged, the force goes to zero, the window reports it, and both "
+          "resume when it is back") {
     for (const bool unplugged : {false, true}) {
         CAPTURE(unplugged);
         ArmWindow w;
@@ -166,9 +166,7 @@ TEST_CASE("Another pilot takes over a real arm at its present posture") {
     w.close();
 }
 
-TEST_CASE(
-    "Where an arm was measured is drawn in both views and told while it is behind, not while it is where "
-    "the tool has it") {
+TEST_CASE("An arm off its setpoint is drawn and labelled in both views, an arm at its setpoint is not") {
     ArmWindow w;
     w.arms();
     w.meets();
