@@ -2,7 +2,7 @@
 // A physical haptic or hand-held device.
 #pragma once
 
-#include "devices/haptic_device.h"
+#include "engine/types/haptic_device.h"
 
 #include <cstdint>
 #include <string>

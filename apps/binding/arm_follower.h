@@ -3,7 +3,7 @@
 #pragma once
 
 #include "apps/binding/arm_axes.h"
-#include "apps/binding/arm_link.h"
+#include "engine/run/arm_link.h"
 
 namespace fathom {
 

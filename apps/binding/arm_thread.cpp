@@ -227,8 +227,8 @@ void ArmThread::run() noexcept {
             const std::chrono::duration<double> age(told.age);
             link_.measured.add(time - std::chrono::duration_cast<Clock::duration>(age), posture);
         }
-        link_.told.back() = told;
-        link_.told.publish();
+        link_.status.back() = told;
+        link_.status.publish();
         try {
             note(told, now);
         } catch (...) { // a log that cannot be written stops no arm

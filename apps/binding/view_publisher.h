@@ -3,9 +3,9 @@
 // shapes that people placed.
 #pragma once
 
-#include "apps/binding/crossings.h"
-#include "apps/binding/record_drain.h"
 #include "devices/bridge/view_socket.h"
+#include "engine/run/channels.h"
+#include "engine/run/record_drain.h"
 
 #include <mutex>
 #include <vector>

@@ -2,9 +2,9 @@
 #include "apps/guard/guard_command.h"
 
 #include "apps/binding/stop_signals.h"
-#include "apps/binding/thread_placement.h"
 #include "devices/haply/haply_guard.h"
 #include "devices/usb/falcon_guard.h"
+#include "engine/run/thread_placement.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 

@@ -30,7 +30,7 @@ public:
         first_ = false;
         return more ? feed_.fetch() : std::nullopt;
     }
-    void shown(const ToolState& place) override { feed_.shown(place); }
+    void armAtCapture(const ToolState& place) override { feed_.armAtCapture(place); }
     void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
 
 private:

@@ -98,7 +98,7 @@ void Alarms::step(Console& console, const RunView& run, const HapticOptions& hap
             r.t);
         set(r.marginPassive < kMarginNoise, Level::Caution, "passive", "Springs exceed the passivity bound",
             r.t);
-        const ArmState arm = run.step().driven ? run.step().told.state : ArmState::Follows;
+        const ArmState arm = run.step().driven ? run.step().armStatus.state : ArmState::Follows;
         set(isFault(arm), Level::Warning, "arm", print("Arm %s: arm and tool are stopped", armStateName(arm)),
             r.t);
         set(glm::distance(r.tool.position, r.device.position) > 0.10, Level::Advisory, "apart",

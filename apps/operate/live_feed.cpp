@@ -10,11 +10,11 @@ namespace fathom::operate {
 LiveFeed::LiveFeed(OperateSession& session)
     : session_(session) {
     if (session_.arm) {
-        shown({Pose{}, session_.arm->startPosture()});
+        armAtCapture({Pose{}, session_.arm->startPosture()});
     }
 }
 
-void LiveFeed::shown(const ToolState& place) {
+void LiveFeed::armAtCapture(const ToolState& place) {
     if (session_.cycles.plan().selfFilter && !lost()) {
         session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
     }

@@ -2,9 +2,9 @@
 // Camera and passes as the threads of a run see them, with what the window may change meanwhile.
 #pragma once
 
-#include "apps/binding/contact_loop.h"
-#include "apps/binding/frame_loop.h"
 #include "apps/operate/operate_session.h"
+#include "engine/run/contact_loop.h"
+#include "engine/run/frame_loop.h"
 #include "engine/types/colour_copy.h"
 
 #include <atomic>
@@ -20,7 +20,7 @@ public:
 
     std::optional<uint32_t> fetch() override;
     std::optional<RunClock::Time> captured() const override;
-    void shown(const ToolState& place) override;
+    void armAtCapture(const ToolState& place) override;
     void publish(double t, PublishedFrame& out) override;
     bool renewable() const override { return true; }
     bool lost() const override { return session_.handover.lost(); }

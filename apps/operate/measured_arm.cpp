@@ -15,8 +15,8 @@ MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const S
         return measured;
     }
     measured.real = true;
-    measured.known = row.told.known;
-    measured.state = row.told.state;
+    measured.known = row.armStatus.known;
+    measured.state = row.armStatus.state;
     if (!run.measured()) {
         return measured;
     }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "apps/binding/arm_thread.h"
-#include "apps/binding/device_handover.h"
 #include "apps/binding/scene_edits.h"
 #include "apps/clock/clock_keeper.h"
 #include "apps/operate/operate_command.h"
@@ -11,6 +10,7 @@
 #include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
 #include "engine/cycle/device_cycles.h"
+#include "engine/run/device_handover.h"
 
 #include <atomic>
 #include <memory>

@@ -2,7 +2,6 @@
 // A pilot's session from start to end: the threads of a realtime run, and the window on the main thread.
 #pragma once
 
-#include "apps/binding/realtime_run.h"
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/view_publisher.h"
 #include "apps/operate/canvas.h"
@@ -14,6 +13,7 @@
 #include "apps/operate/steering.h"
 #include "apps/operate/traces_panel.h"
 #include "apps/replay/fault_trace.h"
+#include "engine/run/realtime_run.h"
 
 #include <memory>
 #include <semaphore>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "apps/binding/stop_signals.h"
-#include "apps/binding/thread_placement.h"
 #include "apps/operate/canvas.h"
 #include "apps/operate/past_scene.h"
 #include "apps/operate/recorder.h"
@@ -12,6 +11,7 @@
 #include "apps/operate/steering.h"
 #include "apps/operate/time_line_panel.h"
 #include "apps/operate/traces_panel.h"
+#include "engine/run/thread_placement.h"
 
 namespace fathom::operate {
 

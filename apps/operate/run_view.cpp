@@ -53,8 +53,8 @@ void RunView::take(const TickRow& row) {
     micros_[(ticks_ - 1) % kMostTicks] = static_cast<float>(row.micros);
     wokenLate_[(ticks_ - 1) % kMostTicks] = static_cast<float>(row.wokenLate * 1e6);
     const StepRecord& r = row.record;
-    if (row.driven && row.told.known) {
-        measured_ = Measured{r.t - row.told.age, row.told.posture};
+    if (row.driven && row.armStatus.known) {
+        measured_ = Measured{r.t - row.armStatus.age, row.armStatus.posture};
     }
     trace_.push_back({r.t, glm::vec3(r.wrench.force), glm::vec3(r.wrench.torque), r.frame, r.state,
                       r.guidance > 0.0, row.late});

@@ -2,7 +2,7 @@
 // Copies of run data for the window: the writer thread publishes them and never waits for the window.
 #pragma once
 
-#include "apps/binding/record_drain.h"
+#include "engine/run/record_drain.h"
 #include "engine/types/spsc_queue.h"
 #include "engine/types/triple_buffer.h"
 

@@ -86,7 +86,7 @@ json runOf(const RunView& run, const StateExtras& extras) {
             {"generation", run.scene().set.generation},
             {"grasp", r.arm.posture.grasp},
             {"arm_holds", extras.armHolds},
-            {"arm", run.step().driven ? json(armStateName(run.step().told.state)) : json(nullptr)},
+            {"arm", run.step().driven ? json(armStateName(run.step().armStatus.state)) : json(nullptr)},
             {"real_arm", armOf(extras.arm)}};
 }
 

@@ -3,7 +3,7 @@
 // contact that pushed in a tick. Written by the recorder, read by playback.
 #pragma once
 
-#include "apps/binding/crossings.h"
+#include "engine/run/channels.h"
 
 #include <filesystem>
 #include <iosfwd>

@@ -99,7 +99,7 @@ void ArmReport::add(const TickRecord& tick) {
 }
 
 void ArmReport::addDriven(const TickRecord& tick) {
-    const ArmStatus& told = tick.told;
+    const ArmStatus& told = tick.armStatus;
     ReplaySummary::Arm::Driven& driven = *sums_.driven;
     row_.add(std::string(armStateName(told.state)));
     for (size_t k = 0; k < rig_.model.count(); ++k) {

@@ -3,8 +3,8 @@
 // that is there whether or not the run comes to its end.
 #pragma once
 
-#include "apps/binding/record_drain.h"
 #include "apps/replay/tick_record.h"
+#include "engine/run/record_drain.h"
 
 #include <filesystem>
 #include <vector>

@@ -44,7 +44,7 @@ public:
         }
     }
 
-    void shown(const ToolState& place) override {
+    void armAtCapture(const ToolState& place) override {
         if (session_.cycles.plan().selfFilter) {
             session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
         }
@@ -178,7 +178,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     if (session_.realArm) { // the scene's start is where it stands
         const ArmPosture stands = session_.realArm->ready(signals_.asked());
         session_.arm->start = stands.q;
-        feed_->shown({Pose{}, stands});
+        feed_->armAtCapture({Pose{}, stands});
     }
     if (!run_->firstFrame()) {
         throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
@@ -266,7 +266,7 @@ void RealtimeReplay::step(const TickRow& row, const PublishedFrame* obeyed, bool
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
     TickRecord tick = tickOf(row.record, row.startArm, row.micros, row.late);
     tick.driven = row.driven;
-    tick.told = row.told;
+    tick.armStatus = row.armStatus;
     recorder_.tick(tick);
     if (view_) {
         view_->step(row);

@@ -3,7 +3,6 @@
 // audits.
 #pragma once
 
-#include "apps/binding/realtime_run.h"
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/view_publisher.h"
 #include "apps/binding/watched_hand.h"
@@ -13,6 +12,7 @@
 #include "apps/replay/replay_recorder.h"
 #include "apps/replay/replay_session.h"
 #include "apps/replay/tool_audit.h"
+#include "engine/run/realtime_run.h"
 
 #include <memory>
 #include <optional>

@@ -7,10 +7,10 @@
 #include "apps/clock/clock_keeper.h"
 #include "apps/replay/replay_command.h"
 #include "devices/camera.h"
-#include "devices/haptic_device.h"
 #include "devices/live_hand.h"
 #include "devices/simulated/hand_path.h"
 #include "engine/cycle/device_cycles.h"
+#include "engine/types/haptic_device.h"
 
 #include <memory>
 

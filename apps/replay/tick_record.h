@@ -3,8 +3,8 @@
 // reads.
 #pragma once
 
-#include "apps/binding/arm_link.h"
 #include "engine/cycle/step_record.h"
+#include "engine/run/arm_link.h"
 #include "engine/types/pose.h"
 #include "engine/types/wrench.h"
 
@@ -53,7 +53,7 @@ struct TickRecord {
     ArmRecord arm;                // all zero without an arm
     ArmPosture armStart;          // that the turn started from
     bool driven = false;          // a real arm follows
-    ArmStatus told;               // by it, before the turn
+    ArmStatus armStatus;          // by it, before the turn
 };
 
 // A pass of the frame cadence and the time it took [ms]; kUnknown when the device gives no timestamps.

@@ -4,7 +4,7 @@
 
 #include "devices/bridge/device_socket.h"
 #include "devices/bridge/force_gate.h"
-#include "devices/haptic_device.h"
+#include "engine/types/haptic_device.h"
 
 #include <filesystem>
 #include <string>

@@ -3,7 +3,7 @@
 // inverseSDK/service/realtime: websocket-protocol and control-commands.
 #pragma once
 
-#include "devices/haptic_device.h"
+#include "engine/types/haptic_device.h"
 
 #include <optional>
 #include <string>

@@ -2,7 +2,7 @@
 // A scripted path of the hand: timed waypoints, interpolated.
 #pragma once
 
-#include "devices/haptic_device.h"
+#include "engine/types/haptic_device.h"
 #include "engine/types/pose.h"
 
 #include <cstdint>

@@ -2,9 +2,9 @@
 // Simulated haptic devices: a hand that reacts to forces, and one that only follows its path.
 #pragma once
 
-#include "devices/haptic_device.h"
 #include "devices/simulated/hand_path.h"
 #include "engine/scene/scene.h"
+#include "engine/types/haptic_device.h"
 
 #include <array>
 #include <cstdint>

@@ -2,8 +2,8 @@
 // Converts a Falcon's encoder counts to hand samples, and forces to motor commands.
 #pragma once
 
-#include "devices/haptic_device.h"
 #include "devices/usb/falcon_packet.h"
+#include "engine/types/haptic_device.h"
 
 namespace fathom {
 

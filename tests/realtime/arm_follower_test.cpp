@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/binding/arm_follower.h"
 
-#include "apps/binding/haptic_loop.h"
+#include "engine/run/haptic_loop.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
@@ -150,20 +150,20 @@ TEST_CASE("A haptic turn with a real arm behind it wishes what it did, and holds
     options.needsContacts = false;
     const Pose start = at(0, 0, 0);
     HapticCycle cycle(fake.tool, {}, options, start, &start, &rig);
-    Crossings crossings(4096);
+    Channels channels(4096);
     ArmLink link;
-    crossings.arm = &link;
+    channels.arm = &link;
     RunClock clock;
-    HapticLoop loop(cycle, fake.hand, crossings, clock, {}, nullptr);
+    HapticLoop loop(cycle, fake.hand, channels, clock, {}, nullptr);
     TickRow row;
     for (int i = 0; i < 40; ++i) {
-        link.told.back().state = ArmState::Held;
-        link.told.back().known = true;
-        link.told.back().posture = cycle.place().arm;
-        link.told.back().at = clock.timeAt(clock.now());
-        link.told.publish();
+        link.status.back().state = ArmState::Held;
+        link.status.back().known = true;
+        link.status.back().posture = cycle.place().arm;
+        link.status.back().at = clock.timeAt(clock.now());
+        link.status.publish();
         loop.step(clock.now());
-        REQUIRE(crossings.ticks.pop(row));
+        REQUIRE(channels.ticks.pop(row));
     }
     CHECK(row.driven);
     CHECK_FALSE(row.record.armHold);
@@ -172,8 +172,8 @@ TEST_CASE("A haptic turn with a real arm behind it wishes what it did, and holds
     CHECK(link.setpoint.front().posture.q == row.record.arm.posture.q);
     std::this_thread::sleep_for(std::chrono::milliseconds(150)); // no word from the arm's thread
     loop.step(clock.now());
-    REQUIRE(crossings.ticks.pop(row));
-    CHECK(row.told.state == ArmState::Silent);
+    REQUIRE(channels.ticks.pop(row));
+    CHECK(row.armStatus.state == ArmState::Silent);
     CHECK(row.record.armHold);
     REQUIRE(link.setpoint.refresh());
     CHECK(link.setpoint.front().hold);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A device that two threads share, lost by either of them again and again: nobody touches one that is gone.
-#include "apps/binding/device_handover.h"
+#include "engine/run/device_handover.h"
 
 #include <doctest/doctest.h>
 #include <memory>

@@ -3,10 +3,10 @@
 // on a path, a sink that audits.
 #pragma once
 
-#include "apps/binding/realtime_run.h"
 #include "devices/simulated/simulated_hand.h"
 #include "engine/contact/cull_cpu.h"
 #include "engine/reference/penetration_audit.h"
+#include "engine/run/realtime_run.h"
 #include "tests/cycle/haptic_rig.h"
 
 #include <cmath>

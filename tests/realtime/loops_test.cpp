@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The loops one at a time, without threads.
-#include "apps/binding/contact_loop.h"
-#include "apps/binding/frame_loop.h"
-#include "apps/binding/haptic_loop.h"
-#include "apps/binding/record_drain.h"
 #include "apps/binding/spooled_camera.h"
 #include "devices/simulated/simulated_camera.h"
+#include "engine/run/contact_loop.h"
+#include "engine/run/frame_loop.h"
+#include "engine/run/haptic_loop.h"
+#include "engine/run/record_drain.h"
 #include "engine/types/error.h"
 #include "tests/haptics/allocation_count.h"
 
@@ -47,15 +47,15 @@ private:
 
 TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a trace") {
     FakeRun fake(2, wipingPath(2.0));
-    Crossings crossings(4096);
+    Channels channels(4096);
     RunClock clock;
     const auto file = std::filesystem::temp_directory_path() / "fathom-loops-test.json";
     CadenceTrace trace(file, {});
     HapticCycle cycle(fake.tool, {}, fake.options, fake.path.at(0.0).deviceThandle);
-    HapticLoop loop(cycle, fake.hand, crossings, clock, {}, &trace);
-    FrameLoop frames(fake.feed, crossings, clock, 1.0 / 30.0, nullptr);
+    HapticLoop loop(cycle, fake.hand, channels, clock, {}, &trace);
+    FrameLoop frames(fake.feed, channels, clock, 1.0 / 30.0, nullptr);
     REQUIRE(frames.first());
-    SceneUpdate news = frames.news();
+    SceneUpdate news = frames.update();
     news.guidanceCount = 1;
     news.guidance[0].present = true;
     news.guidance[0].target = at(0.0, 0.0, 0.05);
@@ -66,17 +66,17 @@ TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a tr
     clock.start(0.0);
     const uint64_t beforeAny = allocationCount();
     for (int i = 0; i < 1000; ++i) {
-        ContactSet& set = crossings.contacts.back();
+        ContactSet& set = channels.contacts.back();
         REQUIRE(fake.answers.answer(cycle.place(), set));
         query = set.query;
-        crossings.contacts.publish();
+        channels.contacts.publish();
         news.captureTime = clock.now();
-        crossings.scene.back() = news;
-        crossings.scene.publish();
+        channels.scene.back() = news;
+        channels.scene.publish();
         const uint64_t before = allocationCount();
         loop.step(clock.now());
         during += allocationCount() - before;
-        REQUIRE(crossings.ticks.pop(row));
+        REQUIRE(channels.ticks.pop(row));
         CHECK(row.query == query);
         contacts += row.record.contacts > 0 ? 1 : 0;
         std::this_thread::sleep_for(std::chrono::microseconds(300));
@@ -95,9 +95,9 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
             std::this_thread::sleep_for(std::chrono::milliseconds(230));
         }
     };
-    Crossings crossings(16);
+    Channels channels(16);
     RunClock clock;
-    FrameLoop loop(fake.feed, crossings, clock, 0.05, nullptr);
+    FrameLoop loop(fake.feed, channels, clock, 0.05, nullptr);
     REQUIRE(loop.first());
     clock.start(0.0);
     std::atomic<bool> stop{false};
@@ -111,15 +111,15 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
     CHECK(fake.feed.captured[7] >= 0.05 * 6 + 0.23 - 1e-6);
     CHECK(loop.lost() >= 3); // 230 ms run over four periods of 50
     CHECK(loop.lost() <= 8);
-    CHECK(loop.news().sourceEnded);
+    CHECK(loop.update().sourceEnded);
 }
 
 TEST_CASE("Pictures of a live source keep the time they were taken at, and the loop paces none of them") {
     FakeRun fake(8, pressingPath(1.0));
     LiveFeed live(fake.feed);
-    Crossings crossings(16);
+    Channels channels(16);
     RunClock clock;
-    FrameLoop loop(live, crossings, clock, 1000.0, nullptr); // paced, it would take hours
+    FrameLoop loop(live, channels, clock, 1000.0, nullptr); // paced, it would take hours
     REQUIRE(loop.first());
     clock.start(0.0);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -133,7 +133,7 @@ TEST_CASE("Pictures of a live source keep the time they were taken at, and the l
         CHECK(fake.feed.captured[i] <= clock.now() - 0.02 + 1e-6);
     }
     CHECK(loop.lost() == 0);
-    CHECK(loop.news().live);
+    CHECK(loop.update().live);
 }
 
 TEST_CASE("A live camera whose stamps go back gives pictures no older than the one before") {
@@ -141,9 +141,9 @@ TEST_CASE("A live camera whose stamps go back gives pictures no older than the o
     LiveFeed live(fake.feed);
     live.age = [](uint32_t index) { return std::chrono::milliseconds(index == 5 ? 3600000 : 1); };
     fake.feed.beforeFetch = [](uint32_t) { std::this_thread::sleep_for(std::chrono::milliseconds(5)); };
-    Crossings crossings(16);
+    Channels channels(16);
     RunClock clock;
-    FrameLoop loop(live, crossings, clock, 1000.0, nullptr);
+    FrameLoop loop(live, channels, clock, 1000.0, nullptr);
     REQUIRE(loop.first());
     clock.start(0.0);
     std::atomic<bool> stop{false};
@@ -153,32 +153,32 @@ TEST_CASE("A live camera whose stamps go back gives pictures no older than the o
     CHECK(captured[4] > 0.0);
     CHECK(captured[5] == captured[4]);
     CHECK(captured[6] > captured[5]);
-    CHECK(loop.news().captureTime == captured[9]);
+    CHECK(loop.update().captureTime == captured[9]);
 }
 
 TEST_CASE(
     "A turn whose set has not reached the writer waits for it, and goes through at the end in any case") {
     FakeRun fake(2, pressingPath(1.0));
-    Crossings crossings(16);
-    RecordDrain drain(crossings, fake.sink);
+    Channels channels(16);
+    RecordDrain drain(channels, fake.sink);
     TickRow row;
-    crossings.ticks.push(row); // obeys nothing
+    channels.ticks.push(row); // obeys nothing
     row.generation = 1;
     row.query = 1;
-    crossings.ticks.push(row);
+    channels.ticks.push(row);
     drain.drain();
     CHECK(fake.sink.rows.size() == 1);
 
     RunClock clock;
-    FrameLoop frames(fake.feed, crossings, clock, 0.05, nullptr);
+    FrameLoop frames(fake.feed, channels, clock, 0.05, nullptr);
     REQUIRE(frames.first());
-    crossings.queries.push({1, 5.0, {0}});
+    channels.queries.push({1, 5.0, {0}});
     drain.drain();
     CHECK(fake.sink.rows.size() == 2);
     CHECK(fake.sink.unknown == 0);
 
     row.generation = 7; // never comes
-    crossings.ticks.push(row);
+    channels.ticks.push(row);
     drain.drain();
     CHECK(fake.sink.rows.size() == 2);
     drain.drain(true);
@@ -188,16 +188,16 @@ TEST_CASE(
 
 TEST_CASE("Sets that no turn can obey any more go back to the frame cadence") {
     FakeRun fake(400, pressingPath(1.0));
-    Crossings crossings(16);
-    RecordDrain drain(crossings, fake.sink);
+    Channels channels(16);
+    RecordDrain drain(channels, fake.sink);
     RunClock clock;
-    FrameLoop frames(fake.feed, crossings, clock, 0.0, nullptr);
+    FrameLoop frames(fake.feed, channels, clock, 0.0, nullptr);
     REQUIRE(frames.first());
     TickRow row;
     for (uint64_t generation = 1; generation < 300; ++generation) {
         REQUIRE(frames.first()); // the next one
         row.generation = generation;
-        crossings.ticks.push(row);
+        channels.ticks.push(row);
         drain.drain();
     }
     CHECK(drain.newest()->fixtures.generation == 300);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A hand that gives numbers that are none.
-#include "apps/binding/realtime_run.h"
+#include "engine/run/realtime_run.h"
 
 #include <doctest/doctest.h>
 #include <limits>

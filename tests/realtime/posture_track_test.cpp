@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/posture_track.h"
+#include "engine/run/posture_track.h"
 
-#include "apps/binding/frame_loop.h"
+#include "engine/run/frame_loop.h"
 
 #include <doctest/doctest.h>
 #include <thread>
@@ -34,22 +34,22 @@ struct LateFeed final : FrameFeed {
         return index <= 5 ? std::optional(index) : std::nullopt;
     }
     std::optional<RunClock::Time> captured() const override { return clock.timeAt(0.02 * index); }
-    void shown(const ToolState& place) override { shownAt.push_back(place.arm.grasp); }
+    void armAtCapture(const ToolState& place) override { shownAt.push_back(place.arm.grasp); }
     void publish(double, PublishedFrame& out) override { out.changed = false; }
 };
 
 } // namespace
 
 TEST_CASE("The self-filter is given the posture of the moment a picture was taken, not the newest") {
-    Crossings crossings(1024);
+    Channels channels(1024);
     RunClock clock;
     LateFeed feed(clock);
-    FrameLoop loop(feed, crossings, clock, 0.02, nullptr);
+    FrameLoop loop(feed, channels, clock, 0.02, nullptr);
     REQUIRE(loop.first());
     CHECK(feed.shownAt.empty()); // no turn yet
     clock.start(0.0);
     for (int i = 0; i < 200; ++i) { // the arm has gone on long before the pictures arrive
-        crossings.postures.add(clock.timeAt(0.002 * i), posture(i));
+        channels.postures.add(clock.timeAt(0.002 * i), posture(i));
     }
     std::atomic<bool> stop{false};
     loop.run(stop);

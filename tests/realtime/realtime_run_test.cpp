@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/realtime_run.h"
+#include "engine/run/realtime_run.h"
 
 #include "apps/binding/stop_signals.h"
 #include "engine/types/error.h"

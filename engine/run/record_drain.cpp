@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/record_drain.h"
+#include "engine/run/record_drain.h"
 
 #include <algorithm>
 
@@ -10,57 +10,57 @@ void RecordDrain::drain(bool all) {
     takeQueries();
     for (TickRow row;;) {
         if (!waiting_) {
-            if (!crossings_.ticks.pop(row)) {
+            if (!channels_.ticks.pop(row)) {
                 return;
             }
             waiting_ = row;
-            // Whatever this turn obeyed was published before it: what the turn knows of has arrived, or is
-            // about to.
+            // The set and the answer that this step obeyed were published before it: they are here or about
+            // to arrive.
             takeFrames();
             takeQueries();
         }
         if (!all && waiting_->generation > newestGeneration_) {
             return;
         }
-        hand(*waiting_);
+        pass(*waiting_);
         waiting_.reset();
     }
 }
 
 void RecordDrain::takeFrames() {
     PublishedFrame* frame = nullptr;
-    while (crossings_.frames.pop(frame)) {
+    while (channels_.frames.pop(frame)) {
         if (frame->changed) {
             kept_.push_back(frame);
             newestGeneration_ = frame->fixtures.generation;
         }
         ++frames_;
-        sink_.frame(*frame, kept_.back()->fixtures); // the first frame of a run is always a change
+        sink_.frame(*frame, kept_.back()->fixtures); // the first frame of a run always changes the set
         if (!frame->changed) {
-            crossings_.emptied.push(frame);
+            channels_.emptied.push(frame);
         }
     }
     while (kept_.size() > kKept) {
-        letGo(1); // the front may be in force
+        giveBack(1); // steps may still obey the front
     }
 }
 
-void RecordDrain::letGo(size_t i) {
-    crossings_.emptied.push(kept_[i]);
+void RecordDrain::giveBack(size_t i) {
+    channels_.emptied.push(kept_[i]);
     kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
 void RecordDrain::takeQueries() {
     QueryNote note;
-    while (crossings_.queries.pop(note)) {
+    while (channels_.queries.pop(note)) {
         sink_.query(note);
         notes_.push_back(std::move(note));
     }
 }
 
-void RecordDrain::hand(const TickRow& row) {
+void RecordDrain::pass(const TickRow& row) {
     while (kept_.size() > 1 && kept_.front()->fixtures.generation < row.generation) {
-        letGo(0);
+        giveBack(0);
     }
     while (!notes_.empty() && notes_.front().query < row.query) {
         notes_.pop_front();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/realtime_run.h"
+#include "engine/run/realtime_run.h"
 
 #include "engine/types/log.h"
 
@@ -11,12 +11,12 @@ namespace fathom {
 
 namespace {
 
-constexpr double kSecondsOfTurns = 8.0; // that the writer may fall behind
-constexpr double kHeadStart = 0.02;     // [s] for the threads to get ready before t = 0
+constexpr double kWriterBacklog = 8.0; // [s] of steps that the writer may fall behind
+constexpr double kHeadStart = 0.02;    // [s] for the threads to get ready before t = 0
 constexpr auto kWriterPause = std::chrono::milliseconds(2);
 
-uint64_t turnCapacity(double period) {
-    return static_cast<uint64_t>(std::max(1024.0, std::ceil(kSecondsOfTurns / period)));
+uint64_t tickCapacity(double period) {
+    return static_cast<uint64_t>(std::max(1024.0, std::ceil(kWriterBacklog / period)));
 }
 
 // Sets the flag and waits for the thread, however its scope is left.
@@ -38,8 +38,7 @@ private:
     std::thread thread_;
 };
 
-// Tells of a scene that is too old, but not of each short spell while a machine is too slow: these are
-// counted.
+// Warns once of a scene that is too old; short spells on a slow machine are only counted.
 class AgeAlarm {
 public:
     explicit AgeAlarm(double staleAfter)
@@ -51,10 +50,10 @@ public:
         if (stale && !stale_ && record.t >= quietUntil_) {
             log::warn("at {:.2f} s the scene is {:.0f} ms old: forces fade", record.t, record.sceneAge * 1e3);
             quietUntil_ = record.t + kQuiet;
-            told_ = true;
-        } else if (!stale && told_) {
+            warned_ = true;
+        } else if (!stale && warned_) {
             log::warn("at {:.2f} s the scene is fresh again", record.t);
-            told_ = false;
+            warned_ = false;
         }
         stale_ = stale;
     }
@@ -64,11 +63,11 @@ private:
     static constexpr double kQuiet = 5.0; // [s]
     double staleAfter_;
     double quietUntil_ = 0.0;
-    bool stale_ = false, told_ = false;
+    bool stale_ = false, warned_ = false;
     uint64_t staleTicks_ = 0;
 };
 
-// Tells of numbers that are none, from the hand or anywhere, when they begin; each turn of them has no force.
+// Warns when numbers that are not finite begin, from the hand or elsewhere; such steps have no force.
 class NumberAlarm {
 public:
     void see(const TickRow& row) {
@@ -114,19 +113,19 @@ private:
 
 RealtimeRun::RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const RealtimeOptions& options)
     : options_(options)
-    , crossings_(turnCapacity(options.hapticPeriod))
-    , frames_(frames, crossings_, clock_, options.framePeriod, options.trace) {
-    crossings_.arm = options.arm;
+    , channels_(tickCapacity(options.hapticPeriod))
+    , frames_(frames, channels_, clock_, options.framePeriod, options.trace) {
+    channels_.arm = options.arm;
     if (contacts != nullptr) {
-        contact_.emplace(*contacts, crossings_, clock_, 0.5 * options.hapticPeriod, options.trace);
+        contact_.emplace(*contacts, channels_, clock_, 0.5 * options.hapticPeriod, options.trace);
     }
 }
 
 void RealtimeRun::setShapes(std::span<const Shape> shapes) {
-    ShapeList& list = crossings_.shapes.back();
+    ShapeList& list = channels_.shapes.back();
     list.count = static_cast<uint32_t>(std::min(shapes.size(), list.shapes.size()));
     std::copy_n(shapes.begin(), list.count, list.shapes.begin());
-    crossings_.shapes.publish();
+    channels_.shapes.publish();
 }
 
 void RealtimeRun::guarded(const std::function<void()>& body) noexcept {
@@ -141,11 +140,11 @@ void RealtimeRun::guarded(const std::function<void()>& body) noexcept {
 
 void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
                       const std::atomic<bool>& stop) {
-    HapticLoop haptic(cycle, hand, crossings_, clock_, {pathDuration, options_.framePeriod}, options_.trace);
+    HapticLoop haptic(cycle, hand, channels_, clock_, {pathDuration, options_.framePeriod}, options_.trace);
     WatchedSink watched(sink, options_.staleAfter);
-    RecordDrain drain(crossings_, watched);
-    crossings_.proxy.back() = cycle.place();
-    crossings_.proxy.publish();
+    RecordDrain drain(channels_, watched);
+    channels_.proxy.back() = cycle.place();
+    channels_.proxy.publish();
     clock_.start(kHeadStart);
     {
         Joined camera(
@@ -177,7 +176,7 @@ void RealtimeRun::run(HapticCycle& cycle, HapticDevice& hand, double pathDuratio
 
 void RealtimeRun::write(RecordDrain& drain, const std::atomic<bool>& stop) {
     for (bool done = false; !done;) {
-        done = crossings_.hapticDone.load(std::memory_order_acquire);
+        done = channels_.hapticDone.load(std::memory_order_acquire);
         drain.drain();
         if (options_.trace != nullptr) {
             options_.trace->file().drain();

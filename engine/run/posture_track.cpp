@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/posture_track.h"
+#include "engine/run/posture_track.h"
 
 #include <algorithm>
 
@@ -14,8 +14,7 @@ void PostureTrack::add(Time time, const ArmPosture& posture) noexcept {
     Slot& slot = slots_[count % kKept];
     const uint64_t stamp = slot.stamp.load(std::memory_order_relaxed);
     slot.stamp.store(stamp + 1, std::memory_order_relaxed);
-    // Release stores after an odd stamp: whoever reads one of the new words reads the odd stamp after it,
-    // too.
+    // Release stores after an odd stamp: a reader that sees one of the new words also sees the odd stamp.
     slot.time.store(nanoseconds(time), std::memory_order_release);
     for (size_t k = 0; k < kMostJoints; ++k) {
         slot.words[k].store(std::bit_cast<uint64_t>(posture.q[k]), std::memory_order_release);

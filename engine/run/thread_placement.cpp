@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/thread_placement.h"
+#include "engine/run/thread_placement.h"
 
 #include <cerrno>
 #include <cstring>
@@ -14,8 +14,8 @@ namespace fathom {
 namespace {
 
 constexpr int kHapticPriority =
-    80; // of 1..99: over the threads of most drivers, under the kernel's watchdogs
-constexpr size_t kStackTouched = 256 * 1024; // [bytes] more than a turn uses
+    80; // of 1..99: above the threads of most drivers, below the kernel's watchdogs
+constexpr size_t kStackTouched = 256 * 1024; // [bytes] more than a step uses
 constexpr size_t kCpusForOwnContact = 4;
 
 __attribute__((noinline)) void touchStack() noexcept {
@@ -30,9 +30,9 @@ void add(std::string& refused, const char* what, int fault) {
     refused += (refused.empty() ? "" : ", ") + std::string(what) + " (" + std::strerror(fault) + ")";
 }
 
-// As touched: locking whole stacks and driver reservations would make memory resident that nobody uses. Below
-// a limit every later mapping of any thread counts against it by its whole size and fails where it goes over,
-// so what is mapped later is locked only where there is no limit: a turn maps nothing.
+// Locks pages when they are touched: locking whole stacks and driver reservations would make unused memory
+// resident. Under a finite limit every later mapping of any thread counts in full and fails above the limit,
+// so later mappings are locked only without a limit. A step maps nothing.
 int lockMemory() noexcept {
     const rlimit none{RLIM_INFINITY, RLIM_INFINITY};
     const bool unlimited = ::setrlimit(RLIMIT_MEMLOCK, &none) == 0;
@@ -98,7 +98,7 @@ std::string makeHapticThread(const ThreadPlacement& placement) {
         add(refused, "real-time priority", fault);
     }
     ::prctl(PR_SET_TIMERSLACK, 1, 0, 0,
-            0); // [ns] without real-time priority wake-ups are else rounded by 50 us
+            0); // [ns] the default delays wake-ups by 50 us without real-time priority
     if (const int fault = lockMemory(); fault != 0) {
         add(refused, "locked memory", fault);
     }

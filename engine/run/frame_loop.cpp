@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/frame_loop.h"
+#include "engine/run/frame_loop.h"
 
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -17,10 +17,10 @@ constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
 
 } // namespace
 
-FrameLoop::FrameLoop(FrameFeed& feed, Crossings& crossings, const RunClock& clock, double period,
+FrameLoop::FrameLoop(FrameFeed& feed, Channels& channels, const RunClock& clock, double period,
                      CadenceTrace* trace)
     : feed_(feed)
-    , crossings_(crossings)
+    , channels_(channels)
     , clock_(clock)
     , period_(period)
     , trace_(trace)
@@ -32,12 +32,12 @@ bool FrameLoop::first() {
         return false;
     }
     firstIndex_ = *index;
-    news_.live = feed_.captured().has_value();
+    update_.live = feed_.captured().has_value();
     publish(0.0);
     return true;
 }
 
-// A camera that is gone is asked again, more and more seldom, while the last set ages and the forces fade.
+// Asks for a lost camera again, with growing pauses, while the last set ages and the forces fade.
 std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
     for (double pause = kFirstRetry; !stop.load(std::memory_order_relaxed);
          pause = std::min(2.0 * pause, kLongestRetry)) {
@@ -52,7 +52,7 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
         } catch (const DeviceLost& e) {
             if (!std::exchange(cameraGone_, true)) {
                 log::warn("camera is gone ({}): the scene ages, forces fade", e.what());
-                tell();
+                publishUpdate();
             }
             if (feed_.lost()) {
                 log::warn("GPU is gone, too: it is looked for");
@@ -67,7 +67,7 @@ std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
 void FrameLoop::run(const std::atomic<bool>& stop) {
     while (const std::optional<uint32_t> index = fetch(stop)) {
         if (const std::optional<RunClock::Time> taken = feed_.captured()) {
-            publishOrRenew(std::max(clock_.at(*taken), news_.captureTime),
+            publishOrRenew(std::max(clock_.at(*taken), update_.captureTime),
                            stop); // not before the run's own start
             continue;
         }
@@ -80,14 +80,14 @@ void FrameLoop::run(const std::atomic<bool>& stop) {
         countLost(due);
     }
     if (ended_) {
-        news_.sourceEnded = true;
-        tell();
+        update_.sourceEnded = true;
+        publishUpdate();
     }
 }
 
 void FrameLoop::countLost(double due) {
     const double periods = std::floor((clock_.now() - due) / period_);
-    if (periods >= 2.0) { // the next-but-one was due before this one was done
+    if (periods >= 2.0) { // the next frame but one was due before this one was done
         lost_ += static_cast<uint64_t>(periods) - 1;
         origin_ += (periods - 1.0) * period_;
     }
@@ -107,10 +107,10 @@ void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
     renew(stop);
 }
 
-// More and more seldom, until a picture has gone through again.
+// With growing pauses, until a frame has gone through again.
 void FrameLoop::renew(const std::atomic<bool>& stop) {
     deviceGone_ = true;
-    tell();
+    publishUpdate();
     while (!stop.load(std::memory_order_relaxed)) {
         clock_.sleepUntil(clock_.now() + retry_, stop);
         retry_ = std::min(2.0 * retry_, kLongestRetry);
@@ -118,7 +118,7 @@ void FrameLoop::renew(const std::atomic<bool>& stop) {
             feed_.renew(stop);
             log::warn("GPU is back");
             deviceGone_ = false;
-            tell();
+            publishUpdate();
             return;
         } catch (const DeviceFailed& e) {
             log::debug("GPU: {}", e.what());
@@ -131,45 +131,41 @@ PublishedFrame* FrameLoop::emptyFrame() {
     if (frame != nullptr) {
         return frame;
     }
-    while (!crossings_.emptied.pop(frame)) {
-        if (owned_.size() < Crossings::kFramesInFlight) {
+    while (!channels_.emptied.pop(frame)) {
+        if (owned_.size() < Channels::kFramesInFlight) {
             owned_.push_back(std::make_unique<PublishedFrame>());
             return owned_.back().get();
         }
-        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // only the writer can be this far behind
+        std::this_thread::sleep_for(std::chrono::milliseconds(1)); // the writer is far behind
     }
     return frame;
 }
 
 void FrameLoop::publish(double t) {
     PublishedFrame* frame = emptyFrame();
-    const PostureTrack& track = crossings_.arm != nullptr ? crossings_.arm->measured : crossings_.postures;
+    const PostureTrack& track = channels_.arm != nullptr ? channels_.arm->measured : channels_.postures;
     if (const auto posture = track.nearest(clock_.timeAt(t))) {
-        feed_.shown({Pose{}, *posture});
+        feed_.armAtCapture({Pose{}, *posture});
     }
-    spare_ = frame; // if nothing comes of it
+    spare_ = frame; // if publish() throws
     feed_.publish(t, *frame);
     spare_ = nullptr;
     frame->t = t;
     if (frame->changed) {
-        const Fixtures& set = frame->fixtures;
-        news_.frame = set.frame;
-        news_.generation = set.generation;
-        news_.guidanceCount = static_cast<uint32_t>(std::min(set.guidance.size(), news_.guidance.size()));
-        std::copy_n(set.guidance.begin(), news_.guidanceCount, news_.guidance.begin());
+        update_.show(frame->fixtures);
     }
-    news_.captureTime = t;
-    tell();
+    update_.captureTime = t;
+    publishUpdate();
     if (trace_ != nullptr) {
         trace_->frame(frame->report);
     }
-    crossings_.frames.push(frame); // holds as many as there are
+    channels_.frames.push(frame); // has room for all of them
 }
 
-void FrameLoop::tell() {
-    news_.gone = cameraGone_ || deviceGone_;
-    crossings_.scene.back() = news_;
-    crossings_.scene.publish();
+void FrameLoop::publishUpdate() {
+    update_.gone = cameraGone_ || deviceGone_;
+    channels_.scene.back() = update_;
+    channels_.scene.publish();
 }
 
 } // namespace fathom

@@ -14,16 +14,16 @@ class RunClock {
 public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // t = 0 lies `ahead` seconds from now, so that threads can get ready.
+    // Sets t = 0 to `ahead` seconds from now, so that threads can get ready.
     void start(double ahead) noexcept { zero_ = std::chrono::steady_clock::now() + nanoseconds(ahead); }
 
     double now() const noexcept { return at(std::chrono::steady_clock::now()); }
     double at(Time time) const noexcept { return std::chrono::duration<double>(time - zero_).count(); }
-    // A stamp of CLOCK_MONOTONIC [s], as live cameras and hands give.
+    // Time of a CLOCK_MONOTONIC stamp [s], which live cameras and hands use.
     static Time sinceBoot(double stamp) noexcept { return Time(nanoseconds(stamp)); }
     Time timeAt(double t) const noexcept { return zero_ + nanoseconds(t); }
 
-    // Sleeps until t, or not at all when it has passed; signals do not cut it short.
+    // Sleeps until t; returns at once when it has passed. Signals do not cut it short.
     void sleepUntil(double t) const noexcept {
         const auto since = timeAt(t).time_since_epoch();
         const auto whole = std::chrono::duration_cast<std::chrono::seconds>(since);
@@ -34,7 +34,7 @@ public:
         while (::clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &when, nullptr) != 0) {
         }
     }
-    // The same, but back early, at most 20 ms after `stop` is set.
+    // The same, but returns at most 20 ms after `stop` is set.
     void sleepUntil(double t, const std::atomic<bool>& stop) const noexcept {
         while (!stop.load(std::memory_order_relaxed) && now() < t) {
             sleepUntil(std::fmin(t, now() + 0.02));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who has something on a device that two threads share, when it is lost and made anew: the frame cadence its
-// passes, the window its painter.
+// Coordinates two users of one compute device when it is lost and opened again: the frame thread with its
+// passes and a window with its painter.
 #pragma once
 
 #include <atomic>
@@ -10,26 +10,27 @@
 
 namespace fathom {
 
-// A device is destroyed when nobody has anything on it any more, and counts as back when both can use it:
-//   there -> lost (either finds out) -> released (the window is off it; the frame cadence opens another)
+// The device is destroyed when neither has objects on it, and counts as back when both can use the new one:
+//   there -> lost (either detects it) -> released (the window is off it; the frame thread opens another)
 //         -> offered (the window builds on it) -> there, or lost again.
-// Only the frame cadence ever waits, and not once its run is to stop. Never used by the haptic thread.
+// Only the frame thread ever waits, and not once its run is to stop. Never used by the haptic thread.
 class DeviceHandover {
 public:
-    // Either thread: the device does not work. The first reason of a loss is kept.
+    // Either thread: the device failed. The first reason of a loss is kept.
     void lose(const std::string& why);
-    bool lost() const; // and nobody has offered another
-    bool gone() const; // or nothing is drawn on the other one yet
+    bool lost() const; // and no other one is offered
+    bool gone() const; // lost, or offered and not accepted yet
     std::string why() const;
 
-    // Frame cadence, of a lost device. Waits until the window is off it; false: `stop` came first, and the
+    // Frame thread, after a loss. Waits until the window is off the device; false: `stop` came first, and the
     // device must stay.
     bool awaitRelease(const std::atomic<bool>& stop);
-    // Frame cadence: another one is open. Waits until the window draws on it; false: it could not, or `stop`.
+    // Frame thread: another device is open. Waits until the window draws on it; false: it could not, or
+    // `stop`.
     bool offer(const std::atomic<bool>& stop);
 
-    // Window, once a frame.
-    bool wanted() const; // the device is lost: destroy all that is on it, then release()
+    // Window, once per frame that it draws.
+    bool wanted() const; // the device is lost: destroy everything on it, then release()
     void release();
     bool offered() const; // build on the new one, then accept(), or lose() it
     void accept();        // nothing unless offered

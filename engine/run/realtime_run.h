@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run in real time: camera, contact and haptic threads over their crossings, the caller's thread as the
+// A run in real time: frame, contact and haptic threads over their channels, the caller's thread as the
 // writer. Knows no Vulkan: what the threads do is behind FrameFeed, ContactAnswers, HapticCycle and
 // HapticDevice.
 #pragma once
 
-#include "apps/binding/contact_loop.h"
-#include "apps/binding/frame_loop.h"
-#include "apps/binding/haptic_loop.h"
-#include "apps/binding/record_drain.h"
-#include "apps/binding/thread_placement.h"
+#include "engine/run/contact_loop.h"
+#include "engine/run/frame_loop.h"
+#include "engine/run/haptic_loop.h"
+#include "engine/run/record_drain.h"
+#include "engine/run/thread_placement.h"
 
 #include <exception>
 #include <functional>
@@ -21,35 +21,34 @@ struct RealtimeOptions {
     ThreadPlacement placement;
     double hapticPeriod = 0.001;     // [s]
     double framePeriod = 1.0 / 30.0; // [s]
-    double staleAfter = 0.1;         // [s] scene age that is worth a warning
+    double staleAfter = 0.1;         // [s] scene age above which the run logs a warning
     CadenceTrace* trace = nullptr;
     ArmLink* arm = nullptr; // a real arm that follows; must outlive the run
     std::function<void(double t, uint64_t frames, uint64_t ticks)>
-        progress; // on the writer thread, now and then
+        progress; // called on the writer thread, every few milliseconds
 };
 
 class RealtimeRun {
 public:
-    // contacts null: the scene has nothing to collide with and gets no contact thread.
+    // contacts null: the scene has nothing to collide with and needs no contact thread.
     RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const RealtimeOptions& options);
 
-    // The first picture through the passes, on this thread, before the clock starts. False when the source
-    // has none.
+    // Processes the first frame on this thread, before the clock starts. False when the source has none.
     bool firstFrame() { return frames_.first(); }
 
-    // Runs until frames and path have ended, `stop` is set or something fails; then the hand has zero force,
-    // all threads have ended and the sink has every record. What a thread threw is in failure(). An exception
+    // Runs until frames and path have ended, `stop` is set or something fails. Then the hand has zero force,
+    // all threads have ended and the sink has every record. failure() holds what a thread threw. An exception
     // of the sink passes through, after the same end.
     void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
              const std::atomic<bool>& stop);
 
-    // Any one thread: other authored shapes, obeyed from the next turn on.
+    // Any one thread: replaces the authored shapes from the next step on.
     void setShapes(std::span<const Shape> shapes);
 
     uint64_t framesLost() const { return frames_.lost(); }
     uint64_t periodsMissed() const { return missed_; }
     uint64_t staleTicks() const { return staleTicks_; } // with a scene older than staleAfter
-    uint64_t recordsLost() const { return crossings_.ticks.dropped() + crossings_.queries.dropped(); }
+    uint64_t recordsLost() const { return channels_.ticks.dropped() + channels_.queries.dropped(); }
     const PublishedFrame* lastFrame() const { return last_; } // lives as long as this
     // What a thread threw; null when none did.
     std::exception_ptr failure() const { return failure_; }
@@ -60,7 +59,7 @@ private:
 
     RealtimeOptions options_;
     RunClock clock_;
-    Crossings crossings_;
+    Channels channels_;
     FrameLoop frames_;
     std::optional<ContactLoop> contact_;
     std::atomic<bool> stop_{false};

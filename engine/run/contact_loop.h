@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact cadence in real time: the newest tool pose against the newest fixture set, as often as there is
-// a new pose.
+// The contact cadence in real time: queries the newest fixture set at the newest tool pose, once per new
+// pose.
 #pragma once
 
-#include "apps/binding/crossings.h"
-#include "apps/binding/run_clock.h"
 #include "engine/cycle/cadence_trace.h"
+#include "engine/run/channels.h"
+#include "engine/run/run_clock.h"
 
 namespace fathom {
 
-// What the loop needs of the query behind it. One thread.
+// What the loop needs of the query behind it. Contact thread only.
 class ContactAnswers {
 public:
     virtual ~ContactAnswers() = default;
@@ -19,11 +19,11 @@ public:
 
 class ContactLoop {
 public:
-    // pause [s]: between looks at the mailbox; about half a haptic period.
-    ContactLoop(ContactAnswers& answers, Crossings& crossings, const RunClock& clock, double pause,
+    // pause [s]: between looks into an empty mailbox; about half a haptic period.
+    ContactLoop(ContactAnswers& answers, Channels& channels, const RunClock& clock, double pause,
                 CadenceTrace* trace)
         : answers_(answers)
-        , crossings_(crossings)
+        , channels_(channels)
         , clock_(clock)
         , pause_(pause)
         , trace_(trace) {}
@@ -35,7 +35,7 @@ private:
     void answerOne(const ToolState& place);
 
     ContactAnswers& answers_;
-    Crossings& crossings_;
+    Channels& channels_;
     const RunClock& clock_;
     double pause_;
     CadenceTrace* trace_;

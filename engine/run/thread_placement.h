@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which thread runs on which CPU: the haptic one alone, everything else elsewhere.
+// Which thread runs on which CPU: the haptic thread alone, all others elsewhere.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace fathom {
 
-// Of the CPUs that the process may use. One CPU: everything shares it and nothing is pinned.
+// Splits the CPUs that the process may use. With one CPU nothing is pinned.
 struct ThreadPlacement {
     std::vector<int> all;
     std::vector<int> haptic;  // the last one
-    std::vector<int> contact; // one of its own from four CPUs on, else that of the rest
-    std::vector<int> rest;    // camera, device workers, writer
+    std::vector<int> contact; // its own from four CPUs on, else as `rest`
+    std::vector<int> rest;    // frame thread, device workers, writer
 
     static ThreadPlacement ofThisProcess();
     bool pinned() const { return all.size() > 1; }
@@ -23,8 +23,8 @@ struct ThreadPlacement {
 // Pins the calling thread. Returns 0, or the error number of the refusal.
 int pinThread(const std::vector<int>& cpus) noexcept;
 
-// The calling thread, and every thread that it starts meanwhile (a software device's workers), stay on these
-// CPUs for as long as this lives.
+// Keeps the calling thread, and every thread that it starts meanwhile (workers of a software device), on
+// these CPUs while this lives.
 class CpuConfinement {
 public:
     explicit CpuConfinement(const std::vector<int>& cpus) noexcept;
@@ -37,8 +37,9 @@ private:
     bool changed_ = false;
 };
 
-// Makes the calling thread the haptic one: pinned, SCHED_FIFO, exact timers, memory locked as it is touched,
-// stack touched. Returns what the system refused, in words; empty when nothing. Call before the first turn.
+// Makes the calling thread the haptic thread: pinned, SCHED_FIFO, exact timers, the process's memory locked
+// as it is touched, stack touched. Returns what the system refused, in words, or nothing. Call before the
+// first step.
 std::string makeHapticThread(const ThreadPlacement& placement);
 // Undoes what outlives the thread (locked memory).
 void releaseLockedMemory() noexcept;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the apps know of a haptic device, live or simulated.
+// The interface of a haptic device, live or simulated. The engine implements none.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// The hand, as one sample.
+// One sample of the hand.
 struct HandSample {
     Pose deviceThandle;   // raw, device frame: position [m], orientation
     uint32_t buttons = 0; // bit field by level: 1 guidance, 2 dead-man open, 4 clutch

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/contact_loop.h"
+#include "engine/run/contact_loop.h"
 
 namespace fathom {
 
 void ContactLoop::run(const std::atomic<bool>& stop) {
     while (!stop.load(std::memory_order_relaxed)) {
-        if (crossings_.proxy.refresh()) {
-            answerOne(crossings_.proxy.front());
+        if (channels_.proxy.refresh()) {
+            answerOne(channels_.proxy.front());
         } else {
             clock_.sleepUntil(clock_.now() + pause_);
         }
@@ -14,7 +14,7 @@ void ContactLoop::run(const std::atomic<bool>& stop) {
 }
 
 void ContactLoop::answerOne(const ToolState& place) {
-    ContactSet& set = crossings_.contacts.back();
+    ContactSet& set = channels_.contacts.back();
     const auto begin = std::chrono::steady_clock::now();
     if (!answers_.answer(place, set)) {
         return;
@@ -26,11 +26,11 @@ void ContactLoop::answerOne(const ToolState& place) {
     for (const ContactSet::Behind& b : set.behind) {
         note_.behind.push_back(b.leaf);
     }
-    // First the note: the writer must know the answer before any turn obeys it.
-    crossings_.queries.push(note_);
-    crossings_.contacts.publish();
+    // The note comes first: the writer must know the answer before any step obeys it.
+    channels_.queries.push(note_);
+    channels_.contacts.publish();
     if (trace_ != nullptr) {
-        trace_->query(begin, end, set.size()); // ours until the next back(): readers only read it
+        trace_->query(begin, end, set.size()); // still readable: only back() takes it away
     }
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an arm was, and when: the last quarter of a second and more, written by one thread, read by another,
-// without locks.
+// The recent postures of an arm with their times, from one thread to another, without locks.
 #pragma once
 
 #include "engine/model/arm_model.h"
@@ -14,19 +13,20 @@
 
 namespace fathom {
 
-// One writer, one reader; both noexcept and wait-free. A slot that is being written while it is read is seen
-// by its stamp and left out (a seqlock each; Boehm, Can seqlocks get along with programming language memory
+// One writer, one reader; both noexcept and wait-free. Each slot is a seqlock: the reader detects by the
+// stamp that it is being written and skips it (Boehm, Can seqlocks get along with programming language memory
 // models?, 2012).
 class PostureTrack {
 public:
     using Time = std::chrono::steady_clock::time_point;
     static constexpr size_t kKept = 256;
-    static constexpr std::chrono::milliseconds kApart{2}; // what comes sooner is left out: 0.5 s are kept
+    static constexpr std::chrono::milliseconds kApart{
+        2}; // postures that come sooner are skipped: 0.5 s are kept
 
-    // Writer, in the order of time.
+    // Writer, in order of time.
     void add(Time time, const ArmPosture& posture) noexcept;
 
-    // Reader: the posture nearest to that time; nothing before the first one.
+    // Reader: the posture nearest to that time; nothing before the first add().
     std::optional<ArmPosture> nearest(Time time) const noexcept;
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/binding/device_handover.h"
+#include "engine/run/device_handover.h"
 
 #include <chrono>
 
@@ -7,7 +7,7 @@ namespace fathom {
 
 namespace {
 
-constexpr auto kLook = std::chrono::milliseconds(5); // at the flag, which nobody notifies of
+constexpr auto kLook = std::chrono::milliseconds(5); // between looks at `stop`, which has no notification
 
 } // namespace
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which contact set the haptic cycle obeys: the active set, until the cycle adopts a newer one on offer.
+#pragma once
+
+#include "engine/cycle/haptic_cycle.h"
+
+#include <utility>
+
+namespace fathom {
+
+// Handle: owns or points to a ContactSet, empty by default, movable, noexcept: a lease, a unique_ptr, a
+// pointer. A set on offer that does not cover the tool is not adopted; it stays on offer until a newer one
+// replaces it. Haptic thread only.
+template <class Handle>
+class ActiveContacts {
+public:
+    // Replaces the set on offer by newest(); releases the old one first, so that at most two sets are held.
+    // The active set is not offered again.
+    template <class Newest>
+    void offer(Newest&& newest) noexcept {
+        offered_ = Handle{};
+        offered_ = newest();
+        if (offered_ && active_ && offered_->query == active_->query) {
+            offered_ = Handle{};
+        }
+    }
+
+    // One step of the cycle with these sets. The set on offer is active afterwards if the cycle adopted it.
+    StepRecord step(HapticCycle& cycle, StepInput input) noexcept {
+        input.contacts = active_ ? &*active_ : nullptr;
+        input.offered = offered_ ? &*offered_ : nullptr;
+        StepRecord record = cycle.step(input);
+        if (record.adopted) {
+            active_ = std::move(offered_);
+            offered_ = Handle{};
+        }
+        return record;
+    }
+
+    // The set that the last step obeyed; null when there was none.
+    const ContactSet* active() const noexcept { return active_ ? &*active_ : nullptr; }
+    const ContactSet* offered() const noexcept { return offered_ ? &*offered_ : nullptr; }
+
+private:
+    Handle active_{}, offered_{};
+};
+
+} // namespace fathom

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/haptic_loop.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fathom {
+
+HapticLoop::HapticLoop(HapticCycle& cycle, HapticDevice& hand, Channels& channels, const RunClock& clock,
+                       const Ends& ends, CadenceTrace* trace)
+    : stepper_(cycle, channels, clock)
+    , hand_(hand)
+    , channels_(channels)
+    , clock_(clock)
+    , ends_(ends)
+    , trace_(trace)
+    , period_(cycle.options().period) {}
+
+bool HapticLoop::ended(double t) const noexcept {
+    const SceneUpdate& scene = stepper_.scene();
+    const bool frames =
+        scene.live || scene.gone || (scene.sourceEnded && t >= scene.captureTime + ends_.framePeriod);
+    return frames && t >= ends_.pathDuration;
+}
+
+void HapticLoop::run(const std::atomic<bool>& stop) noexcept {
+    uint64_t slot = 0;
+    while (!stop.load(std::memory_order_relaxed)) {
+        const double due = static_cast<double>(slot) * period_;
+        clock_.sleepUntil(due);
+        const double woken = clock_.now();
+        if (ended(woken)) {
+            break;
+        }
+        const double over = step(due);
+        // At most one step per period, however late this one was.
+        const auto ran = static_cast<uint64_t>(std::max(0.0, woken / period_));
+        const auto now = static_cast<uint64_t>(std::max(0.0, over / period_));
+        const uint64_t next = std::max(std::max(ran, slot) + 1, now);
+        missedNow_ = static_cast<uint32_t>(next - slot - 1);
+        missed_ += missedNow_;
+        slot = next;
+    }
+    hand_.write(Wrench{}, period_);
+    stepper_.releaseArm(clock_.now());
+    channels_.hapticDone.store(true, std::memory_order_release);
+}
+
+double HapticLoop::step(double due) noexcept {
+    const double began = clock_.now();
+    const HandSample sample = hand_.read(std::max(0.0, began));
+    const StepRecord& record = stepper_.step(sample, began);
+    hand_.write(record.deviceWrench, stepper_.sinceLast() > 0.0 ? stepper_.sinceLast() : period_);
+    const double over = clock_.now();
+    stepper_.log({began - due, over > due + period_, missedNow_});
+    if (trace_ != nullptr) {
+        trace_->step(stepper_.began(), stepper_.ended(), began - due);
+    }
+    return over;
+}
+
+} // namespace fathom

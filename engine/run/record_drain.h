@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// The writer's end of the channels: puts steps, queries and frames into an order that can be audited.
+#pragma once
+
+#include "engine/run/channels.h"
+
+#include <deque>
+#include <optional>
+#include <span>
+
+namespace fathom {
+
+// Receives the records of a run. Called on the writer thread; may allocate, block and throw.
+class RunSink {
+public:
+    virtual ~RunSink() = default;
+    // A processed frame. `set` is the newest set from this frame on; frame.fixtures may be empty when the
+    // source repeated its frame.
+    virtual void frame(const PublishedFrame& frame, const Fixtures& set) = 0;
+    virtual void query(const QueryNote& note) = 0;
+    // `obeyed`: the frame whose set the step obeyed; null when there was none or it is no longer kept
+    // (obeyedKnown false). `behind`: the leaves behind a surface in the answer that it obeyed.
+    virtual void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
+                      std::span<const uint32_t> behind) = 0;
+};
+
+// Writer thread only. Keeps host copies of published sets while a step may obey them.
+class RecordDrain {
+public:
+    RecordDrain(Channels& channels, RunSink& sink)
+        : channels_(channels)
+        , sink_(sink) {}
+
+    // Passes on everything that has arrived. A step whose set has not arrived yet waits, unless `all`.
+    void drain(bool all = false);
+
+    const PublishedFrame* newest() const { return kept_.empty() ? nullptr : kept_.back(); }
+    uint64_t ticks() const { return ticks_; }
+    uint64_t frames() const { return frames_; }
+
+private:
+    void takeFrames();
+    void takeQueries();
+    void pass(const TickRow& row);
+    void giveBack(size_t i);
+
+    static constexpr size_t kKept =
+        Channels::kFramesInFlight * 3 / 4; // the frame thread always finds one to fill
+
+    Channels& channels_;
+    RunSink& sink_;
+    std::deque<PublishedFrame*> kept_; // by generation
+    std::deque<QueryNote> notes_;      // by query; the front is the one that the last step obeyed
+    std::optional<TickRow> waiting_;
+    uint64_t newestGeneration_ = 0;
+    uint64_t ticks_ = 0, frames_ = 0;
+};
+
+} // namespace fathom
