@@ -12,8 +12,6 @@
 #include "devices/sonar/beam_camera.h"
 #include "devices/v4l2/v4l2_camera.h"
 #include "devices/water/water_camera.h"
-#include "engine/haptics/device_preset.h"
-#include "engine/model/sphere_sets.h"
 #include "engine/types/error.h"
 #include "engine/types/inside.h"
 #include "engine/types/log.h"
@@ -94,21 +92,6 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
 
 } // namespace
 
-Scene openScene(const std::filesystem::path& file) {
-    Scene scene = loadScene(file);
-    for (const std::string& path : scene.outside) {
-        warnOutside(file, path);
-    }
-    std::string names;
-    for (const DevicePreset& preset : devicePresets()) {
-        if (preset.name == scene.haptics.device) {
-            return scene;
-        }
-        names += (names.empty() ? "" : ", ") + preset.name;
-    }
-    throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
-}
-
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Images images) {
     std::unique_ptr<Camera> camera = openDry(scene, source, images);
@@ -126,41 +109,6 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
 
 void takeUncertainty(Scene& scene, const Camera& camera) {
     scene.registrationSigma = std::hypot(scene.registrationSigma, camera.info().sigma);
-}
-
-namespace {
-
-Tool writtenTool(const Scene& scene) {
-    try {
-        if (!scene.tool.file.empty()) {
-            return Tool(readSphereTree(scene.tool.file));
-        }
-        std::vector<Sphere> leaves;
-        for (const auto& [x, y, z, r] : scene.tool.spheres) {
-            leaves.push_back({{x, y, z}, r});
-        }
-        return Tool(buildSphereTree(leaves));
-    } catch (const BadInput&) {
-        throw;
-    } catch (const Error& e) {
-        throw BadInput(scene.file.string(), "tool", e.what(),
-                       "1 to 4096 spheres with finite centres and positive radii");
-    }
-}
-
-} // namespace
-
-std::unique_ptr<ArmRig> openArm(const Scene& scene) {
-    const bool tool = scene.arm && scene.tool.given();
-    auto arm = tool ? makeArmRig(scene, writtenTool(scene).leaves()) : makeArmRig(scene, {});
-    for (const std::string& note : arm ? arm->model.notes : std::vector<std::string>{}) {
-        log::warn("{}: {}", scene.arm->urdf.string(), note);
-    }
-    return arm;
-}
-
-Tool openTool(const Scene& scene, const ArmRig* arm) {
-    return arm != nullptr ? arm->heldTool() : writtenTool(scene);
 }
 
 } // namespace fathom

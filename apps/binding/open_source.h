@@ -1,20 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what a scene names to what the engine runs on: cameras and tools.
+// Opens the cameras that a scene or --source names.
 #pragma once
 
 #include "devices/camera.h"
-#include "engine/contact/tool.h"
-#include "engine/cycle/arm_rig.h"
-#include "engine/scene/scene.h"
+#include "engine/run/open_scene.h"
 
 #include <filesystem>
 #include <memory>
 #include <optional>
 
 namespace fathom {
-
-// The scene file, read and checked, names of device presets included. Throws BadInput.
-Scene openScene(const std::filesystem::path& file);
 
 // What --source takes.
 inline constexpr const char* kSourceHelp =
@@ -31,12 +26,5 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
 // What the camera's own corrections leave uncertain (of a flat port) makes the scene's regions grow as a
 // registration does. Once a scene and camera.
 void takeUncertainty(Scene& scene, const Camera& camera);
-
-// The scene's arm, or null where it has none; a warning for each of its model's notes. Throws BadInput.
-std::unique_ptr<ArmRig> openArm(const Scene& scene);
-
-// The scene's tool: listed spheres or a .sph file; what the arm's tip carries, the scene's tool included,
-// where there is an arm. Throws BadInput.
-Tool openTool(const Scene& scene, const ArmRig* arm = nullptr);
 
 } // namespace fathom

@@ -26,8 +26,9 @@ std::filesystem::path besideScene(Scene& scene, const std::string& path) {
     return file;
 }
 
-Scene loadScene(const std::filesystem::path& file) {
-    const YamlNode root = YamlNode::parseFile(file);
+namespace {
+
+Scene sceneOf(const YamlNode& root, const std::filesystem::path& file) {
     root.checkKeys({"camera", "filter", "error_budget", "hold_s", "fixtures", "tool", "arm", "hand",
                     "haptics", "contact", "pilots", "pilot", "window"});
     Scene scene;
@@ -80,6 +81,16 @@ Scene loadScene(const std::filesystem::path& file) {
         loadWindow(*window, scene);
     }
     return scene;
+}
+
+} // namespace
+
+Scene loadScene(const std::filesystem::path& file) {
+    return sceneOf(YamlNode::parseFile(file), file);
+}
+
+Scene loadSceneText(const std::string& text, const std::string& name) {
+    return sceneOf(YamlNode::parseText(name, text), name);
 }
 
 } // namespace fathom

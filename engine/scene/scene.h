@@ -227,5 +227,7 @@ struct Scene {
 // are refused with the nearest known key as a suggestion. Relative paths are taken from the scene file's
 // folder.
 Scene loadScene(const std::filesystem::path& file);
+// The same of a text; messages name it `name`. Relative paths are taken from the working directory.
+Scene loadSceneText(const std::string& text, const std::string& name);
 
 } // namespace fathom

@@ -70,7 +70,13 @@ YamlNode::YamlNode(const YAML::Node& node, std::string file, std::string path)
     , path_(std::move(path)) {}
 
 YamlNode YamlNode::parseFile(const std::filesystem::path& file) {
-    const std::string text = readWholeFile(file, kMostBytes, "a readable scene file (YAML)");
+    return parseText(file, readWholeFile(file, kMostBytes, "a readable scene file (YAML)"));
+}
+
+YamlNode YamlNode::parseText(const std::filesystem::path& file, const std::string& text) {
+    if (text.size() > kMostBytes) {
+        throw BadInput(file.string(), "size", std::to_string(text.size()), "at most 1 MiB");
+    }
     try {
         return YamlNode(onlyDocument(file, text), file.string(), "");
     } catch (const YAML::Exception& e) {

@@ -39,6 +39,8 @@ class YamlNode {
 public:
     // The one document of a file of at most 1 MiB. Broken syntax is named with its line.
     static YamlNode parseFile(const std::filesystem::path& file);
+    // The same of a text; messages name it `file`.
+    static YamlNode parseText(const std::filesystem::path& file, const std::string& text);
 
     // Mappings. checkKeys() rejects a node that is not a mapping, an unknown key (and suggests the nearest
     // known one) and a duplicate key. Call it before find() or at().

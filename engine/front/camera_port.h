@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// The mailbox behind a CameraPort: the camera thread puts frames in, the frame thread takes the newest.
+#pragma once
+
+#include "engine/front/public.h"
+#include "engine/types/frame.h"
+
+#include <array>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+namespace fathom::v0 {
+
+struct CameraPort::Impl {
+    Impl(const CameraModel& model, const CameraInfo& info)
+        : model(model)
+        , info(info) {}
+
+    // Camera thread. `release` empty: copies; else lends where the formats allow it. Calls release() exactly
+    // once.
+    SubmitStatus put(const Frame& frame, std::function<void()> release);
+
+    // One thread: the frame, copied, whatever its stamp. Throws BadInput for a missing image or pose.
+    fathom::Frame copy(const Frame& frame);
+
+    // Frame thread. Waits for a frame until close(); nothing then.
+    std::optional<fathom::Frame> take();
+    // Any thread. Drops the frame that waits; from now on none is taken.
+    void close();
+
+    const CameraModel model;
+    const CameraInfo info;
+    std::atomic<uint64_t> dropped{0}, processed{0};
+    Nanoseconds last = 0; // camera thread: stamp of the newest frame; 0 = any may follow
+
+private:
+    struct Copy { // memory for one copied frame
+        std::vector<uint16_t> depth;
+        std::vector<uint32_t> colour;
+        std::atomic<bool> used{false};
+    };
+    SubmitStatus checkStamp(const Frame& frame) const noexcept;
+    SubmitStatus checkImages(const Frame& frame) const noexcept;
+    Copy& unused();
+    void copyDepth(const Frame& frame, Copy& copy) const;
+    void copyColour(const Frame& frame, Copy& copy) const;
+    fathom::Frame contentOf(const Frame& frame, std::function<void()> release);
+
+    static constexpr size_t kCopies = 5; // being filled, waiting, taken, uploaded, on the device
+    std::array<Copy, kCopies> copies_;
+    uint32_t count_ = 0; // camera thread
+    std::mutex mutex_;   // of all below
+    std::condition_variable changed_;
+    std::optional<fathom::Frame> waiting_;
+    bool closed_ = false;
+};
+
+} // namespace fathom::v0

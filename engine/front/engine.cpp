@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/front/camera_port.h"
+#include "engine/front/float_mode.h"
+#include "engine/front/hand_port.h"
+#include "engine/run/contact_loop.h"
+#include "engine/run/frame_loop.h"
+#include "engine/types/log.h"
+
+#include <thread>
+
+namespace fathom::v0 {
+
+namespace {
+
+// The submitted frames as the frame loop sees them. Frame thread only, but for lost.
+class SubmittedFeed final : public FrameFeed {
+public:
+    SubmittedFeed(CameraPort::Impl& camera, DeviceCycles& cycles, Channels& channels)
+        : camera_(camera)
+        , cycles_(cycles)
+        , channels_(channels) {}
+
+    std::optional<uint32_t> fetch() override {
+        for (PublishedFrame* done = nullptr; channels_.frames.pop(done);) { // nobody writes them
+            channels_.emptied.push(done);
+        }
+        next_ = camera_.take();
+        return next_ ? std::optional((*next_)->index) : std::nullopt;
+    }
+    std::optional<RunClock::Time> captured() const override {
+        return next_ ? std::optional(RunClock::sinceBoot((*next_)->captureTime)) : std::nullopt;
+    }
+    void publish(double t, PublishedFrame& out) override {
+        next_->retime(t);
+        std::optional<fathom::Frame> frame = std::exchange(next_, std::nullopt);
+        try {
+            out.report = cycles_.frames().process(std::move(*frame));
+        } catch (const DeviceFailed&) {
+            lost.store(true);
+            throw;
+        }
+        out.changed = !out.report.unchanged;
+        if (const auto set = cycles_.frames().sets().newest(); out.changed && set) {
+            out.fixtures.frame = set->host.frame;
+            out.fixtures.generation = set->host.generation;
+            out.fixtures.guidance = set->host.guidance;
+        }
+        ++camera_.processed;
+    }
+    bool renewable() const override { return true; }
+    void renew(const std::atomic<bool>&) override {
+        cycles_.renew();
+        lost.store(false);
+    }
+
+    std::atomic<bool> lost{false}; // the device is
+
+private:
+    CameraPort::Impl& camera_;
+    DeviceCycles& cycles_;
+    Channels& channels_;
+    std::optional<fathom::Frame> next_;
+};
+
+class CycleAnswers final : public ContactAnswers {
+public:
+    explicit CycleAnswers(DeviceCycles& cycles)
+        : cycles_(cycles) {}
+    bool answer(const ToolState& place, ContactSet& out) override { return cycles_.answer(place, out); }
+
+private:
+    DeviceCycles& cycles_;
+};
+
+const CameraModel& onlyOne(std::span<const CameraModel> cameras) {
+    if (cameras.size() != 1) {
+        throw BadInput("cameras: " + std::to_string(cameras.size()) +
+                       " (allowed: 1; several cameras are not supported yet)");
+    }
+    return cameras.front();
+}
+
+} // namespace
+
+struct Engine::Impl {
+    Impl(const Scene& scene, const CameraModel& model, const EngineOptions& options)
+        : shared(std::make_shared<front::Shared>(scene.data().scene))
+        , compute(shared->haptic, model, options.device)
+        , camera(std::make_shared<CameraPort::Impl>(model, compute.cycles.camera()))
+        , feed(*camera, compute.cycles, shared->channels)
+        , answers(compute.cycles)
+        , frames(feed, shared->channels, shared->clock, kFramePeriod, nullptr)
+        , contacts(answers, shared->channels, shared->clock, 0.5 * shared->haptic.options.period, nullptr) {
+        threads.emplace_back([this] { guarded([this] { frames.run(stop); }); });
+        if (compute.cycles.plan().query != Plan::Query::None) {
+            threads.emplace_back([this] { guarded([this] { contacts.run(stop); }); });
+        }
+    }
+    ~Impl() {
+        stop.store(true);
+        camera->close();
+        for (std::thread& thread : threads) {
+            thread.join();
+        }
+    }
+
+    // What a thread throws ends the input of frames; the forces fade.
+    template <class Body>
+    void guarded(Body&& body) noexcept {
+        const front::FloatMode mode;
+        try {
+            body();
+            return;
+        } catch (const std::exception& e) {
+            const std::lock_guard lock(failureMutex);
+            failure = failure.empty() ? e.what() : failure;
+        }
+        shared->failed.store(true);
+        camera->close();
+    }
+
+    static constexpr double kFramePeriod = 1.0 / 30.0; // [s]; submitted frames have their own times
+
+    std::shared_ptr<front::Shared> shared;
+    front::ComputeSide compute;
+    std::shared_ptr<CameraPort::Impl> camera;
+    SubmittedFeed feed;
+    CycleAnswers answers;
+    FrameLoop frames;
+    ContactLoop contacts;
+    std::atomic<bool> stop{false};
+    mutable std::mutex failureMutex;
+    std::string failure;
+    std::vector<std::thread> threads;
+};
+
+Engine::Engine(const Scene& scene, const CameraModel& camera, const EngineOptions& options)
+    : Engine(scene, std::span(&camera, 1), options) {}
+
+Engine::Engine(const Scene& scene, std::span<const CameraModel> cameras, const EngineOptions& options)
+    : impl_(front::translated([&] {
+        const front::FloatMode mode;
+        return std::make_unique<Impl>(scene, onlyOne(cameras), options);
+    })) {}
+
+Engine::~Engine() = default;
+
+CameraPort Engine::camera(std::size_t index) {
+    if (index != 0) {
+        throw BadInput("camera: " + std::to_string(index) + " (allowed: 0)");
+    }
+    return CameraPort(impl_->camera);
+}
+
+CameraPort Engine::camera(std::string_view name) {
+    if (name != impl_->camera->model.name) {
+        throw BadInput("camera: '" + std::string(name) + "' (allowed: '" + impl_->camera->model.name + "')");
+    }
+    return CameraPort(impl_->camera);
+}
+
+HandPort Engine::openHand(const HandStart& start) {
+    return front::translated([&] {
+        const front::FloatMode mode;
+        if (impl_->shared->handOpen.exchange(true)) {
+            throw Error("hand: it is open already (allowed: one hand per engine)");
+        }
+        return HandPort(std::make_unique<HandPort::Impl>(impl_->shared, start));
+    });
+}
+
+bool Engine::deviceLost() const noexcept {
+    return impl_->feed.lost.load();
+}
+
+std::string Engine::failure() const {
+    const std::lock_guard lock(impl_->failureMutex);
+    return impl_->failure;
+}
+
+std::string Engine::deviceName() const {
+    return impl_->compute.cycles.facts().name;
+}
+
+} // namespace fathom::v0

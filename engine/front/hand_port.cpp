@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/front/hand_port.h"
+
+#include "engine/front/float_mode.h"
+
+#include <algorithm>
+
+namespace fathom::v0 {
+
+HandPort::Impl::Impl(std::shared_ptr<front::Shared> from, const HandStart& start)
+    : shared(std::move(from))
+    , cycle(shared->haptic.cycle(start))
+    , stepper(*cycle, shared->channels, shared->clock) {
+    shared->channels.proxy.back() = cycle->place();
+    shared->channels.proxy.publish(); // the contact thread begins
+}
+
+Step HandPort::Impl::step(const Hand& hand, Nanoseconds now) noexcept {
+    const front::FloatMode mode;
+    const bool back = now < last;
+    last = std::max(now, last);
+    const double t = shared->clock.at(RunClock::Time(std::chrono::nanoseconds(last)));
+    const StepRecord& record = stepper.step(front::internal(hand), t);
+    Step step = front::external(record, shared->haptic.options.staleAfter);
+    step.warnings |= (stepper.scene().frame < 0 ? NoScene : 0u) | (stepper.scene().gone ? LostDevice : 0u) |
+                     (back ? TimeBack : 0u) | (shared->failed.load() ? EngineFailed : 0u);
+    return step;
+}
+
+HandPort::HandPort(std::unique_ptr<Impl> impl) noexcept
+    : impl_(std::move(impl)) {}
+HandPort::HandPort(HandPort&&) noexcept = default;
+HandPort& HandPort::operator=(HandPort&&) noexcept = default;
+HandPort::~HandPort() = default;
+
+Step HandPort::step(const Hand& hand, Nanoseconds now) noexcept {
+    return impl_->step(hand, now);
+}
+
+double HandPort::period() const noexcept {
+    return impl_->stepper.period();
+}
+
+} // namespace fathom::v0

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/front/camera_port.h"
+#include "engine/front/core.h"
+#include "engine/front/float_mode.h"
+#include "engine/run/active_contacts.h"
+#include "engine/run/scene_update.h"
+
+#include <deque>
+
+namespace fathom::v0 {
+
+struct Lockstep::Impl {
+    Impl(const Scene& scene, const CameraModel& model, const HandStart& start, const EngineOptions& options)
+        : haptic(scene.data().scene)
+        , compute(haptic, model, options.device)
+        , camera(model, compute.cycles.camera())
+        , cycle(haptic.cycle(start)) {}
+
+    void process(const Frame& frame);
+    bool answer();
+
+    front::HapticSide haptic;
+    front::ComputeSide compute;
+    CameraPort::Impl camera;
+    std::unique_ptr<HapticCycle> cycle;
+    ActiveContacts<std::unique_ptr<ContactSet>> contacts;
+    std::deque<std::unique_ptr<ContactSet>> answers; // not yet on offer, oldest first
+    SceneUpdate update;
+};
+
+namespace {
+
+double seconds(Nanoseconds time) {
+    return static_cast<double>(time) / 1e9;
+}
+
+} // namespace
+
+void Lockstep::Impl::process(const Frame& frame) {
+    fathom::Frame taken = camera.copy(frame);
+    const double t = seconds(frame.stamp);
+    taken.retime(t);
+    const FrameReport report = compute.cycles.frames().process(std::move(taken));
+    update.captureTime = t;
+    if (const auto set = compute.cycles.frames().sets().newest(); set && !report.unchanged) {
+        update.show(set->host);
+    }
+}
+
+bool Lockstep::Impl::answer() {
+    auto set = std::make_unique<ContactSet>();
+    const bool any = compute.cycles.answer(cycle->place(), *set);
+    if (any) {
+        answers.push_back(std::move(set));
+    }
+    if (answers.size() > haptic.scene.contact.delay) {
+        contacts.offer([this] {
+            auto due = std::move(answers.front());
+            answers.pop_front();
+            return due;
+        });
+    }
+    return any;
+}
+
+Lockstep::Lockstep(const Scene& scene, const CameraModel& camera, const HandStart& start,
+                   const EngineOptions& options)
+    : impl_(front::translated([&] {
+        const front::FloatMode mode;
+        return std::make_unique<Impl>(scene, camera, start, options);
+    })) {}
+
+Lockstep::~Lockstep() = default;
+
+void Lockstep::process(const Frame& frame) {
+    front::translated([&] {
+        const front::FloatMode mode;
+        impl_->process(frame);
+    });
+}
+
+bool Lockstep::answer() {
+    return front::translated([&] {
+        const front::FloatMode mode;
+        return impl_->answer();
+    });
+}
+
+Step Lockstep::step(const Hand& hand, Nanoseconds now) noexcept {
+    const front::FloatMode mode;
+    const StepInput input = stepInput(impl_->update, front::internal(hand), seconds(now));
+    const StepRecord record = impl_->contacts.step(*impl_->cycle, input);
+    Step step = front::external(record, impl_->haptic.options.staleAfter);
+    step.warnings |= impl_->update.frame < 0 ? NoScene : 0u;
+    return step;
+}
+
+void Lockstep::endFrames() noexcept {
+    impl_->update.sourceEnded = true;
+}
+
+double Lockstep::period() const noexcept {
+    return impl_->haptic.options.period;
+}
+
+} // namespace fathom::v0

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// In place of engine/types/log.cpp: the library passes its log lines to the callback of the program that uses
+// it and does not link spdlog.
+#include "engine/front/public.h"
+#include "engine/types/log.h"
+
+#include <mutex>
+
+namespace fathom {
+
+namespace {
+
+std::mutex logMutex; // of logCallback
+v0::LogCallback logCallback;
+
+} // namespace
+
+void log::write(Level level, fmt::string_view format, fmt::format_args values) {
+    const std::lock_guard lock(logMutex);
+    if (logCallback) {
+        logCallback(static_cast<v0::LogLevel>(level), printable(fmt::vformat(format, values)));
+    }
+}
+
+void v0::setLogCallback(LogCallback callback) {
+    const std::lock_guard lock(logMutex);
+    logCallback = std::move(callback);
+}
+
+} // namespace fathom

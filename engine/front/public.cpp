@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/front/public.h"
+
+#include "engine/types/version.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace fathom::v0 {
+
+Error::~Error() = default;
+BadInput::~BadInput() = default;
+DeviceLost::~DeviceLost() = default;
+
+Nanoseconds now() noexcept {
+    const auto time = std::chrono::steady_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
+}
+
+const char* version() noexcept {
+    return fathom::version();
+}
+
+} // namespace fathom::v0
+
+namespace fathom::front {
+
+namespace {
+
+v0::State external(StepState state) noexcept {
+    switch (state) {
+    case StepState::Off:
+        return v0::State::Off;
+    case StepState::Free:
+        return v0::State::Free;
+    case StepState::Contact:
+        return v0::State::Contact;
+    case StepState::Escape:
+        return v0::State::Escape;
+    case StepState::Trapped:
+        return v0::State::Trapped;
+    case StepState::Fading:
+        break;
+    }
+    return v0::State::Fading;
+}
+
+Intrinsics internal(const v0::Intrinsics& lens, const char* field) {
+    const bool sized = lens.width > 0 && lens.height > 0;
+    const bool finite = std::isfinite(lens.cx) && std::isfinite(lens.cy) && std::isfinite(lens.fx) &&
+                        std::isfinite(lens.fy) &&
+                        std::ranges::all_of(lens.distortion, [](double k) { return std::isfinite(k); });
+    if (!sized || !finite || lens.fx <= 0.0 || lens.fy <= 0.0) {
+        throw v0::BadInput(std::string("camera: ") + field + ": " + std::to_string(lens.width) + "x" +
+                           std::to_string(lens.height) + ", fx " + std::to_string(lens.fx) +
+                           " (allowed: a size, positive focal lengths and finite numbers)");
+    }
+    return {lens.width, lens.height, lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion, false};
+}
+
+} // namespace
+
+v0::Step external(const StepRecord& record, double staleAfter) noexcept {
+    v0::Step step;
+    step.wrench = {external(record.deviceWrench.force), external(record.deviceWrench.torque)};
+    step.baseTtool = external(record.tool);
+    step.baseTdevice = external(record.device);
+    step.state = external(record.state);
+    step.sceneAge = record.sceneAge;
+    step.minGap = record.minGap;
+    step.guidance = record.guidance;
+    step.frame = record.frame;
+    step.warnings = (record.sceneAge > staleAfter ? v0::OldScene : 0u) |
+                    (record.finite ? 0u : v0::NotFinite) | (record.stalled ? v0::Stalled : 0u);
+    for (uint32_t i = 0; i < std::min<size_t>(record.touchCount, step.contacts.size()); ++i) {
+        const Touch& touch = record.touches[i];
+        step.contacts[step.contactCount++] = {external(touch.point), external(touch.normal), touch.gap,
+                                              touch.fixture};
+    }
+    return step;
+}
+
+CameraInfo internal(const v0::CameraModel& model) {
+    constexpr double kFloatUnit = 0.0001; // [m] to which depth in metres is rounded
+    CameraInfo info;
+    info.depth = internal(model.depth, "depth");
+    info.registered = !model.colour.has_value();
+    info.colour = model.colour ? internal(*model.colour, "colour") : info.depth;
+    info.colourTdepth = info.registered ? Pose{} : internal(model.colourTdepth);
+    info.metresPerUnit = model.depthFormat == v0::DepthFormat::Metres ? kFloatUnit : model.metresPerUnit;
+    info.hasColour = model.colourFormat != v0::ColourFormat::None;
+    info.yuyv = model.colourFormat == v0::ColourFormat::Yuyv;
+    if (!(info.metresPerUnit > 0.0) || !isFinite(info.colourTdepth) ||
+        (info.yuyv && info.colour.width % 2 != 0)) {
+        throw v0::BadInput("camera: " + model.name +
+                           ": unit, colour pose or YUYV width (allowed: a positive unit, a finite pose, an "
+                           "even width)");
+    }
+    return info;
+}
+
+} // namespace fathom::front

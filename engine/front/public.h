@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// The public headers as the library's own sources see them, and the way between public and internal types.
+// Public types live in fathom::v0; internal ones with the same names in fathom.
+#pragma once
+
+#define FATHOM_BUILDING_LIBRARY
+#include "engine/cycle/step_record.h"
+#include "engine/types/camera_info.h"
+#include "engine/types/error.h"
+#include "engine/types/haptic_device.h"
+#include <fathom/fathom.h>
+
+namespace fathom::front {
+
+inline Pose internal(const v0::Pose& p) noexcept {
+    const dquat q(p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z);
+    return {{p.position[0], p.position[1], p.position[2]}, q};
+}
+inline v0::Vec3 external(const dvec3& v) noexcept {
+    return {v.x, v.y, v.z};
+}
+inline v0::Pose external(const Pose& p) noexcept {
+    return {external(p.position), {p.rotation.w, p.rotation.x, p.rotation.y, p.rotation.z}};
+}
+inline HandSample internal(const v0::Hand& hand) noexcept {
+    return {internal(hand.deviceThandle), hand.buttons};
+}
+
+// staleAfter [s]: scene age from which forces fade.
+v0::Step external(const StepRecord& record, double staleAfter) noexcept;
+
+// Throws v0::BadInput for a description that no camera can have.
+CameraInfo internal(const v0::CameraModel& model);
+
+// Runs `make` and turns internal exceptions into public ones.
+template <class Make>
+auto translated(Make&& make) {
+    try {
+        return make();
+    } catch (const v0::Error&) {
+        throw;
+    } catch (const BadInput& e) {
+        throw v0::BadInput(e.what());
+    } catch (const DeviceFailed& e) {
+        throw v0::DeviceLost(e.what());
+    } catch (const std::exception& e) {
+        throw v0::Error(e.what());
+    }
+}
+
+} // namespace fathom::front

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Depth cameras: what they look like, the frames that they give, and the port that takes the frames.
+#pragma once
+
+#include <fathom/types.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace fathom::v0 {
+
+/// Format of depth images: rows without gaps, from the top left pixel.
+enum class DepthFormat {
+    Uint16, ///< one value times CameraModel::metresPerUnit is the distance along the optical axis; 0 = no
+            ///< measurement
+    Metres  ///< float [m]; zero, negative or not finite = no measurement. Rounded to 0.1 mm, in range up
+            ///< to 6.5 m
+};
+
+/// Format of colour images: rows without gaps, from the top left pixel.
+enum class ColourFormat {
+    None,
+    Rgb,  ///< 3 bytes per pixel
+    Rgba, ///< 4 bytes per pixel, 4-byte aligned; alpha is ignored
+    Yuyv  ///< 2 bytes per pixel, 4-byte aligned, even width
+};
+
+/// Pinhole lens with Brown-Conrady distortion. Pixel (0, 0) is the centre of the first pixel.
+struct Intrinsics {
+    std::uint32_t width = 0, height = 0;           ///< [pixels]
+    double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; ///< [pixels]
+    std::array<double, 5> distortion{};            ///< k1 k2 p1 p2 k3; all zero = none
+};
+
+/// Camera frames have z forward, x right, y down.
+struct CameraModel {
+    std::string name = "camera";
+    Intrinsics depth;
+    DepthFormat depthFormat = DepthFormat::Uint16;
+    double metresPerUnit = 0.001; ///< of DepthFormat::Uint16
+    ColourFormat colourFormat = ColourFormat::None;
+    /// The colour lens, if colour is not registered to depth. Empty: colour pixel (u, v) shows depth pixel
+    /// (u, v).
+    std::optional<Intrinsics> colour;
+    Pose colourTdepth; ///< from the depth camera to the colour camera; used with `colour` only
+};
+
+/// One frame. The pointers must stay valid during submit() only.
+struct Frame {
+    const void* depth = nullptr;  ///< width x height values of the camera's depth format
+    const void* colour = nullptr; ///< of the colour format; null if the format is None
+    Pose baseTcamera;             ///< the depth camera in the base frame when the frame was taken
+    Nanoseconds stamp = 0;        ///< when it was taken (start of exposure)
+};
+
+/// What became of a submitted frame. Only Accepted frames are processed.
+enum class SubmitStatus {
+    Accepted,
+    MissingStamp, ///< the stamp is zero or negative
+    StampAhead,   ///< the stamp is more than 5 ms ahead of now: different clock?
+    StampBack,    ///< the stamp is not later than the one before: call clockJumped() after a jump
+    MissingImage, ///< a pointer is null or not aligned for its format
+    BadPose,      ///< the pose is not finite or its quaternion is zero
+    Closed        ///< the engine is destroyed, or its frame thread failed: see Engine::failure()
+};
+
+/// Takes the frames of one camera. A handle that you may copy, and that may outlive its engine. submit(),
+/// lend() and clockJumped() belong to one thread, the camera thread.
+class FATHOM_API CameraPort {
+public:
+    /// Copies the frame and returns. The newest frame wins: one that still waits is dropped and counted.
+    [[nodiscard]] SubmitStatus submit(const Frame& frame);
+
+    /// Lends the frame instead of copying it. Its memory must stay valid and unchanged until release() is
+    /// called, exactly once per call of lend(), from this call, a later submit() or lend(), the frame thread
+    /// or the engine's destructor. Formats that the engine converts (DepthFormat::Metres, ColourFormat::Rgb)
+    /// are copied.
+    [[nodiscard]] SubmitStatus lend(const Frame& frame, std::function<void()> release);
+
+    /// The camera's clock was set: the next stamp may be earlier than the last one.
+    void clockJumped() noexcept;
+
+    std::uint64_t dropped() const noexcept;   ///< frames that a newer one replaced. Any thread.
+    std::uint64_t processed() const noexcept; ///< frames that became a fixture set. Any thread.
+
+    struct Impl;
+    explicit CameraPort(std::shared_ptr<Impl> impl) noexcept; ///< for the library itself
+
+private:
+    std::shared_ptr<Impl> impl_;
+};
+
+} // namespace fathom::v0

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Symbol visibility and the version of the binary interface. Included by the other headers.
+#pragma once
+
+#define FATHOM_API __attribute__((visibility("default")))
+
+namespace fathom {
+#ifdef FATHOM_BUILDING_LIBRARY
+namespace v0 {} // namespace v0
+#else
+inline namespace v0 {}
+#endif
+} // namespace fathom

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The same computation on one thread without a clock, for tests and offline analysis. Equal input gives
+/// equal output to the last bit.
+#pragma once
+
+#include <fathom/engine.h>
+
+namespace fathom::v0 {
+
+/// Use it from one thread. Times are yours: any steady sequence that frames and steps share.
+class FATHOM_API Lockstep {
+public:
+    /// @throws BadInput, DeviceLost, Error
+    Lockstep(const Scene& scene, const CameraModel& camera, const HandStart& start,
+             const EngineOptions& options = {});
+    ~Lockstep();
+    Lockstep(const Lockstep&) = delete;
+    Lockstep& operator=(const Lockstep&) = delete;
+
+    /// Computes the fixture set of a frame and makes it the newest. The stamp is compared with `now` of
+    /// step() only. @throws DeviceLost, Error; BadInput for a missing image or pose
+    void process(const Frame& frame);
+
+    /// Answers one contact query at the current tool pose. The answer is on offer to steps after as many
+    /// further calls as the scene's `contact.delay` says. False before the first frame.
+    bool answer();
+
+    /// One haptic step at `now`.
+    Step step(const Hand& hand, Nanoseconds now) noexcept;
+
+    /// No frame will follow: the last one does not age.
+    void endFrames() noexcept;
+
+    double period() const noexcept; ///< [s] between steps that the scene asks for
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+} // namespace fathom::v0

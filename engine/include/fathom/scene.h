@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// What is protected, what guides, the tool and the haptic parameters: a scene file (man fathom-scene).
+#pragma once
+
+#include <fathom/export.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace fathom::v0 {
+
+/// A scene, read and checked. Immutable; any thread. A scene with an `arm` section is not supported by
+/// fathom::Engine yet; its camera source is ignored because you submit the frames.
+class FATHOM_API Scene {
+public:
+    /// Reads a scene file. @throws BadInput naming file, field, value and the allowed values
+    static Scene fromFile(const std::filesystem::path& file);
+    /// The same from the text of a scene file. Relative paths start at the working directory. @throws
+    /// BadInput
+    static Scene fromText(const std::string& yaml);
+
+    struct Data;
+    const Data& data() const noexcept { return *data_; } ///< for the library itself
+
+private:
+    explicit Scene(std::shared_ptr<const Data> data);
+    std::shared_ptr<const Data> data_;
+};
+
+} // namespace fathom::v0

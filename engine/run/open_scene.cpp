@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/run/open_scene.h"
+
+#include "engine/haptics/device_preset.h"
+#include "engine/model/sphere_sets.h"
+#include "engine/types/error.h"
+#include "engine/types/log.h"
+
+namespace fathom {
+
+namespace {
+
+Scene checked(Scene scene) {
+    const std::filesystem::path& file = scene.file;
+    for (const std::string& path : scene.outside) {
+        log::warn("{}: '{}' leads out of the scene file's folder", file.string(), path);
+    }
+    std::string names;
+    for (const DevicePreset& preset : devicePresets()) {
+        if (preset.name == scene.haptics.device) {
+            return scene;
+        }
+        names += (names.empty() ? "" : ", ") + preset.name;
+    }
+    throw BadInput(file.string(), "haptics.device", scene.haptics.device, names);
+}
+
+} // namespace
+
+Scene openScene(const std::filesystem::path& file) {
+    return checked(loadScene(file));
+}
+
+Scene openSceneText(const std::string& text) {
+    return checked(loadSceneText(text, "scene text"));
+}
+
+namespace {
+
+Tool writtenTool(const Scene& scene) {
+    try {
+        if (!scene.tool.file.empty()) {
+            return Tool(readSphereTree(scene.tool.file));
+        }
+        std::vector<Sphere> leaves;
+        for (const auto& [x, y, z, r] : scene.tool.spheres) {
+            leaves.push_back({{x, y, z}, r});
+        }
+        return Tool(buildSphereTree(leaves));
+    } catch (const BadInput&) {
+        throw;
+    } catch (const Error& e) {
+        throw BadInput(scene.file.string(), "tool", e.what(),
+                       "1 to 4096 spheres with finite centres and positive radii");
+    }
+}
+
+} // namespace
+
+std::unique_ptr<ArmRig> openArm(const Scene& scene) {
+    const bool tool = scene.arm && scene.tool.given();
+    auto arm = tool ? makeArmRig(scene, writtenTool(scene).leaves()) : makeArmRig(scene, {});
+    for (const std::string& note : arm ? arm->model.notes : std::vector<std::string>{}) {
+        log::warn("{}: {}", scene.arm->urdf.string(), note);
+    }
+    return arm;
+}
+
+Tool openTool(const Scene& scene, const ArmRig* arm) {
+    return arm != nullptr ? arm->heldTool() : writtenTool(scene);
+}
+
+} // namespace fathom

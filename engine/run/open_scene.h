@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// From a scene file to what the engine runs on: scene, arm, tool.
+#pragma once
+
+#include "engine/contact/tool.h"
+#include "engine/cycle/arm_rig.h"
+#include "engine/scene/scene.h"
+
+#include <filesystem>
+#include <memory>
+
+namespace fathom {
+
+// Reads and checks the scene file, names of device presets included. Throws BadInput.
+Scene openScene(const std::filesystem::path& file);
+// The same of a text; messages call it "scene text".
+Scene openSceneText(const std::string& text);
+
+// The scene's arm, or null without one; logs a warning for each note of its model. Throws BadInput.
+std::unique_ptr<ArmRig> openArm(const Scene& scene);
+
+// The scene's tool: listed spheres or a .sph file; with an arm, what its tip carries, the scene's tool
+// included. Throws BadInput.
+Tool openTool(const Scene& scene, const ArmRig* arm = nullptr);
+
+} // namespace fathom
