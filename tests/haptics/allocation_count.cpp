@@ -8,9 +8,11 @@
 
 namespace {
 std::atomic<uint64_t> allocations{0};
+thread_local uint64_t threadAllocations = 0;
 
 void* counted(std::size_t size, std::size_t alignment) {
     allocations.fetch_add(1, std::memory_order_relaxed);
+    ++threadAllocations;
     const std::size_t whole = (size + alignment - 1) / alignment * alignment;
     void* memory = std::aligned_alloc(alignment, whole == 0 ? alignment : whole);
     if (memory == nullptr) {
@@ -23,6 +25,9 @@ void* counted(std::size_t size, std::size_t alignment) {
 namespace fathom {
 uint64_t allocationCount() noexcept {
     return allocations.load(std::memory_order_relaxed);
+}
+uint64_t threadAllocationCount() noexcept {
+    return threadAllocations;
 }
 } // namespace fathom
 

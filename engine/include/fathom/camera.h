@@ -87,7 +87,7 @@ public:
     std::uint64_t dropped() const noexcept;   ///< frames that a newer one replaced. Any thread.
     std::uint64_t processed() const noexcept; ///< frames that became a fixture set. Any thread.
 
-    struct Impl;
+    struct FATHOM_LOCAL Impl;
     explicit CameraPort(std::shared_ptr<Impl> impl) noexcept; ///< for the library itself
 
 private:

@@ -54,7 +54,7 @@ public:
     std::string deviceName() const;   ///< Any thread.
 
 private:
-    struct Impl;
+    struct FATHOM_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

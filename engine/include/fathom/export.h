@@ -4,6 +4,7 @@
 #pragma once
 
 #define FATHOM_API __attribute__((visibility("default")))
+#define FATHOM_LOCAL __attribute__((visibility("hidden")))
 
 namespace fathom {
 #ifdef FATHOM_BUILDING_LIBRARY

@@ -85,7 +85,7 @@ public:
     HandPort& operator=(HandPort&&) noexcept;
     ~HandPort();
 
-    struct Impl;
+    struct FATHOM_LOCAL Impl;
     explicit HandPort(std::unique_ptr<Impl> impl) noexcept; ///< for the library itself
 
 private:

@@ -35,7 +35,7 @@ public:
     double period() const noexcept; ///< [s] between steps that the scene asks for
 
 private:
-    struct Impl;
+    struct FATHOM_LOCAL Impl;
     std::unique_ptr<Impl> impl_;
 };
 

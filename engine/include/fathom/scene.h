@@ -21,7 +21,7 @@ public:
     /// BadInput
     static Scene fromText(const std::string& yaml);
 
-    struct Data;
+    struct FATHOM_LOCAL Data;
     const Data& data() const noexcept { return *data_; } ///< for the library itself
 
 private:

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Frames and a hand made in code: a tool is pressed 10 mm into a protected wall and must feel 10 N.
+#include <fathom/fathom.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+int main() {
+    // A wall of points, protected by 40 mm; the tool is a ball of 10 mm; a spring of 1000 N/m.
+    const auto scene = fathom::Scene::fromText(R"(
+camera: { near: 0.1, far: 3.0 }
+error_budget: 0
+fixtures: [{ name: wall, role: forbidden, radius: 0.04 }]
+tool: { spheres: [[0, 0, 0, 0.01]] }
+haptics: { device: ideal, stiffness: 1000 }
+)");
+    fathom::CameraModel model;
+    model.depth = {.width = 160, .height = 120, .fx = 140, .fy = 140, .cx = 80, .cy = 60};
+    fathom::setLogCallback([](fathom::LogLevel level, std::string_view line) {
+        if (level >= fathom::LogLevel::Warning) {
+            std::fprintf(stderr, "%.*s\n", static_cast<int>(line.size()), line.data());
+        }
+    });
+    fathom::Engine engine(scene, model);
+
+    std::atomic<bool> stop{false};
+    std::thread camera([&, port = engine.camera()]() mutable { // 30 Hz, the wall 0.6 m away
+        const std::vector<std::uint16_t> depth(160 * 120, 600);
+        for (; !stop; std::this_thread::sleep_for(std::chrono::milliseconds(33))) {
+            const auto status = port.submit({.depth = depth.data(), .stamp = fathom::now()});
+            if (status != fathom::SubmitStatus::Accepted) {
+                std::fprintf(stderr, "frame rejected: %d\n", static_cast<int>(status));
+            }
+        }
+    });
+
+    // The tool touches the wall at z = 0.6 - 0.04 - 0.01 = 0.55 m. The hand goes on to 0.56 m.
+    fathom::Hand hand;
+    hand.deviceThandle.position = {0, 0, 0.5};
+    auto port = engine.openHand({.deviceThandle = hand.deviceThandle});
+    fathom::Step step;
+    const auto start = std::chrono::steady_clock::now();
+    for (int tick = 0, inContact = 0; tick < 20000 && inContact < 500; ++tick) {
+        std::this_thread::sleep_until(start + std::chrono::milliseconds(tick));
+        step = port.step(hand, fathom::now());
+        const bool ready = step.frame >= 0;
+        hand.deviceThandle.position[2] =
+            std::fmin(0.56, hand.deviceThandle.position[2] + (ready ? 0.0002 : 0));
+        inContact = hand.deviceThandle.position[2] == 0.56 ? inContact + 1 : 0;
+    }
+    stop = true;
+    camera.join();
+    std::printf("fathom %s on %s: force %.3f N\n", fathom::version(), engine.deviceName().c_str(),
+                -step.wrench.force[2]);
+    return step.state == fathom::State::Contact && std::fabs(step.wrench.force[2] + 10.0) < 0.01 ? 0 : 1;
+}

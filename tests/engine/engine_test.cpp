@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// The public interface from outside: statuses, counts, ownership of lent frames, and what a step may not do.
+#include "tests/engine/wall_world.h"
+#include "tests/haptics/allocation_count.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <cstring>
+#include <doctest/doctest.h>
+#include <optional>
+#include <string>
+
+#if defined(__SSE2__)
+#include <xmmintrin.h>
+#endif
+
+using namespace fathom;
+using namespace fathom::testing;
+
+TEST_CASE("A stamp that is missing, ahead or back has a status, and a clock that jumps has a call") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort port = engine.camera();
+    const Wall wall;
+    const Nanoseconds t = now();
+    CHECK(port.submit(wall.at(0)) == SubmitStatus::MissingStamp);
+    CHECK(port.submit(wall.at(-5)) == SubmitStatus::MissingStamp);
+    CHECK(port.submit(wall.at(now() + 50'000'000)) == SubmitStatus::StampAhead);
+    CHECK(port.submit(wall.at(t)) == SubmitStatus::Accepted);
+    CHECK(port.submit(wall.at(t)) == SubmitStatus::StampBack);
+    CHECK(port.submit(wall.at(t - 1)) == SubmitStatus::StampBack);
+    port.clockJumped();
+    CHECK(port.submit(wall.at(t - 1)) == SubmitStatus::Accepted);
+    CHECK(port.submit(wall.at(now() + 2'000'000)) == SubmitStatus::Accepted); // within 5 ms
+}
+
+TEST_CASE("A frame without an image or with a broken pose is rejected") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort port = engine.camera();
+    const Wall wall;
+    Frame frame = wall.at(now());
+    frame.depth = nullptr;
+    CHECK(port.submit(frame) == SubmitStatus::MissingImage);
+    frame = wall.at(now());
+    frame.baseTcamera.position[1] = std::nan("");
+    CHECK(port.submit(frame) == SubmitStatus::BadPose);
+    frame = wall.at(now());
+    frame.baseTcamera.rotation = {0.0, 0.0, 0.0, 0.0};
+    CHECK(port.submit(frame) == SubmitStatus::BadPose);
+}
+
+TEST_CASE("Every accepted frame is processed or counted as dropped, and the newest wins") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort port = engine.camera();
+    const Wall wall;
+    uint64_t accepted = 0;
+    for (int i = 0; i < 200; ++i) {
+        accepted += port.submit(wall.at(now())) == SubmitStatus::Accepted ? 1 : 0;
+    }
+    CHECK(accepted == 200);
+    CHECK(eventually([&] { return port.processed() + port.dropped() == accepted; }));
+    CHECK(port.dropped() > 100); // far faster than any frame is processed
+    CHECK(port.processed() >= 1);
+}
+
+TEST_CASE("A second camera, an unknown one and a second hand are refused with one clear line") {
+    const std::vector<CameraModel> two{smallCamera(), smallCamera()};
+    CHECK_THROWS_WITH_AS(Engine(wallScene(), two),
+                         "cameras: 2 (allowed: 1; several cameras are not supported yet)", BadInput);
+    Engine engine(wallScene(), smallCamera());
+    CHECK_THROWS_AS(engine.camera(1), BadInput);
+    CHECK_THROWS_AS(engine.camera("other"), BadInput);
+    CHECK_NOTHROW(engine.camera("camera"));
+    HandPort hand = engine.openHand(startAt(0.5));
+    CHECK_THROWS_AS(engine.openHand(startAt(0.5)), Error);
+    CHECK_THROWS_AS(Scene::fromText("fixtures: 3"), BadInput);
+}
+
+TEST_CASE("A lent frame is released exactly once, whatever becomes of it") {
+    const Wall wall;
+    constexpr int kFrames = 60;
+    std::vector<std::atomic<int>> released(kFrames + 3);
+    const auto release = [&](int i) { return [&released, i] { ++released[static_cast<size_t>(i)]; }; };
+    std::optional<Engine> engine(std::in_place, wallScene(), smallCamera());
+    CameraPort port = engine->camera();
+    CHECK(port.lend(wall.at(0), release(kFrames)) == SubmitStatus::MissingStamp);
+    CHECK(released[kFrames] == 1);
+    for (int i = 0; i < kFrames; ++i) {
+        CHECK(port.lend(wall.at(now()), release(i)) == SubmitStatus::Accepted);
+        std::this_thread::sleep_for(std::chrono::milliseconds(i % 3));
+    }
+    engine.reset(); // one may still wait
+    CHECK(port.lend(wall.at(now()), release(kFrames + 1)) == SubmitStatus::Closed);
+    for (int i = 0; i < kFrames + 2; ++i) {
+        CHECK(released[static_cast<size_t>(i)] == 1);
+    }
+}
+
+TEST_CASE("Depth in metres that is lent is copied and released at once") {
+    CameraModel model = smallCamera();
+    model.depthFormat = DepthFormat::Metres;
+    Engine engine(wallScene(), model);
+    const std::vector<float> depth(80 * 60, 0.6f);
+    Frame frame;
+    frame.depth = depth.data();
+    frame.stamp = now();
+    int released = 0;
+    CHECK(engine.camera().lend(frame, [&] { ++released; }) == SubmitStatus::Accepted);
+    CHECK(released == 1);
+}
+
+TEST_CASE("A step allocates nothing and leaves the caller's floating-point mode as it was") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort port = engine.camera();
+    HandPort hand = engine.openHand(startAt(0.5));
+    const Wall wall;
+    uint64_t during = 0, contacts = 0;
+    double z = 0.5;
+    bool kept = true;
+    for (int i = 0; i < 20000 && contacts < 100; ++i) {
+        if (i % 20 == 0) {
+            CHECK(port.submit(wall.at(now())) == SubmitStatus::Accepted);
+        }
+        const Hand sample = handAt(z);
+        const uint64_t before = threadAllocationCount();
+#if defined(__SSE2__)
+        _mm_setcsr(0x9fc0); // denormals are zero, results are flushed
+#endif
+        const Step step = hand.step(sample, now());
+#if defined(__SSE2__)
+        kept = kept && (_mm_getcsr() & 0xffc0u) == 0x9fc0u;
+        _mm_setcsr(0x1f80);
+#endif
+        during += threadAllocationCount() - before;
+        z = std::min(0.56, z + (step.frame >= 0 ? 0.0005 : 0.0));
+        contacts += step.state == State::Contact ? 1 : 0;
+        std::this_thread::sleep_for(std::chrono::microseconds(500));
+    }
+    CHECK(contacts == 100);
+    CHECK(during == 0);
+    CHECK(kept);
+    const uint64_t before = threadAllocationCount();
+    CHECK(!std::string(100, 'x').empty()); // longer than what a string holds in place
+    CHECK(threadAllocationCount() == before + 1); // the count counts
+}
+
+TEST_CASE("A step says when there is no scene, when it is old and when time goes back") {
+    Engine engine(wallScene(), smallCamera());
+    CameraPort port = engine.camera();
+    HandPort hand = engine.openHand(startAt(0.5));
+    Step step = hand.step(handAt(0.5), now());
+    CHECK((step.warnings & NoScene) != 0);
+    CHECK(step.state == State::Off);
+    const Wall wall;
+    CHECK(port.submit(wall.at(now() - 3'000'000'000)) == SubmitStatus::Accepted); // as old as it says
+    CHECK(eventually([&] { return hand.step(handAt(0.5), now()).frame >= 0; }));
+    step = hand.step(handAt(0.5), now());
+    CHECK((step.warnings & NoScene) == 0);
+    CHECK((step.warnings & OldScene) != 0);
+    CHECK(step.sceneAge > 2.9);
+    step = hand.step(handAt(0.5), now() - 1'000'000'000);
+    CHECK((step.warnings & TimeBack) != 0);
+    step = hand.step(handAt(std::nan("")), now());
+    CHECK((step.warnings & NotFinite) != 0);
+    CHECK(step.wrench.force == Vec3{0.0, 0.0, 0.0});
+}
+
+TEST_CASE("Log lines go to the callback") {
+    std::atomic<int> lines{0};
+    setLogCallback([&](LogLevel, std::string_view line) { lines += line.empty() ? 0 : 1; });
+    { const Engine engine(wallScene(), smallCamera()); }
+    setLogCallback(nullptr);
+    CHECK(lines > 0);
+    CHECK(std::strcmp(version(), "0.2.0") == 0);
+}

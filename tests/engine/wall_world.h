@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// A flat wall 0.6 m ahead, protected by 40 mm, and a ball of 10 mm as tool: it rests at z = 0.55 m.
+#pragma once
+
+#include <fathom/fathom.h>
+
+#include <chrono>
+#include <thread>
+#include <vector>
+
+namespace fathom::testing {
+
+inline Scene wallScene() {
+    return Scene::fromText(R"(
+camera: { near: 0.1, far: 3.0 }
+error_budget: 0
+fixtures: [{ name: wall, role: forbidden, radius: 0.04 }]
+tool: { spheres: [[0, 0, 0, 0.01]] }
+haptics: { device: ideal, stiffness: 1000 }
+)");
+}
+
+inline CameraModel smallCamera() {
+    CameraModel model;
+    model.depth = {80, 60, 70.0, 70.0, 40.0, 30.0, {}};
+    return model;
+}
+
+struct Wall {
+    std::vector<std::uint16_t> depth = std::vector<std::uint16_t>(80 * 60, 600);
+    Frame at(Nanoseconds stamp) const {
+        Frame frame;
+        frame.depth = depth.data();
+        frame.stamp = stamp;
+        return frame;
+    }
+};
+
+inline Hand handAt(double z) {
+    Hand hand;
+    hand.deviceThandle.position = {0.0, 0.0, z};
+    return hand;
+}
+
+inline HandStart startAt(double z) {
+    return {handAt(z).deviceThandle};
+}
+
+// False after 60 s.
+template <class Condition>
+bool eventually(Condition&& condition) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!condition()) {
+        if (std::chrono::steady_clock::now() > end) {
+            return false;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return true;
+}
+
+} // namespace fathom::testing
