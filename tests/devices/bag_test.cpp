@@ -167,7 +167,7 @@ std::string refusal(const std::filesystem::path& file) {
 } // namespace
 
 TEST_CASE(
-    "A bag's pictures come out alike from plain, bz2 and LZ4 chunks, paired by time, padding left out") {
+    "Uncompressed, bz2 and LZ4 chunks of a bag give the same frames, paired by time and without padding") {
     const TemporaryFolder folder;
     for (const char* compression : {"none", "bz2", "lz4"}) {
         folder.write("a.bag", smallBag().bag(compression));
@@ -188,7 +188,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A bag that was not closed, is cut off or damaged, or has no depth is refused in one line") {
+TEST_CASE("A bag that is not closed, truncated, damaged or without depth is rejected in one line") {
     const TemporaryFolder folder;
     const auto refused = [&](const std::string& bytes) {
         folder.write("a.bag", bytes);
@@ -209,7 +209,7 @@ TEST_CASE("A bag that was not closed, is cut off or damaged, or has no depth is 
     }
 }
 
-TEST_CASE("A bag that tells of more than its bytes can hold is refused before memory is taken for it") {
+TEST_CASE("A bag that claims more data than its bytes can hold is rejected before memory is allocated") {
     const TemporaryFolder folder;
     for (const char* compression : {"lz4", "bz2"}) {
         const std::string few(100, 'x');
@@ -224,7 +224,7 @@ TEST_CASE("A bag that tells of more than its bytes can hold is refused before me
     CHECK(refusal(folder.path() / "a.bag").find("names a chunk twice") != std::string::npos);
 }
 
-TEST_CASE("A bag with any byte changed is refused or read, and never breaks the reader") {
+TEST_CASE("A bag with any byte changed is either rejected or read, and never crashes the reader") {
     const TemporaryFolder folder;
     const std::string whole = smallBag().bag("lz4");
     const auto level = spdlog::get_level();
@@ -244,7 +244,7 @@ TEST_CASE("A bag with any byte changed is refused or read, and never breaks the 
     CHECK_THROWS_AS(unpackChunk("zip", {}, 0), Error);
 }
 
-TEST_CASE("A real RealSense bag gives the pictures, lenses and extrinsics that were taken from it") {
+TEST_CASE("A real RealSense bag gives the frames, lenses and extrinsics that were extracted from it") {
     if (!haveRecording("realsense_bag")) {
         return;
     }

@@ -52,7 +52,7 @@ struct Machine {
 
 } // namespace
 
-TEST_CASE("A Falcon, a SpaceMouse and cameras are found by sysfs, in order, and other devices are not") {
+TEST_CASE("sysfs lists a Falcon, a SpaceMouse and cameras in order, and no other devices") {
     Machine m;
     m.usb("1-2", "0403", "cb48", "FALCON HAPTIC", 7);
     write(m.root() / "dev/bus/usb/001/007", "");
@@ -85,7 +85,7 @@ TEST_CASE("A Falcon, a SpaceMouse and cameras are found by sysfs, in order, and 
     }
 }
 
-TEST_CASE("Serial ports on USB and of the board are listed, those without a chip are not") {
+TEST_CASE("USB and on-board serial ports are listed, except those without a chip") {
     Machine m;
     const fs::path cable = m.usb("1-4", "0403", "6001", "FT232R USB UART", 8);
     m.node("tty", "ttyUSB0", cable / "1-4:1.0/ttyUSB0", "");
@@ -104,7 +104,7 @@ TEST_CASE("Serial ports on USB and of the board are listed, those without a chip
     CHECK(found[1].refused.empty());
 }
 
-TEST_CASE("Devices that nothing here can drive are named with the reason, their neighbours are not") {
+TEST_CASE("Devices without a driver here are listed with the reason, and similar product numbers are not") {
     Machine m;
     m.usb("1-2", "1451", "0402", "", 7);
     m.usb("1-3", "1d27", "0601", "Xtion PRO LIVE", 8);
@@ -122,7 +122,7 @@ TEST_CASE("Devices that nothing here can drive are named with the reason, their 
     CHECK(found[1].refused.find("devices/bridge/README.md") != std::string::npos);
 }
 
-TEST_CASE("A machine without devices has none, and a node that is missing says so") {
+TEST_CASE("A machine without devices lists none, and a missing node is reported") {
     Machine m;
     CHECK(findDeviceFiles(m.root()).empty());
     m.usb("1-2", "0403", "cb48", "FALCON HAPTIC", 7);
@@ -131,7 +131,7 @@ TEST_CASE("A machine without devices has none, and a node that is missing says s
     CHECK(found[0].refused == "No such file or directory");
 }
 
-TEST_CASE("A device without permission names the udev rule, and that file names every device we know") {
+TEST_CASE("A device without permission reports the udev rule, and the rule file lists every known device") {
     Machine m;
     m.usb("1-2", "0403", "cb48", "FALCON HAPTIC", 7);
     write(m.root() / "dev/bus/usb/001/007", "");

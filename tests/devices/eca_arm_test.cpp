@@ -53,7 +53,7 @@ const ArmCommand kHold{{}, true};
 
 } // namespace
 
-TEST_CASE("An ECA frame of holds has the published checksum, and what is put in comes out") {
+TEST_CASE("An ECA hold frame has the published checksum, and frames survive a round trip") {
     std::array<EcaDemand, kEcaJoints> demands;
     const EcaBytes hold = encodeEca(demands);
     CHECK(hold[0] == 0xE7);
@@ -72,7 +72,7 @@ TEST_CASE("An ECA frame of holds has the published checksum, and what is put in 
     CHECK(statusOf(answer)[4].current == 77);
 }
 
-TEST_CASE("A reader finds every whole frame again after noise, half frames and false starts") {
+TEST_CASE("A reader finds every complete frame after noise, partial frames and false starts") {
     std::mt19937_64 random(4);
     EcaReader reader;
     size_t found = 0;
@@ -100,7 +100,7 @@ TEST_CASE("A reader finds every whole frame again after noise, half frames and f
     }
 }
 
-TEST_CASE("Joints with relative encoders are homed against their stops, and then go where they are told") {
+TEST_CASE("Joints with relative encoders are homed against their stops and then follow commands") {
     Rig rig;
     rig.run(1.0, kHold);
     CHECK_FALSE(rig.driver.feedback().homed);
@@ -115,7 +115,7 @@ TEST_CASE("Joints with relative encoders are homed against their stops, and then
 }
 
 TEST_CASE(
-    "Noise, lost bytes, echo and late answers are lived with; a cut line is told and the driver holds") {
+    "Noise, lost bytes, echo and late answers are tolerated; a cut line is reported and the driver holds") {
     Rig rig;
     rig.line.faults = {0.0005, 0.0005, true, 0.02, false};
     rig.run(20.0, kGo);
@@ -128,7 +128,7 @@ TEST_CASE(
     CHECK(rig.driver.feedback().holding);
 }
 
-TEST_CASE("An encoder that jumps was switched off: the arm is homed anew") {
+TEST_CASE("An encoder jump means a restart: the arm is homed again") {
     Rig rig;
     rig.run(12.0, kGo);
     REQUIRE(rig.driver.feedback().homed);
@@ -140,7 +140,7 @@ TEST_CASE("An encoder that jumps was switched off: the arm is homed anew") {
     CHECK(rig.error(kGo) < 2e-3);
 }
 
-TEST_CASE("A joint of an ECA arm that presses against something is held before its motor burns") {
+TEST_CASE("A blocked joint of an ECA arm is held before its motor overheats") {
     Rig rig;
     rig.run(12.0, kGo);
     rig.arm.pressing = 230;

@@ -85,7 +85,7 @@ TEST_CASE("Forward and inverse kinematics undo each other over the whole workspa
     MESSAGE(places << " places, worst " << worst << " m");
 }
 
-TEST_CASE("A place out of reach has no joint angles, and impossible angles no place") {
+TEST_CASE("An unreachable position has no joint angles, and impossible angles have no position") {
     CHECK_FALSE(FalconKinematics::inverse({0.0, 0.0, 0.5}));
     CHECK_FALSE(FalconKinematics::inverse({0.3, 0.0, 0.13}));
     CHECK_FALSE(FalconKinematics::inverse({0.0, std::numeric_limits<double>::quiet_NaN(), 0.13}));
@@ -116,7 +116,8 @@ TEST_CASE("Joint torques do the same work as the force: tau . dtheta = f . dp") 
     CHECK(worst < 1e-5); // [N]
 }
 
-TEST_CASE("A homed device gives its place and buttons, one that is not homed gives neither place nor force") {
+TEST_CASE(
+    "A homed device gives position and buttons; one that is not homed gives neither position nor force") {
     FalconDrive drive;
     HandSample sample;
     const dvec3 knob(0.012, -0.021, 0.118);

@@ -34,7 +34,7 @@ std::string startFault(FakeFalcon& device, const std::vector<uint8_t>& firmware)
 
 } // namespace
 
-TEST_CASE("A Falcon that runs is taken as it is, with its line set and no firmware loaded") {
+TEST_CASE("A running Falcon is used as it is: its port is configured and no firmware is loaded") {
     FakeFalcon device(true);
     FalconLink link(device);
     link.start(blob(100));
@@ -46,7 +46,7 @@ TEST_CASE("A Falcon that runs is taken as it is, with its line set and no firmwa
     }
 }
 
-TEST_CASE("After power-on the firmware goes in whole, in echoed pieces, and then the device answers") {
+TEST_CASE("After power-on the whole firmware is loaded in echoed chunks, and then the device answers") {
     for (const size_t size : {1u, 62u, 63u, 1000u}) {
         FakeFalcon device(false);
         device.runsAfter = size;
@@ -60,7 +60,7 @@ TEST_CASE("After power-on the firmware goes in whole, in echoed pieces, and then
     }
 }
 
-TEST_CASE("A wrong answer while the firmware is loaded ends it and names the step and the answer") {
+TEST_CASE("A wrong answer during the firmware load stops it and reports the step and the answer") {
     FakeFalcon device(false);
     device.runsAfter = 200;
     std::string expected;
@@ -94,7 +94,7 @@ TEST_CASE("A wrong answer while the firmware is loaded ends it and names the ste
     CHECK_MESSAGE(fault.find(expected) != std::string::npos, fault);
 }
 
-TEST_CASE("A firmware file that is missing, empty or too long is refused") {
+TEST_CASE("A firmware file that is missing, empty or too long is rejected") {
     const auto file = std::filesystem::temp_directory_path() / "fathom-falcon-firmware.bin";
     std::filesystem::remove(file);
     CHECK_THROWS_AS(readFalconFirmware(file), BadInput);
@@ -107,7 +107,7 @@ TEST_CASE("A firmware file that is missing, empty or too long is refused") {
     std::filesystem::remove(file);
 }
 
-TEST_CASE("One command is under way at a time, and answers in pieces or twofold keep the exchange going") {
+TEST_CASE("Only one command is in flight, and partial or duplicate answers do not stop the exchange") {
     FakeFalcon device(true);
     FalconLink link(device);
     link.start({});
@@ -133,7 +133,7 @@ TEST_CASE("One command is under way at a time, and answers in pieces or twofold 
     CHECK(link.state().encoder[0] > 290);
 }
 
-TEST_CASE("An answer that never comes is given up after 20 ms, one that comes late is used") {
+TEST_CASE("A missing answer expires after 20 ms, and a late one is used") {
     FakeFalcon device(true);
     FalconLink link(device);
     link.start({});
@@ -155,8 +155,7 @@ TEST_CASE("An answer that never comes is given up after 20 ms, one that comes la
     CHECK(link.figures().surplus == 1);
 }
 
-TEST_CASE(
-    "A device that says nothing for half a second, or is unplugged, is lost; stopping it never throws") {
+TEST_CASE("A device that is silent for half a second or unplugged is lost; stopping it never throws") {
     FakeFalcon device(true);
     FalconLink link(device);
     link.start({});

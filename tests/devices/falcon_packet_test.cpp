@@ -68,7 +68,7 @@ TEST_CASE("A reply in halves, with noise before it, or two at once are all found
     CHECK_FALSE(stream.newest().allHomed());
 }
 
-TEST_CASE("A reply that breaks off or has a wrong character is left out and counted") {
+TEST_CASE("A truncated reply or one with a wrong character is skipped and counted") {
     FalconStream stream;
     stream.feed(bytesOf(kReply.substr(0, 9) + kReply));
     CHECK(stream.packets() == 1);

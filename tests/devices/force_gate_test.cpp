@@ -12,7 +12,7 @@ constexpr uint64_t kMs = 1000000;
 
 } // namespace
 
-TEST_CASE("The force gate is shut at first, passes what comes, and shuts after 10 ms of silence") {
+TEST_CASE("The force gate starts closed, passes wrenches, and closes after 10 ms of silence") {
     ForceGate gate(8.0, 0.2);
     const uint64_t t = 5000 * kMs;
     CHECK(gate.at(t).force.x == 0.0);
@@ -35,7 +35,8 @@ TEST_CASE("The force gate is shut at first, passes what comes, and shuts after 1
     CHECK(gate.at(t + 310 * kMs).force.x == 0.0);
 }
 
-TEST_CASE("The force gate shortens to the limits without turning and shuts on what is not finite") {
+TEST_CASE("The force gate scales to the limits without a change of direction and closes on values that are "
+          "not finite") {
     ForceGate gate(5.0, 0.2);
     gate.accept({{30.0, 40.0, 0.0}, {0.0, 0.0, 2.0}}, kMs);
     for (uint64_t ms = 2; ms < 150; ++ms) {

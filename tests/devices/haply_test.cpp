@@ -56,8 +56,8 @@ std::string refusal(const std::function<void()>& body) {
 
 } // namespace
 
-TEST_CASE(
-    "An Inverse3's handle reaches the engine, the engine's force the service, and at the end it is zero") {
+TEST_CASE("The pose of an Inverse3 reaches the engine, the engine's force reaches the service, and the last "
+          "force is zero") {
     HaplyService service;
     Loop loop(service.port());
     CHECK(loop.guard.place().find("049D at ws://127.0.0.1:") == 0);
@@ -73,7 +73,7 @@ TEST_CASE(
     CHECK(loop.guard.figures().faults == 0);
 }
 
-TEST_CASE("An engine that is silent for 10 ms is zero force at the service") {
+TEST_CASE("An engine that is silent for 10 ms leaves zero force at the service") {
     HaplyService service;
     Loop loop(service.port());
     CHECK(loop.until([&](const HandSample&) { return service.force()[2] == 2.0; }));
@@ -81,7 +81,7 @@ TEST_CASE("An engine that is silent for 10 ms is zero force at the service") {
     CHECK(loop.until([&](const HandSample&) { return service.force()[2] == 2.0; }));
 }
 
-TEST_CASE("A VerseGrip gives orientation and buttons, and a device without it turns nowhere") {
+TEST_CASE("A VerseGrip gives orientation and buttons; without one the orientation is constant") {
     HaplyService service;
     Loop loop(service.port());
     CHECK(loop.until([&](const HandSample& s) { return s.deviceThandle.position.z == 0.1; }));
@@ -93,7 +93,7 @@ TEST_CASE("A VerseGrip gives orientation and buttons, and a device without it tu
     }));
 }
 
-TEST_CASE("Answers in fragments with a ping between, broken and missing ones leave the exchange going") {
+TEST_CASE("Fragmented, invalid and missing answers do not stop the exchange") {
     HaplyService service;
     Loop loop(service.port());
     service.fragments = true;
@@ -149,8 +149,7 @@ TEST_CASE("A device pulled out of the service, and a service that ends, open the
     CHECK(loop.guard.losses() >= 3);
 }
 
-TEST_CASE(
-    "Without a service, without a WebSocket, without an Inverse3 or with another one the guardian says so") {
+TEST_CASE("A missing service, WebSocket or Inverse3, or another Inverse3, is reported") {
     SocketFolder folder;
     const auto said = [&](uint16_t port, const std::string& device = "") {
         return refusal([&] { HaplyGuard({folder.endpoint(), "127.0.0.1", port, device}); });

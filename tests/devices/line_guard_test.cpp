@@ -90,8 +90,7 @@ struct Pipe {
 
 } // namespace
 
-TEST_CASE(
-    "A guardian writes nothing while the engine is heard, nor before it first was, nor after a farewell") {
+TEST_CASE("The watchdog writes nothing while the engine is alive, before it first was, or after a goodbye") {
     LineGuard guard(kPeriod);
     CHECK(tells(guard, 0.0, 5.0) == 0); // the engine makes ready
     for (int i = 0; i < 100; ++i) {
@@ -109,7 +108,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A guardian tells the arm to stand still when the engine has ended, at once, every period, and ends") {
+    "When the engine has ended, the watchdog stops the arm at once, repeats it every period, and exits") {
     LineGuard guard(kPeriod);
     guard.alive(1.0);
     guard.close();
@@ -120,8 +119,8 @@ TEST_CASE(
     CHECK(guard.found() == 1);
 }
 
-TEST_CASE("A guardian tells the arm after a silence, leaves the line to an engine that speaks again, and is "
-          "there for the next") {
+TEST_CASE("The watchdog stops the arm after a silence, releases the line when the engine is back, and "
+          "watches for the next one") {
     LineGuard guard(kPeriod);
     guard.alive(1.0);
     CHECK(LineGuard::kSilence == 0.2); // docs/robustness.md, and what the arm's own movement is bounded by
@@ -139,7 +138,7 @@ TEST_CASE("A guardian tells the arm after a silence, leaves the line to an engin
     CHECK(guard.found() == 3);
 }
 
-TEST_CASE("What a guardian writes stops an arm wherever the engine's last telegram was cut off") {
+TEST_CASE("The watchdog stops an arm even when the engine's last telegram was truncated") {
     stopsAfterHalf<ReachSimulator>(reachGo(), reachStandStill(),
                                    [](const ReachSimulator& arm) { return arm.position[5]; });
     stopsAfterHalf<EcaSimulator>(ecaGo(), ecaStandStill(),
@@ -148,7 +147,7 @@ TEST_CASE("What a guardian writes stops an arm wherever the engine's last telegr
 }
 
 TEST_CASE(
-    "A guardian that serves says that it is there, and writes once the engine's end of the pipe is closed") {
+    "The watchdog process reports that it is ready, and writes when the engine's end of the pipe closes") {
     for (const bool farewell : {false, true}) {
         CAPTURE(farewell);
         const StandStill still = ecaStandStill();

@@ -74,7 +74,7 @@ TEST_CASE("An organised cloud gives back its lens and depth: ascii, binary, and 
     }
 }
 
-TEST_CASE("A cloud that is not organised, cut off, or seen by no pinhole is refused with the line") {
+TEST_CASE("A cloud that is unorganised, truncated or not from a pinhole is rejected with the line") {
     const TemporaryFolder folder;
     const std::string whole = cloudText("binary");
     const auto changed = [&](const std::string& from, const std::string& to) {
@@ -96,7 +96,7 @@ TEST_CASE("A cloud that is not organised, cut off, or seen by no pinhole is refu
     CHECK(refusal(folder.path() / "y.pcd").find("cut off") != std::string::npos);
 }
 
-TEST_CASE("A scan of equal angles gives a fan, whatever its axes, and its strength as grey") {
+TEST_CASE("A scan of equal angles gives a fan in any axis convention, with intensity as grey") {
     const TemporaryFolder folder;
     for (const bool robot : {false, true}) {
         std::string text = "VERSION 0.7\nFIELDS x y z intensity\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n"
@@ -127,7 +127,7 @@ TEST_CASE("A scan of equal angles gives a fan, whatever its axes, and its streng
     }
 }
 
-TEST_CASE("LZF unpacks literals, short and long matches and overlapping ones, and refuses damaged data") {
+TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rejects damaged data") {
     // "ab", then 7 bytes from 2 back ("abababa"), then 11 from 1 back.
     const std::vector<uint8_t> packed{1, 'a', 'b', 5 << 5, 1, 7 << 5, 2, 0};
     std::vector<uint8_t> out(2 + 7 + 11);

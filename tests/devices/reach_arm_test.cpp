@@ -48,7 +48,7 @@ const ArmCommand kHold{{9.0, 9.0, 9.0, 9.0, 9.0}, true};
 
 } // namespace
 
-TEST_CASE("A Reach arm goes where it is told and says where it is") {
+TEST_CASE("A Reach arm follows setpoints and reports its position") {
     Rig rig;
     CHECK(rig.driver.feedback().stale);
     rig.run(2.0, kGo);
@@ -63,7 +63,7 @@ TEST_CASE("A Reach arm goes where it is told and says where it is") {
     }
 }
 
-TEST_CASE("Noise, lost bytes, its own echo and late answers slow a Reach arm, and lead it nowhere else") {
+TEST_CASE("Noise, lost bytes, echo and late answers slow a Reach arm but never misdirect it") {
     for (const LineFaults& faults :
          {LineFaults{0.004, 0.0, false, 0.0, false}, LineFaults{0.0, 0.004, false, 0.0, false},
           LineFaults{0.0, 0.0, true, 0.0, false}, LineFaults{0.0, 0.0, false, 0.03, false},
@@ -86,8 +86,7 @@ TEST_CASE("Noise, lost bytes, its own echo and late answers slow a Reach arm, an
     }
 }
 
-TEST_CASE(
-    "A Reach arm that rests on its setpoint is heard all the time, on a line with an echo and without") {
+TEST_CASE("Feedback of a Reach arm at rest on its setpoint is never mistaken for echo") {
     for (const bool echo : {false, true}) {
         CAPTURE(echo);
         Rig rig;
@@ -109,7 +108,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("On hold a Reach arm stands, and its own echo is not taken for feedback") {
+TEST_CASE("On hold a Reach arm does not move, and its echo is not taken for feedback") {
     Rig rig;
     rig.line.faults.echo = true;
     rig.run(0.5, kGo);
@@ -134,7 +133,7 @@ TEST_CASE("On hold a Reach arm stands, and its own echo is not taken for feedbac
 }
 
 TEST_CASE(
-    "A cut line makes feedback stale, the arm ends within its lead, and goes on when the line is back") {
+    "A cut line makes feedback stale; the arm stops within its lead and resumes when the line is back") {
     Rig rig;
     rig.run(0.2, kGo);
     REQUIRE_FALSE(rig.driver.feedback().stale);
@@ -154,7 +153,7 @@ TEST_CASE(
     CHECK(rig.error(kGo) < 1e-4);
 }
 
-TEST_CASE("A motor that draws too much for too long holds the arm until it is reset") {
+TEST_CASE("Sustained overcurrent holds the arm until it is reset") {
     Rig rig;
     rig.run(0.2, kGo);
     rig.arm.current[3] = 2000.0; // [mA] of 1500
@@ -173,7 +172,7 @@ TEST_CASE("A motor that draws too much for too long holds the arm until it is re
     CHECK(rig.error(kGo) < 1e-4);
 }
 
-TEST_CASE("A serial line that is none is refused in one line") {
+TEST_CASE("A file that is not a serial port is rejected in one line") {
     const auto refusal = [](const std::string& name, uint32_t baud) -> std::string {
         try {
             SerialPort port(name, baud);

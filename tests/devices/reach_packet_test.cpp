@@ -27,7 +27,7 @@ std::vector<ReachPacket> read(ReachReader& reader, const std::vector<uint8_t>& l
 
 } // namespace
 
-TEST_CASE("the published frames of the arm come out byte for byte") {
+TEST_CASE("The published frames of the arm are reproduced byte for byte") {
     const std::vector<uint8_t> request{0x03, 0x60, 0x01, 0x05}, other{0xFF, 0x12, 0xAD, 0x23, 0x56};
     CHECK(reachCrc(request) == 0x52);
     CHECK(reachCrc(other) == 0xF3);
@@ -42,7 +42,7 @@ TEST_CASE("the published frames of the arm come out byte for byte") {
     CHECK(packets[0].data[3] == 0x04);
 }
 
-TEST_CASE("every packet is read back as it was written, zeros, no data and the most data among them") {
+TEST_CASE("Every packet survives a round trip, including zeros, no data and the largest size") {
     std::mt19937_64 random(1);
     ReachReader reader;
     for (size_t size = 0; size <= ReachPacket::kMostData; ++size) {
@@ -63,7 +63,7 @@ TEST_CASE("every packet is read back as it was written, zeros, no data and the m
     CHECK(encodeReach({0x03, 2, ReachPacket::kMostData + 1, {}}, frame) == 0);
 }
 
-TEST_CASE("lost, changed and added bytes cost the frame they hit and no other") {
+TEST_CASE("Lost, changed and added bytes damage only the frame that they hit") {
     std::mt19937_64 random(2);
     ReachReader reader;
     size_t wrong = 0, good = 0;

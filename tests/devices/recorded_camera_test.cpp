@@ -51,7 +51,7 @@ void truncate(const std::filesystem::path& file, uintmax_t left) {
 
 } // namespace
 
-TEST_CASE("comments and blank lines of the index are no frames, and the depth stamp is the capture time") {
+TEST_CASE("Comments and blank lines of the index are skipped, and the depth stamp is the capture time") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 3);
     replaceInIndex(folder, "0.100000 rgb/1.png 0.100000", "# note\n\n0.111 rgb/1.png 0.125");
@@ -66,7 +66,7 @@ TEST_CASE("comments and blank lines of the index are no frames, and the depth st
     CHECK((*frame)->colour[34] == 0xff1e1401); // R 1, G 20, B 30
 }
 
-TEST_CASE("a missing, truncated or unreadable picture skips its frame alone") {
+TEST_CASE("A missing, truncated or unreadable image skips only its frame") {
     for (const char* kind : {"rgb", "depth"}) {
         const std::string name = std::string(kind) + "/1.png";
         checkSkipsFrameOne("missing", [&](const auto& f) { std::filesystem::remove(f.path() / name); });
@@ -85,7 +85,7 @@ TEST_CASE("a missing, truncated or unreadable picture skips its frame alone") {
     }
 }
 
-TEST_CASE("a picture of another size or pixel kind skips its frame alone") {
+TEST_CASE("An image of another size or pixel type skips only its frame") {
     const std::vector<uint8_t> grey8(35, 7), rgb16(35 * 6, 7);
     checkSkipsFrameOne("depth wider", [](const auto& f) { writeDepth(f.path() / "depth/1.png", 8, 5, 9); });
     checkSkipsFrameOne("depth huge", [](const auto& f) { writeDepth(f.path() / "depth/1.png", 1, 5000, 9); });
@@ -99,7 +99,7 @@ TEST_CASE("a picture of another size or pixel kind skips its frame alone") {
                        [&](const auto& f) { writePng(f.path() / "rgb/1.png", 7, 5, 16, 2, rgb16); });
 }
 
-TEST_CASE("a line that is malformed or whose stamp is no number or goes back skips its frame alone") {
+TEST_CASE("A malformed line, an invalid stamp or one that goes back skips only its frame") {
     const std::string line = "0.100000 rgb/1.png 0.100000 depth/1.png";
     const auto replaced = [&](const std::string& by) {
         return [&line, by](const TemporaryFolder& f) { replaceInIndex(f, line, by); };
@@ -112,7 +112,7 @@ TEST_CASE("a line that is malformed or whose stamp is no number or goes back ski
     checkSkipsFrameOne("five words", replaced(line + " more"));
 }
 
-TEST_CASE("pictures without any depth are good frames") {
+TEST_CASE("Images without any depth are valid frames") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 2);
     writeDepth(folder.path() / "depth/0.png", 7, 5, 0);
@@ -148,7 +148,7 @@ TEST_CASE("colour is read from grey, palette, alpha and interlaced pictures") {
     CHECK(camera.skipped() == 0);
 }
 
-TEST_CASE("leases own their page-aligned memory until they end, on whatever thread") {
+TEST_CASE("A lease owns its page-aligned memory until it ends, on any thread") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 40);
     RecordedCamera camera(folder.path());
@@ -214,7 +214,7 @@ TEST_CASE("without associations the nearest stamps within 20 ms make the pairs, 
     CHECK(camera.skipped() == 0);
 }
 
-TEST_CASE("No line of an index leads out of the recording's folder") {
+TEST_CASE("No line of an index can leave the recording's folder") {
     const TemporaryFolder folder;
     const char* lines[] = {"0 rgb/0.png 0 depth/0.png", "0 ../rgb/0.png 0 depth/0.png",
                            "0 rgb/0.png 0 /etc/hostname", "0 rgb/a/../../../x.png 0 depth/0.png",
@@ -241,7 +241,7 @@ TEST_CASE("No line of an index leads out of the recording's folder") {
     spdlog::set_level(level);
 }
 
-TEST_CASE("any picture of a recording can be asked for, and a bad one is counted once") {
+TEST_CASE("A recording can seek to any frame, and an invalid frame is counted once") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 5);
     std::filesystem::remove(folder.path() / "depth/1.png");

@@ -71,7 +71,7 @@ TEST_CASE("a path of more than 64 MiB is read, a line of more than 2048 characte
     CHECK(refusedWith(kHeader + "0,1,2,3,1,0,0,0" + std::string(1, '\0') + "1\n", "line 2, qz"));
 }
 
-TEST_CASE("a path without header, rows, order or sense is refused with its line and column") {
+TEST_CASE("A path without header or rows, out of order or invalid is rejected with its line and column") {
     CHECK(refusedWith("", "line 1: nothing"));
     CHECK(refusedWith(kHeader, "line 2: end of file"));
     CHECK(refusedWith("0,0,0,0,1,0,0,0\n", "line 1: '0,0,0,0,1,0,0,0' (allowed: header t_s,"));

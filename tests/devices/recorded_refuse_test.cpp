@@ -68,7 +68,7 @@ TEST_CASE("a missing folder, an empty folder and a folder without an index are r
     CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: cannot be read"));
 }
 
-TEST_CASE("a recording of which no frame is usable is refused at its end, with the first reason") {
+TEST_CASE("A recording without a usable frame is rejected at its end, with the first reason") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 3);
     for (const char* name : {"depth/0.png", "depth/1.png", "depth/2.png"}) {
@@ -82,7 +82,7 @@ TEST_CASE("a recording of which no frame is usable is refused at its end, with t
     CHECK(holds(message, "depth/0.png"));
 }
 
-TEST_CASE("colour of another size than depth is refused where nothing tells how to register it") {
+TEST_CASE("Colour of another size than depth is rejected when the registration is unknown") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 2);
     writeColour(folder.path() / "rgb/0.png", 14, 10, 1, 2, 3);
@@ -122,7 +122,7 @@ TEST_CASE("a lens with a missing, negative, zero or non-finite number is refused
                     "registered_to_color: 1");
 }
 
-TEST_CASE("what is no JSON is refused with the place: NaN, infinity, a cut file, an empty one") {
+TEST_CASE("Invalid JSON is rejected with its position: NaN, infinity, a truncated file, an empty one") {
     checkIntrinsics(R"("fx": 6.5)", R"("fx": NaN)", "syntax: ");
     checkIntrinsics(R"("fx": 6.5)", R"("fx": 1e999)", "syntax: ");
     checkIntrinsics(R"("registered_to_color": true})", "", "syntax: ");
@@ -132,7 +132,8 @@ TEST_CASE("what is no JSON is refused with the place: NaN, infinity, a cut file,
     CHECK(holds(refusalOf("[1, 2]"), "intrinsics.json: file: [1,2] (allowed: an object)"));
 }
 
-TEST_CASE("a value nested deeper than any stack is refused in one line, and so is a text cut within it") {
+TEST_CASE(
+    "A value nested deeper than any stack is rejected in one line, and so is a text truncated within it") {
     constexpr size_t kDeep = 200'000;
     const std::string opened(kDeep, '['), closed(kDeep, ']');
     checkIntrinsics(R"("fx": 6.5)", R"("fx": )" + opened + closed, "fx: [...] (");
@@ -140,7 +141,7 @@ TEST_CASE("a value nested deeper than any stack is refused in one line, and so i
     CHECK(holds(refusalOf(opened), "syntax: "));
 }
 
-TEST_CASE("what a refusal quotes of a JSON text is short and printable, however long the text is") {
+TEST_CASE("A rejection quotes a short, printable part of a JSON text of any length") {
     const std::string bytes(100'000, 'k');
     for (const std::string& text : {"{\"" + bytes + "\x01", "{\"width\": \"" + bytes + "\"}",
                                     "{\"\xc2\x85\xe2\x80\xae" + bytes, std::string("{\"a\": \xff\xfe")}) {
@@ -152,7 +153,7 @@ TEST_CASE("what a refusal quotes of a JSON text is short and printable, however 
     }
 }
 
-TEST_CASE("a recording whose texts are larger than any real one's is refused with the limit") {
+TEST_CASE("A recording with text files larger than any real ones is rejected with the limit") {
     CHECK(holds(refusalOf(std::string(17u << 20, ' ')),
                 "intrinsics.json: file: 17825792 bytes (allowed: a readable text file of at most 16 MiB)"));
     const TemporaryFolder folder;
@@ -166,7 +167,7 @@ TEST_CASE("a recording whose texts are larger than any real one's is refused wit
                 "associations.txt: line 1000001: over 1000000 lines so far (allowed: "));
 }
 
-TEST_CASE("a pipe in place of a recording's file is not waited for: a picture is a fault of its frame") {
+TEST_CASE("A pipe in place of a file never blocks; in place of an image it skips the frame") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 3);
     const auto toPipe = [&](const char* name) {
@@ -191,7 +192,7 @@ TEST_CASE("a pipe in place of a recording's file is not waited for: a picture is
                          BadInput);
 }
 
-TEST_CASE("distortion that is unknown, incomplete or folds the picture is refused") {
+TEST_CASE("Distortion that is unknown, incomplete or folds the image is rejected") {
     const std::string none = R"("distortion_model": "none", "distortion": [])";
     const auto with = [&](const std::string& model, const std::string& list, const std::string& expected) {
         checkIntrinsics(none, R"("distortion_model": ")" + model + R"(", "distortion": )" + list, expected);

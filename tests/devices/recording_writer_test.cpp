@@ -112,25 +112,24 @@ void roundTrip(const CameraInfo& info, uint32_t count, bool poses) {
 
 } // namespace
 
-TEST_CASE("A recording that is written is read again without a changed bit: registered, two lenses, poses") {
+TEST_CASE("A written recording is read back bit by bit: registered, with two lenses, with poses") {
     roundTrip(someCamera(true), 25, false);
     roundTrip(someCamera(false), 7, true);
     roundTrip(someCamera(true), 1, true);
 }
 
-TEST_CASE("A recording of depth alone is written and read") {
+TEST_CASE("A recording with depth only is written and read") {
     roundTrip(someCamera(true, false), 9, false);
 }
 
-TEST_CASE("A folder that has a recording is not written over, and one that cannot be written is an error") {
+TEST_CASE("A folder with a recording is not overwritten, and an unwritable one is an error") {
     const TemporaryFolder folder;
     { RecordingWriter writer(folder.path() / "rec", someCamera(true), 1); }
     CHECK_THROWS_AS(RecordingWriter(folder.path() / "rec", someCamera(true), 1), BadInput);
     CHECK_THROWS_AS(RecordingWriter("/proc/rec", someCamera(true), 1), Error);
 }
 
-TEST_CASE(
-    "A picture that cannot be written stops the recording with the file's name; what came before stays") {
+TEST_CASE("An image that cannot be written stops the recording with the file's name; earlier frames stay") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
     const std::vector<Image> images = someImages(info, 3);
@@ -146,7 +145,7 @@ TEST_CASE(
     CHECK_FALSE(camera.next());
 }
 
-TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording, every picture of it whole") {
+TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording with complete images") {
     const TemporaryFolder folder;
     const CameraInfo info = someCamera(true);
     const std::vector<Image> images = someImages(info, 40);
@@ -178,7 +177,7 @@ TEST_CASE("A recorder killed by SIGKILL leaves a shorter recording, every pictur
 }
 
 TEST_CASE(
-    "Pictures of 640x480 that come faster than they are encoded are all written; how many a second is told") {
+    "Frames of 640x480 that arrive faster than they are encoded are all written, and the rate is reported") {
     constexpr uint32_t kMany = 120; // more than may wait
     CameraInfo info = someCamera(true);
     info.depth.width = info.colour.width = 640;

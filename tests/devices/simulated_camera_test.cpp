@@ -57,8 +57,8 @@ TEST_CASE("A frame has the same bits from 1, 2 and 5 threads and in every run") 
     CHECK(film(options) != one);
 }
 
-TEST_CASE("A frame does not depend on how many came before it: a still, exact camera repeats itself, a noisy "
-          "one not") {
+TEST_CASE("A frame depends only on its index: a static camera without noise repeats itself, one with noise "
+          "does not") {
     SimulatedCameraOptions options = small();
     options.motion = false;
     const std::vector<Seen> noisy = film(options);
@@ -209,7 +209,7 @@ TEST_CASE("The camera's pose starts at the given one, sways slowly within 20 mm 
     CHECK(fastest < 0.03);
 }
 
-TEST_CASE("Frame memory is page-aligned, comes back when the lease ends, and leased frames are left alone") {
+TEST_CASE("Frame memory is page-aligned, is released when the lease ends, and is not touched before") {
     SimulatedCameraOptions options = small();
     options.frames = 40;
     SimulatedCamera camera(*analyticScene("sphere"), options);
@@ -252,8 +252,7 @@ TEST_CASE("Frame slots are given out once each until they come back") {
     CHECK(wholePages(wholePages(1) + 1) == 2 * wholePages(1));
 }
 
-TEST_CASE(
-    "Sizes of one pixel and sizes that are not round work, sizes and options out of range are refused") {
+TEST_CASE("Sizes of one pixel and odd sizes work; sizes and options out of range are rejected") {
     for (const auto& [width, height] : {std::pair{1u, 1u}, {17u, 1u}, {1u, 33u}, {163u, 97u}}) {
         SimulatedCameraOptions options;
         options.width = width, options.height = height, options.frames = 1,

@@ -36,7 +36,7 @@ double run(SimulatedHand& hand, const Wrench& wrench, double seconds, double fro
 
 } // namespace
 
-TEST_CASE("A hand path goes straight and by the shortest arc between waypoints, and holds its ends") {
+TEST_CASE("A hand path is interpolated linearly and by the shortest arc, and is constant beyond its ends") {
     const dquat quarter = rotationExp({0.0, 0.0, std::acos(0.0)});
     const HandPath path({{1.0, {{0.0, 0.0, 0.0}, kLevel}, 4}, {3.0, {{0.2, 0.0, 0.4}, -quarter}, 1}});
     CHECK(path.duration() == 3.0);
@@ -51,7 +51,7 @@ TEST_CASE("A hand path goes straight and by the shortest arc between waypoints, 
     CHECK(rotationLog(middle.rotation).z == doctest::Approx(std::acos(0.0) / 4.0).epsilon(1e-12));
 }
 
-TEST_CASE("A hand path of one waypoint holds it, two at one time make a jump") {
+TEST_CASE("A hand path of one waypoint is constant, and two waypoints at one time make a jump") {
     const HandPath one({{2.0, {{1.0, 2.0, 3.0}, kLevel}, 7}});
     for (const double t : {-1.0, 0.0, 2.0, 5.0}) {
         CHECK(one.at(t).deviceThandle.position == dvec3(1.0, 2.0, 3.0));
@@ -73,7 +73,7 @@ TEST_CASE(
     CHECK_THROWS_AS(HandPath({{1.0, {}, 0}, {0.5, {}, 0}}), Error);
 }
 
-TEST_CASE("A scripted hand follows its path whatever the force") {
+TEST_CASE("A scripted hand follows its path under any force") {
     ScriptedHand hand(HandPath({{0.0, {}, 0}, {1.0, {{0.1, 0.0, 0.0}, kLevel}, 0}}));
     hand.write({{100.0, 0.0, 0.0}, {1.0, 1.0, 1.0}}, 0.001);
     CHECK(hand.read(0.5).deviceThandle.position.x == doctest::Approx(0.05).epsilon(1e-12));
@@ -175,8 +175,8 @@ TEST_CASE("Encoders round what is read and never what moves") {
     CHECK(coarse.handle().position == exact.handle().position);
 }
 
-TEST_CASE("A broken wrench or period moves nothing, stiff and heavily damped hands stay finite, nonsense is "
-          "refused") {
+TEST_CASE("An invalid wrench or period moves nothing, stiff and heavily damped hands stay finite, and "
+          "invalid options are rejected") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     SimulatedHand hand(still(), strong());
     run(hand, {{nan, 0.0, 0.0}, {0.0, HUGE_VAL, 0.0}}, 0.1);

@@ -47,8 +47,8 @@ double shareWithin(SimulatedSonar& sonar, const Frame& frame) {
 
 } // namespace
 
-TEST_CASE(
-    "What a beam met lies within three sigma of its reading: always without noise, nearly always with") {
+TEST_CASE("The true echo of a beam is within three sigma of its reading: always without noise, nearly always "
+          "with it") {
     SimulatedSonarOptions options = smallSonar();
     SimulatedSonar noisy(sonarScene(), options);
     const double share = shareWithin(noisy, *noisy.next());
@@ -83,7 +83,7 @@ TEST_CASE("Steel echoes louder than sand and concrete, in a picture of greys") {
     CHECK(median(levels[2]) > 40);
 }
 
-TEST_CASE("A sonar's frames are numbered, ten a second, end, and depend on nothing but the options") {
+TEST_CASE("A sonar's frames are numbered, ten per second, finite in number, and depend only on the options") {
     SimulatedSonar one(sonarScene(), smallSonar()), other(sonarScene(), smallSonar());
     std::vector<uint16_t> before;
     for (uint32_t k = 0; k < 3; ++k) {

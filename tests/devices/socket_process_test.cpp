@@ -43,7 +43,7 @@ constexpr double kLongestForce = 0.2; // [s]
 
 } // namespace
 
-TEST_CASE("An engine killed by SIGKILL in contact is zero force at the device, within 10 ms") {
+TEST_CASE("After SIGKILL of the engine in contact, the device has zero force within 10 ms") {
     SocketFolder folder;
     SocketServer server(serverAt(folder.endpoint()));
     Child engine([&]() -> int { // presses for ever
@@ -81,8 +81,8 @@ TEST_CASE("An engine killed by SIGKILL in contact is zero force at the device, w
     }
 }
 
-TEST_CASE(
-    "A bridge killed by SIGKILL opens the dead-man switch, and the engine finds the next one by itself") {
+TEST_CASE("After SIGKILL of a bridge the dead-man switch opens, and the engine reconnects to the next one by "
+          "itself") {
     SocketFolder folder;
     Child first([&] { return serve(folder.endpoint()); });
     std::unique_ptr<SocketHand> hand;
@@ -139,8 +139,7 @@ TEST_CASE("A user without permission on the socket file gets no connection") {
     CHECK(asNobody() == 0);
 }
 
-TEST_CASE(
-    "The example bridge is a device: its handle gives way to the force and comes back when it is gone") {
+TEST_CASE("The example bridge acts as a device: its handle yields to the force and returns afterwards") {
     SocketFolder folder;
     const std::string endpoint = folder.endpoint().string();
     Child bridge([&] { return ::execl(EXAMPLE_BRIDGE, "example_bridge", endpoint.c_str(), nullptr); });
@@ -169,7 +168,8 @@ TEST_CASE(
     CHECK_FALSE(std::filesystem::exists(folder.endpoint()));
 }
 
-TEST_CASE("The example bridge ends in order when its terminal is closed, and goes on without a reader") {
+TEST_CASE("The example bridge exits cleanly when its terminal closes, and continues without a reader of its "
+          "output") {
     for (const int ending : {SIGINT, SIGQUIT, SIGHUP}) {
         CAPTURE(ending);
         SocketFolder folder;

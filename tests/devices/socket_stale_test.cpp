@@ -15,7 +15,7 @@ constexpr uint64_t kMs = 1000000;
 
 } // namespace
 
-TEST_CASE("A wrench that waited too long is not rendered, and a sample that did moves nothing") {
+TEST_CASE("A wrench that is too old is not rendered, and a sample that is too old moves nothing") {
     SocketFolder folder;
     SocketServer server(serverAt(folder.endpoint()));
     DeviceSocket engine = DeviceSocket::connect(folder.endpoint());

@@ -78,7 +78,7 @@ void tick(SocketHand& hand, double fx) {
 
 } // namespace
 
-TEST_CASE("Samples go in, wrenches come out, and the last thing at the device is zero") {
+TEST_CASE("Samples reach the engine, wrenches reach the device, and the last wrench is zero") {
     SocketFolder folder;
     Talk bridge(folder.endpoint());
     {
@@ -103,7 +103,7 @@ TEST_CASE("Samples go in, wrenches come out, and the last thing at the device is
     CHECK(bridge.server.dropped() == 0);
 }
 
-TEST_CASE("An engine that falls silent is zero force at the device, and its force comes back when it does") {
+TEST_CASE("A silent engine leaves zero force at the device, and its force returns when it is back") {
     SocketFolder folder;
     Talk bridge(folder.endpoint());
     SocketHand hand(folder.endpoint(), 4);
@@ -120,7 +120,7 @@ TEST_CASE("An engine that falls silent is zero force at the device, and its forc
 }
 
 TEST_CASE(
-    "A bridge that falls silent or is not homed is an open dead-man switch and a clutch, with zero wrench") {
+    "A bridge that is silent or not homed acts as an open dead-man switch and a clutch, with zero wrench") {
     SocketFolder folder;
     Talk bridge(folder.endpoint());
     SocketHand hand(folder.endpoint(), 4);
@@ -208,7 +208,7 @@ TEST_CASE("A wrench of a wrong version, kind, magic or size ends the connection 
     CHECK(server.wrench().force.x == 0.0);
 }
 
-TEST_CASE("A flood of wrenches does not hold the bridge up") {
+TEST_CASE("A flood of wrenches does not delay the bridge") {
     SocketFolder folder;
     SocketServer server(serverAt(folder.endpoint()));
     DeviceSocket engine = DeviceSocket::connect(folder.endpoint());
@@ -221,7 +221,7 @@ TEST_CASE("A flood of wrenches does not hold the bridge up") {
     CHECK(server.hasEngine());
 }
 
-TEST_CASE("A second engine is turned away and the first one goes on") {
+TEST_CASE("A second engine is rejected and the first one continues") {
     SocketFolder folder;
     Talk bridge(folder.endpoint());
     SocketHand hand(folder.endpoint(), 4);
@@ -233,7 +233,8 @@ TEST_CASE("A second engine is turned away and the first one goes on") {
     }));
 }
 
-TEST_CASE("The engine refuses a bridge of another version, a silent one, and a door where nobody listens") {
+TEST_CASE(
+    "The engine rejects a bridge of another version, a silent bridge, and a socket without a listener") {
     SocketFolder folder;
     const auto attempt = [&] { SocketHand(folder.endpoint(), 4, 0.2); };
     CHECK(has(refusalOf(attempt), "nobody listens"));
@@ -277,7 +278,7 @@ TEST_CASE("The engine refuses a bridge of another version, a silent one, and a d
     bridge.join();
 }
 
-TEST_CASE("The socket file is for its owner alone, and goes with the bridge") {
+TEST_CASE("The socket file belongs to its owner only, and is removed with the bridge") {
     SocketFolder folder;
     {
         SocketServer server(serverAt(folder.endpoint()));

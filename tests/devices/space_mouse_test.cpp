@@ -73,7 +73,8 @@ struct Cap {
 
 } // namespace
 
-TEST_CASE("Reports of both layouts give shift, turn and buttons; others and short ones change nothing") {
+TEST_CASE(
+    "Reports of both layouts give shift, rotation and buttons; other and short reports change nothing") {
     SpaceMouseState state;
     CHECK(takeSpaceMouseReport(motion(1, {350, -350, 7}), state));
     CHECK(state.shift == std::array<int16_t, 3>{350, -350, 7});
@@ -101,7 +102,7 @@ TEST_CASE("Axes are x right, y away, z up, one at full deflection and zero withi
     CHECK(spaceMouseAxes({179, 0, 0}).x == doctest::Approx(0.5));
 }
 
-TEST_CASE("Known models are told from other devices of the same makers") {
+TEST_CASE("Known models are distinguished from other devices of the same vendors") {
     CHECK(isSpaceMouse(0x046d, 0xc626));
     CHECK(isSpaceMouse(0x256f, 0xc635));
     CHECK_FALSE(isSpaceMouse(0x046d, 0xc52b)); // a receiver of ordinary mice
@@ -109,7 +110,8 @@ TEST_CASE("Known models are told from other devices of the same makers") {
     CHECK_FALSE(isSpaceMouse(0x1234, 0xc626));
 }
 
-TEST_CASE("Full deflection for a second moves 50 mm and turns half a radian; let go, the pose stays") {
+TEST_CASE(
+    "Full deflection for a second moves 50 mm and rotates half a radian; after release the pose stays") {
     Cap cap;
     HandSample sample = cap.run(1.001, {motion(1, {350, 0, -350}), motion(2, {0, 0, -350})});
     CHECK(sample.deviceThandle.position.x == doctest::Approx(0.05));
@@ -125,7 +127,7 @@ TEST_CASE("Full deflection for a second moves 50 mm and turns half a radian; let
     CHECK(cap.hand->preset() == "none");
 }
 
-TEST_CASE("A cap that falls silent while deflected counts as let go, and a late turn makes no leap") {
+TEST_CASE("A cap that is silent while deflected counts as released, and a late tick causes no jump") {
     Cap cap;
     cap.run(0.2, {motion(1, {350, 0, 0})});
     const double x = cap.run(1.0).deviceThandle.position.x;
@@ -155,7 +157,7 @@ TEST_CASE("Buttons are guidance and dead-man; an unplugged cap is an open dead-m
     CHECK(cap.hand->figures().losses == 1);
 }
 
-TEST_CASE("A cap that is plugged in again goes on from where it was, as often as it is pulled") {
+TEST_CASE("A cap that is plugged in again resumes from its last pose, every time") {
     std::atomic<int> next{-1}; // what plugging in puts there
     int ends[2];
     REQUIRE(::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK, 0, ends) == 0);

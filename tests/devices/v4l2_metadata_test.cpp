@@ -31,7 +31,7 @@ std::vector<uint8_t> record(uint32_t flags, uint32_t latency) {
 
 } // namespace
 
-TEST_CASE("The age of a frame is read behind other blocks, when its flag says that it is told") {
+TEST_CASE("The age of a frame is found behind other blocks, when its flag is set") {
     CHECK(pipeLatencyOf(record(0x3f, 21500)) == doctest::Approx(0.0215));
     CHECK(pipeLatencyOf(record(0x20, 1)) == doctest::Approx(1e-6));
     CHECK_FALSE(pipeLatencyOf(record(0x1f, 21500)));
@@ -39,7 +39,7 @@ TEST_CASE("The age of a frame is read behind other blocks, when its flag says th
     CHECK_FALSE(pipeLatencyOf(record(0x3f, 1000000))); // nothing is a second old
 }
 
-TEST_CASE("Metadata that are cut off, of another kind, or tell of blocks that never end say nothing") {
+TEST_CASE("Metadata that is truncated, of another type, or has endless blocks is ignored") {
     const std::vector<uint8_t> good = record(0x3f, 21500);
     for (size_t n = 0; n < good.size(); ++n) {
         CHECK_FALSE(pipeLatencyOf(std::span(good).first(n)));

@@ -66,8 +66,7 @@ std::vector<Event> streams(double phase, double depthRate, double colourRate, do
 
 } // namespace
 
-TEST_CASE(
-    "Every depth picture is paired with its nearest colour picture, whatever the phase of the streams") {
+TEST_CASE("Every depth frame is paired with its nearest colour frame, at any phase of the streams") {
     for (const double phase : {0.0, 0.004, 0.012, 0.0166, 0.0167, 0.02, 0.033}) {
         FramePairing pairing(kPeriod);
         const Run result = run(pairing, streams(phase, 30, 30, 0.005, 4));
@@ -80,7 +79,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A slower colour stream serves several depth pictures, a faster one is thinned") {
+TEST_CASE("A slower colour stream is reused for several depth frames, a faster one is thinned") {
     for (const double rate : {15.0, 60.0}) {
         FramePairing pairing(1.0 / rate);
         const Run result = run(pairing, streams(0.003, 30, rate, 0.005, 4));
@@ -91,7 +90,7 @@ TEST_CASE("A slower colour stream serves several depth pictures, a faster one is
     }
 }
 
-TEST_CASE("Colour that comes two frames late by transport still finds its depth picture") {
+TEST_CASE("Colour that arrives two frames late still finds its depth frame") {
     FramePairing pairing(kPeriod);
     const Run result = run(pairing, streams(0.002, 30, 30, 0.06, 4));
     CHECK(result.distances.size() >= 110);
@@ -100,7 +99,7 @@ TEST_CASE("Colour that comes two frames late by transport still finds its depth 
     }
 }
 
-TEST_CASE("Without a colour picture near in time a depth picture is let go, and never more than two wait") {
+TEST_CASE("Without a colour frame close in time a depth frame is released, and at most two wait") {
     FramePairing pairing(kPeriod);
     pairing.colour(at(0.0));
     for (int i = 0; i < 10; ++i) {
@@ -113,7 +112,7 @@ TEST_CASE("Without a colour picture near in time a depth picture is let go, and 
     CHECK_FALSE(pairing.next());
 }
 
-TEST_CASE("Without a colour stream each depth picture stands for itself, at once and in order") {
+TEST_CASE("Without a colour stream each depth frame is delivered at once and in order") {
     FramePairing pairing(0.0);
     pairing.depth(at(1.0, 1));
     pairing.depth(at(2.0, 2));
@@ -126,7 +125,7 @@ TEST_CASE("Without a colour stream each depth picture stands for itself, at once
     CHECK_FALSE(pairing.next());
 }
 
-TEST_CASE("Streams with jitter and dropped pictures lose no more pairs than pictures") {
+TEST_CASE("Streams with jitter and dropped frames lose no more pairs than frames") {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> jitter(0.0, 0.004);
     FramePairing pairing(kPeriod);
@@ -146,7 +145,7 @@ TEST_CASE("Streams with jitter and dropped pictures lose no more pairs than pict
     CHECK(result.unpaired <= depth / 20);
 }
 
-TEST_CASE("Pictures missing between two numbers of a driver are counted over the end of its 32 bits") {
+TEST_CASE("Frames missing between two sequence numbers are counted across the 32-bit wrap") {
     CHECK(missingBetween(7, 8) == 0);
     CHECK(missingBetween(7, 11) == 3);
     CHECK(missingBetween(0xffffffffu, 0) == 0);

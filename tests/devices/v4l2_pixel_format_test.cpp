@@ -54,7 +54,8 @@ TEST_CASE("INZI depth is the second plane, behind the infrared one") {
     CHECK(imageBytes(fourccOf("INZI"), {2, 1}, 4) == 8);
 }
 
-TEST_CASE("INZI rows lie without gaps, though the driver tells a stride of both planes' 32 bits a pixel") {
+TEST_CASE(
+    "INZI rows have no gaps, although the driver reports a stride of 32 bits per pixel for both planes") {
     const auto in = bytesOf({9, 9, 9, 9, 9, 9, 9, 9, 1, 0, 2, 0, 3, 0, 4, 0}); // 2x2: infrared, then depth
     CHECK(imageBytes(fourccOf("INZI"), {2, 2}, 8) == in.size());
     CHECK(unpacked(fourccOf("INZI"), {2, 2}, 8, in) == std::vector<uint16_t>{1, 2, 3, 4});
@@ -101,7 +102,7 @@ TEST_CASE("YUYV and UYVY are copied as words without the gaps between rows, and 
           "a colour picture of 4 bytes, 18 make one");
 }
 
-TEST_CASE("RGB and BGR differ in order only, and short colour is told of") {
+TEST_CASE("RGB and BGR differ only in order, and incomplete colour is reported") {
     std::vector<uint32_t> rgb(2), bgr(2);
     REQUIRE(unpackColour(fourccOf("RGB3"), {2, 1}, 6, bytesOf({1, 2, 3, 4, 5, 6}), rgb).empty());
     REQUIRE(unpackColour(fourccOf("BGR3"), {2, 1}, 6, bytesOf({3, 2, 1, 6, 5, 4}), bgr).empty());

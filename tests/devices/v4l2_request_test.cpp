@@ -45,7 +45,7 @@ TEST_CASE("A camera request names device, sizes, formats, rate and a number of f
     CHECK_FALSE(isCameraRequest("recordings/v4l2"));
 }
 
-TEST_CASE("A camera request that is not understood is refused in one line with what is allowed") {
+TEST_CASE("An invalid camera request is rejected in one line with what is allowed") {
     for (const char* text :
          {"v4l2:", "v4l2:video0", "v4l2:auto,", "v4l2:auto,/dev/video1", "v4l2:auto,speed=3",
           "v4l2:auto,size=640", "v4l2:auto,size=0x480", "v4l2:auto,size=640x480x2", "v4l2:auto,size=9999x480",
@@ -123,7 +123,7 @@ TEST_CASE("A RealSense colour table with a lens and a pose or distortion that is
 }
 
 TEST_CASE(
-    "A D405's colour has the lens of what its image processor leaves of the sensor, by hand for each way") {
+    "The colour lens of a D405 follows the crop of its image processor, checked by hand for each size") {
     std::vector<uint8_t> table(16 + 240, 0);
     table[2] = 32;
     table[4] = 240;
@@ -163,7 +163,7 @@ TEST_CASE(
     CHECK(std::abs(realsense::colourLens(table, {640, 480}).lens.fx - 1280.0 / 3.0) < 1e-4);
 }
 
-TEST_CASE("Coefficients that undistort are turned into coefficients that distort, to a tenth of a pixel") {
+TEST_CASE("Inverse distortion coefficients are converted to forward ones within a tenth of a pixel") {
     Intrinsics lens{.width = 1280, .height = 720, .fx = 910, .fy = 909, .cx = 640, .cy = 360};
     const std::array<double, 5> undistorting{-0.05, 0.06, 0.0005, -0.0003, -0.01};
     lens.distortion = forwardDistortion(lens, undistorting);

@@ -75,8 +75,7 @@ TEST_CASE("Slopes in water obey Snell's law") {
     }
 }
 
-TEST_CASE(
-    "Points seen by stereo through a flat port come back within the error that the model tells of itself") {
+TEST_CASE("Points seen by stereo through a flat port are recovered within the error that the model reports") {
     for (const double distance : {0.0, 0.02, 0.06}) {
         const FlatPort port{distance, 1.34};
         const WaterLens water = inWater(kAir, port, 0.4, 1.6);
@@ -106,7 +105,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A camera behind a port gives true depth, keeps holes, tells its uncertainty and returns the "
+TEST_CASE("A camera behind a port gives true depth, keeps holes, reports its uncertainty and releases the "
           "source's frame") {
     CameraInfo info;
     info.depth = info.colour = kAir;
@@ -133,7 +132,7 @@ TEST_CASE("A camera behind a port gives true depth, keeps holes, tells its uncer
     CHECK_FALSE(camera.next());
 }
 
-TEST_CASE("Lenses that a flat port cannot serve are refused") {
+TEST_CASE("Lenses that do not fit a flat port are rejected") {
     CameraInfo info;
     info.depth = info.colour = {.width = 64, .height = 48, .fx = 12, .fy = 12, .cx = 32, .cy = 24};
     CHECK_THROWS_AS(

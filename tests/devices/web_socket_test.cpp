@@ -39,7 +39,7 @@ std::string bytes(std::initializer_list<int> values) {
 
 } // namespace
 
-TEST_CASE("Frames of the published examples are read, whole, in fragments and with pings between") {
+TEST_CASE("The published example frames are parsed: complete, fragmented and with pings in between") {
     CHECK(eventsOf(bytes({0x81, 5, 'H', 'e', 'l', 'l', 'o'})) == "[Hello]"); // RFC 6455, 5.7
     CHECK(eventsOf(bytes({0x01, 3, 'H', 'e', 'l', 0x80, 2, 'l', 'o'})) == "[Hello]");
     CHECK(eventsOf(bytes({0x01, 3, 'H', 'e', 'l', 0x89, 1, '?', 0x80, 2, 'l', 'o'})) == "ping ?[Hello]");
@@ -74,7 +74,7 @@ TEST_CASE("Frames against the protocol are faults: masked, reserved bits, binary
           "fault"); // in two, each short enough
 }
 
-TEST_CASE("A state of Haply's service is read, and one that is none is told by what it lacks") {
+TEST_CASE("A state of Haply's service is parsed, and an invalid one is rejected with what is missing") {
     const auto state = readHaplyState(
         R"({"inverse3": [{"device_id": "1", "state": {"cursor_position": {"x": 1, "y": 2, "z": 3}}},
                          {"device_id": "2", "state": {"cursor_position": {"x": 4, "y": 5, "z": 6}}}]})",

@@ -28,7 +28,7 @@ SimulatedCameraOptions optionsOf(bool yuyv, uint32_t width = kWidth) {
 
 } // namespace
 
-TEST_CASE("A simulated camera told to send YUYV sends the same pictures so, of an even width") {
+TEST_CASE("A simulated camera can send the same frames as YUYV, at even widths") {
     SimulatedCamera plain(*analyticScene("tank"), optionsOf(false));
     SimulatedCamera packing(*analyticScene("tank"), optionsOf(true));
     CHECK(packing.info().yuyv);
@@ -68,7 +68,7 @@ TEST_CASE("A recording of a camera that sends YUYV has the colours that it unpac
     }
 }
 
-TEST_CASE("A flat port puts depth right and lets YUYV through where it lies") {
+TEST_CASE("A flat port corrects depth and passes YUYV through in place") {
     const FlatPort port{0.01, 1.33};
     WaterCamera water(std::make_unique<SimulatedCamera>(*analyticScene("tank"), optionsOf(true)), port, 0.2,
                       4.0);
