@@ -137,7 +137,7 @@ TEST_CASE("When its own bound lowers the rotational stiffness, k follows it") {
 TEST_CASE("Paper guidance shares the bound: both springs together do not exceed it, whoever chose K_t") {
     CouplingOptions options;
     options.paperGuidance = true;
-    const auto& ideal = devicePreset("ideal");
+    const DevicePreset ideal = devicePreset("ideal");
     auto springs = makeSprings(ideal, options);
     CHECK(springs.guidanceStiffness == doctest::Approx(kGuidanceShare * springs.stiffness));
     CHECK(springs.stiffness + springs.guidanceStiffness == doctest::Approx(1000.0));
@@ -217,7 +217,7 @@ TEST_CASE("Every preset is whole and says its source; an unknown name is refused
             CHECK(preset.source.find("unknown") != std::string::npos);
         }
     }
-    const auto& w5d = devicePreset("w5d");
+    const DevicePreset w5d = devicePreset("w5d");
     CHECK(w5d.sensed == AxisMask{true, true, true, true, true, true});
     CHECK(w5d.actuated == AxisMask{true, true, true, true, true, false});
     CHECK(w5d.source.find("assumption") != std::string::npos);

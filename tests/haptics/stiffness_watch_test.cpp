@@ -13,7 +13,7 @@ using namespace fathom;
 namespace {
 
 StiffnessWatch watchOf(const CouplingOptions& options, const char* device = "ideal") {
-    const DevicePreset& preset = devicePreset(device);
+    const DevicePreset preset = devicePreset(device);
     return {preset, options, makeSprings(preset, options)};
 }
 
