@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/lockstep_rig.h"
 
+#include "engine/haptics/coupling.h"
 #include "engine/reference/contact_oracle.h"
 #include "engine/types/error.h"
 
@@ -140,7 +141,13 @@ void LockstepRig::judge(const Pose& before, const StepRecord& record) {
         figures.torqueStep =
             std::max(figures.torqueStep, glm::distance(record.wrench.torque, before_->torque));
     }
+    const Wrench asked = couple(options_.springs, record.tool, record.device, dvec3(0.0), dvec3(0.0));
+    if (askedBefore_) {
+        figures.askedForce.add(glm::length(asked.force) - glm::length(askedBefore_->force));
+        figures.askedTorque.add(glm::length(asked.torque) - glm::length(askedBefore_->torque));
+    }
     before_ = record.wrench;
+    askedBefore_ = asked;
 }
 
 double LockstepRig::depth() const {

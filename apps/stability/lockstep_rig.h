@@ -10,6 +10,8 @@
 
 #include "apps/stability/dice.h"
 
+#include <algorithm>
+#include <cmath>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -22,11 +24,26 @@ struct AnswerFaults {
     double lost = 0.0;   // share of the queries that are never answered
 };
 
+// By how much a magnitude rises from one tick to the next; a fall counts as 0.
+struct Rise {
+    double most = 0.0, squares = 0.0;
+    uint64_t ticks = 0;
+
+    void add(double rise) {
+        most = std::max(most, rise);
+        squares += rise > 0.0 ? rise * rise : 0.0;
+        ++ticks;
+    }
+    double rms() const { return ticks > 0 ? std::sqrt(squares / static_cast<double>(ticks)) : 0.0; }
+};
+
 struct RigFigures {
     uint64_t ticks = 0, contact = 0, stalled = 0, trapped = 0, escape = 0, refused = 0, notFinite = 0;
     double path = 0.0;                        // [m] of the tool's centre
     double force = 0.0, torque = 0.0;         // largest [N], [N m]
-    double forceStep = 0.0, torqueStep = 0.0; // largest between two turns [N], [N m]
+    double forceStep = 0.0, torqueStep = 0.0; // largest between two ticks [N], [N m]
+    // Of what the springs ask for, before the limits of size and slew rate.
+    Rise askedForce, askedTorque; // [N], [N m]
 };
 
 // Options of a scene with one forbidden class on the device `ideal`.
@@ -95,7 +112,7 @@ private:
     uint64_t generation_ = 0, now_ = 0;
     double captured_ = 0.0;
     bool fresh_ = true;
-    std::optional<Wrench> before_;
+    std::optional<Wrench> before_, askedBefore_;
 };
 
 } // namespace fathom::stability

@@ -21,17 +21,21 @@ constexpr double kWall = 0.5;                          // [m]
 constexpr double kTurnsAside =
     3.0; // beyond depth / 1 mm: the answer, the last fraction, dimples that send it sideways
 
+// Measured: 1.7 N and 0.048 N m; a proxy that gives back all depth at once asks for 10 N and 0.10 N m.
+constexpr double kMostForceRise = 2.5;    // [N]
+constexpr double kMostTorqueRise = 0.075; // [N m] RMS
+
 // On the camera's side of the wall at z.
 std::function<bool(const Pose&)> inFrontOf(double z) {
     return [z](const Pose& pose) { return pose.position.z < z; };
 }
 
 struct JumpFigures {
-    double ratio = 0.0;      // turns over what 1 mm a turn allows
-    double growth = 0.0;     // [m]
-    double front = 1.0;      // [m] least distance in front of the wall at the end
-    double forceStep = 0.0;  // [N]
-    double torqueStep = 0.0; // [N m]
+    double ratio = 0.0;                       // turns over what 1 mm a turn allows
+    double growth = 0.0;                      // [m]
+    double front = 1.0;                       // [m] least distance in front of the wall at the end
+    double forceStep = 0.0;                   // [N]
+    double forceRise = 0.0, torqueRise = 0.0; // [N] largest, [N m] RMS; before the limiter, from the jump on
     uint64_t runs = 0, stuck = 0, flagged = 0;
     double ticks = 0.0; // most
 };
@@ -52,6 +56,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
         rig.step(hand);
     }
     const double resting = rig.pose().position.z;
+    rig.figures.askedForce = rig.figures.askedTorque = {}; // the approach does not count
     rig.show(camera.look({kWall - jump, noise, 0.0}));
     const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(kWall - jump));
     const double way = std::max(0.0, resting - (kWall - jump - kStand)) + 3.0 * noise;
@@ -62,7 +67,8 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     f.growth = std::max(f.growth, rig.audit().maxPenetration());
     f.front = std::min(f.front, kWall - jump - rig.pose().position.z);
     f.forceStep = std::max(f.forceStep, rig.figures.forceStep);
-    f.torqueStep = std::max(f.torqueStep, rig.figures.torqueStep);
+    f.forceRise = std::max(f.forceRise, rig.figures.askedForce.most);
+    f.torqueRise = std::max(f.torqueRise, rig.figures.askedTorque.rms());
     f.stuck += e.out ? 0 : 1;
     f.flagged += rig.audit().behindTicks() > 0 ? 1 : 0;
     ++f.runs;
@@ -128,20 +134,19 @@ Outcome lateJumpCase(Effort effort, uint32_t late) {
 Outcome stepCase(Effort effort, bool torque) {
     JumpFigures f;
     const Tool cross = toolOf(crossLeaves(0.008));
-    const HapticOptions options = plainHapticOptions(cross);
     uint64_t seed = 1;
     for (const double jump : {0.002, 0.01, 0.03, 0.06}) {
         for (int i = 0; i < some(effort, 12, 2); ++i) {
             jumpOnce(cross, jump, 0.0005, i % 2 == 0 ? 0.0 : 0.03, 0, ++seed, f);
         }
     }
-    const double limit = (torque ? options.slewTorque : options.slewForce) * options.period;
-    Outcome out = outcomeOf(torque ? f.torqueStep : f.forceStep, limit * (1.0 + 1e-9), torque ? "N m" : "N",
-                            std::string("Largest step of the delivered ") + (torque ? "torque" : "force") +
-                                " between two turns while the wall jumps 2 to 60 mm over a tool of nine "
-                                "leaves; the limit is the slew "
-                                "limit of a turn. " +
-                                num(f.runs) + " runs.");
+    Outcome out = outcomeOf(
+        torque ? f.torqueRise : f.forceRise, torque ? kMostTorqueRise : kMostForceRise, torque ? "N m" : "N",
+        std::string(torque ? "RMS rise per tick of the torque" : "Largest rise per tick of the force") +
+            " that the springs ask for, before the slew limiter, while the wall jumps 2 to 60 mm over a tool "
+            "of "
+            "nine leaves. Limit: measured, with a margin. " +
+            num(f.runs) + " runs.");
     demand(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
     demand(out, f.forceStep > 0.0, "no force was felt");
     demand(out, f.stuck == 0, num(f.stuck) + " runs never out");

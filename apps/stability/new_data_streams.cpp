@@ -117,21 +117,31 @@ Outcome dropoutCase(Effort effort, bool hold) {
     return out;
 }
 
-// Sigma of 5 mm drawn anew in every frame, or a new set in every turn, or a wall that stands at two places by
-// turns.
-Outcome restlessCase(Effort effort, double noise, double leap, int turnsEach, const std::string& what) {
+// A stream that never comes to rest.
+struct Restless {
+    double noise, leap; // [m] sigma of every depth; how much nearer the wall is in every second frame
+    int ticksPerFrame;
+    bool rms;     // the figure is the RMS rise, else the largest
+    double limit; // [N] measured, with a margin
+};
+
+Outcome restlessCase(Effort effort, const Restless& stream, const std::string& what) {
     WallCamera camera(false, 5);
     const Pose hand{dvec3(-0.003, 0.001, kStreamWall - kStreamStand + 0.01), kUpright};
     LockstepRig rig(toolOf(crossLeaves(0.008)), {hand.position - dvec3(0, 0, 0.15), kUpright});
     const int frames = some(effort, 600, 40);
-    for (int frame = 0; frame < frames; ++frame) {
-        rig.show(camera.look({kStreamWall - (frame % 2 == 1 ? leap : 0.0), noise, 0.0}));
-        for (int k = 0; k < turnsEach; ++k) {
+    for (int frame = -1; frame < frames; ++frame) { // the first is the approach
+        rig.show(camera.look({kStreamWall - (frame % 2 == 1 ? stream.leap : 0.0), stream.noise, 0.0}));
+        for (int k = 0; k < (frame < 0 ? 200 : stream.ticksPerFrame); ++k) {
             rig.step(hand);
         }
+        rig.figures.askedForce = frame < 0 ? Rise{} : rig.figures.askedForce;
     }
-    Outcome out = outcomeOf(rig.figures.forceStep, kSlewStep, "N",
-                            "Largest step of the delivered force: " + what + " " + wordsOf(rig));
+    Outcome out = outcomeOf(
+        stream.rms ? rig.figures.askedForce.rms() : rig.figures.askedForce.most, stream.limit, "N",
+        std::string(stream.rms ? "RMS" : "Largest") +
+            " rise per tick of the force that the springs ask for, before the slew limiter: " + what +
+            " Limit: measured, with a margin. " + wordsOf(rig));
     demandSound(out, rig);
     return out;
 }
@@ -271,13 +281,15 @@ void addStreamCases(std::vector<Case>& cases) {
     put("flicker-24-percent-hold", [](Effort e) { return flickerCase(e, true); });
     put("dropout-frames", [](Effort e) { return dropoutCase(e, false); });
     put("dropout-frames-hold", [](Effort e) { return dropoutCase(e, true); });
-    put("noise-5mm",
-        [](Effort e) { return restlessCase(e, 0.005, 0.0, 33, "noise of 5 mm drawn anew in every frame."); });
+    put("noise-5mm", [](Effort e) {
+        return restlessCase(e, {0.005, 0.0, 33, true, 0.26}, "noise of 5 mm drawn anew in every frame.");
+    });
     put("every-turn", [](Effort e) {
-        return restlessCase(e, 0.001, 0.0, 1, "a new set with noise of 1 mm in every turn.");
+        return restlessCase(e, {0.001, 0.0, 1, false, 2.5}, "a new set with noise of 1 mm in every turn.");
     });
     put("two-places", [](Effort e) {
-        return restlessCase(e, 0.0, 0.02, 33, "a wall that stands 20 mm nearer in every second frame.");
+        return restlessCase(e, {0.0, 0.02, 33, false, 2.5},
+                            "a wall that stands 20 mm nearer in every second frame.");
     });
     put("trapped-recognised", [](Effort e) { return viceCase(e, ViceFigure::Recognised); });
     put("trapped-force-out", [](Effort e) { return viceCase(e, ViceFigure::ForceOut); });

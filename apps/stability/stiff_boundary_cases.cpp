@@ -4,6 +4,8 @@
 #include "apps/stability/case_text.h"
 #include "apps/stability/stiff_cases.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace fathom::stability {
@@ -19,8 +21,7 @@ struct Grid {
 struct Deviation {
     double fromModel = 0.0, fromLaw = 0.0; // largest, relative
     size_t runs = 0;
-    Outcome::Curve measured{"measured", "b [N s/m]", "K_max [N/m]", {}, {}, true, true};
-    Outcome::Curve law{"(b + B) / (T/2 + nT)", "b [N s/m]", "K_max [N/m]", {}, {}, true, true};
+    std::vector<std::array<double, 3>> points; // law, measured / model, measured / law
 };
 
 void measureOne(const LoopSpec& spec, bool rotational, Deviation& all) {
@@ -33,10 +34,7 @@ void measureOne(const LoopSpec& spec, bool rotational, Deviation& all) {
     all.fromModel = std::max(all.fromModel, std::abs(measured / computed - 1.0));
     all.fromLaw = std::max(all.fromLaw, std::abs(measured / law - 1.0));
     ++all.runs;
-    all.measured.x.push_back(spec.damping);
-    all.measured.y.push_back(measured);
-    all.law.x.push_back(spec.damping);
-    all.law.y.push_back(law);
+    all.points.push_back({law, measured / computed, measured / law});
 }
 
 Deviation measure(const Grid& grid, bool rotational = false) {
@@ -61,13 +59,22 @@ Deviation measure(const Grid& grid, bool rotational = false) {
     return all;
 }
 
-Outcome against(const Deviation& all, bool model, double limit, const std::string& what) {
+Outcome against(const Deviation& all, bool byModel, double limit, const std::string& what) {
     Outcome out =
-        outcomeOf(model ? all.fromModel : all.fromLaw, limit, "1",
+        outcomeOf(byModel ? all.fromModel : all.fromLaw, limit, "1",
                   what + " " + std::to_string(all.runs) +
                       " boundaries by bisection; farthest from the exact discrete model " +
                       num(all.fromModel) + ", from the law K = (b + B)/(T/2 + nT) " + num(all.fromLaw) + ".");
-    out.curves = {all.measured, all.law};
+    Outcome::Curve model{"measured / exact model", "K_max by the law", "ratio", {}, {}, true, false};
+    Outcome::Curve law = model;
+    law.name = "measured / law";
+    std::vector<std::array<double, 3>> points = all.points;
+    std::sort(points.begin(), points.end());
+    for (const auto& [k, overModel, overLaw] : points) {
+        model.x.push_back(k), model.y.push_back(overModel);
+        law.x.push_back(k), law.y.push_back(overLaw);
+    }
+    out.curves = {model, law};
     return out;
 }
 
