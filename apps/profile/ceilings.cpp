@@ -64,6 +64,24 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
     return best;
 }
 
+// What one more dispatch with its barrier adds when its single work group computes nothing.
+double emptyDispatch(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort) {
+    const gpu::Pipeline pipeline(device, {"empty", ceiling_spv, 1, false, 0, std::array{64u, 0u}});
+    const gpu::Buffer sums(device, 64 * 4, gpu::MemoryKind::Device, "sums");
+    const gpu::Bindings bindings(device, pipeline, {&sums}, sums);
+    const auto chain = [&](int count) {
+        return submissions.best(effort, [&](gpu::Commands& c) {
+            for (int i = 0; i < count; ++i) {
+                c.dispatch(pipeline, bindings, 1);
+                c.barrier();
+            }
+        });
+    };
+    constexpr int kMore = 32;
+    const double one = chain(1);
+    return std::max(1e-6, (chain(1 + kMore) - one) / kMore);
+}
+
 double hostCopy(uint32_t threads, const Effort& effort) {
     ThreadPool workers(threads);
     std::vector<char> from(kHostCopyBytes, 3), to(kHostCopyBytes, 0);
@@ -86,6 +104,7 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort
     const Effort each{effort.least, effort.most, 0.25 * effort.seconds}; // there are a dozen
     Ceilings c;
     c.deviceFlops = deviceArithmetic(device, submissions, each); // first: the clock rises under it
+    c.dispatchMs = emptyDispatch(device, submissions, each);
     const StreamRate own = bestDeviceStream(device, submissions, each);
     const auto reads = [&](StreamMemory memory) {
         return bestRead(device, submissions, memory, streamSizeOf(device), each);

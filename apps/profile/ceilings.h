@@ -17,8 +17,9 @@ struct Ceilings {
     double hostBytes = 0.0;   // [B/s] read plus written by memcpy of one thread
     double workerBytes = 0.0; // [B/s] the same of hostThreads threads
     uint32_t hostThreads = 1;
-    double submitMs = 0.0; // [ms] an empty submission until its result is known, p50
-    std::string how;       // sizes and what came out best, for people
+    double dispatchMs = 0.0; // [ms] of the device: an empty dispatch in a chain
+    double submitMs = 0.0;   // [ms] an empty submission until its result is known, p50
+    std::string how;         // sizes and what came out best, for people
 };
 
 // Each is the best of several sizes and repeats after a warm-up, some seconds in all; on a CPU device sizes

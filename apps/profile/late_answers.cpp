@@ -39,8 +39,7 @@ PlotPanel stallPanel(const std::vector<StudyRow>& rows, uint32_t ticks) {
     std::vector<PlotSeries> byDelay;
     for (const StudyRow& row : rows) {
         if (byDelay.empty() || byDelay.back().name != row.source) {
-            const auto at = static_cast<int>(byDelay.size());
-            byDelay.push_back({row.source, {}, true, at, 0.0});
+            byDelay.push_back({row.source, {}, true});
         }
         const double share = 100.0 * row.more[kStalledTurns] / ticks;
         byDelay.back().points.push_back(

@@ -226,7 +226,7 @@ void sayRow(Study& study, const StudyRow& row) {
 }
 
 PlotPanel bars(const Study& study, size_t column, const std::string& title, const std::string& label) {
-    PlotPanel panel{title, label, "", false, false, true, {}};
+    PlotPanel panel{title, label, "", false, false, true, {}, true};
     PlotSeries series;
     for (size_t i = 1; i < study.rows.size(); ++i) {
         series.points.push_back({study.rows[i].more[column], 0.0, study.rows[i].setting, false, false});

@@ -155,7 +155,10 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         const double moving = need.images > 0.0 ? readingMs(ceilings, need.bytes, need.images, load.inPlace)
                                                 : 1e3 * need.bytes / bytesPerSecond(ceilings, need.where);
         const double computing = onDevice ? need.operations / ceilings.deviceFlops * 1e3 : 0.0;
-        const double floor = std::max(moving, computing), ratio = floor > 0.0 ? time.p50 / floor : NAN;
+        // No pass is faster than an empty dispatch; a pass without work has no floor.
+        const double work = std::max(moving, computing), dispatch = onDevice ? ceilings.dispatchMs : 0.0;
+        const double floor = work > 0.0 ? std::max(work, dispatch) : 0.0,
+                     ratio = floor > 0.0 ? time.p50 / floor : NAN;
         row.more = {(need.bytes + need.images) / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
         study.rows.push_back(row);
         if (floor == 0.0) { // dispatched over nothing
@@ -163,7 +166,10 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
             continue;
         }
         study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, floor " +
-                                 digits(floor) + " ms (" + (computing > moving ? "arithmetic" : "bytes") +
+                                 digits(floor) + " ms (" +
+                                 (dispatch > work      ? "dispatch"
+                                  : computing > moving ? "arithmetic"
+                                                       : "bytes") +
                                  "), ratio " + digits(ratio));
     }
 }
@@ -192,7 +198,8 @@ void sayCeilings(Study& study, const Ceilings& c) {
         digits(c.uploadBytes * 1e-9) + " GB/s" +
         (c.importBytes > 0.0 ? " and the host's own pages at " + digits(c.importBytes * 1e-9) + " GB/s"
                              : std::string(" and cannot read the host's own pages")) +
-        "; an empty submission takes " + digits(c.submitMs) + " ms");
+        "; an empty dispatch takes " + digits(c.dispatchMs) + " ms of the device, an empty submission " +
+        digits(c.submitMs) + " ms until its result is known");
     study.findings.push_back("host: copies " + digits(c.hostBytes * 1e-9) + " GB/s on one thread, " +
                              digits(c.workerBytes * 1e-9) + " on the " + std::to_string(c.hostThreads) +
                              " that publish (read + written)");
@@ -212,9 +219,10 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
     PlotSeries device{"device", {}, false}, host{"host", {}, false};
     for (const StudyRow& row : study.rows) {
         if (row.source == source && !std::isnan(row.more[5])) {
+            const Spread& time = row.cost.gpu ? row.cost.gpu : row.cost.wall;
             (row.cost.gpu ? device : host)
-                .points.push_back(
-                    {row.more[5], 0.0, row.setting + (row.cost.gpu ? "" : " (host)"), false, false});
+                .points.push_back({row.more[5], 0.0, row.setting + (row.cost.gpu ? "" : " (host)"), false,
+                                   false, time.p90 / row.more[4]});
         }
     }
     panel.series = {device, host};

@@ -48,6 +48,10 @@ PanelAxis linearAxis(const std::vector<double>& values) {
     return axis;
 }
 
+double signedLog(double value, double linear) {
+    return std::copysign(std::log10(1.0 + std::abs(value) / linear), value);
+}
+
 // Where a decade gets ticks: often enough that even a short axis has some.
 std::vector<double> factorsOf(double span) {
     if (span < 0.5) {
@@ -58,13 +62,41 @@ std::vector<double> factorsOf(double span) {
 
 } // namespace
 
+PanelAxis signedLogAxis(const std::vector<double>& values, double from, double to) {
+    PanelAxis axis;
+    double most = 0.0;
+    for (const double v : values) {
+        most = std::max(most, std::abs(v));
+    }
+    axis.from = from, axis.to = to;
+    axis.linear = std::pow(10.0, std::floor(std::log10(most > 0.0 ? most : 1.0)) - 2.0);
+    for (const double v : values) {
+        axis.lo = std::min(axis.lo, 1.1 * signedLog(v, axis.linear));
+        axis.hi = std::max(axis.hi, 1.1 * signedLog(v, axis.linear));
+    }
+    return axis;
+}
+
 double PanelAxis::at(double value) const {
-    const double v = !log ? value : value > 0.0 ? std::log10(value) : lo + 0.3 * kZeroRoom;
+    const double v = linear > 0.0  ? signedLog(value, linear)
+                     : !log        ? value
+                     : value > 0.0 ? std::log10(value)
+                                   : lo + 0.3 * kZeroRoom;
     return from + (v - lo) / (hi - lo) * (to - from);
 }
 
 std::vector<PanelAxis::Tick> PanelAxis::ticks() const {
     std::vector<Tick> result;
+    if (linear > 0.0) {
+        for (int k = -4; k <= 4; ++k) {
+            const double value = k == 0 ? 0.0 : std::copysign(linear * std::pow(10.0, std::abs(k) - 1), k);
+            const double at = signedLog(value, linear);
+            if (at >= lo && at <= hi) {
+                result.push_back({value, tickLabel(value)});
+            }
+        }
+        return result;
+    }
     if (!log) {
         for (const PlotTick& t : ticksOf({lo, hi, from, to}, 6)) {
             result.push_back({t.value, t.label});

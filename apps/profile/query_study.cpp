@@ -22,18 +22,17 @@ PlotPanel timePanel(const Study& study, const std::vector<std::string>& sources,
                     const std::vector<WayLine>& ways, const RowValue& time) {
     PlotPanel panel;
     panel.xLabel = "tool leaves";
-    int colour = 0;
     for (const std::string& source : sources) {
         for (const WayLine& line : ways) {
-            PlotSeries series{std::string(line.name) + ", " + source, {}, true, colour, line.dash};
+            PlotSeries series{std::string(line.name) + ", " + source, {}, true, line.dash, source};
             for (const StudyRow& row : study.rows) {
                 if (row.source == source && isWay(row, line.way) && time(row) > 0.0) {
-                    series.points.push_back({row.more[kToolLeaves], time(row), "", false, false});
+                    series.points.push_back(
+                        {row.more[kToolLeaves], time(row), "", false, false, NAN, p90Of(row, time(row))});
                 }
             }
             panel.series.push_back(std::move(series));
         }
-        ++colour;
     }
     return panel;
 }

@@ -83,11 +83,12 @@ public:
         panel.title = title;
         panel.xLabel = xLabel;
         panel.yLabel = "time p50 [ms]";
-        panel.logX = logarithmic, panel.logY = logarithmic;
+        panel.logX = logarithmic;
         const auto add = [&](const std::string& name, auto&& value) {
-            PlotSeries series{name, {}, true};
+            PlotSeries series{name, {}, true, 0.0, name};
             for (const Measured& m : curve) {
-                series.points.push_back({m.x, value(m), "", false, false});
+                const Spread spread = value(m);
+                series.points.push_back({m.x, spread.p50, "", false, false, NAN, spread ? spread.p90 : NAN});
             }
             const auto law = fitPower(series.points);
             if (law) {
@@ -96,14 +97,14 @@ public:
             }
             panel.series.push_back(std::move(series));
         };
-        add("upload to published", [](const Measured& m) { return m.cost.total.p50; });
-        add("upload (host)", [](const Measured& m) { return m.cost.upload.p50; });
-        add("collect (host)", [](const Measured& m) { return m.cost.collect.p50; });
-        add("grid (host)", [](const Measured& m) { return m.cost.grid.p50; });
+        add("upload to published", [](const Measured& m) { return m.cost.total; });
+        add("upload (host)", [](const Measured& m) { return m.cost.upload; });
+        add("collect (host)", [](const Measured& m) { return m.cost.collect; });
+        add("grid (host)", [](const Measured& m) { return m.cost.grid; });
         for (const auto& [name, spread] : curve.front().cost.passes) {
             add(name, [pass = name](const Measured& m) { // no guidance, no moments
                 const auto it = m.cost.passes.find(pass);
-                return it != m.cost.passes.end() ? it->second.p50 : 0.0;
+                return it != m.cost.passes.end() ? it->second : Spread{};
             });
         }
         study_.panels.push_back(std::move(panel));

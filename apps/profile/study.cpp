@@ -92,6 +92,15 @@ double cpuTime(const StudyRow& row) {
     return row.cost.cpu.p50;
 }
 
+double p90Of(const StudyRow& row, double p50) {
+    for (const Spread* s : {&row.cost.gpu, &row.cost.submit, &row.cost.cpu, &row.cost.wall}) {
+        if (*s && s->p50 == p50) {
+            return s->p90;
+        }
+    }
+    return NAN;
+}
+
 void markFront(Study& study) {
     const Ranking ranking(study);
     for (StudyRow& row : study.rows) {
@@ -113,13 +122,12 @@ PlotPanel frontPanel(const Study& study, const std::string& title, const RowValu
     panel.title = title;
     panel.xLabel = study.timeName + " [ms]";
     panel.yLabel = study.errorName + " [" + study.errorUnit + "]";
-    int colour = 0; // a source keeps its own in every panel of a study
     for (const std::string& source : sourcesOf(study)) {
-        PlotSeries series{source, {}, false, colour++};
+        PlotSeries series{source, {}, false};
         for (const StudyRow& row : study.rows) {
             const double time = x ? x(row) : ranking.time(row), error = y ? y(row) : ranking.error(row);
             if (row.source == source && time > 0.0 && std::isfinite(error)) {
-                series.points.push_back({time, error, row.setting, row.isDefault, false});
+                series.points.push_back({time, error, row.setting, row.isDefault, false, p90Of(row, time)});
             }
         }
         if (!series.points.empty()) {

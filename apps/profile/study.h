@@ -53,22 +53,26 @@ struct PlotPoint {
     double x = 0.0, y = 0.0;
     std::string label;
     bool isDefault = false;
-    bool isFront = false; // the front is drawn through these
+    bool isFront = false;            // the front is drawn through these
+    double xHigh = NAN, yHigh = NAN; // ends of the error bars from x and y; NaN = none
 };
 
 struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;
-    bool connect = false; // a line through the points in their order
-    int colour = -1;      // of the palette; -1 = by its place among the series
-    double dash = 0.0;    // [pixels] of the line; 0 = solid
+    bool connect = false;   // a line through the points in their order
+    double dash = 0.0;      // [pixels] of the line; 0 = solid
+    std::string thing = {}; // what the colour stands for in all panels of a study; empty = the name
 };
 
 struct PlotPanel {
     std::string title, xLabel, yLabel; // with units
     bool logX = true, logY = true;     // values <= 0 stand at the low end, marked 0
-    bool bars = false; // labels at the left, bars of x from 0, on a logarithmic axis from 1; y is not used
+    // Labels at the left, bars of x; y is not used. They start at 0, on a logarithmic axis at 1. With
+    // signedLog the axis is logarithmic in both directions from 0 and linear near it.
+    bool bars = false;
     std::vector<PlotSeries> series;
+    bool signedLog = false;
 };
 
 // A number of a row.
@@ -77,6 +81,8 @@ using RowValue = std::function<double(const StudyRow&)>;
 double gpuTime(const StudyRow& row);
 double submitTime(const StudyRow& row);
 double cpuTime(const StudyRow& row);
+// p90 of the clock of the row whose p50 is `p50`: the end of its error bar; NaN when none is.
+double p90Of(const StudyRow& row, double p50);
 
 // What the rows of a study are ranked and plotted by, and what is said for its default.
 struct Judgement {

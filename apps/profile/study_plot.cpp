@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 namespace fathom::profile {
 
@@ -26,13 +27,30 @@ constexpr std::array<Colour, 11> kSeries{{{0.0, 0.45, 0.70},
                                           {0.53, 0.56, 0.0},
                                           {0.43, 0.27, 0.67}}};
 
-// One panel in its rectangle of the picture.
+// What a colour stands for, to its place in the palette: the same in all panels of a study.
+using ColourTable = std::map<std::string, size_t>;
+const std::string& thingOf(const PlotSeries& series) {
+    return series.thing.empty() ? series.name : series.thing;
+}
+ColourTable coloursOf(const std::vector<PlotPanel>& panels) {
+    ColourTable colours;
+    for (const PlotPanel& panel : panels) {
+        for (const PlotSeries& series : panel.series) {
+            colours.emplace(thingOf(series), colours.size());
+        }
+    }
+    return colours;
+}
+
+// One panel in its rectangle of the image.
 class PanelPainter {
 public:
-    PanelPainter(const Image& image, const PlotPanel& panel, double left, double top)
+    PanelPainter(const Image& image, const PlotPanel& panel, const ColourTable& colours, double left,
+                 double top)
         : p_(image)
         , panel_(panel)
-        , x0_(left + (panel.bars ? 250.0 : 86.0))
+        , colours_(colours)
+        , x0_(left + (panel.bars ? labelRoom(image, panel) : 86.0))
         , x1_(left + kPanelWidth - 24.0 - legendRoom(image, panel))
         , y0_(top + 40.0)
         , y1_(top + kPanelHeight - 62.0) {
@@ -41,12 +59,18 @@ public:
             for (const PlotPoint& q : s.points) {
                 xs.push_back(q.x);
                 ys.push_back(q.y);
+                if (std::isfinite(q.xHigh)) {
+                    xs.push_back(q.xHigh);
+                }
+                if (std::isfinite(q.yHigh)) {
+                    ys.push_back(q.yHigh);
+                }
             }
         }
         if (panel.bars && panel.logX) {
             xs.push_back(kBarFoot);
         }
-        x_ = panelAxis(xs, panel.logX, x0_, x1_);
+        x_ = panel.signedLog ? signedLogAxis(xs, x0_, x1_) : panelAxis(xs, panel.logX, x0_, x1_);
         y_ = panelAxis(ys, panel.logY, y1_, y0_);
     }
 
@@ -77,9 +101,18 @@ private:
         return panel.bars ? 0.0 : widest + 40.0;
     }
 
+    static double labelRoom(const Image& image, const PlotPanel& panel) {
+        double widest = 60.0;
+        for (const PlotSeries& s : panel.series) {
+            for (const PlotPoint& q : s.points) {
+                widest = std::max(widest, image.textWidth(q.label, 13, q.isDefault));
+            }
+        }
+        return widest + 32.0;
+    }
+
     Colour colourOf(size_t i) const {
-        const int chosen = panel_.series[i].colour;
-        return kSeries[(chosen >= 0 ? static_cast<size_t>(chosen) : i) % kSeries.size()];
+        return kSeries[colours_.at(thingOf(panel_.series[i])) % kSeries.size()];
     }
 
     void setDash(double dash) const { cairo_set_dash(p_.cr(), &dash, dash > 0.0 ? 1 : 0, 0.0); }
@@ -107,6 +140,13 @@ private:
         cairo_arc(p_.cr(), x, y, radius, 0, 6.2831853);
         cairo_set_line_width(p_.cr(), 2.0);
         filled ? cairo_fill(p_.cr()) : cairo_stroke(p_.cr());
+    }
+
+    // From a value to its p90, with a cap across the end.
+    void errorBar(double x0, double y0, double x1, double y1, Colour colour) const {
+        const double across = x0 == x1 ? 4.0 : 0.0, along = 4.0 - across;
+        line(x0, y0, x1, y1, colour, 1.4);
+        line(x1 - across, y1 - along, x1 + across, y1 + along, colour, 1.4);
     }
 
     void paintXAxis() const {
@@ -163,6 +203,12 @@ private:
     void paintPoints(const PlotSeries& series, Colour colour) const {
         for (const PlotPoint& q : series.points) {
             const double x = x_.at(q.x), y = y_.at(q.y);
+            if (std::isfinite(q.xHigh)) {
+                errorBar(x, y, x_.at(q.xHigh), y, colour.alpha(0.5));
+            }
+            if (std::isfinite(q.yHigh)) {
+                errorBar(x, y, x, y_.at(q.yHigh), colour.alpha(0.5));
+            }
             dot(x, y, series.connect ? 4.0 : 5.0, q.isFront || series.connect ? colour : colour.alpha(0.45),
                 true);
             if (q.isDefault) {
@@ -250,15 +296,21 @@ private:
                 cairo_fill(p_.cr());
                 const double base = y + 0.5 * std::min(0.72 * step, 30.0) + 5.0;
                 p_.text(x0_ - 8.0, base, q.label, 13, kInk, Align::Right, q.isDefault);
-                const bool inside = end > x1_ - 60.0;
-                p_.text(inside ? end - 5.0 : std::max(foot, end) + 5.0, base, barFigure(q.x), 12,
-                        inside ? kPaper : kInk, inside ? Align::Right : Align::Left);
+                double right = std::max(foot, end);
+                if (std::isfinite(q.xHigh)) {
+                    errorBar(end, base - 5.0, x_.at(q.xHigh), base - 5.0, kInk.alpha(0.6));
+                    right = std::max(right, x_.at(q.xHigh));
+                }
+                const bool inside = right > x1_ - 60.0;
+                p_.text(inside ? end - 5.0 : right + 5.0, base, barFigure(q.x), 12, inside ? kPaper : kInk,
+                        inside ? Align::Right : Align::Left);
             }
         }
     }
 
     const Image& p_;
     const PlotPanel& panel_;
+    const ColourTable& colours_;
     double x0_, x1_, y0_, y1_;
     PanelAxis x_, y_;
 };
@@ -276,10 +328,12 @@ void writeStudyPlot(const Study& study, const std::string& subtitle, const std::
     const PanelGrid grid = panelGrid(study.panels.size());
     const Image image(grid.across * kPanelWidth + 8, kHead + grid.down * kPanelHeight, kPaper);
     image.text(24.0, 34.0, study.title, 21, kInk, Align::Left, true);
-    image.text(24.0, 60.0, subtitle, 13, kFaint);
+    image.text(24.0, 60.0, subtitle + " · points are p50, error bars end at p90", 13, kFaint);
+    const ColourTable colours = coloursOf(study.panels);
     for (size_t i = 0; i < study.panels.size(); ++i) {
         const int k = static_cast<int>(i), row = k / grid.across;
-        PanelPainter(image, study.panels[i], (k % grid.across) * kPanelWidth, kHead + row * kPanelHeight)
+        PanelPainter(image, study.panels[i], colours, (k % grid.across) * kPanelWidth,
+                     kHead + row * kPanelHeight)
             .paint();
     }
     image.writePng(file);

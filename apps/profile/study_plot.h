@@ -20,6 +20,7 @@ PanelGrid panelGrid(size_t panels);
 // The axis of a panel: linear or logarithmic; on a logarithmic one values <= 0 stand at the low end.
 struct PanelAxis {
     bool log = false, hasZero = false;
+    double linear = 0.0;       // signed logarithmic axis: about linear up to here; 0 = another axis
     double lo = 0.0, hi = 1.0; // of the data, decades when log
     double from = 0.0, to = 1.0;
 
@@ -31,5 +32,7 @@ struct PanelAxis {
     std::vector<Tick> ticks() const;
 };
 PanelAxis panelAxis(const std::vector<double>& values, bool log, double from, double to);
+// Logarithmic in both directions from 0; three decades.
+PanelAxis signedLogAxis(const std::vector<double>& values, double from, double to);
 
 } // namespace fathom::profile

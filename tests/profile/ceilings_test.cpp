@@ -50,7 +50,7 @@ TEST_CASE("Ceilings hold for the device's memory, both of the host's, arithmetic
     gpu::Device device{instance, "llvmpipe"};
     const Ceilings c = measureCeilings(device, 2, kFew);
     for (const double value : {c.deviceBytes, c.uploadBytes, c.importBytes, c.deviceFlops, c.hostBytes,
-                               c.workerBytes, c.submitMs}) {
+                               c.workerBytes, c.submitMs, c.dispatchMs}) {
         CHECK(value > 0.0);
         CHECK(std::isfinite(value));
     }

@@ -45,7 +45,7 @@ TEST_CASE(
                      &early = panel.series[1]; // in the order in which they are drawn
     CHECK(late.name == "answers 20 ticks late");
     CHECK(early.name == "answers 0 ticks late");
-    CHECK(late.colour != early.colour);
+    CHECK(late.name != early.name);
     REQUIRE(late.points.size() == 2);
     CHECK(late.connect);
     CHECK(late.points[0].x == 5.0);
