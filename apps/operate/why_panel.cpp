@@ -32,6 +32,8 @@ std::string obstacle(const Block& block, const Scene& scene, const Fixtures& set
         return name + ", a line to slide along";
     case ContactRow::Kind::Behind:
         return "the visible surface: the tool is behind it";
+    case ContactRow::Kind::Joint:
+        break; // joint limits are not listed as contacts
     }
     return name;
 }

@@ -6,7 +6,7 @@
 #include "apps/profile/wavy_wall.h"
 #include "engine/contact/cull_cpu.h"
 #include "engine/contact/narrow_phase.h"
-#include "engine/haptics/proxy_limits.h"
+#include "engine/haptics/proxy_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@ namespace fathom {
 // normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with
 // offset = -gap. An arm manipulator would put its own Jacobian at `arm` in place of [a; alpha].
 struct ContactRow {
-    enum class Kind : uint8_t { Sphere, Shape, Equality, Behind };
+    enum class Kind : uint8_t { Sphere, Shape, Equality, Behind, Joint };
 
     dvec3 normal{0.0};   // unit (zero in a row of pure rotation), base axes, out of the region
     dvec3 arm{0.0};      // leaf centre - tool centre [m], base axes

@@ -34,7 +34,7 @@ public:
         rig_->proxy.stepCap = scene_.haptics.stepCap;
         rig_->proxy.solves = scene_.haptics.solves;
         rig_->proxy.period = 1.0 / scene_.haptics.rateHz;
-        rig_->proxy.graspPerTurn = rig_->proxy.period / arm_.grasp.seconds;
+        rig_->proxy.graspPerTick = rig_->proxy.period / arm_.grasp.seconds;
         applyJoints();
         checkFingers();
         return std::move(rig_);

@@ -81,26 +81,12 @@ void HapticCycle::freeDirection() noexcept {
 // The arm's tip in place of the tool.
 ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept {
     const bool button = (input.buttons & rig_->graspButton) != 0;
-    ArmInput asked;
-    asked.target = wanted.target;
-    asked.metricRadius = rig_->freeDirection ? 0.0 : wanted.metricRadius;
-    asked.contacts = wanted.contacts;
-    asked.grasp = button ? 1.0 : 0.0;
-    asked.deadline = wanted.deadline;
-    const ArmStep tick = arm_->step(asked);
-    tool_ = tick.tip;
-    out.arm = {{tick.q, tick.grasp}, tick.residual,  tick.manipulability,
-               tick.atLimits,        tick.graspHeld, tick.singular};
-    ProxyStep moved;
-    moved.pose = tick.tip;
-    moved.active = tick.active;
-    moved.minGap = tick.minGap;
-    moved.contact = tick.contacts > 0 || tick.atLimits > 0;
-    moved.escape = tick.escape;
-    moved.trapped = tick.trapped;
-    moved.stalled = tick.stalled;
-    moved.solves = tick.solves;
-    moved.infeasible = tick.infeasible;
+    ArmInput request{wanted, button ? 1.0 : 0.0};
+    request.metricRadius = rig_->freeDirection ? 0.0 : wanted.metricRadius;
+    const ArmStep moved = arm_->step(request);
+    tool_ = moved.pose;
+    out.arm = {{moved.q, moved.grasp}, moved.residual,  moved.manipulability,
+               moved.atLimits,         moved.graspHeld, moved.singular};
     return moved;
 }
 

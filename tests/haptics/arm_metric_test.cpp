@@ -202,9 +202,9 @@ TEST_CASE("Six and seven joints bring the tip to a place and a direction that th
         }
         CAPTURE(joints);
         CHECK(tick.residual < 1e-6);
-        const dquat apart = glm::conjugate(arm.tip(there).rotation) * tick.tip.rotation;
+        const dquat apart = glm::conjugate(arm.tip(there).rotation) * tick.pose.rotation;
         CHECK(2.0 * glm::length(dvec3(apart.x, apart.y, apart.z)) < 1e-5);
-        CHECK(glm::distance(tick.tip.position, arm.tip(there).position) < 1e-6);
+        CHECK(glm::distance(tick.pose.position, arm.tip(there).position) < 1e-6);
     }
 }
 

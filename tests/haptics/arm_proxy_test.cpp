@@ -189,7 +189,7 @@ TEST_CASE("a stretched arm is reported as singular, damped, and comes back") {
     }
     CHECK(singular > 100);
     CHECK(largest < 1e-5); // at rest, not dancing
-    CHECK(tick.tip.position.x > 0.99);
+    CHECK(tick.pose.position.x > 0.99);
     for (int i = 0; i < 3000; ++i) {
         tick = proxy.step(arm.tip(bent), 0.0, nullptr);
     }

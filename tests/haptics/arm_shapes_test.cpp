@@ -49,7 +49,7 @@ ArmModel armWithFinger() {
 }
 
 ArmInput still(const ArmProxy& proxy, const ContactSet* set, double grasp) {
-    return {proxy.tip(), 0.0, set, grasp, {}};
+    return {{proxy.tip(), 0.0, set, {}}, grasp};
 }
 
 } // namespace
@@ -156,7 +156,7 @@ TEST_CASE("A leaf that new data put behind a surface is not held there, and come
 TEST_CASE("The grasp goes from open to closed at its own speed, and the finger's spheres follow") {
     const ArmModel arm = armWithFinger();
     ArmProxyOptions options;
-    options.graspPerTurn = 0.01;
+    options.graspPerTick = 0.01;
     ArmProxy proxy(arm, Pose{}, options, JointVector{});
     const size_t tip = arm.leaves.size() - 1;
     CHECK(arm.centre(proxy.frames(), tip).y == doctest::Approx(0.1));
@@ -180,7 +180,7 @@ TEST_CASE("The grasp goes from open to closed at its own speed, and the finger's
 TEST_CASE("A finger stops at a region and goes on when it has gone") {
     const ArmModel arm = armWithFinger();
     ArmProxyOptions options;
-    options.graspPerTurn = 0.01;
+    options.graspPerTick = 0.01;
     ArmProxy proxy(arm, Pose{}, options, JointVector{});
     World world;
     addSphere(world.fixtures, {0.55, 0.05, 0.0}, 0.025); // in the finger's way only

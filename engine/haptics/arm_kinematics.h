@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinematics of an arm for ConstrainedProxy. Unknowns: joint increments dq; minimised is
+// |J dq - x_u|_M^2 + lambda^2 |dq|^2 (damped least squares, Nakamura and Hanafusa 1986) subject to
+// n^T J_leaf dq >= -gap, joint limits and joint speeds, all as rows of the same solver.
+#pragma once
+
+#include "engine/haptics/arm_leaf_places.h"
+#include "engine/haptics/constrained_proxy.h"
+#include "engine/haptics/tool_motion.h"
+#include "engine/model/arm_model.h"
+
+namespace fathom {
+
+// How an arm's proxy moves; fixed when it is made. The step cap holds for any leaf of any link.
+struct ArmProxyOptions : ProxyOptions {
+    double period = 0.001;         // [s] of a tick, for the joint speeds
+    double damping = 1e-3;         // [m/rad] lambda away from singular postures
+    double singularBelow = 0.02;   // [m/rad] smallest singular value of M^1/2 J below which lambda grows
+    double singularDamping = 0.05; // [m/rad] lambda in the singular posture itself
+    double graspPerTick = 0.0;     // share of the way from open to closed, per tick
+};
+
+// The result of a tick; `pose` is base_T_tip.
+struct ArmStep : ProxyStep {
+    JointVector q{};           // after the tick
+    double grasp = 0.0;        // after the tick
+    double residual = 0.0;     // [m] |what is left to the target|_M: what the pilot feels as the arm's limit
+    double manipulability = 0; // [m/rad] smallest singular value of M^1/2 J at the start
+    uint32_t contacts = 0;     // rows of leaves that pushed in the last solve
+    uint32_t atLimits = 0;     // rows of joint limits or speeds that pushed in the last solve
+    bool singular = false;     // manipulability below the threshold: damped
+    bool graspHeld = false;    // a finger would have entered a region: the grasp stays
+};
+
+// One thread. Allocates in the constructor only; everything else is noexcept. `arm` must outlive it.
+class ArmKinematics {
+public:
+    using Step = ArmStep;
+    static constexpr bool kSolvesLastRound = true; // bisect what the last tightening gives
+    struct Answer {
+        JointVector dq{};
+        double share = 1.0;   // that the step cap leaves
+        bool stalled = false; // cut by the trust region
+    };
+
+    ArmKinematics(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOptions& options);
+
+    size_t unknowns() const noexcept { return arm_.count(); }
+    Pose pose() const noexcept { return arm_.tip(now_.frames); }
+    const dvec3& origin() const noexcept { return now_.frames[0].position; } // when no set says one
+    Pose nextPose() const noexcept { return arm_.tip(next_.frames); }
+    const ArmPosture& posture() const noexcept { return now_.posture; }
+    const ArmFrames& frames() const noexcept { return now_.frames; }
+    void setPosture(const ArmPosture& posture) noexcept;
+    void place(LeafState& leaves) const noexcept { places_.place(now_.frames, leaves.origin, leaves.now); }
+    void tryGrasp(double grasp, LeafState& leaves) noexcept { tryPosture(now_.posture.q, grasp, leaves); }
+
+    void begin(const ProxyInput& input, ProxyRows&) noexcept;
+    void report(ArmStep& out) const noexcept;
+
+    // Rows.
+    void addLimits(ProxyRows& rows) const noexcept;
+    bool addRow(ContactRow row, const LeafState& leaves, ProxyRows& rows) const noexcept;
+    double escapeOffset(double depth) const noexcept { // [m] that a row of this depth asks for, with the skin
+        return std::min(depth, escapeLeft_) + proxy::kSkin;
+    }
+    double equalityLimit(const Equality&) const noexcept { return escapeLeft_; }
+    dvec3 leafNow(size_t leaf, const LeafState& leaves) const noexcept {
+        return leaves.now[leaf] + leaves.origin;
+    }
+    dvec3 leafNext(size_t leaf, const LeafState& leaves) const noexcept {
+        return leaves.next[leaf] + leaves.origin;
+    }
+    dvec3 lever(size_t, const dvec3& centre) const noexcept { return centre - pose().position; }
+
+    // One linearisation.
+    bool aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept;
+    bool solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& out) const noexcept;
+    bool fit(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept;
+    double wholePart(const Answer& answer) const noexcept { return answer.share; }
+    void tryPart(const Answer& answer, double part, LeafState& leaves) noexcept;
+    StepOutcome judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,
+                      const ArmStep& out) noexcept;
+    void take() noexcept { now_ = next_; }
+
+    // Tightening. share: of the solution that was tried.
+    double share(const Answer& answer) const noexcept { return answer.share; }
+    double shortfall(const NarrowPhase::Violation& violation, double, const LeafState&) const noexcept {
+        return violation.depth;
+    }
+    double raised(double offset, double amount, double share) const noexcept {
+        return offset + amount / std::max(share, 1e-6) + proxy::kSkin;
+    }
+    double arcOf(const Answer&, const ContactRow&, const LeafState&) const noexcept { return 0.0; }
+    bool tightenEqualities(std::span<const Shape> shapes, double share, ProxyRows& rows) const noexcept;
+
+private:
+    struct State {
+        ArmPosture posture;
+        ArmFrames frames;
+    };
+    struct Range { // [rad], [m] of a joint in this tick
+        double low, high;
+    };
+    Range rangeOf(size_t joint) const noexcept;
+    JointVector normalOf(const ContactRow& row, const LeafState& leaves) const noexcept;
+    void tryPosture(const JointVector& q, double grasp, LeafState& leaves) noexcept;
+
+    const ArmModel& arm_;
+    Pose base_;
+    ArmProxyOptions options_;
+    ArmLeafPlaces places_;
+    State now_, next_;
+    JointVector start_{}; // joints at the start of the tick
+    Pose target_;
+    double metricRadius_ = 0.0;
+    JointVector wanted_{};    // of this linearisation
+    double escapeLeft_ = 0.0; // [m] of this tick
+};
+
+} // namespace fathom

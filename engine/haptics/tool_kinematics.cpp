@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/tool_kinematics.h"
+
+#include <cmath>
+
+namespace fathom {
+
+namespace {
+
+using proxy::kNothing;
+
+constexpr double kSettling = 1e-8; // [m] travel too small to be felt: 1e-5 N at 1000 N/m
+
+bool isNothing(const Motion& m) {
+    return glm::length(m.a) <= kNothing && glm::length(m.alpha) <= kNothing;
+}
+
+std::array<double, 6> unknownsOf(const Motion& m) {
+    return {m.a.x, m.a.y, m.a.z, m.alpha.x, m.alpha.y, m.alpha.z};
+}
+
+} // namespace
+
+ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, const Pose& start)
+    : places_(tool)
+    , boundingRadius_(tool.boundingRadius())
+    , stepCap_(options.stepCap)
+    , escapePerTick_(options.escapePerTick)
+    , pose_{start.position, glm::normalize(start.rotation)} {}
+
+void ToolKinematics::setPose(const Pose& pose) noexcept {
+    if (isFinite(pose)) {
+        pose_ = {pose.position, glm::normalize(pose.rotation)};
+    }
+}
+
+void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
+    target_ = input.target;
+    budget_ = {escapePerTick_, stepCap_};
+    setMetric(input.metricRadius, rows);
+}
+
+void ToolKinematics::setMetric(double radius, ProxyRows& rows) noexcept {
+    // Kept inside what float64 can factor, so that the solver's setMetric() cannot reject it.
+    const double k = std::isfinite(radius) ? std::clamp(radius, 1e-4, 1e4) : 0.1;
+    if (k == metricRadius_) {
+        return;
+    }
+    metricRadius_ = k;
+    std::array<double, 36> metric{};
+    for (size_t i = 0; i < 6; ++i) {
+        metric[i * 7] = i < 3 ? 1.0 : k * k;
+    }
+    rows.setMetric(metric);
+}
+
+bool ToolKinematics::addRow(const ContactRow& row, const LeafState&, ProxyRows& rows) const noexcept {
+    return rows.add(row, unknownsOf({row.normal, glm::cross(row.arm, row.normal) + row.spin}));
+}
+
+bool ToolKinematics::aim(const LeafState&, const ProxyRows& rows, const ProxyStep& out) noexcept {
+    newData_ = rows.escaping();
+    wanted_ = remaining(pose_, target_);
+    return out.solves == 0 || newData_ || !isNothing(wanted_);
+}
+
+bool ToolKinematics::solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows,
+                              ProxyStep& out) const noexcept {
+    const std::array<double, 6> target = unknownsOf(wanted);
+    std::array<double, 6> x{};
+    bool optimal = true;
+    do {
+        optimal = rows.solve(target, x) || (rows.relax() && rows.solve(target, x));
+    } while (optimal && rows.loadViolated(x));
+    motion = {dvec3(x[0], x[1], x[2]), dvec3(x[3], x[4], x[5])};
+    out.infeasible += optimal ? 0 : 1;
+    return optimal;
+}
+
+bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out) const noexcept {
+    rows.load(unknownsOf(wanted_));
+    Answer found;
+    if ((rows.escaping() && !solveFor(Motion{}, found.escape, rows, out)) ||
+        !solveFor(wanted_, found.full, rows, out)) {
+        return false;
+    }
+    answer = found;
+    rows.recordActive();
+    return true;
+}
+
+// Largest share of `rest` after `first` with no leaf farther than the cap: exact travel, from below.
+double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, double firstBound,
+                                  LeafState& leaves) const noexcept {
+    const auto travel = [&](double s) {
+        places_.place(moved(pose_, first + s * rest), leaves.origin, leaves.next);
+        return leaves.travel();
+    };
+    if (places_.crudeBound(first + rest) <= stepCap_ || travel(1.0) <= stepCap_) {
+        return 1.0;
+    }
+    double s = std::clamp((stepCap_ - firstBound) / places_.travelBound(pose_, rest), 0.0, 1.0);
+    // The bound adds translation and rotation as if they always agreed: take what it gave away.
+    double reached = travel(s);
+    for (int k = 0; k < 3 && reached > 0.0 && reached < 0.98 * stepCap_ && s > 0.0; ++k) {
+        const double longer = std::min(1.0, s * stepCap_ / reached * (1.0 - 1e-9));
+        const double there = travel(longer);
+        if (there > stepCap_) {
+            break;
+        }
+        s = longer;
+        reached = there;
+    }
+    return s;
+}
+
+// Cuts the answer to the caps and the trust region, and tries what is left.
+bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept {
+    LeafState& leaves = contacts.leaves;
+    double escapeBound = 0.0;
+    answer.escapeShare = 0.0;
+    answer.share = 1.0;
+    if (rows.escaping()) {
+        const double bound = places_.travelBound(pose_, answer.escape);
+        answer.escapeShare = bound > budget_.travel ? budget_.travel / bound : 1.0;
+        escapeBound = bound * answer.escapeShare;
+    }
+    const Motion first = answer.escapeShare * answer.escape;
+    answer.towards = shareToCap(first, answer.full - first, escapeBound, leaves);
+    answer.whole = answer.towards == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
+    answer.stalled = false;
+    tryPart(answer, 1.0, leaves);
+    if (contacts.set() == nullptr ||
+        contacts.trust().surelyContains(places_.crudeBound(motionOf(answer, 1.0))) ||
+        contacts.insideTrustRegion()) {
+        return true;
+    }
+    answer.whole = false;
+    answer.share = contacts.trust().share(*contacts.set(), leaves.now, leaves.next);
+    for (int k = 0; k < 24; ++k) { // leaves turn on arcs, the share was for straight ways
+        tryPart(answer, 1.0, leaves);
+        answer.stalled = answer.share < 1.0;
+        if (contacts.insideTrustRegion()) {
+            return true;
+        }
+        answer.share *= k < 6 ? 0.98 : 0.5;
+    }
+    answer.share = 0.0;
+    answer.stalled = true;
+    tryPart(answer, 1.0, leaves);
+    return true;
+}
+
+Motion ToolKinematics::motionOf(const Answer& answer, double part) noexcept {
+    const Motion first = answer.escapeShare * answer.escape;
+    return (answer.share * part) * (first + answer.towards * (answer.full - first));
+}
+
+void ToolKinematics::tryPart(const Answer& answer, double part, LeafState& leaves) noexcept {
+    if (answer.whole && part == 1.0) {
+        nextPose_ = {target_.position, glm::normalize(target_.rotation)};
+    } else {
+        nextPose_ = moved(pose_, motionOf(answer, part));
+    }
+    places_.place(nextPose_, leaves.origin, leaves.next);
+}
+
+// True when the next pose lies nearer to the target by the metric: when the springs' energy falls. The
+// solver's answer does so by its linearisation; what arcs and raised offsets add can undo it where the rows
+// of several leaves meet, and then the tool would oscillate although the hand is still. Written so that a
+// target far away costs no digits. Steps of rounding size pass: they settle the tool, and their energy is
+// below what a position far from the base origin can resolve.
+bool ToolKinematics::comesNearer(const Motion& taken) const noexcept {
+    if (glm::length(taken.a) <= kSettling && glm::length(taken.alpha) * metricRadius_ <= kSettling) {
+        return true;
+    }
+    const Motion now = remaining(pose_, target_), next = remaining(nextPose_, target_);
+    const double rotation = glm::dot(next.alpha - now.alpha, next.alpha + now.alpha);
+    return glm::dot(next.a - now.a, next.a + now.a) + metricRadius_ * metricRadius_ * rotation < 0.0;
+}
+
+StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafState&, ProxyRows& rows,
+                                  ProxyStep& out) noexcept {
+    const Motion taken = remaining(pose_, nextPose_);
+    if (isNothing(taken) && rows.escaping() && part < 1.0) { // only a motion far away would obey: no way out
+        out.trapped = out.solves == 1;
+        rows.clearActive();
+    }
+    if (part == 0.0 || (!newData_ && !comesNearer(taken))) {
+        return StepOutcome::None;
+    }
+    const double done = part * answer.share;
+    budget_.depth = std::max(0.0, budget_.depth - done * answered(answer) * rows.largestEscape());
+    if (rows.escaping()) {
+        budget_.travel -= done * answer.escapeShare * places_.travelBound(pose_, answer.escape);
+    }
+    return isNothing(taken) ? StepOutcome::Last : StepOutcome::More;
+}
+
+double ToolKinematics::shortfall(const NarrowPhase::Violation& violation, double needed,
+                                 const LeafState& leaves) const noexcept {
+    const ContactRow& row = violation.row;
+    return std::max(violation.depth,
+                    needed - glm::dot(row.normal, leaves.next[row.leaf] - leaves.now[row.leaf]));
+}
+
+// [m] by which the arc of the tried motion falls short of its linearisation along the row.
+double ToolKinematics::arcOf(const Answer& answer, const ContactRow& row,
+                             const LeafState& leaves) const noexcept {
+    const Motion tried = motionOf(answer, 1.0);
+    const dvec3 displacement = leaves.next[row.leaf] - leaves.now[row.leaf];
+    const double arc = glm::dot(row.normal, tried.a + glm::cross(tried.alpha, row.arm) - displacement);
+    return std::max(0.0, arc) * scaleOf(share(answer));
+}
+
+} // namespace fathom

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Kinematics of a free tool for ConstrainedProxy. Unknowns: translation and rotation about the tool's centre.
+#pragma once
+
+#include "engine/haptics/constrained_proxy.h"
+#include "engine/haptics/tool_motion.h"
+
+namespace fathom {
+
+// One thread. Allocates in the constructor only; everything else is noexcept.
+class ToolKinematics {
+public:
+    using Step = ProxyStep;
+    static constexpr bool kSolvesLastRound = false; // bisect what was checked last
+    struct Answer {
+        Motion escape;            // least motion that obeys every row (zero unless some row asks for one)
+        Motion full;              // nearest to the target
+        double escapeShare = 0.0; // of `escape` that the caps leave
+        double towards = 0.0;     // share from there to `full`
+        double share = 0.0;       // of the result that the trust region leaves
+        bool whole = false;       // the target itself, with nothing cut
+        bool stalled = false;     // cut by the trust region
+    };
+
+    ToolKinematics(const Tool& tool, const ProxyOptions& options, const Pose& start);
+
+    size_t unknowns() const noexcept { return 6; }
+    const Pose& pose() const noexcept { return pose_; }
+    const dvec3& origin() const noexcept { return pose_.position; } // of the leaves when no set says one
+    const Pose& nextPose() const noexcept { return nextPose_; }
+    void setPose(const Pose& pose) noexcept;
+    void place(LeafState& leaves) const noexcept { places_.place(pose_, leaves.origin, leaves.now); }
+
+    void begin(const ProxyInput& input, ProxyRows& rows) noexcept;
+    void report(ProxyStep& out) const noexcept { out.contact = !out.active.empty(); }
+
+    // Rows.
+    void addLimits(ProxyRows&) const noexcept {}
+    bool addRow(const ContactRow& row, const LeafState& leaves, ProxyRows& rows) const noexcept;
+    // [m] that a row of depth `depth` asks for, skin included.
+    double escapeOffset(double depth) const noexcept {
+        return std::max(proxy::kSkin, std::min(proxy::kSkin + depth, depthLeft()));
+    }
+    // [m] or [rad] that an equation may correct in one solve: a rotation by what that is at the tool's rim.
+    double equalityLimit(const Equality& e) const noexcept {
+        return depthLeft() / (e.linear == dvec3(0.0) ? boundingRadius_ : 1.0);
+    }
+    dvec3 leafNow(size_t leaf, const LeafState&) const noexcept {
+        return pose_.position + pose_.rotation * places_.centre(leaf);
+    }
+    dvec3 leafNext(size_t leaf, const LeafState&) const noexcept {
+        return nextPose_.position + nextPose_.rotation * places_.centre(leaf);
+    }
+    dvec3 lever(size_t leaf, const dvec3&) const noexcept { return pose_.rotation * places_.centre(leaf); }
+
+    // One linearisation.
+    bool aim(const LeafState&, const ProxyRows& rows, const ProxyStep& out) noexcept;
+    bool solve(Answer& answer, bool again, ProxyRows& rows, ProxyStep& out) const noexcept;
+    bool fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept;
+    double wholePart(const Answer&) const noexcept { return 1.0; }
+    void tryPart(const Answer& answer, double part, LeafState& leaves) noexcept;
+    StepOutcome judge(const Answer& answer, double part, const LeafState&, ProxyRows& rows,
+                      ProxyStep& out) noexcept;
+    void take() noexcept { pose_ = nextPose_; }
+
+    // Tightening. share: of every row's offset that the tried motion is sure of.
+    double share(const Answer& answer) const noexcept { return answer.share * answered(answer); }
+    double shortfall(const NarrowPhase::Violation& violation, double needed,
+                     const LeafState& leaves) const noexcept;
+    double raised(double offset, double amount, double share) const noexcept {
+        return offset + (amount * scaleOf(share) + proxy::kSkin);
+    }
+    double arcOf(const Answer& answer, const ContactRow& row, const LeafState& leaves) const noexcept;
+    bool tightenEqualities(std::span<const Shape>, double, ProxyRows&) const noexcept { return false; }
+
+private:
+    struct Budget {          // of one tick, all solves together
+        double depth = 0.0;  // [m] by which rows may ask touching pairs to part
+        double travel = 0.0; // [m] of leaf travel for that
+    };
+    // A row speaks of the whole solution, of which only `share` was tried.
+    static double scaleOf(double share) noexcept { return 1.0 / std::max(share, 1e-9); }
+    static double answered(const Answer& answer) noexcept {
+        return answer.escapeShare * (1.0 - answer.towards) + answer.towards;
+    }
+    static Motion motionOf(const Answer& answer, double part) noexcept;
+    double depthLeft() const noexcept { return budget_.travel > proxy::kSkin ? budget_.depth : 0.0; }
+    void setMetric(double radius, ProxyRows& rows) noexcept;
+    bool solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows, ProxyStep& out) const noexcept;
+    double shareToCap(const Motion& first, const Motion& rest, double firstBound,
+                      LeafState& leaves) const noexcept;
+    bool comesNearer(const Motion& taken) const noexcept;
+
+    LeafPlaces places_;
+    double boundingRadius_; // [m]
+    double stepCap_, escapePerTick_;
+    Pose pose_, nextPose_, target_;
+    double metricRadius_ = 0.0;
+    Budget budget_;
+    Motion wanted_;        // of this linearisation: what is left to the target
+    bool newData_ = false; // rows asked for motion before any was tightened
+};
+
+} // namespace fathom
