@@ -11,10 +11,10 @@ namespace fathom {
 namespace {
 
 constexpr double kSigmas = 3.0;
-constexpr double kDeep = 0.25;    // of R + r: nearer to the surface than that only new data brings a leaf
+constexpr double kDeep = 0.25;    // of R + r: only new data brings a leaf nearer to the surface
 constexpr double kNearest = 1e-6; // [m] before the camera; nearer points have no pixel
 
-// Deepest of the leaf in any listed sphere [m]; 0 when it is clear of all.
+// Deepest overlap of the leaf with any listed sphere [m]; 0 when it is clear of all.
 double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
     double deepest = 0.0;
     if (set.pairBegin.size() <= leaf + 1 || set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
@@ -29,58 +29,58 @@ double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
 
 } // namespace
 
-BehindTracker::Sight BehindTracker::look(const Fixtures& fixtures, const Pose& cameraTbase,
-                                         const dvec3& point) {
-    Sight sight;
+BehindTracker::DepthSample BehindTracker::sampleAt(const Fixtures& fixtures, const Pose& cameraTbase,
+                                                   const dvec3& point) {
+    DepthSample sample;
     const Intrinsics& lens = fixtures.camera.depth;
     const dvec3 p = cameraTbase.apply(point);
     if (fixtures.depth.size() < static_cast<size_t>(lens.pixels()) || !(p.z > kNearest)) {
-        return sight;
+        return sample;
     }
     const glm::dvec2 pixel = lens.project(p);
     const double u = std::floor(pixel.x + 0.5), v = std::floor(pixel.y + 0.5);
     if (!(u >= 0.0 && v >= 0.0 && u < lens.width && v < lens.height)) {
-        return sight;
+        return sample;
     }
     const uint32_t column = static_cast<uint32_t>(u), line = static_cast<uint32_t>(v);
     const uint16_t raw = fixtures.depth[static_cast<size_t>(line) * lens.width + column];
     if (raw == 0) {
-        return sight;
+        return sample;
     }
     const double z = raw * fixtures.camera.metresPerUnit;
-    sight.known = true;
-    sight.forbidden = fixtures.forbiddenAt(column, line);
-    sight.before = z - p.z;
-    sight.sigma = fixtures.camera.sigmaAt(p * (z / p.z));
-    sight.range = glm::length(p) * z / p.z;
-    return sight;
+    sample.known = true;
+    sample.forbidden = fixtures.forbiddenAt(column, line);
+    sample.before = z - p.z;
+    sample.sigma = fixtures.camera.sigmaAt(p * (z / p.z));
+    sample.range = glm::length(p) * z / p.z;
+    return sample;
 }
 
-bool BehindTracker::becameBehind(const Sight& sight, double resting) {
-    const double margin = kSigmas * sight.sigma;
+bool BehindTracker::becameBehind(const DepthSample& sample, double resting) {
+    const double margin = kSigmas * sample.sigma;
     const double inFront = resting > 2.0 * margin ? std::max(margin, kDeep * resting) : -margin;
-    return sight.known && sight.forbidden && sight.before < inFront;
+    return sample.known && sample.forbidden && sample.before < inFront;
 }
 
-void BehindTracker::follow(Leaf& leaf, const Sight& sight, const Place& place, bool newSet) {
+void BehindTracker::follow(Leaf& leaf, const DepthSample& sample, const LeafDistance& distance, bool newSet) {
     if (newSet) {
         leaf.inFrontBefore = leaf.inFront;
     }
-    const double margin = kSigmas * sight.sigma;
+    const double margin = kSigmas * sample.sigma;
     if (leaf.behind) {
-        if (sight.known && sight.forbidden) {
-            leaf.range = sight.range; // the surface moves on: so does the way that is left
-        } else if (sight.known && sight.before > margin) {
+        if (sample.known && sample.forbidden) {
+            leaf.range = sample.range; // the surface moves, and with it the distance left
+        } else if (sample.known && sample.before > margin) {
             leaf.behind = false; // seen in the open
         }
-        if (place.range <= leaf.range - place.resting && place.overlap <= 0.0) {
+        if (distance.range <= leaf.range - distance.resting && distance.overlap <= 0.0) {
             leaf.behind = false;
         }
-    } else if (newSet && leaf.inFrontBefore && becameBehind(sight, place.resting)) {
+    } else if (newSet && leaf.inFrontBefore && becameBehind(sample, distance.resting)) {
         leaf.behind = true;
-        leaf.range = sight.range;
+        leaf.range = sample.range;
     }
-    leaf.inFront = !leaf.behind && sight.known && sight.forbidden && sight.before > -margin;
+    leaf.inFront = !leaf.behind && sample.known && sample.forbidden && sample.before > -margin;
 }
 
 void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set) {
@@ -94,12 +94,12 @@ void BehindTracker::update(const Tool& tool, const Fixtures& fixtures, double re
         const dvec3 centre = set.origin + set.leafAtQuery[i];
         const dvec3 toCamera = fixtures.baseTcamera.position - centre;
         const double ownRange = glm::length(toCamera);
-        Place place{regionRadius + tool.leaves()[i].radius, ownRange, 0.0};
-        place.overlap = leaves_[i].behind ? overlapOf(set, i, tool.leaves()[i].radius) : 0.0;
-        follow(leaves_[i], look(fixtures, cameraTbase, centre), place, newSet);
+        LeafDistance distance{regionRadius + tool.leaves()[i].radius, ownRange, 0.0};
+        distance.overlap = leaves_[i].behind ? overlapOf(set, i, tool.leaves()[i].radius) : 0.0;
+        follow(leaves_[i], sampleAt(fixtures, cameraTbase, centre), distance, newSet);
         if (leaves_[i].behind && ownRange > kNearest) {
-            const double left = ownRange - leaves_[i].range + place.resting;
-            set.behind.push_back({i, toCamera / ownRange, std::max(left, place.overlap)});
+            const double left = ownRange - leaves_[i].range + distance.resting;
+            set.behind.push_back({i, toCamera / ownRange, std::max(left, distance.overlap)});
         }
     }
 }

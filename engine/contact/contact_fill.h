@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the list of culled region spheres to a contact set: what the CPU cull and the GPU query share, so that
-// equal lists give equal sets to the last bit.
+// Builds a contact set from the list of culled region spheres. The CPU cull and the GPU query share it, so
+// that equal lists give equal sets to the last bit.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -12,9 +12,9 @@
 
 namespace fathom {
 
-// Reach that a float32 cull certifies [m]: what was asked for, less what the rounding of leaf positions,
-// distances and limits exceeds the 10 um that the trust region keeps back (design 2). Only leaves beyond
-// about 100 m of the origin or regions of tens of metres lose any.
+// Reach that a float32 cull certifies [m]: the requested reach, less the part of the rounding of leaf
+// positions, distances and limits that exceeds the trust region's margin (TrustRegion::kMargin). Only leaves
+// beyond about 100 m of the origin or regions of tens of metres lose any.
 double certifiedReach(const PosedLeaves& leaves, double reach, double maxRegionRadius) noexcept;
 
 // Scratch of the contact cadence, kept to save allocations. One thread.
@@ -31,8 +31,8 @@ struct PairScratch {
 void sortBySource(const RegionSpheres& spheres, std::vector<uint32_t>& indices, PairScratch& scratch);
 
 // Fills everything but the pairs and the behind flags: identity of the fixture set, pose, certified reach,
-// leaf centres, and the spheres in the order of `indices` (sorted by source). ContactSet::query is left
-// alone.
+// leaf centres, and the spheres in the order of `indices` (sorted by source). ContactSet::query stays
+// as it is.
 void fillContactSet(const Tool& tool, const Pose& baseTtool, double certified, const Fixtures& fixtures,
                     std::span<const uint32_t> indices, ContactSet& out);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One linear condition on the tool's next motion, before it is written in anybody's unknowns.
+// One linear condition on the tool's next motion, independent of the solver's unknowns.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -9,7 +9,8 @@
 namespace fathom {
 
 // normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with
-// offset = -gap. An arm manipulator would put its own Jacobian at `arm` in place of [a; alpha].
+// offset = -gap. Kinematics write it in the unknowns of the solver. Joint: a limit of an arm's joint, which
+// has only a key and an offset.
 struct ContactRow {
     enum class Kind : uint8_t { Sphere, Shape, Equality, Behind, Joint };
 

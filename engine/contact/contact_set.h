@@ -14,16 +14,16 @@ namespace fathom {
 
 // Spheres are sorted by source. Listed pairs are grouped by leaf: pairs of leaf i are pairSphere[pairBegin[i]
 // .. pairBegin[i + 1]), each an index into the spheres; a pair is listed when its gap at the query pose is <=
-// reach. As long as no leaf centre is farther than reach from where it was at the query, no unlisted pair can
-// touch: that is the trust region. All in the base frame, float64 of the very floats of the fixture set plus
-// its origin-relative frame.
+// reach. While every leaf centre stays within reach of its position at the query, no unlisted pair can touch:
+// that is the trust region. Axes of the base frame, about the origin; float64 copies of the fixture set's
+// floats.
 struct ContactSet {
-    // Pairs of a leaf are stored by bands of their gap at the query, so that the haptic turn reads only the
+    // Pairs of a leaf are stored by bands of their gap at the query, so that the haptic step reads only the
     // pairs that can matter near the query pose: gaps below reach / 16 first, then one band for each further
     // 16th.
     static constexpr uint32_t kGapBands = 16;
 
-    int64_t frame = -1;       // fixture set obeyed; -1 = none yet
+    int64_t frame = -1;       // its fixture set; -1 = none yet
     uint64_t generation = 0;  // of that fixture set
     double captureTime = 0.0; // [s] of that fixture set
     uint64_t query = 0;       // counts answered queries
@@ -43,7 +43,7 @@ struct ContactSet {
     // The spheres once more in pair order, so that a kernel reads them in one run. The same floats.
     std::vector<float> pairX, pairY, pairZ, pairRadius;
 
-    // Leaves that new data put on the far side of a surface (design 5, "Behind"), and the way out.
+    // Leaves that new data put on the far side of a surface (BehindTracker), and how to leave it.
     struct Behind {
         uint32_t leaf;
         dvec3 towardsCamera; // unit, base axes

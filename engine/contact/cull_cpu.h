@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The query on the CPU: every region sphere within reach of a tool leaf, by the fixture set's grid.
+// The contact query on the CPU: finds every region sphere within reach of a tool leaf in the fixture set's
+// grid.
 #pragma once
 
 #include "engine/contact/query_loop.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host copy of one fixture set: all that one frame yields, in plain memory that outlives the device.
+// Host copy of one fixture set: everything that one frame yields, in plain memory that outlives the device.
 #pragma once
 
 #include "engine/types/camera_info.h"
@@ -11,8 +11,8 @@
 namespace fathom {
 
 // Region spheres in order of patch (16x16 pixels), then of layer (seen, then held), then of 4x4 sub-patch,
-// then of pixel: the same for equal frames. Positions are float32 about Fixtures::origin; these very floats
-// define the region for the GPU, the CPU and every check.
+// then of pixel: the same for equal frames. Positions are float32 about Fixtures::origin; these
+// floats define the region for the GPU, the CPU and every check.
 struct RegionSpheres {
     std::vector<float> x, y, z;   // [m] base axes, about the origin
     std::vector<float> radius;    // [m]
@@ -25,7 +25,7 @@ struct RegionSpheres {
     }
 };
 
-// What one guidance class came to in one frame. Statistics are plain (before hysteresis, slew and standoff).
+// Result of one guidance class in one frame. Statistics are raw (before hysteresis, slew and standoff).
 struct GuidancePose {
     uint32_t fixture = 0; // row of Scene::fixtures
     uint32_t count = 0;   // points in the mean
@@ -40,17 +40,17 @@ struct GuidancePose {
 struct Fixtures {
     int64_t frame = -1;       // Frame index; -1 = none
     double captureTime = 0.0; // [s]
-    uint64_t generation = 0;  // counts published sets; a reader that sees it change holds a torn copy
+    uint64_t generation = 0;  // counts published sets; a reader that sees it change has a torn copy
     dvec3 origin{0.0};        // [m] base frame: what positions are relative to
 
     RegionSpheres spheres;
-    std::vector<GuidancePose> guidance; // one a guidance class, in order of the scene
+    std::vector<GuidancePose> guidance; // one per guidance class, in scene order
 
-    // The picture they came from, for the test whether a leaf is behind a surface (design 5).
+    // The frame they came from, for the test whether a leaf is behind a surface (BehindTracker).
     CameraInfo camera;
     Pose baseTcamera;
     std::vector<uint16_t> depth;         // raw units, width x height
-    std::vector<uint32_t> forbiddenBits; // one bit a pixel, row-major, 1 = a forbidden class
+    std::vector<uint32_t> forbiddenBits; // one bit per pixel, row-major, 1 = a forbidden class
 
     bool forbiddenAt(uint32_t u, uint32_t v) const {
         const uint32_t pixel = v * camera.depth.width + u;

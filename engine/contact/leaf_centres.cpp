@@ -11,16 +11,17 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kWayLanes = 8; // of the widest register; each has a largest of its own
-using WayLanes = double __attribute__((vector_size(8 * kWayLanes)));
+constexpr size_t kDisplacementLanes = 8; // of the widest register; each keeps its own maximum
+using DisplacementLanes = double __attribute__((vector_size(8 * kDisplacementLanes)));
 
 FATHOM_CLONES
-void waysKernel(const double* __restrict fx, const double* __restrict fy, const double* __restrict fz,
-                const double* __restrict tx, const double* __restrict ty, const double* __restrict tz,
-                size_t count, double* __restrict ways) noexcept {
+void displacementsKernel(const double* __restrict fx, const double* __restrict fy,
+                         const double* __restrict fz, const double* __restrict tx,
+                         const double* __restrict ty, const double* __restrict tz, size_t count,
+                         double* __restrict displacements) noexcept {
     for (size_t i = 0; i < count; ++i) {
         const double dx = tx[i] - fx[i], dy = ty[i] - fy[i], dz = tz[i] - fz[i];
-        ways[i] = std::sqrt(dx * dx + dy * dy + dz * dz);
+        displacements[i] = std::sqrt(dx * dx + dy * dy + dz * dz);
     }
 }
 
@@ -36,23 +37,23 @@ int64_t withinKernel(const double* __restrict fx, const double* __restrict fy, c
     return within;
 }
 
-// The farthest, squared. No function takes or gives a register: each clone has its own idea of them.
+// Largest displacement, squared. No function passes registers: each clone has its own calling convention.
 FATHOM_CLONES
 double farthestKernel(const double* __restrict fx, const double* __restrict fy, const double* __restrict fz,
                       const double* __restrict tx, const double* __restrict ty, const double* __restrict tz,
                       size_t count) noexcept {
-    WayLanes most{}, ax, ay, az, bx, by, bz;
+    DisplacementLanes most{}, ax, ay, az, bx, by, bz;
     size_t i = 0;
-    for (; i + kWayLanes <= count; i += kWayLanes) {
+    for (; i + kDisplacementLanes <= count; i += kDisplacementLanes) {
         std::memcpy(&ax, fx + i, sizeof ax), std::memcpy(&bx, tx + i, sizeof bx);
         std::memcpy(&ay, fy + i, sizeof ay), std::memcpy(&by, ty + i, sizeof by);
         std::memcpy(&az, fz + i, sizeof az), std::memcpy(&bz, tz + i, sizeof bz);
-        const WayLanes dx = bx - ax, dy = by - ay, dz = bz - az;
-        const WayLanes square = dx * dx + dy * dy + dz * dz;
+        const DisplacementLanes dx = bx - ax, dy = by - ay, dz = bz - az;
+        const DisplacementLanes square = dx * dx + dy * dy + dz * dz;
         most = square > most ? square : most;
     }
     double farthest = 0.0;
-    for (size_t l = 0; l < kWayLanes; ++l) {
+    for (size_t l = 0; l < kDisplacementLanes; ++l) {
         farthest = most[l] > farthest ? most[l] : farthest;
     }
     for (; i < count; ++i) {
@@ -65,14 +66,14 @@ double farthestKernel(const double* __restrict fx, const double* __restrict fy, 
 
 FATHOM_CLONES
 double largestKernel(const double* __restrict values, size_t count) noexcept {
-    WayLanes most{}, some;
+    DisplacementLanes most{}, some;
     size_t i = 0;
-    for (; i + kWayLanes <= count; i += kWayLanes) {
+    for (; i + kDisplacementLanes <= count; i += kDisplacementLanes) {
         std::memcpy(&some, values + i, sizeof some);
         most = some > most ? some : most;
     }
     double largest = 0.0;
-    for (size_t l = 0; l < kWayLanes; ++l) {
+    for (size_t l = 0; l < kDisplacementLanes; ++l) {
         largest = most[l] > largest ? most[l] : largest;
     }
     for (; i < count; ++i) {
@@ -83,10 +84,11 @@ double largestKernel(const double* __restrict values, size_t count) noexcept {
 
 } // namespace
 
-double straightWays(const LeafCentres& from, const LeafCentres& to, std::span<double> ways) noexcept {
-    waysKernel(from.x.data(), from.y.data(), from.z.data(), to.x.data(), to.y.data(), to.z.data(),
-               from.size(), ways.data());
-    return largestKernel(ways.data(), from.size());
+double leafDisplacements(const LeafCentres& from, const LeafCentres& to,
+                         std::span<double> displacements) noexcept {
+    displacementsKernel(from.x.data(), from.y.data(), from.z.data(), to.x.data(), to.y.data(), to.z.data(),
+                        from.size(), displacements.data());
+    return largestKernel(displacements.data(), from.size());
 }
 
 double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept {
@@ -94,7 +96,7 @@ double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept
                                     to.z.data(), from.size()));
 }
 
-bool waysWithin(const LeafCentres& from, const LeafCentres& to, double limit) noexcept {
+bool leavesWithin(const LeafCentres& from, const LeafCentres& to, double limit) noexcept {
     const int64_t within = withinKernel(from.x.data(), from.y.data(), from.z.data(), to.x.data(), to.y.data(),
                                         to.z.data(), from.size(), limit * limit);
     return static_cast<size_t>(within) == from.size() && (limit >= 0.0 || from.size() == 0);

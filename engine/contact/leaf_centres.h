@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the leaf centres of a tool are, as columns that kernels read.
+// Leaf centres of a tool, as columns that kernels read.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -27,15 +27,15 @@ struct LeafCentres {
     void clear() noexcept { x.clear(), y.clear(), z.clear(); }
 };
 
-// Of equally many leaves, about one origin. Straight way of each [m] into `ways`; returns the farthest, 0
-// when there is no leaf. A way that is no number is not the farthest.
-double straightWays(const LeafCentres& from, const LeafCentres& to, std::span<double> ways) noexcept;
+// Displacement of each leaf [m] into `displacements`; returns the largest, 0 without leaves. Both have as
+// many leaves, about one origin. NaN is never the largest.
+double leafDisplacements(const LeafCentres& from, const LeafCentres& to,
+                         std::span<double> displacements) noexcept;
 
-// Farthest of those ways [m].
+// Largest of these displacements [m].
 double leafDisplacement(const LeafCentres& from, const LeafCentres& to) noexcept;
 
-// Whether every one of those ways is at most `limit` [m], but for the rounding of their squares; one that is
-// no number is not.
-bool waysWithin(const LeafCentres& from, const LeafCentres& to, double limit) noexcept;
+// True when every displacement is at most `limit` [m], up to the rounding of its square; false for NaN.
+bool leavesWithin(const LeafCentres& from, const LeafCentres& to, double limit) noexcept;
 
 } // namespace fathom

@@ -83,7 +83,7 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone)
 void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre,
                          double rowLimit, double checkLimit, bool anew) noexcept {
     leaves_ = leaves; // of as many: no memory is taken
-    farthest_ = straightWays(set.leafAtQuery, leaves_, moved_);
+    farthest_ = leafDisplacements(set.leafAtQuery, leaves_, moved_);
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
     rowCount_ = 0;
@@ -110,11 +110,11 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
     }
 }
 
-// A gap shrinks by no more than the leaf's way: while that is within the slack, no pair within checkLimit is
-// missing.
+// A gap shrinks by no more than the leaf's displacement: while that is within the slack, no pair within
+// checkLimit is missing.
 bool NarrowPhase::wideStillServes(double slack) const noexcept {
     const double most = slack - kPairRounding;
-    return wide_.complete && most > 0.0 && waysWithin(wideLeaves_, leaves_, most);
+    return wide_.complete && most > 0.0 && leavesWithin(wideLeaves_, leaves_, most);
 }
 
 // The leaf's listed pairs that may have a gap up to `limit` where it is now, and some more.
@@ -127,7 +127,7 @@ void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
     wideLeaves_ = leaves_;
     for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
         if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
-            continue; // as most: their bands need not be read
+            continue; // as for most leaves: their bands need not be read
         }
         const uint32_t end = set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
         for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
@@ -177,20 +177,20 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArr
     smallestGap_ = std::min(smallestGap_, deepest.gap);
 }
 
-// Where a sphere's centre lies on the leaf's every way leads out, and rowOf() had to pick one: the way of the
-// leaf's deepest other row, so that the two do not contradict each other.
+// Where a sphere's centre coincides with the leaf's, every direction leads out and rowOf() had to pick one.
+// Takes the normal of the leaf's deepest other row, so that the two do not contradict each other.
 void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept {
-    const auto anyWay = [&](const ContactRow& row) {
+    const auto anyDirection = [&](const ContactRow& row) {
         return row.gap <= -(radius_[leaf] + static_cast<double>(set.pairRadius[row.pair]));
     };
     size_t guide = rowCount_;
     for (size_t r = firstRow; r < rowCount_; ++r) {
-        if (!anyWay(rows_[r]) && (guide == rowCount_ || rows_[r].gap < rows_[guide].gap)) {
+        if (!anyDirection(rows_[r]) && (guide == rowCount_ || rows_[r].gap < rows_[guide].gap)) {
             guide = r;
         }
     }
     for (size_t r = firstRow; r < rowCount_ && guide < rowCount_; ++r) {
-        rows_[r].normal = anyWay(rows_[r]) ? rows_[guide].normal : rows_[r].normal;
+        rows_[r].normal = anyDirection(rows_[r]) ? rows_[guide].normal : rows_[r].normal;
     }
 }
 

@@ -18,8 +18,8 @@ namespace fathom {
 class NarrowPhase {
 public:
     // A pair holds a leaf behind its surface when its normal makes more than about 75 degrees with the way to
-    // the camera: so much do the ways of a tool's leaves differ, and a common motion must not deepen what is
-    // left.
+    // the camera: the directions of a tool's leaves
+    // differ by as much, and a common motion must not deepen the other pairs.
     static constexpr double kCosHolds = 0.25;
 
     static constexpr double kCone = 0.52359877559829887; // [rad] 30 degrees
@@ -32,7 +32,7 @@ public:
     // with gap <= rowLimit, the nearest and the nearest in each further cone of normals: rows().
     // Remembers all pairs with gap
     // <= checkLimit for check(); checkLimit <= rowLimit. anew: false when the set is the one of the last
-    // call, bit by bit: pairs found then are looked at again instead of the whole set, as long as no leaf has
+    // call, bit by bit: pairs found then are searched instead of the whole set, as long as no leaf has
     // moved so far that a pair within checkLimit could be missing (rows beyond rowLimit - that way may be).
     void gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre, double rowLimit,
                 double checkLimit, bool anew) noexcept;
@@ -63,7 +63,7 @@ public:
     double smallestGapAt(const ContactSet& set, const LeafCentres& leaves) noexcept;
 
 private:
-    // Pairs with their floats in one run a leaf, of fixed capacity; most leaves of a tool are far from
+    // Pairs with their floats, one run per leaf, of fixed capacity. Most leaves of a tool are far from
     // everything and have no run. begin[0] is 0.
     struct PairList {
         std::vector<float> x, y, z, radius;
@@ -115,7 +115,7 @@ private:
     double smallestGap_ = 0.0;
     double checkLimit_ = 0.0;
 
-    PairList wide_;  // gap <= rowLimit where it was found: serves the solves of a turn
+    PairList wide_;  // gap <= rowLimit where it was found: serves the solves of a tick
     PairList close_; // gap <= checkLimit at the last gather(): what one step can reach
 
     std::vector<double> gaps_; // of one chunk

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a cull, on the CPU or on the GPU, to a contact set that is certified whole: what happens when an
-// answer overflows.
+// Runs a cull, on the CPU or on the GPU, until its answer fits, so that every contact set is complete within
+// its certified reach.
 #pragma once
 
 #include "engine/contact/contact_fill.h"
@@ -12,7 +12,7 @@
 
 namespace fathom {
 
-// Counts since the loop was made.
+// Counts since construction.
 struct QueryStatistics {
     uint64_t queries = 0;
     uint64_t overflows = 0;  // queries that had to shrink their reach
@@ -20,7 +20,7 @@ struct QueryStatistics {
     uint64_t pairsMax = 0;
 };
 
-// How much an answer may hold; a query that overflows doubles both for the next (design 5).
+// How much an answer may hold; a query that overflows doubles both for the next one.
 struct QueryCapacity {
     size_t spheres = 65536;
     size_t pairs = 262144;
@@ -34,9 +34,9 @@ public:
 
     // cull(leaves, reach, found) writes into `found` the indices of all spheres that obey d^2 <= (reach + r_t
     // + R)^2 for some leaf, in any order, and returns false when they were too many for it. When the answer
-    // does not fit, the reach is halved until it does and that reach is certified (out.reach); touching
-    // spheres alone that do not fit raise the capacity at once: none is ever dropped. ContactSet::behind is
-    // left empty.
+    // does not fit, the reach is halved until it does, and that reach is certified (out.reach). When even the
+    // touching spheres do not fit, the capacity is raised at once: no sphere is ever dropped.
+    // ContactSet::behind stays empty.
     template <class Cull>
     void run(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
              double maxRegionRadius, Cull&& cull, ContactSet& out) {

@@ -18,7 +18,8 @@ public:
     size_t leafCount() const { return leaves_.size(); }
     const std::vector<Sphere>& leaves() const { return leaves_; } // tool frame [m]
     double boundingRadius() const { return boundingRadius_; }     // about the origin, leaf radii included [m]
-    // k0 = max(gyration radius of the leaf centres about the origin, largest leaf radius) [m]: design 6.
+    // k0 = max(gyration radius of the leaf centres about the origin, largest leaf radius) [m]; sizes the
+    // springs.
     double gyrationRadius() const { return gyrationRadius_; }
 
 private:

@@ -32,7 +32,7 @@ Pose moved(const Pose& pose, const Motion& motion) noexcept {
 }
 
 Motion remaining(const Pose& pose, const Pose& target) noexcept {
-    if (target.rotation == pose.rotation) { // exactly there: rounding must not keep it turning
+    if (target.rotation == pose.rotation) { // exactly there: rounding must not keep it rotating
         return {target.position - pose.position, dvec3(0.0)};
     }
     return {target.position - pose.position, rotationLog(target.rotation * glm::conjugate(pose.rotation))};
@@ -86,7 +86,7 @@ void TrustRegion::set(const ContactSet& contacts, std::span<const double> moved,
 }
 
 bool TrustRegion::contains(const ContactSet& contacts, const LeafCentres& next) const noexcept {
-    if (waysWithin(contacts.leafAtQuery, next, limit_)) {
+    if (leavesWithin(contacts.leafAtQuery, next, limit_)) {
         return true;
     }
     for (size_t i = 0; i < bound_.size(); ++i) {
@@ -106,7 +106,7 @@ double TrustRegion::share(const ContactSet& contacts, const LeafCentres& from,
         if (glm::length(end) <= bound_[i]) {
             continue;
         }
-        // Where the straight way leaves the ball: |start + t way|^2 = bound^2, the positive root.
+        // Where the straight path leaves the ball: |start + t way|^2 = bound^2, the positive root.
         const dvec3 way = end - start;
         const double a = glm::dot(way, way), b = glm::dot(start, way);
         const double c = std::min(0.0, glm::dot(start, start) - bound_[i] * bound_[i]);
@@ -120,7 +120,7 @@ double TrustRegion::share(const ContactSet& contacts, const LeafCentres& from,
 
 bool TrustRegion::covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept {
     const double limit = contacts.reach - kMargin + 1e-12;
-    return contacts.leafAtQuery.size() == leaves.size() && waysWithin(contacts.leafAtQuery, leaves, limit);
+    return contacts.leafAtQuery.size() == leaves.size() && leavesWithin(contacts.leafAtQuery, leaves, limit);
 }
 
 } // namespace fathom

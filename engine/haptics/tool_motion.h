@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A step of the tool, where it takes each leaf, and the shares of it that the step cap and the trust region
-// leave.
+// A motion of the tool, where it takes each leaf, and the share of it that the trust region leaves.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -65,8 +64,8 @@ private:
     double farthest_ = 0.0; // [m] largest distance of a centre from the tool's
 };
 
-// Trust region (design 2): no leaf may end farther from where it was at the query than the certified reach
-// less 10 um, or than it already is.
+// Trust region: no leaf may end farther from its position at the query than the certified reach less kMargin,
+// or than it already is. Inside it no unlisted pair can touch.
 class TrustRegion {
 public:
     static constexpr double kMargin = 1e-5; // [m]
@@ -81,7 +80,7 @@ public:
     bool contains(const ContactSet& contacts, const LeafCentres& next) const noexcept;
     // True only if contains() is sure to hold for any step whose leaves travel at most `travel` [m].
     bool surelyContains(double travel) const noexcept { return travel <= room_; }
-    // Largest share of the straight ways from -> next that stays inside, 0..1.
+    // Largest share of the straight paths from -> next that stays inside, 0..1.
     double share(const ContactSet& contacts, const LeafCentres& from, const LeafCentres& next) const noexcept;
 
     // True when a tool with its leaves there may obey this set at all: no leaf outside its certified reach.

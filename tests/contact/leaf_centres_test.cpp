@@ -28,7 +28,7 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
         CAPTURE(count);
         const LeafCentres from = scattered(count, 1), to = scattered(count, 2);
         std::vector<double> ways(count), own(count);
-        const double farthest = straightWays(from, to, ways);
+        const double farthest = leafDisplacements(from, to, ways);
         for (size_t i = 0; i < count; ++i) {
             own[i] = glm::distance(from[i], to[i]);
         }
@@ -36,17 +36,17 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
         const double most = *std::max_element(own.begin(), own.end());
         CHECK(farthest == most);
         CHECK(leafDisplacement(from, to) == most);
-        CHECK(waysWithin(from, to, most * (1.0 + 1e-15)));
-        CHECK(!waysWithin(from, to, most * (1.0 - 1e-15)));
-        CHECK(!waysWithin(from, to, -most));
+        CHECK(leavesWithin(from, to, most * (1.0 + 1e-15)));
+        CHECK(!leavesWithin(from, to, most * (1.0 - 1e-15)));
+        CHECK(!leavesWithin(from, to, -most));
     }
 }
 
 TEST_CASE("Of no leaf the farthest way is none and every limit holds") {
     const LeafCentres none;
-    CHECK(straightWays(none, none, {}) == 0.0);
+    CHECK(leafDisplacements(none, none, {}) == 0.0);
     CHECK(leafDisplacement(none, none) == 0.0);
-    CHECK(waysWithin(none, none, -1.0));
+    CHECK(leavesWithin(none, none, -1.0));
 }
 
 TEST_CASE("A way that is no number is within no limit, wherever it is, and not the farthest") {
@@ -57,10 +57,10 @@ TEST_CASE("A way that is no number is within no limit, wherever it is, and not t
         LeafCentres to = scattered(count, 4);
         to.z[bad] = std::numeric_limits<double>::quiet_NaN();
         std::vector<double> ways(count);
-        const double farthest = straightWays(from, to, ways);
+        const double farthest = leafDisplacements(from, to, ways);
         CHECK(std::isnan(ways[bad]));
         CHECK(std::isfinite(farthest));
         CHECK(leafDisplacement(from, to) == farthest);
-        CHECK(!waysWithin(from, to, std::numeric_limits<double>::infinity()));
+        CHECK(!leavesWithin(from, to, std::numeric_limits<double>::infinity()));
     }
 }
