@@ -16,10 +16,10 @@ public:
     void setColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
         columns_[joint] = {v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
     }
-    // A joint without a way to go: its column says nothing of what the arm can do.
+    // A joint that cannot move: its column does not count for what the arm can do.
     void leaveOut(size_t joint) noexcept { leftOut_[joint] = true; }
     // Smallest singular value of the columns that are not left out [m], or of the rows when there are more
-    // joints than rows: 6, or 3 where directions count for nothing (k = 0). By Jacobi rotations of the
+    // joints than rows: 6, or 3 where directions do not count (k = 0). By Jacobi rotations of the
     // smaller Gram matrix.
     double smallestSingular(size_t rows = 6) const noexcept;
     void damp(double lambda) noexcept; // fills metric()

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/arm_proxy.h"
 
+#include "engine/haptics/constrained_proxy_rows.h"
+
 #include <cmath>
 
 namespace fathom {

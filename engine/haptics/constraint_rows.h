@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of the nearest-point problem, stored eight by eight in columns so that one scan finds the row that
-// is violated most. Rows are scaled by the metric's factor and to unit length: row . y >= bound, y = L^T x.
+// The rows of the nearest-point problem, stored in blocks of eight, by column, so that one scan finds the
+// most violated row. Rows are scaled by the metric's factor and to unit length: row . y >= bound, y = L^T x.
 #pragma once
 
 #include <array>
@@ -48,7 +48,7 @@ public:
     };
     Violation worst(const double* y, double tolerance) const noexcept;
 
-    // After prepare(): the scaled unit row (kMaxUnknowns numbers), its bound, 1 / |L^-1 n| (0 for a row
+    // After prepare(): the scaled unit row (kMaxUnknowns numbers), its bound, 1 / |L^-1 n| (0 for rows
     // without length).
     void unitRow(size_t row, double* out) const noexcept;
     double bound(size_t row) const noexcept { return scaled_[scaledAt(row, n_)]; }

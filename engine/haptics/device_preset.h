@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is known of haptic devices in numbers, and where each number comes from.
+// Figures of haptic devices, each with its source.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@ namespace fathom {
 // (roll).
 using AxisMask = std::array<bool, 6>;
 
-// Everything counts at the hand, device not scaled. An empty value is unknown, never zero.
+// All values at the hand, device not scaled. An empty value is unknown, never zero.
 struct DevicePreset {
     std::string name;
     double stiffness = 0.0;        // [N/m] that the maker or the community renders at 1 kHz

@@ -15,7 +15,7 @@ dvec3 axisTurn(const dquat& from, const dquat& to) noexcept {
     if (sine > 1e-12) {
         return normal * (std::atan2(sine, cosine) / sine);
     }
-    // Opposite axes: every half turn is as short; take the one about the tool's own x.
+    // Opposite axes: all half rotations are equally short; take the one about the tool's own x.
     return cosine < 0.0 ? from * dvec3(3.14159265358979323846, 0.0, 0.0) : normal;
 }
 
@@ -70,7 +70,7 @@ void Guidance::follow(std::span<const GuidancePose> poses, double dt) noexcept {
     lost_ = 0.0;
     const GuidancePose& pose = poses[index];
     rollFree_ = pose.rollFree && pose.planar; // without a plane the scene's orientation is meant in full
-    if (phase_ == 0.0) {                      // nothing is felt yet: start at the target itself
+    if (phase_ == 0.0) {                      // no pull yet: start at the target itself
         target_ = pose.target;
         return;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guidance: which target pulls, how much of it, and in which of the two ways. On by button, eased in and out.
+// Guidance: which target pulls the hand, how strongly, and in which of two modes. A button turns it on; it is
+// eased in and out.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -17,7 +18,7 @@ struct GuidanceLimits {
     double force = 2.0;    // F_g [N]: most that the pull can be felt as
     double torque = 0.1;   // tau_g [N m]
     double easeTime = 0.5; // [s] w from 0 to 1 and back, smoothstep
-    double holdTime = 0.5; // [s] a target whose class fell under min_count stays where it was for so long
+    double holdTime = 0.5; // [s] how long a target stays after its class fell under min_count
     double slew = 0.1;     // [m/s] of the target, so that a new frame never jerks the hand
     double turnSlew = 0.5; // [rad/s]
 };
@@ -29,10 +30,10 @@ public:
     explicit Guidance(const GuidanceLimits& limits = {})
         : limits_(limits) {}
 
-    // One turn. poses: one a guidance class, of the newest frame. When the button goes down the class nearest
-    // to the device is chosen among those present (if none is, the first moment one is) and kept until it is
-    // released, even while it is lost. cut = true (forces off) sets w to 0 at once; after it the button must
-    // be pressed again.
+    // One tick. poses: one per guidance class, of the newest frame. When the button goes down the class
+    // nearest to the device is chosen among those present (if none is, the first moment one is) and kept
+    // until it is released, even while it is lost. cut = true (forces off) sets w to 0 at once; after it the
+    // button must be pressed again.
     void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut,
               double dt) noexcept;
 
@@ -43,7 +44,7 @@ public:
 
     // What is added to the solver's target x_u in mode `target`: [w clamp(p_g - p_dev, F_g/K_t);
     // w clamp(log(q_g q_dev^-1), tau_g/K_r)]. The pull at rest is then at most F_g and tau_g, and the proxy
-    // leads the hand by at most F_g/K_t. With the roll free only the axis is turned: no part about the
+    // leads the hand by at most F_g/K_t. With the roll free only the axis rotates: no part about the
     // target's z.
     struct Lead {
         dvec3 translation{0.0}; // [m]
@@ -51,8 +52,8 @@ public:
     };
     Lead lead(const Pose& device, const Springs& springs) const noexcept;
 
-    // What is added to the wrench in mode `paper`: w K_g (p_g - p_dev), at most F_g, and w K_gr (turn), at
-    // most tau_g, K_gr = k^2 K_g.
+    // What is added to the wrench in mode `paper`: w K_g (p_g - p_dev), at most F_g, and w K_gr (rotation),
+    // at most tau_g, K_gr = k^2 K_g.
     Wrench pull(const Pose& device, const Springs& springs) const noexcept;
 
 private:
@@ -71,8 +72,8 @@ private:
     Pose target_;
 };
 
-// Shortest turn that brings the z axis of `from` onto that of `to`, base axes [rad]: has no part about either
-// axis.
+// Shortest rotation that brings the z axis of `from` onto that of `to`, base axes [rad]: has no part about
+// either axis.
 dvec3 axisTurn(const dquat& from, const dquat& to) noexcept;
 
 } // namespace fathom

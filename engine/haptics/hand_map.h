@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the hand's raw pose to the device pose in the base frame, and of the wrench back to the device's axes.
+// Maps the raw pose of the hand to the device pose in the base frame, and the wrench back to the device's
+// axes.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -7,8 +8,8 @@
 
 namespace fathom {
 
-// p_dev = offset + s R p_raw, q_dev = R q_raw C. The turn C on the right leaves the hand's own rotations
-// alone: a turn of the hand about any base axis turns the device pose about that axis by the same angle. One
+// p_dev = offset + s R p_raw, q_dev = R q_raw C. The rotation C on the right keeps the hand's own rotations:
+// when the hand rotates about any base axis, the device pose rotates about that axis by the same angle. One
 // thread; noexcept.
 //
 // Wrench on the hand: the tool's potential V(p_dev, q_dev) has the spring wrench (f, tau) = -grad V. Moving
@@ -22,11 +23,11 @@ public:
     // scale > 0 and baseRdevice of unit length: throws Error otherwise.
     HandMap(const dquat& baseRdevice, double scale);
 
-    // Device pose of the turn. While `clutch` is true the pose stays where it was at the turn before; the
-    // first turn after that re-takes offset and C, so that it starts from there without a jump.
+    // Device pose of the tick. While `clutch` is true the pose stays where it was at the tick before; the
+    // first tick after that takes offset and C anew, so that the pose resumes without a jump.
     Pose map(const Pose& deviceThandle, bool clutch) noexcept;
 
-    // Re-takes offset and C so that the raw pose means `pose` from now on.
+    // Takes offset and C anew so that the raw pose maps to `pose` from now on.
     void align(const Pose& deviceThandle, const Pose& pose) noexcept;
 
     // Base axes to device axes, about the handle.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last links of the chain: pure functions from wrench to wrench. All noexcept; none allocates.
+// The last stages of the wrench: pure functions from wrench to wrench. All noexcept; none allocates.
 #pragma once
 
 #include "engine/haptics/device_preset.h"
@@ -14,19 +14,19 @@ bool isFinite(const Wrench& wrench) noexcept;
 // Force and torque times the factor.
 Wrench scaled(const Wrench& wrench, double factor) noexcept;
 
-// v, shortened to length `limit` without turning it. limit >= 0.
+// v, shortened to length `limit`, direction unchanged. limit >= 0.
 dvec3 clampLength(const dvec3& v, double limit) noexcept;
 
 // Force and torque each shortened to their limit as whole vectors: the direction stays. [N], [N m].
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept;
 
-// The wrench nearest to `wanted` on the straight way from `previous`, no farther than one step: [N], [N m] a
-// turn. A wrench inside the size limits stays inside, for it lies between two that are.
+// The wrench nearest to `wanted` on the straight line from `previous`, no farther than one step: [N], [N m]
+// per tick. It stays inside the size limits, because it lies between two wrenches that do.
 Wrench limitSlew(const Wrench& wanted, const Wrench& previous, double forceStep, double torqueStep) noexcept;
 
 // One-pole low-pass y += a (x - y), a = 1 - exp(-2 pi f T). Its delay in ticks is n = (1 - a)/a: with H =
 // a/(1 - r z^-1), r = 1 - a, Re{(1 - e^-jw) H}/(1 - cos w) = a (1 + r)/|1 - r e^-jw|^2, whose supremum at w =
-// 0 is (1 + r)/a = 1 + 2n. That is the very term of the passivity bound of coupling.h. hz = 0 is off: a = 1,
+// 0 is (1 + r)/a = 1 + 2n. That is the term of the passivity bound in coupling.h. hz = 0 is off: a = 1,
 // n = 0.
 double lowPassGain(double hz, double period) noexcept;
 double lowPassDelayTicks(double gain) noexcept;

@@ -7,7 +7,7 @@
 namespace fathom {
 namespace {
 
-constexpr double kPresetPeriod = 0.001; // [s] presets' stiffness is what is rendered at 1 kHz
+constexpr double kPresetPeriod = 0.001; // [s] the presets' stiffness is rendered at 1 kHz
 
 double workOf(const Wrench& wrench, const dvec3& moved, const dvec3& turned) {
     return glm::dot(wrench.force, moved) + glm::dot(wrench.torque, turned);
@@ -82,8 +82,7 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     double& slot = credit_[ticks_++ % kWindow];
     slot = credit;
     recent_ = 0.0;
-    for (const double c :
-         credit_) { // summed anew: a running sum would keep the rounding of fast turns for ever
+    for (const double c : credit_) { // summed anew: a running sum would keep the rounding of fast ticks
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
-// The automatic stiffness re-checked while running: turns that come slower than planned lower the passive
-// bound, and the springs follow it.
+// Re-checks the automatic stiffness while running: ticks slower than planned lower the passive bound, and the
+// springs follow it.
 #pragma once
 
 #include "engine/haptics/coupling.h"
 
 namespace fathom {
 
-// One thread; noexcept, no allocation. Springs that the user gave are left as they are, and so are those of a
-// device whose damping is unknown: nothing says what they should be.
+// One thread; noexcept, no allocation. Springs set by the user stay as they are, and so do those of a device
+// with unknown damping, which has no known bound.
 class StiffnessWatch {
 public:
     // planned: what makeSprings() gave for these options, the most that is ever returned.
     StiffnessWatch(const DevicePreset& preset, const CouplingOptions& options, const Springs& planned);
 
-    // One turn: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
+    // One tick: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
     // kAverage; K_t and K_r go down to their bounds within kDown (all of K_t), back up within kUp, never in a
     // step.
     void step(double measuredPeriod) noexcept;
 
-    const Springs& springs() const noexcept { return springs_; } // in force; k = sqrt(K_r / K_t) follows
+    const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows
     double period() const noexcept { return period_; }           // [s] averaged
 
     static constexpr double kAverage = 0.05;    // [s]

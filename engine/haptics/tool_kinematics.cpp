@@ -137,7 +137,7 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
     }
     answer.whole = false;
     answer.share = contacts.trust().share(*contacts.set(), leaves.now, leaves.next);
-    for (int k = 0; k < 24; ++k) { // leaves turn on arcs, the share was for straight ways
+    for (int k = 0; k < 24; ++k) { // leaves move on arcs; the share was for straight paths
         tryPart(answer, 1.0, leaves);
         answer.stalled = answer.share < 1.0;
         if (contacts.insideTrustRegion()) {

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// The rows of ConstrainedProxy: how they are collected, and tightened where the exact check fails.
+#pragma once
+
+#include "engine/haptics/constrained_proxy.h"
+
+namespace fathom {
+
+// Separated: what keeps the leaf out, and the skin. Overlapping: out again, as fast as the tick allows.
+template <class Kinematics>
+double ConstrainedProxy<Kinematics>::offsetFor(double gap) const noexcept {
+    return gap >= 0.0 ? proxy::kSkin - gap : kinematics_.escapeOffset(-gap);
+}
+
+template <class Kinematics>
+void ConstrainedProxy<Kinematics>::collectRows(bool first, Step& out) noexcept {
+    const dvec3 centre = kinematics_.pose().position;
+    rows_.clear();
+    kinematics_.addLimits(rows_);
+    contacts_.gather(centre, first);
+    out.escape = out.escape || contacts_.overlaps();
+    const bool anyBehind = contacts_.anyBehind();
+    for (ContactRow row : contacts_.pairRows()) {
+        if (anyBehind && contacts_.holdsBehind(row)) {
+            continue; // its way out is added below
+        }
+        // A tool with a leaf behind a surface has one way out, and other pairs need only not get deeper on
+        // it. So close to the sphere centres their own normals point to all sides and would squeeze the tool.
+        row.offset = anyBehind && row.gap < 0.0 ? proxy::kSkin : offsetFor(row.gap);
+        addRow(row);
+    }
+    for (ContactRow row : contacts_.behindRows(centre)) {
+        row.offset = kinematics_.escapeOffset(-row.gap);
+        addRow(row);
+    }
+    addShapeRows(out);
+}
+
+template <class Kinematics>
+void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
+    for (uint32_t s = 0; s < shapes().size(); ++s) {
+        const Shape& shape = shapes()[s];
+        if (shape.isEquality()) {
+            addEqualityRows(shape, s);
+            continue;
+        }
+        for (uint32_t leaf = 0; leaf < contacts_.leafCount(); ++leaf) {
+            const dvec3 centre = kinematics_.leafNow(leaf, contacts_.leaves);
+            std::array<SideGap, kMostSides> sides;
+            const size_t count = sidesOf(shape, centre, contacts_.radius(leaf), sides);
+            for (size_t k = 0; k < count; ++k) {
+                if (sides[k].gap > 2.0 * options_.stepCap) {
+                    continue;
+                }
+                out.escape = out.escape || sides[k].gap < -proxy::kNothing;
+                ContactRow row;
+                row.kind = ContactRow::Kind::Shape;
+                row.normal = sides[k].normal;
+                row.arm = kinematics_.lever(leaf, centre);
+                row.gap = sides[k].gap;
+                row.offset = offsetFor(row.gap);
+                row.leaf = leaf;
+                row.pair = s;
+                row.key = rowKey(row.kind, s, leaf, k);
+                addRow(row);
+            }
+        }
+    }
+}
+
+// Lines and axes bind the tool or tip: two opposite rows per equation, which bring it back no faster than new
+// data would push it out.
+template <class Kinematics>
+void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t index) noexcept {
+    std::array<Equality, kMostEqualities> equalities;
+    const size_t count = equalitiesOf(shape, kinematics_.pose(), equalities);
+    for (size_t k = 0; k < count; ++k) {
+        const Equality& e = equalities[k];
+        const double limit = kinematics_.equalityLimit(e);
+        const double wanted = std::clamp(-e.error, -limit, limit);
+        for (const double sign : {1.0, -1.0}) {
+            ContactRow row;
+            row.kind = ContactRow::Kind::Equality;
+            row.normal = sign * e.linear;
+            row.spin = sign * e.angular;
+            row.gap = -std::abs(e.error);
+            // Less than wanted by a rounding error: two rows that meet exactly may seem to contradict.
+            row.offset = sign * wanted - 1e-12;
+            row.pair = index;
+            row.key = rowKey(row.kind, index, 0, 2 * k + (sign > 0.0 ? 0 : 1));
+            addRow(row);
+        }
+    }
+}
+
+// Every violated pair gets a row, or its row asks for more: for what the leaf's actual way, arcs of rotation
+// included, falls short of the pair's tangent plane. A way that stays on the free side of that plane cannot
+// enter the sphere, so one round is enough for a pair unless others push it back. Sides of shapes and
+// equations are treated alike. False when nothing could be asked for.
+template <class Kinematics>
+bool ConstrainedProxy<Kinematics>::tighten(const Answer& answer) noexcept {
+    const double share = kinematics_.share(answer);
+    bool changed = false;
+    for (const NarrowPhase::Violation& violation : contacts_.violations()) {
+        ContactRow row = violation.row;
+        // Overlapping pairs without a row lie in the cone of one that has it: they need only not get deeper.
+        const double needed = proxy::kSkin - std::max(0.0, row.gap);
+        if (ContactRow* known = rows_.ofPair(row.pair)) {
+            const double amount = kinematics_.shortfall(violation, needed, contacts_.leaves);
+            known->offset = kinematics_.raised(known->offset, amount, share);
+            changed = true;
+        } else {
+            row.offset = needed + kinematics_.arcOf(answer, row, contacts_.leaves);
+            changed = addRow(row) || changed;
+        }
+    }
+    const bool shapesChanged = tightenShapes(share);
+    return kinematics_.tightenEqualities(shapes(), share, rows_) || shapesChanged || changed;
+}
+
+template <class Kinematics>
+bool ConstrainedProxy<Kinematics>::tightenShapes(double share) noexcept {
+    bool changed = false;
+    for (size_t i = 0; i < rows_.size(); ++i) {
+        ContactRow& row = rows_[i];
+        if (row.kind != ContactRow::Kind::Shape) {
+            continue;
+        }
+        std::array<SideGap, kMostSides> sides;
+        const size_t side = static_cast<size_t>(row.key & 0xff);
+        const dvec3 centre = kinematics_.leafNext(row.leaf, contacts_.leaves);
+        if (side >= sidesOf(shapes()[row.pair], centre, contacts_.radius(row.leaf), sides)) {
+            continue;
+        }
+        const double depth = std::min(0.0, row.gap) - sides[side].gap;
+        if (depth > 0.0) {
+            row.offset = kinematics_.raised(row.offset, depth, share);
+            changed = true;
+        }
+    }
+    return changed;
+}
+
+} // namespace fathom
