@@ -5,9 +5,10 @@
 // written so that nothing is left out.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kRounds = 64; // of four multiply-adds a chain
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecRounds) const uint kRounds = 64;
 
 layout(std430, binding = 0) writeonly buffer Sums { float sums[]; };
 

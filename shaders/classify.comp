@@ -5,26 +5,27 @@
 // which that happens.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kRays = 0;    // 1: distorted lens, rays from the table
-layout(constant_id = 2) const uint kColour = 1;  // 0 no class asks, 1 registered, 2 looked up through the registration
-layout(constant_id = 3) const uint kHold = 0;    // 1: patches with points in memory are listed too
-layout(constant_id = 4) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
-layout(constant_id = 5) const uint kClasses = 1;    // classes of points: the loop over them unrolls
-layout(constant_id = 6) const uint kBox = 0;        // 1: some class has a box, so that points are needed in the base frame
-layout(constant_id = 7) const uint kGather = 0;     // 1: a group counts its pixels in shared memory first
-layout(constant_id = 8) const uint kFour = 0;       // the width is a multiple of four: a texel is four pixels 1: of depth, 2: of registered colour, too
-layout(constant_id = 9) const uint kRange = 0;      // 1: some class asks for the range
-layout(constant_id = 10) const uint kArm = 0;       // 1: what the arm's spheres hold is no point of any class
-layout(constant_id = 11) const uint kWater = 0;     // 1: colours are put right for what water took of them
-layout(constant_id = 12) const uint kRows = 1;      // 1, 2 or 4 rows an invocation: counts and the list are asked as often less
-layout(constant_id = 13) const uint kWide = 0;      // 1: a group has four patches side by side, so that rows of its pixels are whole lines of the host's memory
-layout(constant_id = 14) const uint kKeep = 0;      // 1 (with kFour): later passes find the depth on the device
-layout(constant_id = 15) const uint kGuidance = 0;  // 1: patches with pixels of a guidance class are marked
-layout(constant_id = 16) const uint kLists = 0;     // 1: marked patches go on the lists here and now; 0: list.comp does that, and marks those with points in memory
-layout(constant_id = 17) const uint kYuyv = 0;      // 1: colours are words of two pixels
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecRays) const uint kRays = 0;
+layout(constant_id = kSpecColour) const uint kColour = 1;
+layout(constant_id = kSpecHold) const uint kHold = 0;
+layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
+layout(constant_id = kSpecClasses) const uint kClasses = 1;
+layout(constant_id = kSpecBox) const uint kBox = 0;
+layout(constant_id = kSpecGather) const uint kGather = 0;
+layout(constant_id = kSpecFour) const uint kFour = 0;
+layout(constant_id = kSpecRange) const uint kRange = 0;
+layout(constant_id = kSpecSelfFilter) const uint kArm = 0;
+layout(constant_id = kSpecWater) const uint kWater = 0;
+layout(constant_id = kSpecRows) const uint kRows = 1;
+layout(constant_id = kSpecWide) const uint kWide = 0;
+layout(constant_id = kSpecKeep) const uint kKeep = 0;
+layout(constant_id = kSpecGuidance) const uint kGuidance = 0;
+layout(constant_id = kSpecLists) const uint kLists = 0;
+layout(constant_id = kSpecYuyv) const uint kYuyv = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel

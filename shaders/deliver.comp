@@ -3,9 +3,10 @@
 // Ends a frame: its counters and the marks of its patches go where the host reads them, and are cleared for the next frame, which
 // then begins without a wait for that. One invocation a word.
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(std430, binding = 0) buffer Counters { uint counters[]; }; // words of FrameCounters
 layout(std430, binding = 1) buffer Listed { uint listed[]; };     // patch -> kPatch bits

@@ -3,12 +3,13 @@
 // The lists of patches that classify has marked and of those with points in memory, an invocation a patch. Of a device whose classify
 // pays for what any pixel might do; others list as they mark.
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kHold = 0;       // 1: patches that hold points are listed apart from those that hold none
-layout(constant_id = 2) const uint kGuidance = 0;   // 1: guided patches are listed
-layout(constant_id = 3) const uint kGroupSubs = 64; // invocations of the sub-patch passes in a group
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecHold) const uint kHold = 0;
+layout(constant_id = kSpecGuidance) const uint kGuidance = 0;
+layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) buffer Listed { uint listed[]; };               // patch -> kPatch bits

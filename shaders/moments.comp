@@ -5,10 +5,11 @@
 // invocation a sub-patch.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in; // kShared: 16
-layout(constant_id = 1) const uint kShared = 0;
+layout(local_size_x_id = kSpecGroupSize) in; // kShared: 16
+layout(constant_id = kSpecShared) const uint kShared = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits

@@ -3,10 +3,11 @@
 // Nearest depth seen by the colour camera in each small cell of its picture, so that classify can tell a point that the
 // colour camera sees from one that something nearer hides (parallax). Only for unregistered cameras.
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kRays = 0; // 1: distorted lens, rays from the table
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecRays) const uint kRays = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel

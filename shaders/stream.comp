@@ -4,9 +4,10 @@
 // invocation strides over the whole buffer by the number of all, four independent vectors at a time, so that loads are in
 // flight while others arrive, and neighbours read neighbours.
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/constants.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kCopy = 0; // 1: copies; 0: adds up, and writes one number an invocation
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecCopy) const uint kCopy = 0;
 
 layout(std430, binding = 0) readonly buffer From { vec4 from[]; };
 layout(std430, binding = 1) writeonly buffer To { vec4 to[]; };

@@ -5,18 +5,19 @@
 // sub-patch, whose pixels share their window and weights in registers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;                  // divides 256, with kPair 128
-layout(constant_id = 1) const uint kRays = 0;
-layout(constant_id = 2) const uint kRadius = 2;  // filter window (2 r + 1)^2; 0 compiles the filter out
-layout(constant_id = 3) const uint kEdge = 1;    // 1: flying pixels are rejected
-layout(constant_id = 4) const uint kTiled = 0;   // 1: the window comes from shared memory (the paper); 0: direct reads
+layout(local_size_x_id = kSpecGroupSize) in;                  // divides 256, with kPair 128
+layout(constant_id = kSpecRays) const uint kRays = 0;
+layout(constant_id = kSpecRadius) const uint kRadius = 2;
+layout(constant_id = kSpecEdge) const uint kEdge = 1;
+layout(constant_id = kSpecTiled) const uint kTiled = 0;
 
-layout(constant_id = 5) const uint kBlock = 0;   // 1: a 4x4 sub-patch an invocation, radius at most 2; groups of 16
-layout(constant_id = 6) const uint kFour = 0;    // 1: blocks, and four divides the width: a texel of depth is four pixels
-layout(constant_id = 7) const uint kPolynomial = 0; // 1: weights by a power of a line, which has no exp and ends at 0
-layout(constant_id = 8) const uint kPair = 0;    // 1 (with kTiled and radius 2): two pixels an invocation
+layout(constant_id = kSpecBlock) const uint kBlock = 0;
+layout(constant_id = kSpecFour) const uint kFour = 0;
+layout(constant_id = kSpecPolynomial) const uint kPolynomial = 0;
+layout(constant_id = kSpecPair) const uint kPair = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel

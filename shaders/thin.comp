@@ -3,10 +3,11 @@
 // Which points the error budget can do without. One invocation a 4x4 cell of a listed patch.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kClasses = 1; // classes of points
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecClasses) const uint kClasses = 1;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits

@@ -4,10 +4,11 @@
 // (paper eq. 3 with the children's spheres). One invocation a node; the top levels run in one group with barriers between.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = 0) in;
-layout(constant_id = 1) const uint kPatches = 0; // 1: the level of patches, whose children an earlier dispatch wrote; 0: those above
+layout(local_size_x_id = kSpecGroupSize) in;
+layout(constant_id = kSpecPatches) const uint kPatches = 0;
 
 layout(push_constant) uniform Push { TreeParams tree; } ;
 layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };

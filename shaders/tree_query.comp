@@ -4,9 +4,10 @@
 // the region tree: it comes down from the root, each node against the root of the tool tree; where all of them collide, its own
 // bound and then its spheres go down the tool tree to the leaves. Any subgroup size.
 #extension GL_GOOGLE_include_directive : require
+#include "shaders/shared/constants.h"
 #include "shaders/shared/query_params.h"
 
-layout(local_size_x_id = 0) in;
+layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(std140, binding = 0) uniform Query { QueryParams query; };
 layout(std430, binding = 1) readonly buffer Tool { vec4 tool[]; };    // posed tool tree, breadth first; r < 0 = unused

@@ -4,6 +4,7 @@
 
 #include "engine/types/thread_pool.h"
 #include "shaders/ceiling.h"
+#include "shaders/shared/constants.h"
 
 #include <algorithm>
 #include <array>
@@ -49,7 +50,10 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
     double best = 0.0;
     for (const ArithmeticShape& shape : arithmeticShapesOf(device)) {
         const gpu::Pipeline pipeline(
-            device, {"ceiling", ceiling_spv, 1, false, 0, std::array{shape.group, shape.rounds}});
+            device, {"ceiling",
+                     ceiling_spv,
+                     {gpu::kStorage},
+                     {{shared::kSpecGroupSize, shape.group}, {shared::kSpecRounds, shape.rounds}}});
         const gpu::Buffer sums(device, shape.invocations * 4ull, gpu::MemoryKind::Device, "sums");
         const gpu::Bindings bindings(device, pipeline, {&sums}, sums);
         const double ms = submissions.best(effort, [&](gpu::Commands& c) {

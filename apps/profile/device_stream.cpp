@@ -3,6 +3,7 @@
 #include "apps/profile/study.h"
 
 #include "engine/types/error.h"
+#include "shaders/shared/constants.h"
 #include "shaders/stream.h"
 
 #include <algorithm>
@@ -75,8 +76,10 @@ public:
                const std::vector<gpu::Buffer>& to)
         : device_(device)
         , groups_(shape.groups)
-        , pipeline_(device,
-                    {"stream", stream_spv, 3, false, 0, std::array{shape.group, to.empty() ? 0u : 1u}}) {
+        , pipeline_(device, {"stream",
+                             stream_spv,
+                             {gpu::kStorage, gpu::kStorage, gpu::kStorage},
+                             {{shared::kSpecGroupSize, shape.group}, {shared::kSpecCopy, !to.empty()}}}) {
         for (size_t i = 0; i < from.size(); ++i) {
             gpu::Buffer& sums = sums_.emplace_back(device, uint64_t{shape.group} * shape.groups * 4,
                                                    gpu::MemoryKind::Device, "stream sums");

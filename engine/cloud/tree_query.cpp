@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cloud/tree_query.h"
 
+#include "shaders/shared/constants.h"
 #include "shaders/shared/query_params.h"
 #include "shaders/tree_query.h"
 
@@ -13,6 +14,12 @@ namespace {
 constexpr uint32_t kGroup = 64;
 constexpr float kOutward = 1.00001f; // inner nodes: float32 rounding of pose and sum, outward
 
+std::vector<gpu::BindingKind> bindingsOfQuery() {
+    std::vector<gpu::BindingKind> kinds(7);
+    kinds[0] = gpu::kUniform;
+    return kinds;
+}
+
 } // namespace
 
 TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
@@ -23,7 +30,7 @@ TreeQuery::TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& l
     , tool_(tool)
     , hold_(plan.hold)
     , capacity_(capacity)
-    , pipeline_(device, {"tree_query", tree_query_spv, 7, true, 0, std::array{kGroup}})
+    , pipeline_(device, {"tree_query", tree_query_spv, bindingsOfQuery(), {{shared::kSpecGroupSize, kGroup}}})
     , timeline_(device)
     , commands_(device)
     , watch_(device, 2)
@@ -40,8 +47,8 @@ void TreeQuery::makeAnswer() {
     for (size_t i = 0; i < pool_.size(); ++i) {
         const SetBuffers& s = pool_.at(i).device;
         bindings_.emplace_back(device_, pipeline_,
-                               std::initializer_list<const gpu::Buffer*>{
-                                   &params_, &toolTree_, &s.nodes, &s.spheres, &s.held, &count_, &found_},
+                               std::vector<const gpu::Buffer*>{&params_, &toolTree_, &s.nodes, &s.spheres,
+                                                               &s.held, &count_, &found_},
                                unused_);
     }
 }

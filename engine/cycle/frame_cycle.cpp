@@ -88,7 +88,7 @@ void FrameCycle::clearMemory() {
     gpu::Commands commands(device_);
     commands.begin();
     if (plan_.cloud) {
-        cloud::DeliverPass::clear(commands, work_); // as any frame leaves them
+        cloud::clearCounters(commands, work_);
     }
     for (const gpu::Buffer* buffer : {&work_.seen, &work_.kept, &work_.keptTime, &work_.live}) {
         if (*buffer) {

@@ -1,42 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/frame_passes.h"
 
-#include "shaders/shared/frame_params.h"
-
 namespace fathom {
 
 FramePasses::FramePasses(const cloud::CloudContext& c)
-    : work_(c.work)
-    , sets_(c.sets)
-    , device_(c.device)
-    , timed_(c.plan.passTimes) {
-    const auto add = [&](bool in, auto& pass, const char* name) {
-        if (in) {
-            pass.emplace(c);
-            names_.push_back(name);
+    : context_(c) {
+    for (cloud::PassInfo& info : cloud::framePasses(c)) {
+        if (names_.empty() || names_.back() != info.name) {
+            names_.emplace_back(info.name);
         }
-    };
-    add(c.plan.occlusion, occlusion_, "occlusion");
-    add(c.plan.cloud, classify_, "classify");
-    add(c.plan.lists(), list_, "list");
-    add(c.plan.cloud, surface_, "surface");
-    add(c.plan.thins(), thin_, "thin");
-    add(c.plan.moments, moments_, "moments");
-    add(c.plan.spheres, spheres_, "spheres");
-    add(c.plan.tree, tree_, "tree");
-    add(c.plan.cloud, deliver_, "deliver");
+        passes_.emplace_back(c, std::move(info));
+    }
+    if (c.plan.delivers()) {
+        deliver_ = std::make_unique<cloud::Pass>(c, cloud::deliverPass(c));
+    }
+    if (c.plan.cloud) {
+        names_.emplace_back("deliver");
+    }
 }
 
 void FramePasses::bind(uint32_t upload, const cloud::UploadBuffers& buffers) {
-    const auto in = [&](auto& pass) {
-        if (pass) {
-            pass->bind(upload, buffers);
-        }
-    };
-    in(occlusion_), in(classify_), in(list_), in(surface_), in(thin_), in(moments_), in(spheres_);
+    for (cloud::Pass& pass : passes_) {
+        pass.bind(upload, buffers);
+    }
+    if (deliver_) {
+        deliver_->bind(upload, buffers);
+    }
     commands_[upload].clear();
-    commands_[upload].resize(sets_.size());
-    watches_[upload] = std::make_unique<gpu::Stopwatch>(device_, static_cast<uint32_t>(names_.size()) + 1);
+    commands_[upload].resize(context_.sets.size());
+    watches_[upload] =
+        std::make_unique<gpu::Stopwatch>(context_.device, static_cast<uint32_t>(names_.size()) + 1);
 }
 
 const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
@@ -44,7 +37,7 @@ const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
     if (commands) {
         watches_[upload]->again();
     } else {
-        commands = std::make_unique<gpu::Commands>(device_);
+        commands = std::make_unique<gpu::Commands>(context_.device);
         record(*commands, *watches_[upload], upload, set);
     }
     return *commands;
@@ -52,60 +45,48 @@ const gpu::Commands& FramePasses::frame(uint32_t upload, uint32_t set) {
 
 void FramePasses::record(gpu::Commands& commands, gpu::Stopwatch& watch, uint32_t upload,
                          uint32_t set) const {
-    const auto mark = [&] {
-        if (timed_) {
-            watch.mark(commands.handle());
-        }
-    };
+    const bool timed = context_.plan.passTimes;
     commands.begin(gpu::Submissions::Many);
     watch.reset();
-    mark();
-    const auto run = [&](const auto& pass, auto... arguments) {
-        if (pass) {
-            pass->record(commands, arguments...);
+    if (timed) {
+        watch.mark(commands.handle());
+    }
+    for (size_t i = 0; i < passes_.size(); ++i) {
+        const cloud::PassInfo& info = passes_[i].info();
+        passes_[i].record(commands, upload, set);
+        if (info.after == cloud::After::IndirectBarrier) {
+            commands.barrierBeforeIndirect();
+        } else if (info.after == cloud::After::Barrier) {
             commands.barrier();
-            mark();
         }
-    };
-    const auto runListing = [&](const auto& pass) { // what comes next is dispatched over its lists
-        pass->record(commands, upload);
-        commands.barrierBeforeIndirect();
-        mark();
-    };
-    run(occlusion_, upload);
-    if (list_) {
-        run(classify_, upload);
-        runListing(list_);
-    } else {
-        runListing(classify_);
-    }
-    run(surface_, upload);
-    run(thin_, upload);
-    if (moments_ && spheres_) { // neither reads what the other writes: they overlap
-        moments_->record(commands, upload, set);
-        if (timed_) {
-            watch.markReached(commands.handle());
+        const bool last = i + 1 == passes_.size() || std::string(passes_[i + 1].info().name) != info.name;
+        if (timed && last) {
+            info.after == cloud::After::Nothing ? watch.markReached(commands.handle())
+                                                : watch.mark(commands.handle());
         }
-    } else {
-        run(moments_, upload, set);
     }
-    run(spheres_, upload, set);
-    run(tree_, set);
-    recordCopies(commands, set); // beside what comes last
-    deliver_->record(commands, set);
-    mark();
+    recordEnd(commands, upload, set);
+    if (timed) {
+        watch.mark(commands.handle());
+    }
     commands.end();
 }
 
-void FramePasses::recordCopies(gpu::Commands& commands, uint32_t set) const {
-    const cloud::SetBuffers& s = *sets_[set];
+void FramePasses::recordEnd(gpu::Commands& commands, uint32_t upload, uint32_t set) const {
+    const cloud::WorkBuffers& work = context_.work;
+    const cloud::SetBuffers& s = *context_.sets[set];
     const auto copy = [&](const gpu::Buffer& from, const gpu::Buffer& to) {
         if (from && to) {
             commands.copy(from, to, to.bytes());
         }
     };
-    copy(work_.points, s.points);
-    copy(work_.masks, s.masks);
+    copy(work.points, s.points); // beside what delivers
+    copy(work.masks, s.masks);
+    if (deliver_) {
+        deliver_->record(commands, upload, set);
+    } else {
+        cloud::deliverByCopies(commands, work, s);
+    }
 }
 
 } // namespace fathom

@@ -19,11 +19,11 @@ VkShaderModule makeModule(VkDevice device, std::span<const uint32_t> spirv) {
     return module;
 }
 
-VkDescriptorSetLayout makeSetLayout(VkDevice device, const std::vector<VkDescriptorType>& types) {
+VkDescriptorSetLayout makeSetLayout(VkDevice device, const std::vector<BindingKind>& kinds) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (const VkDescriptorType type : types) {
+    for (const BindingKind& kind : kinds) {
         bindings.push_back(
-            {static_cast<uint32_t>(bindings.size()), type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+            {static_cast<uint32_t>(bindings.size()), kind.type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
     }
     VkDescriptorSetLayoutCreateInfo info{VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     info.bindingCount = static_cast<uint32_t>(bindings.size());
@@ -31,17 +31,6 @@ VkDescriptorSetLayout makeSetLayout(VkDevice device, const std::vector<VkDescrip
     VkDescriptorSetLayout layout = VK_NULL_HANDLE;
     check(vkCreateDescriptorSetLayout(device, &info, nullptr, &layout), "vkCreateDescriptorSetLayout");
     return layout;
-}
-
-std::vector<VkDescriptorType> typesOf(const PipelineInfo& info) {
-    std::vector<VkDescriptorType> types(info.bindings, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-    if (info.uniform) {
-        types.at(0) = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
-    }
-    for (const Texels& t : info.texels) {
-        types.at(t.binding) = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
-    }
-    return types;
 }
 
 VkPipelineLayout makeLayout(VkDevice device, VkDescriptorSetLayout set, uint32_t pushBytes) {
@@ -56,17 +45,16 @@ VkPipelineLayout makeLayout(VkDevice device, VkDescriptorSetLayout set, uint32_t
     return layout;
 }
 
-std::shared_ptr<const CompiledPipeline> compile(const Device& device, const PipelineInfo& info,
-                                                const std::vector<VkDescriptorType>& types) {
-    const auto made = std::make_shared<CompiledPipeline>(device.handle()); // goes with what it has by then
-    made->setLayout = makeSetLayout(device.handle(), types);
+std::shared_ptr<const CompiledPipeline> compile(const Device& device, const PipelineInfo& info) {
+    const auto made = std::make_shared<CompiledPipeline>(device.handle()); // frees what exists on a throw
+    made->setLayout = makeSetLayout(device.handle(), info.bindings);
     made->layout = makeLayout(device.handle(), made->setLayout, info.pushBytes);
     std::vector<VkSpecializationMapEntry> entries;
     for (uint32_t i = 0; i < info.constants.size(); ++i) {
-        entries.push_back({i, i * 4, 4});
+        entries.push_back({info.constants[i].id, static_cast<uint32_t>(i * sizeof(Constant) + 4), 4});
     }
     const VkSpecializationInfo special{static_cast<uint32_t>(entries.size()), entries.data(),
-                                       info.constants.size_bytes(), info.constants.data()};
+                                       info.constants.size() * sizeof(Constant), info.constants.data()};
     VkComputePipelineCreateInfo create{VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     create.layout = made->layout;
     create.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
@@ -81,49 +69,28 @@ std::shared_ptr<const CompiledPipeline> compile(const Device& device, const Pipe
     return made;
 }
 
-PipelineKey keyOf(const PipelineInfo& info) {
-    PipelineKey key{info.spirv.data(),
-                    info.spirv.size(),
-                    info.bindings,
-                    info.pushBytes,
-                    info.uniform,
-                    {info.constants.begin(), info.constants.end()},
-                    {}};
-    for (const Texels& t : info.texels) {
-        key.texels.emplace_back(t.binding, t.format);
-    }
-    return key;
-}
-
 } // namespace
 
-Pipeline::Pipeline(const Device& device, const PipelineInfo& info)
-    : bindings_(info.bindings)
-    , pushBytes_(info.pushBytes)
-    , groupSize_(info.constants.empty() ? 1 : info.constants[0])
-    , types_(typesOf(info))
-    , formats_(info.bindings, VK_FORMAT_UNDEFINED)
-    , name_(info.name) {
-    for (const Texels& t : info.texels) {
-        formats_.at(t.binding) = t.format;
-    }
-    PipelineKey key = keyOf(info);
-    compiled_ = device.pipelines().find(key);
+Pipeline::Pipeline(const Device& device, PipelineInfo info)
+    : info_(std::move(info)) {
+    compiled_ = device.pipelines().find(info_);
     if (compiled_ == nullptr) {
-        compiled_ = device.pipelines().keep(std::move(key), compile(device, info, types_));
+        compiled_ = device.pipelines().keep(info_, compile(device, info_));
     }
 }
 
-Bindings::Bindings(const Device& device, const Pipeline& pipeline,
-                   std::initializer_list<const Buffer*> buffers, const Buffer& unused)
+Bindings::Bindings(const Device& device, const Pipeline& pipeline, const std::vector<const Buffer*>& buffers,
+                   const Buffer& unused)
     : device_(&device) {
-    if (buffers.size() != pipeline.bindings()) {
-        throw Error(pipeline.name() + " has " + std::to_string(pipeline.bindings()) + " bindings, not " +
+    const std::vector<BindingKind>& kinds = pipeline.bindings();
+    const auto count = static_cast<uint32_t>(kinds.size());
+    if (buffers.size() != count) {
+        throw Error(std::string(pipeline.name()) + " has " + std::to_string(count) + " bindings, not " +
                     std::to_string(buffers.size()));
     }
-    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, pipeline.bindings()},
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, count},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
-                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, pipeline.bindings()}};
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, count}};
     VkDescriptorPoolCreateInfo pool{VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
     pool.maxSets = 1;
     pool.poolSizeCount = 3;
@@ -136,25 +103,23 @@ Bindings::Bindings(const Device& device, const Pipeline& pipeline,
     allocate.pSetLayouts = &layout;
     check(vkAllocateDescriptorSets(device.handle(), &allocate, &set_), "vkAllocateDescriptorSets");
 
-    std::vector<VkDescriptorBufferInfo> infos;
-    for (const Buffer* buffer : buffers) {
-        const Buffer& real = buffer != nullptr && *buffer ? *buffer : unused;
-        const VkFormat format = pipeline.texelsOf(static_cast<uint32_t>(infos.size()));
-        infos.push_back({real.handle(), 0, VK_WHOLE_SIZE});
-        views_.push_back(format != VK_FORMAT_UNDEFINED ? viewOf(real, format) : VK_NULL_HANDLE);
+    std::vector<VkDescriptorBufferInfo> infos(count);
+    std::vector<VkWriteDescriptorSet> writes(count, {VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET});
+    views_.resize(count, VK_NULL_HANDLE);
+    for (uint32_t b = 0; b < count; ++b) {
+        const Buffer& buffer = buffers[b] != nullptr && *buffers[b] ? *buffers[b] : unused;
+        infos[b] = {buffer.handle(), 0, VK_WHOLE_SIZE};
+        if (kinds[b].texels != VK_FORMAT_UNDEFINED) {
+            views_[b] = viewOf(buffer, kinds[b].texels);
+        }
+        writes[b].dstSet = set_;
+        writes[b].dstBinding = b;
+        writes[b].descriptorCount = 1;
+        writes[b].descriptorType = kinds[b].type;
+        writes[b].pBufferInfo = &infos[b];
+        writes[b].pTexelBufferView = &views_[b];
     }
-    std::vector<VkWriteDescriptorSet> writes;
-    for (uint32_t b = 0; b < infos.size(); ++b) {
-        VkWriteDescriptorSet write{VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET};
-        write.dstSet = set_;
-        write.dstBinding = b;
-        write.descriptorCount = 1;
-        write.descriptorType = pipeline.typeOf(b);
-        write.pBufferInfo = &infos[b];
-        write.pTexelBufferView = &views_[b];
-        writes.push_back(write);
-    }
-    vkUpdateDescriptorSets(device.handle(), static_cast<uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    vkUpdateDescriptorSets(device.handle(), count, writes.data(), 0, nullptr);
 }
 
 VkBufferView Bindings::viewOf(const Buffer& buffer, VkFormat format) {

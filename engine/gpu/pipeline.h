@@ -4,62 +4,34 @@
 
 #include "engine/gpu/buffer.h"
 
-#include <initializer_list>
 #include <span>
-#include <string>
 #include <vector>
 
 namespace fathom::gpu {
 
-// A binding that is read by texelFetch. On a CPU device that is one vector gather where a storage buffer is
-// read lane by lane.
-struct Texels {
-    uint32_t binding;
-    VkFormat format; // one that every device can fetch from a buffer
-};
-
-// What a pipeline is made from. Views: what they point at outlives the constructor's call, spirv the device.
-struct PipelineInfo {
-    const char* name;                // shows in messages and traces
-    std::span<const uint32_t> spirv; // outlives the device
-    uint32_t bindings = 0;           // buffers 0..n-1
-    bool uniform = true;    // buffer 0 is a uniform buffer (parameters), the others are storage buffers
-    uint32_t pushBytes = 0; // <= 128
-    std::span<const uint32_t> constants; // specialisation constants 0..n-1; 0 = local_size_x
-    std::initializer_list<Texels> texels = {};
-};
-
-// Compiled once a device: pipelines of the same code share what was compiled (pipeline_store.h).
+// Compiled once per device: pipelines of the same code share the compiled object (pipeline_store.h).
 class Pipeline {
 public:
-    Pipeline(const Device& device, const PipelineInfo& info);
-    Pipeline(const Pipeline&) = delete;
-    Pipeline& operator=(const Pipeline&) = delete;
+    Pipeline(const Device& device, PipelineInfo info);
 
     VkPipeline handle() const { return compiled_->handle; }
     VkPipelineLayout layout() const { return compiled_->layout; }
     VkDescriptorSetLayout setLayout() const { return compiled_->setLayout; }
-    uint32_t bindings() const { return bindings_; }
-    VkDescriptorType typeOf(uint32_t binding) const { return types_[binding]; }
-    VkFormat texelsOf(uint32_t binding) const { return formats_[binding]; } // undefined: no texels
-    uint32_t pushBytes() const { return pushBytes_; }
-    uint32_t groupSize() const { return groupSize_; }
-    const std::string& name() const { return name_; }
+    const std::vector<BindingKind>& bindings() const { return info_.bindings; }
+    uint32_t pushBytes() const { return info_.pushBytes; }
+    const char* name() const { return info_.name; }
 
 private:
+    PipelineInfo info_;
     std::shared_ptr<const CompiledPipeline> compiled_;
-    uint32_t bindings_ = 0, pushBytes_ = 0, groupSize_ = 1;
-    std::vector<VkDescriptorType> types_;
-    std::vector<VkFormat> formats_;
-    std::string name_;
 };
 
-// One descriptor set of a pipeline, filled once. Null entries are taken by `unused`, a buffer that no shader
-// variant in force reads. Move-only.
+// One descriptor set of a pipeline, filled once. Null and empty buffers are replaced by `unused`, which the
+// shader does not access with the pipeline's constants. Move-only.
 class Bindings {
 public:
     Bindings() = default;
-    Bindings(const Device& device, const Pipeline& pipeline, std::initializer_list<const Buffer*> buffers,
+    Bindings(const Device& device, const Pipeline& pipeline, const std::vector<const Buffer*>& buffers,
              const Buffer& unused);
     ~Bindings();
     Bindings(Bindings&& other) noexcept { swap(other); }

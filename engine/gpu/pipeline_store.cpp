@@ -11,10 +11,9 @@ CompiledPipeline::~CompiledPipeline() {
     vkDestroyDescriptorSetLayout(device, setLayout, nullptr);
 }
 
-// The mutex is held.
-std::shared_ptr<const CompiledPipeline> PipelineStore::findHeld(const PipelineKey& key) {
-    const auto found =
-        std::find_if(entries_.begin(), entries_.end(), [&](const Entry& e) { return e.key == key; });
+// Requires the mutex.
+std::shared_ptr<const CompiledPipeline> PipelineStore::findLocked(const PipelineInfo& info) {
+    const auto found = std::ranges::find_if(entries_, [&](const Entry& e) { return e.info.sameCode(info); });
     if (found == entries_.end()) {
         return nullptr;
     }
@@ -22,20 +21,20 @@ std::shared_ptr<const CompiledPipeline> PipelineStore::findHeld(const PipelineKe
     return entries_.back().compiled;
 }
 
-std::shared_ptr<const CompiledPipeline> PipelineStore::find(const PipelineKey& key) {
+std::shared_ptr<const CompiledPipeline> PipelineStore::find(const PipelineInfo& info) {
     const std::lock_guard lock(mutex_);
-    return findHeld(key);
+    return findLocked(info);
 }
 
 std::shared_ptr<const CompiledPipeline>
-PipelineStore::keep(PipelineKey key, std::shared_ptr<const CompiledPipeline> compiled) {
+PipelineStore::keep(PipelineInfo info, std::shared_ptr<const CompiledPipeline> compiled) {
     const std::lock_guard lock(mutex_);
-    if (auto there = findHeld(key)) {
-        return there;
+    if (auto first = findLocked(info)) {
+        return first;
     }
-    entries_.push_back({std::move(key), compiled});
+    entries_.push_back({std::move(info), compiled});
     for (auto e = entries_.begin(); e != entries_.end() && entries_.size() > kMost;) {
-        e = e->compiled.use_count() == 1 ? entries_.erase(e) : e + 1; // its own count alone: nobody uses it
+        e = e->compiled.use_count() == 1 ? entries_.erase(e) : e + 1; // only the store owns it
     }
     return compiled;
 }

@@ -1,28 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pipelines that were compiled on a device, kept for whoever asks for the same again: a scene that is edited
-// makes its passes anew, and most of them are as they were. A driver's own cache may keep less (llvmpipe's
-// works through the SPIR-V each time).
+// Compiled pipelines of a device, kept for reuse: an edited scene rebuilds its passes, and most of them are
+// unchanged. A driver's own cache may keep less (llvmpipe processes the SPIR-V each time).
 #pragma once
 
 #include <cstdint>
 #include <memory>
 #include <mutex>
-#include <utility>
+#include <span>
 #include <vector>
 #include <vulkan/vulkan.h>
 
 namespace fathom::gpu {
 
-// What of a pipeline its code depends on.
-struct PipelineKey {
-    const uint32_t* spirv = nullptr; // by its place: shaders are constants of the program
-    size_t words = 0;
-    uint32_t bindings = 0, pushBytes = 0;
-    bool uniform = false;
-    std::vector<uint32_t> constants;
-    std::vector<std::pair<uint32_t, VkFormat>> texels;
+// One buffer binding. A texel buffer is read by texelFetch: on a CPU device that is one vector gather, where
+// a storage buffer is read lane by lane.
+struct BindingKind {
+    VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    VkFormat texels = VK_FORMAT_UNDEFINED; // of texel buffers; one that every device can fetch from a buffer
+    bool operator==(const BindingKind&) const = default;
+};
+inline constexpr BindingKind kStorage{}, kUniform{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
 
-    bool operator==(const PipelineKey&) const = default;
+// Value of a specialisation constant; ids are in shaders/shared/constants.h.
+struct Constant {
+    uint32_t id, value;
+    bool operator==(const Constant&) const = default;
+};
+
+// What a pipeline is made from.
+struct PipelineInfo {
+    const char* name;                  // appears in messages and traces
+    std::span<const uint32_t> spirv;   // outlives the device
+    std::vector<BindingKind> bindings; // 0..n-1
+    std::vector<Constant> constants;
+    uint32_t pushBytes = 0; // <= 128
+
+    bool sameCode(const PipelineInfo& other) const {
+        return spirv.data() == other.spirv.data() && bindings == other.bindings &&
+               constants == other.constants && pushBytes == other.pushBytes;
+    }
 };
 
 // Destroyed before its device.
@@ -42,24 +58,24 @@ struct CompiledPipeline {
 // Thread: any.
 class PipelineStore {
 public:
-    static constexpr size_t kMost = 48; // beyond, those go that nobody uses, the longest unused first
+    static constexpr size_t kMost = 48; // more are kept only while they are in use
 
-    std::shared_ptr<const CompiledPipeline> find(const PipelineKey& key); // null: there is none
-    // When two threads compiled the same, the first stays: use what is returned.
-    std::shared_ptr<const CompiledPipeline> keep(PipelineKey key,
+    std::shared_ptr<const CompiledPipeline> find(const PipelineInfo& info); // null: none
+    // Returns the pipeline to use: the first one when two threads compiled the same code.
+    std::shared_ptr<const CompiledPipeline> keep(PipelineInfo info,
                                                  std::shared_ptr<const CompiledPipeline> compiled);
     size_t size() const;
-    void clear(); // before the device goes
+    void clear(); // before the device is destroyed
 
 private:
     struct Entry {
-        PipelineKey key;
+        PipelineInfo info;
         std::shared_ptr<const CompiledPipeline> compiled;
     };
-    std::shared_ptr<const CompiledPipeline> findHeld(const PipelineKey& key);
+    std::shared_ptr<const CompiledPipeline> findLocked(const PipelineInfo& info);
 
     mutable std::mutex mutex_;
-    std::vector<Entry> entries_; // the longest unused first
+    std::vector<Entry> entries_; // least recently used first
 };
 
 } // namespace fathom::gpu

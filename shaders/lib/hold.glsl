@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory of points that a new frame does not contradict (design 4, hold). Two places a slot: the point the slot showed last
-// frame, and the point that it holds. Needs params, forbidden.glsl, seen, kept, keptTime (written; without kTexels read, too) and seenBefore, keptBefore,
-// keptTimeBefore (read), kTexels, kHold, kFan, kBeam, depth.glsl, lens.glsl, beam.glsl.
+// Memory of points that a new frame does not contradict. Each slot has two places: the point that it showed in
+// the last frame, and the point that it holds. Needs params, forbidden.glsl, depth.glsl, lens.glsl, beam.glsl,
+// seen, kept, keptTime, kHold, kFan, kBeam.
+
+// The memory as the last frame left it. The including shader says how it is read.
+vec4 seenAt(uint slot);
+vec4 keptAt(uint slot);
+uint keptTimeAt(uint slot);
 
 // What is remembered of a point beside its place: class + 1, 0 = nothing; with beams, above these four bits, what its sphere
 // grows by, rounded up to 10 um. Small enough for any float to keep the bits.
@@ -32,13 +37,13 @@ bool uncontradicted(vec3 p) {
 // grows by `grown` for its sigma [m]. Returns the held sphere
 // (R < 0: none), its class, and what is remembered: 1 = the point, 2 = the held one. holding: as handlePixel.
 vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, out uint heldClass, out uint remembered) {
-    vec4 last = kTexels != 0 ? texelFetch(seenBefore, int(slot)) : seen[slot], old = vec4(0.0);
+    vec4 last = seenAt(slot), old = vec4(0.0);
     uint lastNote = floatBitsToUint(last.w), when = 0;
     bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, uncontradicted(last.xyz)));
     bool oldStays = false;
-    if (kHold == 2 || (kHold == 3 && holding)) { // the same for a whole patch
-        old = kTexels != 0 ? texelFetch(keptBefore, int(slot)) : kept[slot];
-        when = kTexels != 0 ? texelFetch(keptTimeBefore, int(slot)).x : keptTime[slot];
+    if (holding) { // the same for a whole patch
+        old = keptAt(slot);
+        when = keptTimeAt(slot);
         oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
     }
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which points of a patch the error budget can do without, by its group: of each cell four invocations ask its quarters, and
 // four others the whole of it. Needs params, masks, points, listed, decided, masks.glsl, forbidden.glsl, slots.glsl,
-// thin_point.glsl, thinning.glsl, kWithin, and `ofPatch`, which the points lie in until the cells are decided.
+// thin_point.glsl, thinning.glsl, kThin, and `ofPatch`, which the points lie in until the cells are decided.
 
 const uint kSide = 21u; // points of the patch's 4x4 cells and of those left of and above it, with the corners of the next ones
 const uint kCells = 25u, kQuarters = 4u * kCells;
-shared float asked[kWithin != 0 ? 2u * kQuarters : 1u]; // R'^2 - R^2 of a cell by each of the four that ask it, then the growth of each quarter; -1 = kept
-shared vec4 cells[kWithin != 0 ? kCells : 1u];          // as `growth`, 5 a row
+shared float asked[kThin != 0 ? 2u * kQuarters : 1u]; // R'^2 - R^2 of a cell by each of the four that ask it, then the growth of each quarter; -1 = kept
+shared vec4 cells[kThin != 0 ? kCells : 1u];          // as `growth`, 5 a row
 
 // Points of a square of pixels into `ofPatch`, w = forbidden class; kNone outside the picture and in patches without work.
 void readAround(ivec2 from) {

@@ -1,15 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the decisions of thin.comp. Needs params, listed, growth.
-
-// Decision of the 4x4 cell at a pixel; all zero outside the picture and in patches without work.
-vec4 cellAt(ivec2 at) {
-    bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
-    uvec2 p = inside ? uvec2(at) : uvec2(0);
-    uint patchIndex = (p.y >> 4) * params.size.z + (p.x >> 4);
-    uint used = listed[patchIndex];
-    vec4 cell = texelFetch(growth, int(patchIndex * 16u + ((p.y >> 2) & 3u) * 4u + ((p.x >> 2) & 3u)));
-    return all(bvec2(inside, used != 0u)) ? cell : vec4(0.0);
-}
+// What the decisions of thinning mean for each point.
 
 bool isWhole(vec4 cell) {
     return cell.x < 0.0;

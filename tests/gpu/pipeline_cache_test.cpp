@@ -4,6 +4,7 @@
 #include "engine/gpu/query_crossover.h"
 #include "engine/types/error.h"
 #include "shaders/ceiling.h"
+#include "shaders/shared/constants.h"
 #include "tests/support/vulkan.h"
 
 #include <array>
@@ -48,8 +49,10 @@ public:
     size_t openOnce() const {
         {
             gpu::Device device(vulkan().instance, Vulkan::selector());
-            const gpu::Pipeline pipeline(
-                device, {"ceiling", ceiling_spv, 1, false, 0, std::array<uint32_t, 2>{64, 1}});
+            const gpu::Pipeline pipeline(device, {"ceiling",
+                                                  ceiling_spv,
+                                                  {gpu::kStorage},
+                                                  {{shared::kSpecGroupSize, 64}, {shared::kSpecRounds, 1}}});
             REQUIRE(pipeline.handle() != VK_NULL_HANDLE);
         }
         return gpu::storedPipelines(file()).size();

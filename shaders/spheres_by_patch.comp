@@ -1,10 +1,39 @@
+#version 460
 // SPDX-License-Identifier: Apache-2.0
-// A patch by a group: an invocation a pixel, then one a sub-patch. Part of spheres.comp, as what it includes.
+// Region spheres on GPUs: one group per listed patch; one invocation per pixel, then one per sub-patch. The group
+// decides thinning in shared memory. With kPack it packs its spheres into a run for the host, by layer (seen,
+// held), then slot, and says by bits which places these are, so that little more than the spheres crosses the bus.
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_control_flow_attributes : require
+#include "shaders/shared/constants.h"
+#include "shaders/shared/frame_params.h"
 
-const uint kWithin = kByPixel != 0 ? kThin : 0u; // 1: thinning is decided here
+layout(constant_id = kSpecHold) const uint kHold = 1;
+layout(constant_id = kSpecPack) const uint kPack = 0; // 1: the host reads runs; 0: radii beside points
+
+#include "shaders/lib/spheres.glsl"
+#include "shaders/lib/thin_point.glsl"
+
+layout(std430, binding = 19) writeonly buffer Packed { uint packedWords[]; }; // runs: packing.glsl
+layout(std430, binding = 20) writeonly buffer Places { uint places[]; }; // 16 words per listed patch: bit (layer * 256 + slot in the patch) = packed
+layout(std430, binding = 21) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> its first word; number of spheres + 65536 x bits of their classes, kRunGrown, kRunWide
+layout(std430, binding = 22) writeonly buffer Decided { vec4 decided[]; }; // sub-patch -> growth as thin.comp writes it, for verification
+
+vec4 seenAt(uint slot) {
+    return seen[slot];
+}
+
+vec4 keptAt(uint slot) {
+    return kept[slot];
+}
+
+uint keptTimeAt(uint slot) {
+    return keptTime[slot];
+}
+
 // Spheres of the patch, then held ones; before them the points that thinning is decided about.
-shared vec4 ofPatch[kByPixel == 0 ? 1u : (kThin != 0 && kHold == 0 ? 441u : 256u * kLayers)];
-shared uint notesOfPatch[kByPixel != 0 ? 256 : 1]; // as in PixelResult
+shared vec4 ofPatch[kThin != 0 && kHold == 0 ? 441u : 256u * kLayers];
+shared uint notesOfPatch[256];                     // as in PixelResult
 const bool kByDepth = kPack != 0 && kBeam == 0;     // a seen sphere is packed as its depth
 shared float zOfPatch[kByDepth ? 256 : 1];
 shared uint rememberedOfPatch;                     // as in `live`
@@ -99,4 +128,8 @@ void wholePatch(uint patchIndex) {
     if (kHold != 0 && gl_LocalInvocationID.x == 0) {
         live[patchIndex] = rememberedOfPatch;
     }
+}
+
+void main() {
+    wholePatch(list[gl_WorkGroupID.x]);
 }

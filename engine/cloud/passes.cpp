@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cloud/passes.h"
+
+#include "shaders/classify.h"
+#include "shaders/deliver.h"
+#include "shaders/list.h"
+#include "shaders/moments.h"
+#include "shaders/occlusion.h"
+#include "shaders/shared/constants.h"
+#include "shaders/spheres.h"
+#include "shaders/spheres_by_patch.h"
+#include "shaders/surface.h"
+#include "shaders/thin.h"
+#include "shaders/tree.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace fathom::cloud {
+
+namespace {
+
+using namespace shared;
+using Up = UploadBuffers;
+using Work = WorkBuffers;
+using Set = SetBuffers;
+
+static_assert(offsetof(FrameCounters, nodes) == kArgumentWords * sizeof(uint32_t));
+
+constexpr VkFormat kFourDepths = VK_FORMAT_R16G16B16A16_UINT;
+constexpr VkFormat kVector = VK_FORMAT_R32G32B32A32_SFLOAT;
+
+Groups groupsFor(uint64_t invocations, uint32_t groupSize) {
+    return {static_cast<uint32_t>((invocations + groupSize - 1) / groupSize), 1, 1};
+}
+
+PassInfo occlusion(const CloudContext& c) {
+    PassInfo pass{"occlusion",
+                  occlusion_spv,
+                  {&Up::params, {&Up::depth, kDepthTexels}, &Work::rays, &Work::nearest},
+                  {{kSpecGroupSize, c.plan.pixelGroup}, {kSpecRays, c.plan.rays}},
+                  groupsFor(c.camera.depth.pixels(), c.plan.pixelGroup)};
+    pass.filled = &Work::nearest;
+    pass.fill = 0xffffffffu;
+    return pass;
+}
+
+PassInfo classify(const CloudContext& c) {
+    const Plan& plan = c.plan;
+    const uint32_t colour = !plan.colour ? kColourNone : plan.occlusion ? kColourLookedUp : kColourRegistered;
+    const uint32_t four = c.camera.depth.width % 4 != 0 ? 0u : (colour == kColourRegistered ? 2u : 1u);
+    const VkFormat fourColours = plan.yuyv ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
+    // A patch takes 64 invocations of four pixels of one row, or 16 of four rows; a wide group covers four
+    // patches.
+    const uint32_t rows = plan.byPixel ? 1u : 4u, invocations = plan.byPixel ? 256u : 16u;
+    const uint32_t group = std::min(invocations, plan.pixelGroup);
+    return {"classify",
+            classify_spv,
+            {&Up::params,
+             {&Up::depth, four != 0 ? kFourDepths : kDepthTexels},
+             &Work::rays,
+             {&Up::colour, four == 2 ? fourColours : kColourTexels},
+             &Work::nearest,
+             &Work::masks,
+             &Work::listed,
+             &Work::list,
+             &Work::counters,
+             &Work::live,
+             &Up::arm,
+             &Work::depth},
+            {{kSpecGroupSize, group},
+             {kSpecRays, plan.rays},
+             {kSpecColour, colour},
+             {kSpecHold, plan.hold},
+             {kSpecSubGroup, plan.subGroup},
+             {kSpecClasses, plan.classes},
+             {kSpecBox, plan.box},
+             {kSpecGather, plan.groupCounts},
+             {kSpecFour, four},
+             {kSpecRange, plan.range},
+             {kSpecSelfFilter, plan.selfFilter},
+             {kSpecWater, plan.water},
+             {kSpecRows, rows},
+             {kSpecWide, plan.byPixel},
+             {kSpecKeep, plan.keepDepth},
+             {kSpecGuidance, plan.moments},
+             {kSpecLists, !plan.lists()},
+             {kSpecYuyv, plan.yuyv}},
+            Groups{plan.byPixel ? (c.layout.across + 3) / 4 : c.layout.across, c.layout.down,
+                   invocations / group},
+            plan.lists() ? After::Barrier : After::IndirectBarrier};
+}
+
+PassInfo list(const CloudContext& c) {
+    return {"list",
+            list_spv,
+            {&Up::params, &Work::listed, &Work::live, &Work::list, &Work::counters},
+            {{kSpecGroupSize, c.plan.subGroup},
+             {kSpecHold, c.plan.hold},
+             {kSpecGuidance, c.plan.moments},
+             {kSpecSubGroup, c.plan.subGroup}},
+            groupsFor(c.layout.patches(), c.plan.subGroup),
+            After::IndirectBarrier};
+}
+
+// Depth for the passes after classify.
+PassBinding depthOf(const Plan& plan, VkFormat texels) {
+    return plan.keepDepth ? PassBinding(&Work::depth, texels) : PassBinding(&Up::depth, texels);
+}
+
+PassInfo surface(const CloudContext& c) {
+    const Plan& plan = c.plan;
+    const bool four = plan.filterBlock && c.camera.depth.width % 4 == 0;
+    // 16 sub-patches per patch. Pairs take smaller groups, of which more are under way.
+    const uint32_t group =
+        plan.filterBlock ? 16u : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
+    return {"surface",
+            surface_spv,
+            {&Up::params,
+             depthOf(plan, four ? kFourDepths : kDepthTexels),
+             &Work::rays,
+             {&Work::masks, kMaskTexels},
+             &Work::list,
+             &Work::points},
+            {{kSpecGroupSize, group},
+             {kSpecRays, plan.rays},
+             {kSpecRadius, plan.filterRadius},
+             {kSpecEdge, plan.edge},
+             {kSpecTiled, plan.tiled && !plan.filterBlock},
+             {kSpecBlock, plan.filterBlock},
+             {kSpecFour, four},
+             {kSpecPolynomial, plan.polynomialWeights},
+             {kSpecPair, plan.filterPairs()}},
+            GroupsCounted{offsetof(FrameCounters, patchGroups)}};
+}
+
+PassInfo thin(const CloudContext& c) {
+    return {"thin",
+            thin_spv,
+            {&Up::params,
+             {&Work::masks, kMaskTexels},
+             {&Work::points, kPointTexels},
+             &Work::listed,
+             &Work::list,
+             &Work::counters,
+             &Work::growth},
+            {{kSpecGroupSize, c.plan.subGroup}, {kSpecClasses, c.plan.classes}},
+            GroupsCounted{offsetof(FrameCounters, subGroups)}};
+}
+
+PassInfo moments(const CloudContext& c) {
+    // Without shared memory one invocation does a patch; `guidedGroups` counts groups of subGroup / 16
+    // patches.
+    const uint32_t group = c.plan.byPixel ? 16u : std::max(8u, c.plan.subGroup / 16u);
+    return {"moments",
+            moments_spv,
+            {&Up::params,
+             {&Work::masks, kMaskTexels},
+             {&Work::points, kPointTexels},
+             &Work::list,
+             &Set::moments,
+             &Work::counters},
+            {{kSpecGroupSize, group}, {kSpecShared, c.plan.byPixel}},
+            GroupsCounted{offsetof(FrameCounters, guidedGroups)},
+            c.plan.spheres ? After::Nothing : After::Barrier}; // `spheres` reads nothing that it writes
+}
+
+// Of both forms, with the bindings and constants that they share (shaders/lib/spheres.glsl).
+PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_t counted) {
+    const Plan& plan = c.plan;
+    return {"spheres",
+            spirv,
+            {&Up::params,
+             depthOf(plan, kDepthTexels),
+             {&Work::masks, kMaskTexels},
+             {&Work::points, kPointTexels},
+             &Work::listed,
+             &Work::list,
+             &Work::counters,
+             &Work::seen,
+             &Work::kept,
+             &Work::keptTime,
+             &Work::live,
+             &Set::spheres,
+             &Set::held,
+             &Work::classes,
+             &Set::bits,
+             &Set::nodes,
+             &Set::nodeCounts,
+             &Work::radii,
+             &Work::heldRadii},
+            {{kSpecThin, plan.thin},
+             {kSpecLeaks, plan.leaks},
+             {kSpecClasses, plan.classes},
+             {kSpecFan, plan.fan},
+             {kSpecBeam, plan.beam},
+             {kSpecTree, plan.tree}},
+            GroupsCounted{counted}};
+}
+
+PassInfo spheresByPatch(const CloudContext& c) {
+    PassInfo pass = spheresOf(c, spheres_by_patch_spv, offsetof(FrameCounters, patchGroups));
+    pass.bindings.insert(pass.bindings.end(), {&Set::packed, &Set::places, &Set::runs, &Work::growth});
+    // Smaller groups wait for less at a time; larger ones finish a patch sooner.
+    const uint32_t group = std::min(c.plan.pixelGroup, c.plan.manyPatches ? 128u : 256u);
+    pass.constants.insert(pass.constants.end(),
+                          {{kSpecGroupSize, group}, {kSpecHold, c.plan.hold}, {kSpecPack, c.plan.pack}});
+    return pass;
+}
+
+// hold: kHold... of shaders/shared/constants.h.
+PassInfo spheresBySub(const CloudContext& c, uint32_t hold, size_t counted) {
+    PassInfo pass = spheresOf(c, spheres_spv, counted);
+    pass.bindings.insert(pass.bindings.end(), {{&Work::growth, kVector},
+                                               {&Work::seen, kVector},
+                                               {&Work::kept, kVector},
+                                               {&Work::keptTime, VK_FORMAT_R32_UINT}});
+    pass.constants.insert(
+        pass.constants.end(),
+        {{kSpecGroupSize, c.plan.subGroup}, {kSpecHold, hold}, {kSpecTexels, c.plan.memoryTexels}});
+    return pass;
+}
+
+std::vector<PassInfo> spheres(const CloudContext& c) {
+    if (c.plan.byPixel) {
+        return {spheresByPatch(c)};
+    }
+    if (!c.plan.hold) {
+        return {spheresBySub(c, kHoldNone, offsetof(FrameCounters, subGroups))};
+    }
+    PassInfo quiet = spheresBySub(c, kHoldQuiet, offsetof(FrameCounters, quietGroups));
+    quiet.filled = &Work::live; // classify has read it; both dispatches count it anew
+    return {quiet, spheresBySub(c, kHoldHolding, offsetof(FrameCounters, holdingGroups))};
+}
+
+// The level of patches, or all above it, which one group builds: on a GPU a larger one, whose invocations
+// wait for memory side by side.
+PassInfo treeLevels(const CloudContext& c, bool patches) {
+    const uint32_t group =
+        !patches && c.plan.byPixel ? std::max(c.plan.subGroup, c.plan.pixelGroup) : c.plan.subGroup;
+    TreeParams params{};
+    const auto levels = static_cast<uint32_t>(c.layout.levels.size());
+    for (uint32_t l = 0; l < levels; ++l) {
+        params.levels[l] = {c.layout.levels[l].across, c.layout.levels[l].down, c.layout.levels[l].first, 0};
+    }
+    params.run = patches ? uvec4(1, 1, levels, 0) : uvec4(2, levels - 1, levels, 0);
+    return {"tree",
+            tree_spv,
+            {&Work::listed,
+             &Set::nodes,
+             &Set::nodeCounts,
+             &Work::counters,
+             {&Set::nodes, kVector},
+             {&Set::nodeCounts, VK_FORMAT_R32G32B32A32_UINT}},
+            {{kSpecGroupSize, group}, {kSpecPatches, patches}},
+            groupsFor(patches ? c.layout.patches() : 1, group),
+            After::Barrier,
+            params};
+}
+
+} // namespace
+
+std::vector<PassInfo> framePasses(const CloudContext& c) {
+    std::vector<PassInfo> passes;
+    const auto add = [&](bool in, auto... describe) {
+        if (in) {
+            (passes.push_back(describe(c)), ...);
+        }
+    };
+    add(c.plan.occlusion, occlusion);
+    add(c.plan.cloud, classify);
+    add(c.plan.lists(), list);
+    add(c.plan.cloud, surface);
+    add(c.plan.thins(), thin);
+    add(c.plan.moments, moments);
+    if (c.plan.spheres) {
+        std::ranges::move(spheres(c), std::back_inserter(passes));
+    }
+    if (c.plan.tree) {
+        passes.push_back(treeLevels(c, true));
+        passes.push_back(treeLevels(c, false));
+    }
+    return passes;
+}
+
+PassInfo deliverPass(const CloudContext& c) {
+    const uint32_t words = std::max<uint32_t>(sizeof(FrameCounters) / sizeof(uint32_t), c.layout.patches());
+    return {"deliver",
+            deliver_spv,
+            {&Work::counters, &Work::listed, &Set::counters, &Set::listed},
+            {{kSpecGroupSize, c.plan.subGroup}},
+            groupsFor(words, c.plan.subGroup)};
+}
+
+void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const SetBuffers& set) {
+    commands.copy(work.counters, set.counters, work.counters.bytes());
+    commands.copy(work.listed, set.listed, work.listed.bytes());
+    commands.barrier();
+    clearCounters(commands, work);
+}
+
+void clearCounters(gpu::Commands& commands, const WorkBuffers& work) {
+    FrameCounters zero{};
+    zero.patchGroups = zero.subGroups = zero.guidedGroups = {0, 1, 1, 0};
+    zero.quietGroups = zero.holdingGroups = {0, 1, 1, 0};
+    commands.update(work.counters, 0, sizeof(zero), &zero);
+    commands.fill(work.listed, 0);
+}
+
+} // namespace fathom::cloud

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ids of the specialisation constants. A name means the same in every shader, and C++ sets constants by these
+// names. Flags are 0 or 1; what a shader does not declare is ignored.
+#ifndef FATHOM_SHARED_CONSTANTS_H
+#define FATHOM_SHARED_CONSTANTS_H
+#include "shaders/shared/interop.h"
+FATHOM_SHARED_BEGIN
+
+FATHOM_CONST kSpecGroupSize = 0; // local_size_x, in every shader
+// The camera and the scene.
+FATHOM_CONST kSpecRays = 1;    // rays come from a table: distorted lens or fan
+FATHOM_CONST kSpecFan = 2;     // pixels are beams at equal angles
+FATHOM_CONST kSpecBeam = 3;    // each sphere grows by 3 sigma of its own point
+FATHOM_CONST kSpecColour = 4;  // kColourNone, kColourRegistered or kColourLookedUp
+FATHOM_CONST kSpecYuyv = 5;    // a colour word holds two pixels
+FATHOM_CONST kSpecWater = 6;   // colours are corrected for attenuation in water
+FATHOM_CONST kSpecClasses = 7; // number of point classes; loops over them unroll
+FATHOM_CONST kSpecBox = 8;     // some class has a box
+FATHOM_CONST kSpecRange = 9;   // some class has a range gate
+FATHOM_CONST kSpecGuidance = 10;
+FATHOM_CONST kSpecSelfFilter = 11; // points inside the arm's spheres belong to no class
+FATHOM_CONST kSpecThin = 12;       // the error budget removes points
+FATHOM_CONST kSpecHold = 13;       // unseen points are held; `spheres` takes a kHold value
+FATHOM_CONST kSpecLeaks = 14;      // neighbouring points may be a radius apart
+FATHOM_CONST kSpecTree = 15;       // the GPU query reads spheres and bounds
+// The filter.
+FATHOM_CONST kSpecRadius = 16;     // window (2 r + 1)^2; 0 = no filter
+FATHOM_CONST kSpecEdge = 17;       // flying pixels are rejected
+FATHOM_CONST kSpecPolynomial = 18; // weights by a polynomial instead of exp
+FATHOM_CONST kSpecTiled = 19;      // window from shared memory
+FATHOM_CONST kSpecBlock = 20;      // one invocation per 4x4 sub-patch, window in registers
+FATHOM_CONST kSpecPair = 21;       // two pixels per invocation
+// The device.
+FATHOM_CONST kSpecFour = 22;     // width divides by four: one texel holds four pixels, 1 = of depth, 2 = of
+                                 // registered colour, too
+FATHOM_CONST kSpecRows = 23;     // rows of four pixels per invocation
+FATHOM_CONST kSpecWide = 24;     // a group covers four patches side by side
+FATHOM_CONST kSpecGather = 25;   // a group counts pixels in shared memory first
+FATHOM_CONST kSpecKeep = 26;     // later passes find the depth on the device
+FATHOM_CONST kSpecLists = 27;    // classify lists patches itself
+FATHOM_CONST kSpecSubGroup = 28; // group size of the sub-patch passes
+FATHOM_CONST kSpecTexels = 29;   // the memory of points is read as texels
+FATHOM_CONST kSpecPack = 30;     // the host reads packed runs
+FATHOM_CONST kSpecShared = 31;   // moments of sub-patches are merged in shared memory
+FATHOM_CONST kSpecPatches = 32;  // `tree` builds the level of patches
+// Measurements of the device.
+FATHOM_CONST kSpecRounds = 33; // of four multiply-adds per chain
+FATHOM_CONST kSpecCopy = 34;   // `stream` copies; else it adds up
+
+// kSpecColour.
+FATHOM_CONST kColourNone = 0, kColourRegistered = 1, kColourLookedUp = 2;
+// kSpecHold of `spheres` on CPU devices: patches whose memory holds no points and those that hold some are
+// dispatched apart.
+FATHOM_CONST kHoldNone = 0, kHoldQuiet = 1, kHoldHolding = 2;
+
+FATHOM_SHARED_END
+#endif
