@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pool of values of which one is the newest: readers lease it, one writer fills another, nobody waits.
+// Pool of values: readers lease the newest one while one writer fills another. No side waits.
 #pragma once
 
 #include <atomic>
@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-// Holds readers + 2 values: one newest, one a reader, one to write. Each reader holds at most one lease at a
-// time (drop the old one before taking the next). One writer. Lock-free; the writer is wait-free.
+// Holds readers + 2 values: the newest, one per reader, one to write. Each reader holds at most one lease at
+// a time and drops it before it takes the next. One writer. Lock-free; the writer is wait-free.
 template <class T>
 class LeasePool {
     struct Entry {
@@ -20,7 +20,7 @@ class LeasePool {
     };
 
 public:
-    // Move-only hold on one value; a default lease holds nothing.
+    // Move-only lease of one value; a default lease is empty.
     class Lease {
     public:
         Lease() = default;
@@ -64,7 +64,7 @@ public:
             }
             Entry& entry = entries_[static_cast<size_t>(index)];
             int32_t count = entry.readers.load(std::memory_order_relaxed);
-            // The writer may have taken the entry back since newest_ was read: then there is a newer one.
+            // The writer may have reused the entry since newest_ was read; then a newer one exists.
             while (count != kWriting) {
                 if (entry.readers.compare_exchange_weak(count, count + 1, std::memory_order_acquire)) {
                     return Lease(&entry);
@@ -88,7 +88,7 @@ public:
     }
     uint32_t backIndex() const noexcept { return static_cast<uint32_t>(writing_); } // after back()
 
-    // Writer. What back() gave becomes the newest.
+    // Writer. The value of back() becomes the newest.
     void publish() noexcept {
         entries_[static_cast<size_t>(writing_)].readers.store(0, std::memory_order_release);
         newest_.store(writing_, std::memory_order_release);
@@ -96,7 +96,7 @@ public:
     }
 
     size_t size() const { return entries_.size(); }
-    // Before the threads start: to wire each value up.
+    // For setting values up before the threads start.
     T& at(size_t i) { return *entries_[i].value; }
 
 private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Single-producer single-consumer ring. The producer never waits: a full ring drops the new value and counts
-// it.
+// Single-producer single-consumer queue. The producer never waits: a full queue drops the new value and
+// counts it.
 #pragma once
 
 #include <atomic>

@@ -7,7 +7,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr uint32_t kLooks = 256; // between two looks at the clock, or two offers of the processor
+constexpr uint32_t kLooks = 256; // polls between two reads of the clock, or between two yields
 
 void relax() noexcept {
 #if defined(__x86_64__)
@@ -30,7 +30,7 @@ ThreadPool::ThreadPool(uint32_t members, std::chrono::microseconds spinTime)
         for (uint32_t i = 1; i < members; ++i) {
             threads_.emplace_back([this] { member(); });
         }
-    } catch (...) { // std::system_error: those that are there would never end
+    } catch (...) { // std::system_error: threads already started would never end
         end();
         throw;
     }
@@ -55,11 +55,10 @@ void ThreadPool::runWork(uint32_t parts, const Work& work) noexcept {
     done_.store(0, std::memory_order_relaxed);
     const uint64_t job = (claims_.load(std::memory_order_relaxed) >> 32) + 1;
     claims_.store(firstClaim(job, parts), std::memory_order_release);
-    call(); // who has tired of looking out comes late, but comes
+    call(); // wakes workers that stopped spinning
     while (takePart()) {
     }
-    // A part is in work: as short as the one that was just done here, unless its thread has lost its
-    // processor.
+    // Other workers finish their last parts: as short as those done here, unless a thread lost its processor.
     for (uint32_t looks = 1; done_.load(std::memory_order_acquire) < parts; ++looks) {
         if (looks % kLooks == 0) {
             std::this_thread::yield();
@@ -82,7 +81,7 @@ bool ThreadPool::takePart() noexcept {
 
 void ThreadPool::member() noexcept {
     for (;;) {
-        // In this order: the call that is behind ending_ is either seen here or ends the wait below.
+        // In this order: the wake-up that follows ending_ is either seen here or ends the wait below.
         const uint32_t seen = calls_.load(std::memory_order_acquire);
         if (ending_.load()) {
             return;

@@ -11,12 +11,12 @@
 
 namespace fathom {
 
-// For jobs of tens of microseconds and more while processors have nothing else to do: members look out for
-// work without sleeping for a while after each call() and each job. They inherit the affinity of who makes
-// the crew. One thread calls everything.
+// For jobs of tens of microseconds and more on idle processors: after each wake() and each job, workers spin
+// for a while before they sleep. They inherit the affinity of the thread that makes the pool. One thread
+// calls everything.
 class ThreadPool {
 public:
-    // members: the caller is one of them; 1 = no thread is made. spinTime: for how long members do.
+    // workers: the caller counts as one; 1 = no thread is made. spinTime: how long idle workers spin.
     explicit ThreadPool(uint32_t members, std::chrono::microseconds spinTime = std::chrono::milliseconds(1));
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
@@ -24,11 +24,11 @@ public:
 
     uint32_t members() const { return static_cast<uint32_t>(threads_.size()) + 1; }
 
-    // A job is about to come: who sleeps wakes up. Costs a system call.
+    // Wakes sleeping workers before a job. Costs a system call.
     void call() noexcept;
 
-    // job(part) for part 0 .. parts - 1, each once, in any order, by whoever is free; returns when all are
-    // done. What any of them wrote is seen then. The job must not throw. parts < 65536.
+    // Runs job(part) once for each part 0 .. parts - 1, in any order, on any worker. Returns when all are
+    // done; the caller then sees what they wrote. The job must not throw. parts < 65536.
     template <class Job>
     void run(uint32_t parts, const Job& job) noexcept {
         runWork(parts, {[](const void* it, uint32_t part) { (*static_cast<const Job*>(it))(part); }, &job});
@@ -44,9 +44,9 @@ private:
     bool takePart() noexcept;
     void member() noexcept;
 
-    Work work_; // read only by who has claimed a part of it
-    // Number of the job << 32 | parts << 16 | next part: one word, so that nobody claims a part of a job that
-    // is over.
+    Work work_; // read only by workers that have claimed a part of it
+    // Number of the job << 32 | parts << 16 | next part: one word, so that no worker claims a part of a
+    // finished job.
     std::atomic<uint64_t> claims_{0};
     std::atomic<uint32_t> done_{0}, calls_{0};
     std::atomic<bool> ending_{false};
@@ -54,14 +54,14 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-// In how many parts of at least `least` n things are shared: up to four a member of the crew, so that one who
-// comes late takes less; one part, also of nothing, where there is no crew.
+// Number of parts, of at least `least` each, into which n items are split: up to four per worker, so that a
+// late worker takes fewer; one part without a pool, even when n is 0.
 inline uint32_t partsOf(const ThreadPool* workers, size_t n, size_t least) noexcept {
     const size_t most = workers == nullptr || workers->members() == 1 ? 1 : size_t{workers->members()} * 4;
     return static_cast<uint32_t>(std::clamp<size_t>(n / least, 1, most));
 }
 
-// job(begin, end) for those parts.
+// Runs job(begin, end) on those parts.
 template <class Job>
 void inParts(ThreadPool* workers, size_t n, size_t least, const Job& job) noexcept {
     const size_t parts = partsOf(workers, n, least);

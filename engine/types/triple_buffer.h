@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Newest-value mailbox: one writer, one reader, three slots, no locks. Values that nobody read are
+// Triple buffer: passes the newest value from one writer to one reader without locks. Unread values are
 // overwritten.
 #pragma once
 
@@ -10,7 +10,7 @@
 namespace fathom {
 
 // The writer fills back() and calls publish(); the reader calls refresh() and reads front(). Each side owns
-// its slot outright, so T may be large and is never copied. Wait-free on both sides; any two threads.
+// its slot, so T may be large and is never copied. Wait-free on both sides; one thread per side.
 template <class T>
 class TripleBuffer {
 public:
