@@ -1,8 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels can matter: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation
-// kRows rows of four pixels of a sub-patch. The first pixel with a class marks its patch as work; no result depends on the order in
-// which that happens.
+// Classes of each pixel: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation
+// per kRows rows of four pixels. The first pixel with a class marks its patch; no result depends on the order.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -28,19 +27,19 @@ layout(constant_id = kSpecLists) const uint kLists = 0;
 layout(constant_id = kSpecYuyv) const uint kYuyv = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - a pixel; kYuyv: Y0, U, Y1, V two; kFour = 2: their words, four pixels a texel
+layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - per pixel; kYuyv: Y0, U, Y1, V per two; kFour = 2: their words, four pixels per texel
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
-layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // a byte a slot: class bits
+layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // one byte per slot: class bits
 layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> kPatch bits
 layout(std430, binding = 7) writeonly buffer List { uint list[]; };         // patches, any order; its parts: frame_params.h
 layout(std430, binding = 8) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held ones among them
+layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held points
 // The arm, about the origin [m]: x of arm[0] = bits of the count of links; a link is two entries, its bound and (bits of) the first
 // and the end of its spheres.
 layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
-layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // uint16 a pixel, as they came
+layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // uint16 per pixel, as uploaded
 
 #include "shaders/lib/colour.glsl"
 #include "shaders/lib/depth.glsl"
@@ -77,12 +76,12 @@ bool colourOf(vec3 p, out vec3 rgb) {
     return true;
 }
 
-// What the point's colour is without the water before it, in whole bytes as the gates want them (Beer and Lambert).
+// Colour of the point without the water in front of it, in whole bytes as the gates expect (Beer-Lambert).
 vec3 withoutWater(vec3 rgb, vec3 p) {
     return kWater != 0 ? floor(min(rgb * exp(params.water.xyz * length(p)), vec3(255.0)) + 0.5) : rgb;
 }
 
-// No && and no ||, which branch.
+// Avoids && and ||, which branch.
 bool inClass(ClassParams c, Hsl colourHere, bool seen, vec3 base) {
     float inside = kColour != 1 && !seen ? c.boxMax.w : insideGates(colourHere, c);
     if (kBox != 0) {
@@ -184,7 +183,7 @@ vec3[4] coloursAt(uvec2 at) {
     return rgb;
 }
 
-// words: class bits of four pixels of a row, a byte each.
+// words: class bits of four pixels of a row, one byte each.
 void countPixels(uint words[kRows]) {
     for (uint c = 0; c < kClasses; ++c) {
         uint pixels = 0;
@@ -202,7 +201,7 @@ void countPixels(uint words[kRows]) {
     }
 }
 
-// Of four pixels of a row, a byte each.
+// Class bits of four pixels of a row, one byte each.
 uint classBitsOfFour(uvec2 at) {
     vec4 z = depthsAt(at);
     vec3 rgb[4] = coloursAt(at);
@@ -213,7 +212,7 @@ uint classBitsOfFour(uvec2 at) {
     return word;
 }
 
-// Where an invocation's first pixel is. Groups are laid out as the patches are: no division finds the pixel.
+// First pixel of an invocation. Groups are laid out like the patches, so no division is needed.
 struct Place {
     uint patchIndex, inside; // slot in the patch
     uvec2 at;
@@ -233,7 +232,7 @@ Place placeOf() {
     return Place(gl_WorkGroupID.y * params.size.z + gl_WorkGroupID.x, inside, gl_WorkGroupID.xy * 16u + pixelInPatch(inside), true);
 }
 
-// What is new about a patch goes on the lists.
+// Adds newly marked patches to the lists.
 void mark(uint patchIndex, uint bits) {
     if ((listed[patchIndex] & bits) == bits) {
         return;

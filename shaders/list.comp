@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// The lists of patches that classify has marked and of those with points in memory, an invocation a patch. Of a device whose classify
-// pays for what any pixel might do; others list as they mark.
+// Lists the patches that classify has marked and those with points in memory. One invocation per patch. CPU
+// devices only: there divergent lanes of classify would all pay for the branches. GPUs list in classify.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
@@ -13,13 +13,13 @@ layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) buffer Listed { uint listed[]; };               // patch -> kPatch bits
-layout(std430, binding = 2) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held ones among them
+layout(std430, binding = 2) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held points
 layout(std430, binding = 3) writeonly buffer List { uint list[]; };         // patches, any order; its parts: frame_params.h
 layout(std430, binding = 4) buffer Counters { FrameCounters counters; };
 
 #include "shaders/lib/lists.glsl"
 
-// Memory that holds nothing is neither read nor looked at.
+// Patches without held points are listed apart, so that `spheres` skips their memory.
 void putByMemory(uint patchIndex, uint patches) {
     if (live[patchIndex] >> 16 != 0) {
         uint place = atomicAdd(counters.holdingGroups.w, 1u);

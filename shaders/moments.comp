@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Moments of every guidance class in every patch that has pixels of one: count, mean, sums of products about the mean. Those of sub-patches are
-// merged in fixed order (Chan, Golub, LeVeque 1979), by an invocation a patch or (kShared) by the first of a group of 16, an
-// invocation a sub-patch.
+// Moments of every guidance class in every guided patch: count, mean, sums of products about the mean. Moments of
+// sub-patches are merged in fixed order (Chan, Golub, LeVeque 1979): by one invocation per patch, or (kShared) by
+// the first invocation of a group of 16, one per sub-patch.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -12,8 +12,8 @@ layout(local_size_x_id = kSpecGroupSize) in; // kShared: 16
 layout(constant_id = kSpecShared) const uint kShared = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits
-layout(binding = 2) uniform samplerBuffer points; // a slot: base point about the origin, w = 0: none
+layout(binding = 1) uniform usamplerBuffer masks; // one byte per slot: class bits
+layout(binding = 2) uniform samplerBuffer points; // per slot: base point about the origin, w = 0: none
 layout(std430, binding = 3) readonly buffer List { uint list[]; }; // its part of guided patches
 layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; }; // patch * kMaxClasses + k-th guidance class
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
@@ -22,7 +22,7 @@ layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; }
 
 shared PatchMoments part[kShared != 0 ? 16 : 1];
 
-// Without a branch: a CPU device walks both sides of each.
+// Without branches: a CPU device executes both sides of each.
 PatchMoments subMoments(uint sub, uint c) {
     vec4 point[16]; // w = 1: of the class
     uvec4 rows = rowsOfMasks(sub);
@@ -34,7 +34,7 @@ PatchMoments subMoments(uint sub, uint c) {
     vec3 sum = vec3(0.0), anchor = vec3(0.0);
     float count = 0.0;
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
-        anchor = all(bvec2(count == 0.0, point[p].w != 0.0)) ? point[p].xyz : anchor; // differences of neighbours are exact: sums of them keep their digits
+        anchor = all(bvec2(count == 0.0, point[p].w != 0.0)) ? point[p].xyz : anchor; // differences of neighbours are exact, so their sums keep all digits
         sum += point[p].w != 0.0 ? point[p].xyz - anchor : vec3(0.0);
         count += point[p].w;
     }
@@ -67,9 +67,9 @@ PatchMoments wholePatch(uint patchIndex, uint c) {
     return m;
 }
 
-// All of the group call it; the first has the result.
+// Called by the whole group; the first invocation has the result.
 PatchMoments patchOfGroup(uint patchIndex, uint c) {
-    barrier(); // the class before is read
+    barrier(); // the previous class has been read
     part[gl_LocalInvocationID.x] = subMoments(patchIndex * 16u + gl_LocalInvocationID.x, c);
     barrier();
     PatchMoments m = part[0];

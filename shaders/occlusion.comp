@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Nearest depth seen by the colour camera in each small cell of its picture, so that classify can tell a point that the
-// colour camera sees from one that something nearer hides (parallax). Only for unregistered cameras.
+// Nearest depth in each small cell of the colour image. With it classify tells whether the colour camera sees a
+// point or something nearer hides it (parallax). Only for unregistered cameras.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
@@ -10,7 +10,7 @@ layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecRays) const uint kRays = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
 layout(std430, binding = 3) buffer Cells { uint nearest[]; };             // bits of the smallest z, 0xffffffff = none
 

@@ -33,7 +33,7 @@ uint keptTimeAt(uint slot) {
     return kTexels != 0 ? texelFetch(keptTimeBefore, int(slot)).x : keptTime[slot];
 }
 
-// Decision of the 4x4 cell at a pixel; all zero outside the picture and in patches without work.
+// Decision of the 4x4 cell at a pixel; all zero outside the image and in patches without work.
 vec4 cellAt(ivec2 at) {
     bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
     uvec2 p = inside ? uvec2(at) : uvec2(0);
@@ -92,7 +92,7 @@ void wholeSub(uint sub) {
     }
 }
 
-// The listed patches that this dispatch is for.
+// Number of listed patches that this dispatch handles.
 uint patchesOfPart() {
     return kHold == kHoldNone ? counters.patchGroups.x : (kHold == kHoldQuiet ? counters.quietGroups.w : counters.holdingGroups.w);
 }

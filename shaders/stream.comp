@@ -1,8 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// No pass of a frame: what memory gives at best, for `fathom profile limit` (the copy and the sum of STREAM). Every
-// invocation strides over the whole buffer by the number of all, four independent vectors at a time, so that loads are in
-// flight while others arrive, and neighbours read neighbours.
+// Not a pass: peak memory rate of the device, for `fathom profile limit` (copy and sum of STREAM). Invocations stride
+// over the whole buffer, four independent vectors at a time: loads overlap, and neighbours read neighbours.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 

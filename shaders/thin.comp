@@ -1,6 +1,6 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Which points the error budget can do without. One invocation a 4x4 cell of a listed patch.
+// Which points the error budget can remove. One invocation per 4x4 cell of a listed patch.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -10,8 +10,8 @@ layout(local_size_x_id = kSpecGroupSize) in;
 layout(constant_id = kSpecClasses) const uint kClasses = 1;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(binding = 1) uniform usamplerBuffer masks; // a byte a slot: class bits
-layout(binding = 2) uniform samplerBuffer points; // a slot: base point about the origin, w = 0: none
+layout(binding = 1) uniform usamplerBuffer masks; // one byte per slot: class bits
+layout(binding = 2) uniform samplerBuffer points; // per slot: base point about the origin, w = 0: none
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
@@ -27,8 +27,8 @@ const uint kEdge = 5u; // points of a 4x4 cell with the corners of the next ones
 vec3 point[kEdge * kEdge];
 uint kind[kEdge * kEdge]; // forbidden class, kNone
 
-// The four sub-patches that the points lie in: own, right, below, across; their class bits, none outside the picture and in
-// patches without work.
+// One of the four sub-patches that hold the points: own, right, below, across. Class bits are 0 outside the image
+// and in patches without work.
 struct Quarter {
     uint slot; // of its first pixel
     uvec4 rows;
@@ -42,7 +42,7 @@ Quarter quarterAt(uvec2 at) {
     return Quarter(slot, all(bvec2(inside, used != 0)) ? rows : uvec4(0));
 }
 
-// Everything is read before anything is looked at: one delay of the memory, not 25.
+// All reads come before the first use: one memory latency instead of 25.
 void readPoints(uvec2 at) {
     Quarter quarters[4] = Quarter[4](quarterAt(at), quarterAt(at + uvec2(4, 0)), quarterAt(at + uvec2(0, 4)), quarterAt(at + uvec2(4, 4)));
     float ranges[kEdge * kEdge];
@@ -58,8 +58,8 @@ void readPoints(uvec2 at) {
     }
 }
 
-// Growth within the budget that lets the k x k cell whose own corner is point `first` drop all but that corner; -1 = it is kept
-// whole: not full of one class, or the budget does not allow it. Unrolled, and without a branch.
+// Growth with which the k x k cell at point `first` can drop all points but that corner; -1 = the cell stays whole:
+// it is not full of one class, or the budget does not allow it. Unrolled, without branches.
 float thinned(const uint first, const uint k) {
     const uint c = kind[first];
     float radius = radiusOf(c), most = 0.0;
@@ -73,7 +73,7 @@ float thinned(const uint first, const uint k) {
     return others == 0u ? growthOf(most, radius) : -1.0;
 }
 
-// Growth of the corners of the four 2x2 cells of the 4x4 cell at a pixel; x = -growth when it is thinned as one; 0 = kept whole.
+// Growth of the corners of the four 2x2 cells of the 4x4 cell at a pixel; x = -growth when it is thinned as one; 0 = whole.
 vec4 decidedCell(uvec2 at) {
     readPoints(at);
     float whole = thinned(0u, 4u);

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Parents over 4x4 children, from patches up to one root: centre = mean of all points below, radius = max(|c_k - centre| + r_k)
-// (paper eq. 3 with the children's spheres). One invocation a node; the top levels run in one group with barriers between.
+// (paper eq. 3 with the children's spheres). One invocation per node; one group builds the top levels, with
+// barriers between them.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -19,7 +20,7 @@ layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
 layout(binding = 4) uniform samplerBuffer subNodes;
 layout(binding = 5) uniform usamplerBuffer subCounts;
 
-// Index of child k of node `at` on `level`; kNoChild when it lies outside. No branch: a CPU device walks both sides of each.
+// Index of child k of node `at` on `level`; kNoChild when it lies outside. No branch: a CPU device executes both sides of each.
 const uint kNoChild = 0xffffffffu;
 uint childOf(uvec2 at, uint level, uint k) {
     uvec4 below = tree.levels[level - 1u];
@@ -58,7 +59,7 @@ Children nodesBelow(uint level, uint index) {
     return c;
 }
 
-// All children are read before any is looked at: the reads are on their way together, a node costs one of their delays, not 32.
+// All children are read before the first use: a node costs one memory latency instead of 32.
 void buildNode(uint level, uint index) {
     Children below;
     if (kPatches != 0) {

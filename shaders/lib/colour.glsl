@@ -3,7 +3,7 @@
 // fractions: with m = max, d = max - min, hue = 60 (k d + difference) / d, S = d / (255 - |max + min - 255|),
 // L = (max + min) / 510. Products instead of quotients, and a slack of what float32 rounds away of a bound (which the CPU has
 // taken off) and of the product, make the inclusive bounds hold on every device: a colour exactly on a bound is inside.
-// No branch: a CPU device walks both sides of each.
+// No branch: a CPU device executes both sides of each.
 
 // The integers behind hue, saturation and lightness, once a pixel; every class then compares products.
 struct Hsl {

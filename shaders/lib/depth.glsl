@@ -14,7 +14,7 @@ float depthAt(uint pixel) {
     return metresOf(rawDepth(pixel));
 }
 
-// (x / z, y / z) of the ray through a pixel's centre; of a pixel outside of the picture, where nothing is measured, any. No division:
+// (x / z, y / z) of the ray through a pixel's centre; any value for a pixel outside the image. No division:
 // the host works out the same points (engine/cloud/seen_points.h), and a division may be rounded in any way here.
 vec2 rayOf(uvec2 pixel) {
     if (kRays != 0) {

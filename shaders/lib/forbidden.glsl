@@ -15,8 +15,8 @@ uint forbiddenClass(uint mask) {
     return found;
 }
 
-// Region radius [m] of a class; of the first for kNone. By selection: a CPU device reads what all invocations agree on once,
-// and what they do not lane by lane.
+// Region radius [m] of a class; of the first for kNone. By selection: a CPU device reads a uniform index once, and a
+// varying index lane by lane.
 float radiusOf(uint c) {
     float radius = params.classes[0].role.x;
     [[unroll]] for (uint i = 1; i < kClasses; ++i) {

@@ -18,8 +18,8 @@ uint classOfNote(uint note) {
     return kBeam != 0 ? note & 15u : note;
 }
 
-// True while a point may stay: its pixel in the new picture shows nothing, or something nearer, or it lies outside. Unbranched, as
-// all of this.
+// True while a point may stay: its pixel in the new image shows nothing or something nearer, or lies outside.
+// Without branches, like this whole file.
 bool uncontradicted(vec3 p) {
     vec3 q = transformPoint(params.cameraTbase, p);
     bool before = q.z > 0.0;
@@ -49,7 +49,7 @@ vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, ou
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));
     uint keptAt = lastStays ? params.time.z : when; // it was seen in the last frame
-    if (any(bvec2(keptAt != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) { // most slots hold nothing, and did not
+    if (any(bvec2(keptAt != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) { // most slots hold nothing in both frames
         kept[slot] = hold;
         keptTime[slot] = keptAt;
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Class bits of pixels: a byte a slot, a texel a sub-patch, whose four words are its rows. Needs masks.
+// Class bits of pixels: one byte per slot, one texel per sub-patch, whose four words are its rows. Needs masks.
 
 uvec4 rowsOfMasks(uint sub) {
     return texelFetch(masks, int(sub));

@@ -26,14 +26,14 @@ void markPresent(uint place, float radius) {
     }
 }
 
-// Most patches have one class: after the first nobody has to wait for its bits.
+// Most patches have one class: only its first sphere pays for the atomic.
 void markClass(uint mark, float radius) {
     if (radius >= 0.0 && (classesOfPatch & mark) != mark) {
         atomicOr(classesOfPatch, mark);
     }
 }
 
-// Sub-patches with a sphere of either layer: one addition to the counter, which all groups share.
+// Counts sub-patches with a sphere of either layer: one atomic addition per group.
 void countSubs() {
     uint subs = 0;
     for (uint w = 0; w < 8u; ++w) {
@@ -87,7 +87,7 @@ uint firstDepth() {
     return floatBitsToUint(zOfPatch[kByDepth ? w * 32u + uint(findLSB(present[w])) : 0u]);
 }
 
-// Room for the patch's spheres, whichever way they are packed. Patches come in any order: the host puts them in theirs.
+// Reserves room for the patch's spheres in either packing. Patches come in any order; the host sorts them.
 void placeRun() {
     if (kPack != 0) {
         packedSeen = countOf(0);
@@ -121,8 +121,7 @@ uint seenWord(uint w) {
     return w == 0 ? packedBase : (ofRank[w - 1u] - packedBase) << 8 | stepsOfRank[w - 1u];
 }
 
-// All of the group call it. By way of shared memory: what crosses the bus are whole sectors, and not the few words of each that
-// neighbours happen to have.
+// Called by the whole group. Shared memory collects the words, so that whole sectors cross the bus.
 void packByDepth() {
     for (uint slot = gl_LocalInvocationID.x; slot < 256u; slot += gl_WorkGroupSize.x) {
         if (isPresent(slot)) {
@@ -143,7 +142,7 @@ void packByDepth() {
     }
 }
 
-// Slots are not said one by one: the bits of those that are there are less to send.
+// Occupied slots go as bits, which are fewer bytes than their numbers.
 void packPatch(uint patchIndex) {
     for (uint w = gl_LocalInvocationID.x; w < 8u * kLayers; w += gl_WorkGroupSize.x) {
         places[patchIndex * 16u + w] = present[w];
