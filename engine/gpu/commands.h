@@ -9,7 +9,7 @@
 
 namespace fathom::gpu {
 
-// How often what was recorded is submitted.
+// How often a recording is submitted.
 enum class Submissions { One, Many };
 
 // One thread at a time. Recorded anew for each submission, or once for many; the previous one must have
@@ -41,10 +41,10 @@ public:
     void fill(const Buffer& buffer, uint32_t value);                                      // the whole buffer
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
-    // Everything before is visible to everything after but the host, which sees it at end(), and what reads
-    // indirect arguments: each of these two costs a GPU as much as the rest.
+    // Makes earlier writes visible to later commands, except to the host (see end()) and to reads of indirect
+    // arguments: each of these two costs a GPU as much as the rest.
     void barrier();
-    void barrierBeforeIndirect(); // the same, and dispatchIndirect() finds the arguments that a pass wrote
+    void barrierBeforeIndirect(); // the same, also for the arguments of dispatchIndirect()
 
 private:
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);

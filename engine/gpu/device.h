@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One logical device with one compute queue, and what was discovered of it.
+// One logical device with one compute queue, and its properties.
 #pragma once
 
 #include "engine/gpu/instance.h"
@@ -14,14 +14,14 @@
 
 namespace fathom::gpu {
 
-// Where a buffer lives, by what the CPU does with it.
+// Memory of a buffer, by how the CPU uses it.
 enum class MemoryKind {
     Device,   // the CPU never touches it
     Upload,   // the CPU writes it in order, the GPU reads it; device-local when the host can see that
     Readback, // host-cached: the CPU reads it; the GPU may write it straight
 };
 
-// What a window asks of the device besides computing.
+// What a window needs beside compute.
 enum class Drawing {
     None,
     Offscreen, // a queue that draws
@@ -63,7 +63,7 @@ public:
     // caller's to judge.
     void submitDrawing(const VkSubmitInfo& submit, VkFence fence);
     VkResult present(const VkPresentInfoKHR& info);
-    // Until that queue has nothing left to do, presentation included: before what it uses is destroyed.
+    // Waits until that queue is idle, presentation included; call before destroying what it uses.
     void waitForDrawing() noexcept;
 
     // One line for each physical device: name, kind, or the reason for refusing it.

@@ -17,11 +17,11 @@ public:
     bool works() const { return pool_ != VK_NULL_HANDLE; } // false: the device has no timestamps
     // Before marks are recorded; no submission of any may be in flight.
     void reset();
-    // Before what has the marks is submitted once more; likewise.
+    // Before the same commands are submitted again; likewise.
     void again() const;
     void mark(VkCommandBuffer commands); // after all work recorded so far
-    // When the device comes to what is recorded next, whatever is still at work: between passes that overlap,
-    // where mark() would keep them apart.
+    // When the device reaches the next command, even while earlier work runs: for passes that overlap, where
+    // mark() would serialise them.
     void markReached(VkCommandBuffer commands);
     uint32_t marks() const { return used_; }
 

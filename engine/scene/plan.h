@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leave out what a scene does not need: which passes, buffers and threads a scene gets on a device, and why.
+// Decides which passes, buffers and threads a scene needs on a device, and says why.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -12,9 +12,9 @@
 
 namespace fathom {
 
-// Pure data: everything that builds pipelines and buffers reads it and decides nothing itself.
+// Pure data. Code that builds pipelines and buffers reads it and decides nothing itself.
 struct Plan {
-    // Something that is in or left out, with the sentence that says why.
+    // A part that is in the plan or skipped, with the reason.
     struct Item {
         std::string kind; // "pass", "buffer", "thread", "arm"
         std::string name;
@@ -35,14 +35,14 @@ struct Plan {
     bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
     // Variants.
     bool rays = false;        // distorted lens, or a fan
-    bool colour = false;      // some class asks for colour: it is uploaded
+    bool colour = false;      // some class uses colour: it is uploaded
     bool yuyv = false;        // as the camera sends it, two pixels a word
-    bool inPlace = false;     // pictures in whole pages are read where the camera left them, not copied
+    bool inPlace = false;     // images in whole pages are read in place, not copied
     bool tiled = false;       // the filter's window from shared memory
-    bool filterBlock = false; // a 4x4 sub-patch an invocation, its window in registers (radius <= 2)
+    bool filterBlock = false; // one invocation per 4x4 sub-patch, window in registers (radius <= 2)
     uint32_t classes = 0;     // classes of points
     bool box = false;         // some class has a box
-    bool range = false;       // some class asks for the range
+    bool range = false;       // some class has a range gate
     bool fan = false;         // the sensor's pixels are beams at equal angles
     bool beam = false;        // each point's sphere grows by its own sigma
     bool leaks = false; // neighbours may be a region radius apart somewhere in near..far: it is looked for
@@ -50,41 +50,39 @@ struct Plan {
     uint32_t filterRadius = 0;
     bool edge = false;
     bool groupCounts = false; // classify counts in shared memory before it counts for all
-    // spheres an invocation a pixel, moments one a sub-patch, the rest from shared memory; else a sub-patch
-    // and a patch
+    // Spheres: one invocation per pixel, moments: one per sub-patch, with shared memory. Else one per
+    // sub-patch and one per patch.
     bool byPixel = false;
     bool pack = false; // with byPixel: spheres in runs for the host, for the device has memory of its own
     bool memoryTexels = false; // memory of points is read as texels: faster on a CPU device, but elsewhere a
                                // fetch may come after what is written to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
-    // Several rounds of groups: what a round of them does counts, not how soon. By the picture, for what of
-    // it will have work is not known when the passes are recorded.
+    // Groups run in several rounds, so throughput counts more than latency. Decided by the image size,
+    // because the number of patches with work is unknown when passes are recorded.
     bool manyPatches = false;
     uint32_t pixelGroup = 256; // invocations a group of the pixel passes, at most; divides 256
     uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
-    bool arm = false;   // the tool hangs on an arm: joints are the unknowns, all links' leaves meet regions
-    bool water = false; // colours are put right for what water took of them
-    bool selfFilter = false; // the arm's spheres are taken out of the cloud
-    bool passTimes = true;   // each pass is marked with the device's clock; else its time stays zero
-    uint32_t publishers = 1; // threads that lay out a set for the host, the frame cadence's own among them
+    bool arm = false;        // an arm carries the tool: joints are the unknowns, all links meet the fixtures
+    bool water = false;      // colours are corrected for attenuation in water
+    bool selfFilter = false; // points inside the arm's spheres are removed
+    bool passTimes = true;   // passes are timed by the device; else their times are zero
+    uint32_t publishers = 1; // threads that lay out a set for the host, including the frame thread
     // Contact query.
     enum class Query { None, Cpu, Gpu } query = Query::None;
 
     bool has(const std::string& name) const;
-    // Lists of patches are a pass of their own, after classify: where invocations run in step on a CPU, every
-    // pixel pays for what classify might do about a patch.
+    // A separate pass lists patches on CPU devices: there divergent lanes of classify would all pay for it.
     bool lists() const { return cloud && !byPixel; }
-    // So is thinning, except where the group that makes a patch's spheres can share it.
+    // A separate pass thins, unless the group that makes a patch's spheres does.
     bool thins() const { return thin && !byPixel; }
     // A seen sphere is packed as its depth, which its pixel's ray makes a point; with beams whole.
     bool packsDepths() const { return pack && !beam; }
     uint64_t packedBytes() const { // a slot, at most
         return packsDepths() ? 4u + (thin ? 1u : 0u) + (hold ? 16u : 0u) : (hold ? 32u : 16u);
     }
-    // Two pixels an invocation of the filter: a sixth faster where there are many, slower where groups are
-    // few.
+    // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
-    bool delivers() const { return cloud && byPixel; } // by a dispatch; a CPU device copies
+    bool delivers() const { return cloud && byPixel; } // by a dispatch; CPU devices copy
     uint32_t dispatchesPerFrame() const;               // of the frame path, query excluded
 };
 
@@ -93,10 +91,10 @@ struct Plan {
 // lenses.
 double leaksFrom(const Intrinsics& lens, double radius) noexcept;
 
-// Sizes of the picture in patches of 16x16 pixels and in the levels of the region tree.
+// Size of the image in 16x16 patches, and of each level of the region tree.
 struct PatchLayout {
     uint32_t across = 0, down = 0;
-    // Nodes of one level: how many across and down, and the index of the first.
+    // One level: nodes across and down, index of the first.
     struct Level {
         uint32_t across, down, first;
     };
@@ -105,7 +103,7 @@ struct PatchLayout {
     uint32_t slots() const { return patches() * 256; }
     uint32_t nodes() const { return levels.back().first + levels.back().across * levels.back().down; }
 };
-// Of a depth picture [pixels]. Throws BadInput when it is empty or larger than 3840x2160.
+// Of a depth image [pixels]. Throws BadInput when it is empty or larger than 3840x2160.
 PatchLayout patchLayout(uint32_t width, uint32_t height);
 
 // Slot of a pixel in patch-major order: the same arithmetic as shaders/lib/slots.glsl.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every pass of a frame reads: sizes, lenses, poses, gates. Written by the CPU once a frame.
+// Parameters of a frame: sizes, lenses, poses, gates. The CPU writes them once per frame.
 #ifndef FATHOM_SHARED_FRAME_PARAMS_H
 #define FATHOM_SHARED_FRAME_PARAMS_H
 #include "shaders/shared/interop.h"
@@ -7,7 +7,7 @@ FATHOM_SHARED_BEGIN
 
 FATHOM_CONST kMaxClasses = 8; // classes of points in a scene: bits of a pixel's mask
 
-// One class of points. Gates are inclusive; what the class does not ask for has bounds that nothing exceeds.
+// One class of points. Gates are inclusive; unused gates have bounds that nothing exceeds.
 struct ClassParams {
     vec4 hue;      // lo, hi [degree]; 1 = wraps through 0; 0 = grey passes, -1 = it does not
     vec4 satLight; // saturation lo, hi; lightness lo, hi [1/510]
@@ -38,7 +38,7 @@ struct FrameParams {
     vec4 colourTdepth[3];
     ClassParams classes[8];
     vec4 beam;      // sigma along a beam = x + y r [m], across it z r [m] (BeamSigma); -
-    vec4 ranges[8]; // a class: least and largest range [m]; 1 = asks for it; -
+    vec4 ranges[8]; // per class: least and largest range [m]; 1 = has a range gate; -
     vec4 water;     // red, green, blue of stored bytes: logarithm of what a metre takes of them [1/m]; -
     vec4 steps; // of a ray from pixel to pixel: 1 / depth fx, 1 / depth fy; of what a sphere grows by [m]; 1
                 // / that
@@ -52,15 +52,14 @@ FATHOM_CONST kGrowthSteps = 255;
 FATHOM_CONST kRunGrown = 0x80000000;
 FATHOM_CONST kRunWide = 0x40000000;
 
-// What is known of a patch, bits of a word.
+// State of a patch, bits of a word.
 FATHOM_CONST kPatchListed = 1;  // it has work
 FATHOM_CONST kPatchGuided = 2;  // a pixel of it is in a guidance class
 FATHOM_CONST kPatchHolding = 4; // listed, and its memory holds points; where classify makes the lists
 
-// Nothing is counted when a frame begins: the one before ends so (DeliverPass). Integer counters only: their
-// sums do not depend on the order. The list of
-// patches has three parts of as many entries as there are patches: listed ones; guided ones; those of the
-// listed ones that hold nothing, and from its end on those that hold.
+// Zero when a frame begins: the pass `deliver` clears them. Integers only: their sums do not depend on the
+// order. The list of patches has three parts, each with room for all patches: listed patches; guided patches;
+// listed patches that hold no points, and backwards from the end those that hold some.
 FATHOM_CONST kArgumentWords = 20; // its first: x, y, z groups of five indirect dispatches, and a count each
 struct FrameCounters {
     uvec4 patchGroups;   // indirect arguments: one group a listed patch (x = listed patches, 1, 1)
@@ -71,7 +70,7 @@ struct FrameCounters {
     uint nodes;          // used nodes of the tree
     uint packedWords;    // of all runs (packing.glsl)
     uint pad[2];
-    uint classPixels[8]; // pixels that classify marks, a class
+    uint classPixels[8]; // marked pixels per class
     uint leakSpacing[8]; // bits of the largest spacing between neighbours that is >= R, a class; 0 = none
     uint leakRange[8];   // bits of the largest range [m] where that happens, a class
 };
