@@ -60,8 +60,9 @@ TEST_CASE(
         CHECK(row.forbidden == 400 + 4 * row.index);
         CHECK(row.guidance == 140);
         CHECK(row.spheres > 200);
-        CHECK(row.times.at("upload_ms") >= 0.0);
-        CHECK(row.times.at("publish_ms") >= 0.0);
+        CHECK(row.times.at("upload_ms") > 0.0);
+        CHECK(row.times.at("publish_ms") > 0.0); // so each pass took time, too: checkContract
+        CHECK(row.times.count("classify_ms") == 1);
     }
 }
 

@@ -22,32 +22,45 @@ void checkKeys(const json& object, const std::set<std::string>& wanted) {
     CHECK(found == wanted);
 }
 
-void checkPercentiles(const json& object, const std::set<std::string>& keys) {
-    checkKeys(object, keys);
-    if (object.at("p50").is_null()) {
-        return;
+// Measured times: above zero and in order, or null where nothing was measured.
+void checkTimes(const json& times, const std::set<std::string>& keys, bool measured) {
+    checkKeys(times, keys);
+    CHECK(times.at("p50").is_null() == !measured);
+    if (measured) {
+        CHECK(times.at("p50").get<double>() > 0.0);
+        CHECK(times.at("p50").get<double>() <= times.at("p99").get<double>());
+        CHECK(times.at("p99").get<double>() <= times.at("max").get<double>());
     }
-    CHECK(object.at("p50").get<double>() >= 0.0);
-    CHECK(object.at("p50").get<double>() <= object.at("p99").get<double>());
-    CHECK(object.at("p99").get<double>() <= object.at("max").get<double>());
+}
+
+// The summary's percentiles are those of the column: the value of the rank above the share.
+void checkColumn(const json& times, std::vector<double> column) {
+    checkKeys(times, {"p50", "p99", "max"});
+    REQUIRE(!column.empty());
+    std::sort(column.begin(), column.end());
+    const auto ofRank = [&](double share) {
+        const double rank = std::ceil(share * static_cast<double>(column.size()));
+        return doctest::Approx(column[static_cast<size_t>(rank) - 1]).epsilon(1e-6); // the summary has floats
+    };
+    CHECK(times.at("p50").get<double>() == ofRank(0.50));
+    CHECK(times.at("p99").get<double>() == ofRank(0.99));
+    CHECK(times.at("max").get<double>() == ofRank(1.0));
 }
 
 void checkSummaryKeys(const json& s) {
     const std::set<std::string> three{"p50", "p99", "max"};
     checkKeys(s, {"frames", "haptic", "contact", "fixtures", "guidance", "device", "lockstep", "digest"});
     checkKeys(s.at("frames"), {"count", "skipped", "gpu_ms", "upload_ms", "latency_ms"});
-    for (const char* key : {"gpu_ms", "upload_ms", "latency_ms"}) {
-        checkPercentiles(s.at("frames").at(key), three);
-    }
+    checkTimes(s.at("frames").at("latency_ms"), three, s.at("frames").at("count") > 0);
     checkKeys(s.at("haptic"),
               {"ticks", "late", "turn_us", "stalled_ticks", "trapped_ticks", "escape_ticks",
                "not_finite_ticks", "max_penetration_m", "max_escape_depth_m", "max_force_N", "max_torque_Nm",
                "max_force_step_N", "stiffness_N_per_m", "rotational_stiffness_Nm_per_rad",
                "margin_passive_min", "margin_uncoupled_min", "solver"});
-    checkPercentiles(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"});
+    checkTimes(s.at("haptic").at("turn_us"), {"p50", "p99", "p999", "max"}, s.at("haptic").at("ticks") > 0);
     checkKeys(s.at("haptic").at("solver"), {"solves_mean", "infeasible"});
     checkKeys(s.at("contact"), {"queries", "spheres_max", "overflows", "query_us", "where"});
-    checkPercentiles(s.at("contact").at("query_us"), three);
+    checkTimes(s.at("contact").at("query_us"), three, s.at("haptic").at("ticks") > 0);
     for (const json& row : s.at("fixtures")) {
         checkKeys(row, {"class", "role", "points_mean", "spheres_mean", "patches_mean"});
     }
@@ -166,6 +179,31 @@ void checkTicks(const Replay& replay, const Terms& terms) {
     CHECK(depth >= 0.0);
 }
 
+// The times of each frame: a pass takes time exactly where the frame makes a set (its publication does, too),
+// and upload, passes and publication follow one another within the latency.
+void checkFrameTimes(const Replay& replay) {
+    std::vector<double> upload, passes;
+    double longest = 0.0;
+    for (const FrameRow& row : replay.frames) {
+        CAPTURE(row.index);
+        const double publish = row.times.at("publish_ms");
+        upload.push_back(row.times.at("upload_ms"));
+        passes.push_back(0.0);
+        for (const auto& [column, time] : row.times) {
+            CAPTURE(column);
+            if (column != "upload_ms" && column != "publish_ms") {
+                CHECK((time > 0.0) == (publish > 0.0));
+                passes.back() += time;
+            }
+        }
+        longest = std::max(longest, upload.back() + passes.back() + publish);
+    }
+    const json& frames = replay.summary.at("frames");
+    checkColumn(frames.at("upload_ms"), upload);
+    checkColumn(frames.at("gpu_ms"), passes);
+    CHECK(longest <= frames.at("latency_ms").at("max").get<double>() * (1.0 + 1e-6));
+}
+
 void checkFrames(const Replay& replay) {
     const json& summary = replay.summary;
     CHECK(summary.at("frames").at("count") == replay.frames.size());
@@ -232,6 +270,7 @@ void checkContract(const Replay& replay, const Terms& terms) {
     checkFiles(replay);
     checkTicks(replay, terms);
     checkFrames(replay);
+    checkFrameTimes(replay);
 }
 
 Stage::Stage() {
