@@ -9,6 +9,7 @@
 #include "apps/guard/guard_command.h"
 #include "apps/latency/latency_command.h"
 #include "apps/operate/operate_command.h"
+#include "apps/operate/window_latency.h"
 #include "apps/plan/plan_command.h"
 #include "apps/profile/profile_command.h"
 #include "apps/record/record_command.h"
@@ -90,7 +91,7 @@ int run(int argc, char** argv) {
     fathom::addOperateCommand(app, global);
     fathom::addStabilityCommand(app, global, result);
     fathom::addRecordCommand(app, global, result);
-    fathom::addLatencyCommand(app, global, result);
+    fathom::addLatencyCommand(app, global, fathom::operate::measureWindow, result);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

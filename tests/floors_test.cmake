@@ -23,11 +23,12 @@ set(floor_engine/reference 5)
 set(floor_apps/binding 6)
 set(floor_apps/verify 6)
 set(floor_apps 7)
+set(floor_apps/operate 8)
 set(floor_apps/stability 8)
 set(floor_apps/profile 8)
 set(floor_apps/main.cpp 9)
 
-set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/stability apps/profile apps/main.cpp) # every other folder must do without the GPU
+set(with_vulkan engine/gpu engine/cloud engine/cycle engine/run engine/front apps/binding apps/verify apps apps/operate apps/stability apps/profile apps/main.cpp) # every other folder must do without the GPU
 set(most_lines 300)
 set(sources h cpp comp vert frag glsl cmake)
 set(passed 0)
@@ -37,7 +38,7 @@ set(failed 0)
 function(folder_of path result)
     set(best "")
     foreach(folder shaders/shared shaders/lib shaders engine/types engine/gpu engine/scene engine/model engine/contact
-            engine/haptics engine/cloud engine/cycle engine/run engine/front engine/include engine/reference devices apps/binding apps/verify apps/stability apps/profile apps)
+            engine/haptics engine/cloud engine/cycle engine/run engine/front engine/include engine/reference devices apps/binding apps/verify apps/operate apps/stability apps/profile apps)
         string(LENGTH "${folder}" length)
         string(LENGTH "${best}" longest)
         string(FIND "${path}" "${folder}/" at)

@@ -20,7 +20,7 @@ struct Request {
     std::string out;
 };
 
-int measure(const Request& request, const GlobalOptions& global) {
+int measure(const Request& request, const GlobalOptions& global, const WindowLoad& windowLoad) {
     const StopSignals signals;
     LatencyOptions options = request.run;
     std::vector<std::string> loads = request.loads;
@@ -30,7 +30,7 @@ int measure(const Request& request, const GlobalOptions& global) {
     } else if (loads.empty()) {
         loads = {"idle", "frames", "window"};
     }
-    LatencyRun run(options, global, signals.asked());
+    LatencyRun run(options, global, windowLoad, signals.asked());
     std::cout << "rate         " << run.rateHz() << " turns a second, " << options.seconds << " s a part; "
               << run.placement() << "\nframes       30 a second on " << run.device() << "\n";
     std::vector<LatencyPart> parts;
@@ -55,7 +55,7 @@ int measure(const Request& request, const GlobalOptions& global) {
 
 } // namespace
 
-void addLatencyCommand(CLI::App& app, const GlobalOptions& global, int& result) {
+void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad windowLoad, int& result) {
     auto request = std::make_shared<Request>();
     CLI::App* command =
         app.add_subcommand("latency", "measure how late the haptic thread wakes, and its turn");
@@ -71,7 +71,9 @@ void addLatencyCommand(CLI::App& app, const GlobalOptions& global, int& result) 
                      "one run of so many minutes with frames: memory flat, no frame lost")
         ->check(CLI::Range(0.01, 1440.0));
     command->add_option("--out", request->out, "the same as JSON, with every bin that counted");
-    command->callback([request, &global, &result] { result = measure(*request, global); });
+    command->callback([request, &global, &result, windowLoad = std::move(windowLoad)] {
+        result = measure(*request, global, windowLoad);
+    });
 }
 
 } // namespace fathom

@@ -2,7 +2,7 @@
 // `fathom latency SCENE`: what this machine gives the haptic thread.
 #pragma once
 
-#include "apps/global_options.h"
+#include "apps/latency/latency_run.h"
 
 namespace CLI {
 class App;
@@ -11,6 +11,7 @@ class App;
 namespace fathom {
 
 // result: 1 when a soak's stated limits do not hold.
-void addLatencyCommand(CLI::App& app, const GlobalOptions& global, int& result);
+// windowLoad: measures the load `window`.
+void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad windowLoad, int& result);
 
 } // namespace fathom

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/latency/latency_run.h"
 
-#include "apps/operate/live_feed.h"
-#include "apps/operate/operator_run.h"
-#include "apps/replay/realtime_replay.h"
+#include "apps/session/path_hand.h"
+#include "apps/session/session_feed.h"
 #include "engine/types/error.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <unistd.h>
+#include <utility>
 
 namespace fathom {
 
@@ -19,22 +18,19 @@ namespace {
 constexpr double kMemorySamples = 100.0; // over a part
 constexpr double kSettled = 0.05;        // of a part: buffers reach their size
 
-// The first picture only, or all of them.
-class WatchedFeed final : public FrameFeed {
+// The first frame only, or all of them. A lost device ends the measurement.
+class MeasuredFeed final : public SessionFeed {
 public:
-    WatchedFeed(operate::LiveFeed& feed, bool moving)
-        : feed_(feed)
+    MeasuredFeed(Session& session, bool moving)
+        : SessionFeed(session)
         , moving_(moving) {}
     std::optional<uint32_t> fetch() override {
-        const bool more = moving_ || first_;
-        first_ = false;
-        return more ? feed_.fetch() : std::nullopt;
+        const bool more = std::exchange(first_, false) || moving_;
+        return more ? SessionFeed::fetch() : std::nullopt;
     }
-    void armAtCapture(const ToolState& place) override { feed_.armAtCapture(place); }
-    void publish(double t, PublishedFrame& out) override { feed_.publish(t, out); }
+    bool renewable() const override { return false; }
 
 private:
-    operate::LiveFeed& feed_;
     bool moving_, first_ = true;
 };
 
@@ -81,11 +77,11 @@ private:
     const std::atomic<bool>& asked_;
 };
 
-OperateOptions operateOptions(const LatencyOptions& options) {
-    OperateOptions o;
+SessionOptions sessionOptions(const LatencyOptions& options) {
+    SessionOptions o;
     o.scene = options.scene;
     o.source = options.source;
-    o.path = true;
+    o.endless = true;
     return o;
 }
 
@@ -108,70 +104,56 @@ double LatencyPart::memoryGrowth() const {
            *std::max_element(memory.begin(), memory.begin() + static_cast<long>(tenth));
 }
 
-struct LatencyRun::Session {
-    Session(const LatencyOptions& options, const GlobalOptions& global, const std::atomic<bool>& stop)
-        : placement(ThreadPlacement::ofThisProcess())
-        , confined(placement.rest) // before the device: a software device's workers inherit it
-        , operate(operateOptions(options), global, gpu::Drawing::None, {}, stop)
-        , haptics(makeHapticOptions(operate.scene, operate.tool))
-        , feed(operate)
-        , answers(operate) {}
-
-    ThreadPlacement placement;
-    CpuConfinement confined;
-    operate::OperateSession operate;
-    HapticOptions haptics;
-    operate::LiveFeed feed;
-    operate::LiveAnswers answers;
-};
-
-LatencyRun::LatencyRun(const LatencyOptions& options, const GlobalOptions& global,
+LatencyRun::LatencyRun(const LatencyOptions& options, const GlobalOptions& global, WindowLoad windowLoad,
                        const std::atomic<bool>& stop)
     : options_(options)
     , global_(global)
+    , windowLoad_(std::move(windowLoad))
     , stop_(stop)
-    , session_(std::make_unique<Session>(options, global, stop)) {}
-
-LatencyRun::~LatencyRun() = default;
+    , placement_(ThreadPlacement::ofThisProcess())
+    , confined_(placement_.rest)
+    , session_(sessionOptions(options), global, {}, stop)
+    , haptics_(makeHapticOptions(session_.scene, session_.tool)) {}
 
 std::string LatencyRun::device() const {
-    return session_->operate.cycles.facts().name;
+    return session_.cycles.facts().name;
 }
 
 std::string LatencyRun::placement() const {
-    return describe(session_->placement);
+    return describe(placement_);
 }
 
 double LatencyRun::rateHz() const {
-    return 1.0 / session_->haptics.period;
+    return 1.0 / haptics_.period;
 }
 
 LatencyPart LatencyRun::run(const std::string& load, bool moving) {
-    Session& s = *session_;
     LatencyPart part;
     part.load = load;
-    WatchedFeed feed(s.feed, moving);
+    MeasuredFeed feed(session_, moving);
     RealtimeOptions o;
-    o.placement = s.placement;
-    o.hapticPeriod = s.haptics.period;
-    o.staleAfter = s.haptics.staleAfter;
-    RealtimeRun run(feed, s.operate.cycles.plan().query != Plan::Query::None ? &s.answers : nullptr, o);
-    if (!run.firstFrame()) {
-        throw BadInput(s.operate.camera->description(), "frames", "none usable", "at least one usable frame");
-    }
-    const HandPath path = s.operate.path();
-    operate::PathHand hand(path);
-    HapticCycle cycle(s.operate.tool, shapesOf(s.operate.scene), s.haptics,
-                      path.waypoints().front().deviceThandle, nullptr, s.operate.arm.get());
+    o.placement = placement_;
+    o.hapticPeriod = haptics_.period;
+    o.staleAfter = haptics_.staleAfter;
+    RealtimeRun run(feed, session_.contacts(), o);
+    session_.requireFrame(run.firstFrame());
+    const HandPath path = session_.path();
+    PathHand hand(path);
+    HapticCycle cycle(session_.tool, shapesOf(session_.scene), haptics_,
+                      path.waypoints().front().deviceThandle, nullptr, session_.arm.get());
     HistogramSink sink(part, options_.seconds, stop_);
     run.run(cycle, hand, 2.0 * options_.seconds, sink, sink.stop); // the sink ends it
     if (run.failure()) {
         std::rethrow_exception(run.failure());
     }
-    part.framesLost = run.framesLost();
-    part.periodsMissed = run.periodsMissed();
-    part.recordsLost = run.recordsLost();
+    part.take(run);
     return part;
+}
+
+void LatencyPart::take(const RealtimeRun& run) {
+    framesLost = run.framesLost();
+    periodsMissed = run.periodsMissed();
+    recordsLost = run.recordsLost();
 }
 
 LatencyPart LatencyRun::idle() {
@@ -183,26 +165,9 @@ LatencyPart LatencyRun::frames() {
 }
 
 LatencyPart LatencyRun::window() {
-    LatencyPart part;
-    part.load = "window";
-    OperateOptions o = operateOptions(options_);
-    o.ticks = options_.seconds; // not of the window, which may wait long for its first picture
-    o.armed = true;             // as the other parts are
-    o.offscreen = std::getenv("DISPLAY") == nullptr ? "1280x720" : "";
     GlobalOptions global = global_;
-    global.holdClock = false; // the session here holds it
-    operate::OperatorRun run(o, global);
-    run.run();
-    const operate::RunView& seen = run.view();
-    for (size_t i = 0; i < seen.stepMicros().size(); ++i) {
-        part.tick.add(static_cast<double>(seen.stepMicros()[i]));
-        part.late.add(static_cast<double>(seen.wokenLateMicros()[i]));
-    }
-    part.seconds = seen.step().record.t;
-    part.framesLost = run.engine().framesLost();
-    part.periodsMissed = run.engine().periodsMissed();
-    part.recordsLost = run.engine().recordsLost();
-    return part;
+    global.holdClock = false; // this session already holds it
+    return windowLoad_(options_, global);
 }
 
 } // namespace fathom

@@ -5,6 +5,8 @@
 
 #include "apps/global_options.h"
 #include "apps/latency/histogram.h"
+#include "apps/session/session.h"
+#include "engine/run/realtime_run.h"
 
 #include <atomic>
 #include <cstdint>
@@ -32,6 +34,7 @@ struct LatencyPart {
     // How much more of it in the last tenth than in the first one, each by its largest; 0 when there are too
     // few.
     double memoryGrowth() const;
+    void take(const RealtimeRun& run); // its counts, after the run
 };
 
 struct LatencyOptions {
@@ -40,16 +43,20 @@ struct LatencyOptions {
     double seconds = 10.0;
 };
 
-// The scene's hand path drives, again and again, through the regions. Keeps one session for idle and frames.
+// Measures one part in the operator's window. From outside: the window depends on this folder, not the
+// reverse.
+using WindowLoad = std::function<LatencyPart(const LatencyOptions& options, const GlobalOptions& global)>;
+
+// The scene's hand path drives through the regions, again and again. The loads idle and frames share one
+// session.
 class LatencyRun {
 public:
     // Throws BadInput, Error, DeviceLost.
-    LatencyRun(const LatencyOptions& options, const GlobalOptions& global, const std::atomic<bool>& stop);
-    ~LatencyRun();
+    LatencyRun(const LatencyOptions& options, const GlobalOptions& global, WindowLoad windowLoad,
+               const std::atomic<bool>& stop);
 
     LatencyPart idle();
     LatencyPart frames();
-    // In a window where there is a display, else offscreen.
     LatencyPart window();
 
     std::string device() const; // that computes the frames
@@ -57,13 +64,16 @@ public:
     double rateHz() const;
 
 private:
-    struct Session;
     LatencyPart run(const std::string& load, bool moving);
 
     LatencyOptions options_;
     GlobalOptions global_;
+    WindowLoad windowLoad_;
     const std::atomic<bool>& stop_;
-    std::unique_ptr<Session> session_;
+    ThreadPlacement placement_;
+    CpuConfinement confined_; // before the device: the workers of a software device inherit it
+    Session session_;
+    HapticOptions haptics_;
 };
 
 // [MiB] resident memory of this process; 0 when the system does not tell.

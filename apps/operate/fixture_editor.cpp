@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/fixture_editor.h"
 
-#include "apps/operate/operate_session.h"
+#include "apps/session/session.h"
 #include "engine/reference/classify.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 #include "apps/operate/fixture_editor.h"
 #include "apps/operate/holding_panel.h"
 #include "apps/operate/keys.h"
-#include "apps/operate/operate_session.h"
 #include "apps/operate/theme.h"
+#include "apps/session/session.h"
 
 #include <GLFW/glfw3.h>
 #include <cmath>

@@ -40,11 +40,11 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , placement_(ThreadPlacement::ofThisProcess())
     , window_(options.offscreen, title(options))
     , confined_(placement_.rest) // before the device: a software device's workers inherit it
-    , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
-               window_.extensions(), signals_.asked())
+    , session_(options, global,
+               {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
+               signals_.asked())
     , haptics_(softly(session_.scene, session_.tool))
     , feed_(session_)
-    , answers_(session_)
     , observers_(options.viewEndpoint.empty() ? nullptr
                                               : std::make_unique<ViewPublisher>(options.viewEndpoint))
     , published_(recorder_, observers_.get())
@@ -120,7 +120,7 @@ void OperatorRun::frame() {
     traces_.draw(console_, hud, {room[0], room[1]}, {room[2], room[3]});
     listen();
     alarms_.step(console_, view_, haptics_, editor_->scene(),
-                 {session_.handover.gone(), !hand_->there(), recorder_.failure()});
+                 {session_.handover->gone(), !hand_->there(), recorder_.failure()});
     show();
     log_.write(console_, view_, extras());
 }
@@ -128,7 +128,7 @@ void OperatorRun::frame() {
 // Both threads find out by themselves that the device is lost; only this one knows when nothing is drawn on
 // it any more.
 void OperatorRun::show() {
-    DeviceHandover& device = session_.handover;
+    DeviceHandover& device = *session_.handover;
     try {
         canvas_->finishFrame(console_, screen_.layers(), [this] { return feed_.busy(); });
         if (canvas_->isOpen()) {
@@ -155,7 +155,7 @@ void OperatorRun::reopen() {
         canvas_->open(session_.cycles.device());
         screen_.redraw();
     } catch (const Error& e) { // a driver that is being started anew may say anything
-        session_.handover.lose(e.what());
+        session_.handover->lose(e.what());
     }
 }
 

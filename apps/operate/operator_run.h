@@ -5,7 +5,7 @@
 #include "apps/binding/stop_signals.h"
 #include "apps/binding/view_publisher.h"
 #include "apps/operate/canvas.h"
-#include "apps/operate/live_feed.h"
+#include "apps/operate/operate_command.h"
 #include "apps/operate/pilot_hand.h"
 #include "apps/operate/recorder.h"
 #include "apps/operate/screen.h"
@@ -13,6 +13,8 @@
 #include "apps/operate/steering.h"
 #include "apps/operate/traces_panel.h"
 #include "apps/replay/fault_trace.h"
+#include "apps/session/path_hand.h"
+#include "apps/session/session_feed.h"
 #include "engine/run/realtime_run.h"
 
 #include <memory>
@@ -67,10 +69,9 @@ private:
     ThreadPlacement placement_;
     Window window_;
     CpuConfinement confined_;
-    OperateSession session_;
+    Session session_;
     HapticOptions haptics_;
-    LiveFeed feed_;
-    LiveAnswers answers_;
+    SessionFeed feed_;
     std::unique_ptr<ViewPublisher> observers_; // null = nobody may look on
     Recorder recorder_;
     PublishedSink published_;

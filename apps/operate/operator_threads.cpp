@@ -58,8 +58,8 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
     o.hapticPeriod = haptics_.period;
     o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
     if (session_.realArm) {
-        if (engine_ == nullptr) { // the scene's start is where it stands
-            session_.arm->start = session_.realArm->ready(signals_.asked()).q;
+        if (engine_ == nullptr) {
+            session_.awaitArm(signals_.asked());
         }
         o.arm = &session_.realArm->link();
     }
@@ -67,12 +67,9 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
         observers_->forget();
         observers_->setShapes(editor_ ? editor_->shapes() : shapesOf(session_.scene));
     }
-    engine_ = std::make_unique<RealtimeRun>(
-        feed_, session_.cycles.plan().query != Plan::Query::None ? &answers_ : nullptr, o);
+    engine_ = std::make_unique<RealtimeRun>(feed_, session_.contacts(), o);
     feed_.begin();
-    if (!engine_->firstFrame()) {
-        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
-    }
+    session_.requireFrame(engine_->firstFrame());
     makeHand(start, tool);
 }
 
@@ -133,11 +130,11 @@ void OperatorRun::endThreads() {
 // The clock of a run begins anew. Another device remembers nothing anyway.
 void OperatorRun::forgetFrames() {
     try {
-        if (!session_.handover.lost()) {
+        if (!session_.handover->lost()) {
             session_.cycles.frames().forget();
         }
     } catch (const DeviceFailed& e) {
-        session_.handover.lose(e.what());
+        session_.handover->lose(e.what());
     }
 }
 

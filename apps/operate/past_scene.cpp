@@ -15,7 +15,7 @@ constexpr double kMostLead = 90.0; // [frames] however long points are held
 
 } // namespace
 
-PastScene::PastScene(OperateSession& session)
+PastScene::PastScene(Session& session)
     : session_(session)
     , images_(session.camera->images())
     , lead_(

@@ -2,8 +2,8 @@
 // Processes the frames of a recording again, in any order.
 #pragma once
 
-#include "apps/operate/operate_session.h"
 #include "apps/operate/snapshots.h"
+#include "apps/session/session.h"
 
 #include <utility>
 
@@ -13,7 +13,7 @@ namespace fathom::operate {
 class PastScene {
 public:
     // Throws BadInput when the source cannot seek.
-    explicit PastScene(OperateSession& session);
+    explicit PastScene(Session& session);
 
     static constexpr double kPeriod = 1.0 / 30.0; // [s] between frames, as in `replay`
 
@@ -35,7 +35,7 @@ private:
     bool process(uint32_t index, PublishedFrame& out);
     void takeEdit(uint32_t index);
 
-    OperateSession& session_;
+    Session& session_;
     uint32_t images_, lead_;
     uint32_t asked_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;

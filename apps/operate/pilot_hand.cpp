@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/operate/pilot_hand.h"
 
+#include "engine/cycle/step_record.h"
 #include "engine/haptics/limits.h"
 
 #include <algorithm>
@@ -10,10 +11,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kPull = 35.0;         // [1/s] of the critically damped way to the wish
-constexpr double kLongest = 0.02;      // [s] a turn that was later counts as this late
-constexpr uint32_t kDeadMan = 2;       // HandSample::buttons
-constexpr double kClosedWithin = 1e-3; // [m]
+constexpr double kPull = 35.0;    // [1/s] rate of the critically damped approach
+constexpr double kLongest = 0.02; // [s] a longer period counts as this one
 
 } // namespace
 
@@ -41,22 +40,12 @@ HandSample PilotHand::read(double t) noexcept {
     return {now_, setpoint.buttons};
 }
 
-PathHand::PathHand(HandPath path)
-    : path_(std::move(path))
-    , closed_(path_.duration() > 0.0 &&
-              glm::distance(path_.waypoints().front().deviceThandle.position,
-                            path_.waypoints().back().deviceThandle.position) < kClosedWithin) {}
-
-HandSample PathHand::read(double t) noexcept {
-    return path_.at(closed_ ? std::fmod(std::max(0.0, t), path_.duration()) : t);
-}
-
 HandSample GatedHand::read(double t) noexcept {
     HandSample sample = hand_.read(t);
     there_.store(live_ == nullptr || live_->alive(), std::memory_order_relaxed);
     sample.buttons |= extra_.load(std::memory_order_relaxed);
     if (off_.load(std::memory_order_acquire)) {
-        sample.buttons |= kDeadMan;
+        sample.buttons |= kDeadManOpen;
     }
     return sample;
 }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands for the operator's window: mouse and keyboard in place of a device, a path that repeats, and the gate
-// before any of them that turns forces off whatever the device says.
+// Hands for the operator's window: mouse and keyboard in place of a device, and the gate in front of any hand
+// that turns forces off whatever the device says.
 #pragma once
 
 #include "devices/live_hand.h"
-#include "devices/simulated/hand_path.h"
+#include "engine/types/pose.h"
 #include "engine/types/triple_buffer.h"
 
 #include <atomic>
 
 namespace fathom::operate {
 
-// The tool goes where the window asks, smoothly: at most kSpeed and kTurnSpeed, without overshoot. ask() from
-// one thread, read() and write() from the haptic one; neither ever waits.
+// Moves the tool smoothly to the window's setpoint, at most at kSpeed and kTurnSpeed and without overshoot.
+// One thread calls ask(), the haptic thread read() and write(); neither waits.
 class PilotHand final : public HapticDevice {
 public:
     explicit PilotHand(const Pose& start); // raw, device frame
@@ -31,31 +31,18 @@ private:
     double before_ = 0.0;
 };
 
-// Follows a path again and again when it ends where it began, else once.
-class PathHand final : public HapticDevice {
-public:
-    explicit PathHand(HandPath path);
-
-    HandSample read(double t) noexcept override;
-    void write(const Wrench&, double) noexcept override {}
-
-private:
-    HandPath path_;
-    bool closed_;
-};
-
-// Opens the dead-man of any device while forces are off, and presses buttons beside those of the device.
-// Forces are off at first. What is not read() and write() comes from any thread.
+// Opens the dead-man of any device while forces are off, and adds buttons to those of the device. Forces are
+// off at first. Any thread may call what the haptic thread does not (read() and write()).
 class GatedHand final : public HapticDevice {
 public:
-    // live: the same one where it may go away; null = it is always there.
+    // live: the same hand when it may disconnect; null = it is always connected.
     GatedHand(HapticDevice& hand, const LiveHand* live)
         : hand_(hand)
         , live_(live) {}
 
     void setForces(bool on) noexcept { off_.store(!on, std::memory_order_release); }
     void press(uint32_t buttons) noexcept { extra_.store(buttons, std::memory_order_relaxed); }
-    bool there() const noexcept { return there_.load(std::memory_order_relaxed); } // at the last turn
+    bool there() const noexcept { return there_.load(std::memory_order_relaxed); } // at the last tick
     HandSample read(double t) noexcept override;
     void write(const Wrench& wrench, double dt) noexcept override { hand_.write(wrench, dt); }
 

@@ -75,8 +75,9 @@ double durationOf(const PastScene& past, const TickLog& log) {
 PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& global)
     : options_(options)
     , window_(options.offscreen, "Fathom, recording " + options.recording)
-    , session_(options, global, window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface,
-               window_.extensions(), signals_.asked())
+    , session_(options, global,
+               {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
+               signals_.asked())
     , haptics_(makeHapticOptions(session_.scene, session_.tool))
     , hand_(handOf(options.recording))
     , log_(turnsOf(options.recording, hand_, session_.scene))

@@ -4,6 +4,7 @@
 
 #include "apps/binding/stop_signals.h"
 #include "apps/operate/canvas.h"
+#include "apps/operate/operate_command.h"
 #include "apps/operate/past_scene.h"
 #include "apps/operate/recorder.h"
 #include "apps/operate/screen.h"
@@ -41,7 +42,7 @@ private:
     OperateOptions options_;
     StopSignals signals_;
     Window window_;
-    OperateSession session_;
+    Session session_;
     std::unique_ptr<Canvas> canvas_;
     HapticOptions haptics_;
     std::optional<HandPath> hand_;

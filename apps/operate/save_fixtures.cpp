@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the fixtures back into the scene file: replaces their block and keeps every other line.
 #include "apps/operate/fixture_editor.h"
-#include "apps/operate/operate_session.h"
+#include "apps/session/session.h"
 #include "engine/types/error.h"
 
 #include <fstream>

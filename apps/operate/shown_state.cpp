@@ -16,7 +16,7 @@ StateExtras extrasOf(const ShownState& s) {
     extras.windowFrames = counts.drawn;
     extras.yielded = counts.yielded;
     extras.swapchains = counts.swapchains;
-    extras.deviceThere = s.canvas.isOpen() && !s.session.handover.gone();
+    extras.deviceThere = s.canvas.isOpen() && !s.session.handover->gone();
     extras.renewals = s.session.cycles.renewals();
     const VkExtent2D size = s.window.size();
     extras.width = size.width;

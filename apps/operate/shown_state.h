@@ -5,7 +5,7 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/canvas.h"
 #include "apps/operate/fixture_editor.h"
-#include "apps/operate/operate_session.h"
+#include "apps/session/session.h"
 #include "apps/operate/screen.h"
 #include "apps/operate/state_log.h"
 
@@ -14,7 +14,7 @@ namespace fathom::operate {
 struct ShownState {
     const Console& console;
     const RunView& view;
-    const OperateSession& session;
+    const Session& session;
     const Window& window;
     const Canvas& canvas;
     const Screen& screen;

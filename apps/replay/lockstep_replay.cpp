@@ -3,6 +3,7 @@
 
 #include "apps/replay/progress.h"
 #include "apps/replay/step_to_tick.h"
+#include "apps/session/path_hand.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
 
@@ -21,7 +22,7 @@ double micros(std::chrono::steady_clock::time_point since) {
 
 } // namespace
 
-LockstepReplay::LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                                CadenceTrace* trace)
     : session_(session)
     , options_(options)
@@ -43,7 +44,7 @@ void LockstepReplay::fetch() {
         nextTime_ = (*next_)->index * kFramePeriod;
         next_->retime(nextTime_);
     } else {
-        sourceEnded_ = true;
+        scene_.sourceEnded = true;
     }
 }
 
@@ -91,7 +92,8 @@ void LockstepReplay::takeDueFrames(double t) {
         }
         recorder_.frame(*ready_, nextTime_, kept_.back()->fixtures);
         ready_.reset();
-        lastFrameTime_ = nextTime_;
+        scene_.show(kept_.back()->fixtures);
+        scene_.captureTime = nextTime_;
         published_ = true;
         ++framesDone_;
         fetch();
@@ -99,11 +101,11 @@ void LockstepReplay::takeDueFrames(double t) {
 }
 
 bool LockstepReplay::ended(double t) const {
-    const double frames = sourceEnded_ ? lastFrameTime_ + kFramePeriod : t + 1.0;
+    const double frames = scene_.sourceEnded ? scene_.captureTime + kFramePeriod : t + 1.0;
     return t >= std::max(frames, pathStart_ + path_->duration()) - kClockSlack;
 }
 
-void LockstepReplay::query(double) {
+void LockstepReplay::query() {
     if (published_) {
         auto answer = std::make_unique<ContactSet>();
         const auto start = std::chrono::steady_clock::now();
@@ -115,7 +117,7 @@ void LockstepReplay::query(double) {
         answers_.push_back(std::move(answer));
     }
     if (answers_.size() > session_.scene.contact.delay) {
-        offered_ = std::move(answers_.front());
+        contacts_.offer([this] { return std::move(answers_.front()); });
         answers_.pop_front();
     }
 }
@@ -127,57 +129,43 @@ const LockstepReplay::Kept* LockstepReplay::keptSet(uint64_t generation) const {
 }
 
 void LockstepReplay::dropOldSets() {
-    while (kept_.size() > 1 && inForce_ && kept_.front()->fixtures.generation < inForce_->generation) {
+    const ContactSet* active = contacts_.active();
+    while (kept_.size() > 1 && active != nullptr && kept_.front()->fixtures.generation < active->generation) {
         kept_.pop_front();
     }
 }
 
 void LockstepReplay::audit(const StepRecord& record, const ToolState& start) {
-    const Kept* obeyed = inForce_ ? keptSet(inForce_->generation) : nullptr;
+    const ContactSet* active = contacts_.active();
+    const Kept* obeyed = active != nullptr ? keptSet(active->generation) : nullptr;
     if (obeyed == nullptr || !session_.cycles.plan().spheres) {
         return;
     }
     std::vector<uint32_t> behind;
-    for (const ContactSet::Behind& b : inForce_->behind) {
+    for (const ContactSet::Behind& b : active->behind) {
         behind.push_back(b.leaf);
     }
     audit_.tick(obeyed->fixtures, obeyed->grid, start, {record.tool, record.arm.posture}, behind);
 }
 
 void LockstepReplay::tick(double t) {
-    StepInput input;
-    const HandSample sample = hand_->read(std::max(0.0, t - pathStart_));
-    input.time = t;
-    input.deviceThandle = sample.deviceThandle;
-    input.buttons = sample.buttons;
-    input.contacts = inForce_.get();
-    input.offered = offered_.get();
-    if (published_) {
-        const Fixtures& newest = kept_.back()->fixtures;
-        input.frame = newest.frame;
-        input.generation = newest.generation;
-        input.captureTime = lastFrameTime_;
-        input.guidance = newest.guidance;
-    }
-    input.sourceEnded = sourceEnded_;
-
+    const StepInput input = stepInput(scene_, hand_->read(std::max(0.0, t - pathStart_)), t);
     const ToolState start = cycle_->place();
     const auto began = std::chrono::steady_clock::now();
-    const StepRecord record = cycle_->step(input);
+    const StepRecord record = contacts_.step(*cycle_, input);
     const double took = micros(began);
     if (trace_ != nullptr) {
         trace_->step(began, std::chrono::steady_clock::now(), 0.0);
         trace_->file().drain();
     }
     if (record.adopted) {
-        inForce_ = std::move(offered_);
         dropOldSets();
     }
     hand_->write(record.deviceWrench, haptics_.period);
     audit(record, start);
     recorder_.tick(tickOf(record, start.arm, took, took > haptics_.period * 1e6));
-    if (inForce_ && recorder_.wantsMoment()) {
-        if (const Kept* obeyed = keptSet(inForce_->generation)) {
+    if (contacts_.active() != nullptr && recorder_.wantsMoment()) {
+        if (const Kept* obeyed = keptSet(contacts_.active()->generation)) {
             recorder_.moment(obeyed->fixtures, lastColour_);
         }
     }
@@ -186,43 +174,30 @@ void LockstepReplay::tick(double t) {
 
 ReplayRecorder::Ending LockstepReplay::run() {
     fetch();
-    if (!next_) {
-        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
-    }
+    session_.requireFrame(next_.has_value());
     // The built-in path waits for the first set; a CSV tells the time from the run's start.
-    const bool builtIn = options_.operatorCsv.empty() && session_.scene.hand.builtIn;
+    const bool builtIn = session_.options.operatorCsv.empty() && session_.scene.hand.builtIn;
     pathStart_ = builtIn ? nextTime_ : 0.0;
     processNext(); // early: the built-in path needs the first set; it is in force from its own time on
-    path_.emplace(openHandPath(session_, options_, *session_.cycles.frames().sets().newest()));
-    hand_ = openHand(*path_, session_, options_);
+    path_.emplace(session_.path());
+    hand_ = openPathHand(*path_, session_.scene, options_.hand);
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,
                    session_.arm.get());
 
     Progress progress;
     for (double t = 0.0; !ended(t); t = static_cast<double>(ticks_) * haptics_.period) {
         takeDueFrames(t);
-        query(t);
+        query();
         tick(t);
         progress.update({framesDone_, 0, ticks_, t});
     }
     progress.finish();
 
-    ReplayRecorder::Ending ending;
-    ending.skipped = session_.camera->skipped();
-    ending.contact = session_.cycles.queryStatistics();
-    ending.where = session_.where();
+    ReplayRecorder::Ending ending(session_, *cycle_);
     ending.maxPenetration = audit_.figures().maxPenetration();
     ending.maxEscapeDepth = audit_.figures().maxEscapeDepth();
-    ending.stiffness = cycle_->springs().stiffness;
-    ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
-    ending.device = session_.cycles.facts().name;
-    ending.title = session_.title();
-    ending.forceLimit = haptics_.forceLimit;
-    ending.torqueLimit = haptics_.torqueLimit;
-    ending.camera = session_.cycles.camera();
     ending.colour = lastColour_;
     ending.lastSet = &kept_.back()->fixtures;
-    ending.leaves = session_.tool.leaves();
     ending.linkPenetration = audit_.linkPenetration();
     return ending;
 }

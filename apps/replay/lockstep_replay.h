@@ -3,11 +3,13 @@
 // haptics.csv.
 #pragma once
 
+#include "apps/replay/replay_command.h"
 #include "apps/replay/replay_recorder.h"
-#include "apps/replay/replay_session.h"
 #include "apps/replay/tool_audit.h"
+#include "apps/session/session.h"
 #include "engine/cycle/cadence_trace.h"
-#include "engine/cycle/haptic_cycle.h"
+#include "engine/run/active_contacts.h"
+#include "engine/run/scene_update.h"
 
 #include <deque>
 #include <memory>
@@ -21,7 +23,7 @@ namespace fathom {
 class LockstepReplay {
 public:
     // trace: null = none.
-    LockstepReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+    LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    CadenceTrace* trace = nullptr);
 
     // Runs to the end and hands over what only the loop knows.
@@ -41,13 +43,13 @@ private:
     void takeEdit(uint32_t image);
     void takeDueFrames(double t);
     bool ended(double t) const;
-    void query(double t);
+    void query();
     void tick(double t);
     void audit(const StepRecord& record, const ToolState& start);
     const Kept* keptSet(uint64_t generation) const;
     void dropOldSets();
 
-    ReplaySession& session_;
+    Session& session_;
     const ReplayOptions& options_;
     ReplayRecorder& recorder_;
     CadenceTrace* trace_;
@@ -62,15 +64,14 @@ private:
     ArmPosture taken_;                 // of the arm, when next_ was fetched
     std::optional<FrameReport> ready_; // processed, not yet due
     double nextTime_ = 0.0;            // [s] of next_ or ready_
-    double lastFrameTime_ = 0.0;       // [s] of the newest frame in force
     double pathStart_ = 0.0;           // [s]
     bool published_ = false;           // some set is in force
-    bool sourceEnded_ = false;
     std::vector<uint32_t> lastColour_;
 
     std::deque<std::unique_ptr<Kept>> kept_;
     std::deque<std::unique_ptr<ContactSet>> answers_; // asked, not yet due; oldest first
-    std::unique_ptr<ContactSet> inForce_, offered_;
+    ActiveContacts<std::unique_ptr<ContactSet>> contacts_;
+    SceneUpdate scene_; // of the newest frame that is due
     uint64_t ticks_ = 0, framesDone_ = 0;
 };
 

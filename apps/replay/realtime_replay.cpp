@@ -6,114 +6,29 @@
 #include "apps/binding/spooled_camera.h"
 #include "apps/replay/lockstep_replay.h"
 #include "apps/replay/step_to_tick.h"
-#include "engine/types/colour_copy.h"
+#include "apps/session/path_hand.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
 namespace fathom {
 
-namespace {
-
-std::string listed(const std::vector<int>& cpus) {
-    std::string text;
-    for (int cpu : cpus) {
-        text.append(text.empty() ? "" : ",").append(std::to_string(cpu));
-    }
-    return text;
-}
-
-} // namespace
-
-std::string describe(const ThreadPlacement& placement) {
-    if (!placement.pinned()) {
-        return "one CPU: the haptic thread shares it with everything else";
-    }
-    return "haptic on CPU " + listed(placement.haptic) + ", contact on " + listed(placement.contact) +
-           ", camera, device workers and writer on " + listed(placement.rest);
-}
-
-// Camera and frame cycle as the frame loop sees them.
-class RealtimeReplay::Feed final : public FrameFeed {
+// Measures the time from a live frame's exposure to its published set.
+class RealtimeReplay::Feed final : public SessionFeed {
 public:
-    // edited: told of authored shapes that the pilot changed.
-    Feed(ReplaySession& session, std::function<void(const std::vector<Shape>&)> edited)
-        : session_(session)
-        , edited_(std::move(edited)) {
-        if (session_.cycles.plan().selfFilter) {
-            session_.cycles.frames().setArm(session_.arm->inImage(session_.arm->startPosture()));
-        }
-    }
-
-    void armAtCapture(const ToolState& place) override {
-        if (session_.cycles.plan().selfFilter) {
-            session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
-        }
-    }
-
-    std::optional<uint32_t> fetch() override {
-        next_ = session_.camera->next();
-        taken_ = next_ ? (*next_)->captureTime : taken_;
-        return next_ ? std::optional((*next_)->index) : std::nullopt;
-    }
-
-    std::optional<RunClock::Time> captured() const override {
-        return session_.camera->live() ? std::optional(RunClock::sinceBoot(taken_)) : std::nullopt;
-    }
+    using SessionFeed::SessionFeed;
 
     void publish(double t, PublishedFrame& out) override {
-        next_->retime(t);
-        colours_.take(**next_);
-        if (const SceneEdit* edit = session_.newEdit((*next_)->index)) {
-            session_.cycles.frames().setScene(edit->scene);
-            edited_(shapesOf(edit->scene));
-        }
-        FrameCycle& frames = session_.cycles.frames();
-        out.report = session_.heldStill() && any_ ? frames.without((*next_)->index)
-                                                  : frames.process(std::move(*next_));
-        any_ = true;
-        next_.reset();
+        SessionFeed::publish(t, out);
         if (const auto taken = captured()) {
             using Millis = std::chrono::duration<float, std::milli>;
             exposureMs.push_back(Millis(out.report.times.published - *taken).count());
         }
-        out.changed = !out.report.unchanged;
-        if (out.changed) { // a copy for the writer: the set itself goes round among the cadences
-            const auto set = session_.cycles.frames().sets().newest();
-            out.fixtures = set->host;
-            out.grid = set->grid;
-            colours_.giveTo(out.colour);
-        }
     }
 
-    bool renewable() const override { return true; }
-    void renew(const std::atomic<bool>&) override { session_.cycles.renew(); }
-
-    std::vector<float> exposureMs; // [ms] from a live picture's exposure to its published set
-
-private:
-    ReplaySession& session_;
-    std::function<void(const std::vector<Shape>&)> edited_;
-    double taken_ = 0.0; // [s] on the camera's clock
-    std::optional<Frame> next_;
-    ColourCopy colours_;
-    bool any_ = false; // a set is in force
+    std::vector<float> exposureMs;
 };
 
-// Contact answers over the newest fixture set.
-class RealtimeReplay::Answers final : public ContactAnswers {
-public:
-    explicit Answers(ReplaySession& session)
-        : session_(session) {}
-
-    bool answer(const ToolState& place, ContactSet& out) override {
-        return session_.cycles.answer(place, out);
-    }
-
-private:
-    ReplaySession& session_;
-};
-
-RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+RealtimeReplay::RealtimeReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                                const ThreadPlacement& placement, CadenceTrace* trace)
     : session_(session)
     , options_(options)
@@ -125,9 +40,7 @@ RealtimeReplay::RealtimeReplay(ReplaySession& session, const ReplayOptions& opti
     , faults_(recorder.folder(), haptics_.period, *this)
     , view_(options.viewEndpoint.empty() ? nullptr : std::make_unique<ViewPublisher>(options.viewEndpoint))
     , feed_(std::make_unique<Feed>(session, [this](const std::vector<Shape>& shapes) { takeShapes(shapes); }))
-    , answers_(session.cycles.plan().query != Plan::Query::None ? std::make_unique<Answers>(session)
-                                                                : nullptr)
-    , run_(std::make_unique<RealtimeRun>(*feed_, answers_.get(), runOptions(trace))) {
+    , run_(std::make_unique<RealtimeRun>(*feed_, session.contacts(), runOptions(trace))) {
     if (view_) {
         view_->setShapes(shapes_);
     }
@@ -175,19 +88,15 @@ void RealtimeReplay::spool() {
 }
 
 ReplayRecorder::Ending RealtimeReplay::run() {
-    if (session_.realArm) { // the scene's start is where it stands
-        const ArmPosture stands = session_.realArm->ready(signals_.asked());
-        session_.arm->start = stands.q;
-        feed_->armAtCapture({Pose{}, stands});
+    if (session_.realArm) {
+        feed_->armAtCapture({Pose{}, session_.awaitArm(signals_.asked())});
     }
-    if (!run_->firstFrame()) {
-        throw BadInput(session_.camera->description(), "frames", "none usable", "at least one usable frame");
-    }
-    const HandPath path = openHandPath(session_, options_, *session_.cycles.frames().sets().newest());
+    session_.requireFrame(run_->firstFrame());
+    const HandPath path = session_.path();
     if (session_.liveHand) {
         runLive(path);
     } else {
-        const std::unique_ptr<HapticDevice> hand = openHand(path, session_, options_);
+        const std::unique_ptr<HapticDevice> hand = openPathHand(path, session_.scene, options_.hand);
         cycle_.emplace(session_.tool, shapes_, haptics_, hand->read(0.0).deviceThandle, nullptr,
                        session_.arm.get());
         run_->run(*cycle_, *hand, path.duration(), faults_, signals_.asked());
@@ -217,29 +126,18 @@ void RealtimeReplay::runLive(const HandPath& path) {
 }
 
 ReplayRecorder::Ending RealtimeReplay::ending() {
-    ReplayRecorder::Ending ending;
+    ReplayRecorder::Ending ending(session_, *cycle_);
     ending.exposureMs = figures_.live ? std::optional(figures_.exposureMs) : std::nullopt;
-    ending.skipped = session_.camera->skipped();
-    ending.contact = session_.cycles.queryStatistics();
-    ending.where = session_.where();
     if (audited_ && figures_.recordsLost == 0) {
         ending.maxPenetration = audit_.figures().maxPenetration();
         ending.maxEscapeDepth = audit_.figures().maxEscapeDepth();
         ending.linkPenetration = audit_.linkPenetration();
     }
-    ending.stiffness = cycle_->springs().stiffness;
-    ending.rotationalStiffness = cycle_->springs().rotationalStiffness;
-    ending.device = session_.cycles.facts().name;
     ending.lockstep = false;
-    ending.title = session_.title();
-    ending.forceLimit = haptics_.forceLimit;
-    ending.torqueLimit = haptics_.torqueLimit;
-    ending.camera = session_.cycles.camera();
     if (const PublishedFrame* last = run_->lastFrame()) {
         ending.colour = last->colour;
         ending.lastSet = &last->fixtures;
     }
-    ending.leaves = session_.tool.leaves();
     return ending;
 }
 

@@ -9,9 +9,10 @@
 #include "apps/replay/fault_trace.h"
 #include "apps/replay/percentiles.h"
 #include "apps/replay/progress.h"
+#include "apps/replay/replay_command.h"
 #include "apps/replay/replay_recorder.h"
-#include "apps/replay/replay_session.h"
 #include "apps/replay/tool_audit.h"
+#include "apps/session/session_feed.h"
 #include "engine/run/realtime_run.h"
 
 #include <memory>
@@ -34,9 +35,6 @@ struct RealtimeFigures {
     bool stopped = false;        // by a signal
 };
 
-// Where the haptic thread goes and where everything else does, in one line.
-std::string describe(const ThreadPlacement& placement);
-
 // Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is
 // captured at (index j - index 0) / 30 s by the clock (ReplayOptions::frameRate). Ends when frames (plus
 // one such period) and hand path both have, or on a signal of StopSignals: then too every file is whole.
@@ -45,7 +43,7 @@ public:
     // The session must have been built on a thread confined to placement.rest: a software device's workers
     // stay where it is. Takes the pictures of a simulated camera beforehand (SpooledCamera): rendering is not
     // what a run measures. trace may be null.
-    RealtimeReplay(ReplaySession& session, const ReplayOptions& options, ReplayRecorder& recorder,
+    RealtimeReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    const ThreadPlacement& placement, CadenceTrace* trace);
     ~RealtimeReplay() override;
 
@@ -58,7 +56,6 @@ public:
 
 private:
     class Feed;
-    class Answers;
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override;
     void query(const QueryNote& note) override;
@@ -72,7 +69,7 @@ private:
     void runLive(const HandPath& path);
     ReplayRecorder::Ending ending();
 
-    ReplaySession& session_;
+    Session& session_;
     const ReplayOptions& options_;
     ReplayRecorder& recorder_;
     ThreadPlacement placement_;
@@ -85,7 +82,6 @@ private:
     FaultTrace faults_;                   // before this as a sink
     std::unique_ptr<ViewPublisher> view_; // null = nobody may watch
     std::unique_ptr<Feed> feed_;
-    std::unique_ptr<Answers> answers_;
     std::unique_ptr<RealtimeRun> run_;
     std::optional<HapticCycle> cycle_;
     std::optional<WatchedHand> watched_; // of a live hand

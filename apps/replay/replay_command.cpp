@@ -69,7 +69,7 @@ void print(const ReplaySummary& s, const std::filesystem::path& out) {
     std::cout << "digest       " << s.digest << "\nwritten to   " << out.string() << "\n";
 }
 
-void printBudgets(const ReplaySummary& summary, const ReplaySession& session) {
+void printBudgets(const ReplaySummary& summary, const Session& session) {
     const size_t leaves = summary.arm ? summary.arm->leaves : session.tool.leafCount();
     for (const BudgetFigure& f :
          budgetFigures(summary, session.camera->info().depth, session.cycles.facts().kind, leaves)) {
@@ -112,14 +112,14 @@ void print(const LiveHand& hand) {
               << f.unsent << " wrenches not taken\n";
 }
 
-std::unique_ptr<CadenceTrace> openTrace(const ReplaySession& session, const GlobalOptions& global) {
+std::unique_ptr<CadenceTrace> openTrace(const Session& session, const GlobalOptions& global) {
     return global.trace.empty()
                ? nullptr
                : std::make_unique<CadenceTrace>(global.trace, session.cycles.frames().passNames());
 }
 
 ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& global) {
-    ReplaySession session(options, global, 2);
+    Session session(options, global);
     const auto trace = openTrace(session, global);
     ReplayRecorder recorder(options.out, session.scene, session.cycles.frames().passNames(),
                             options.saveFixtures, session.arm.get());
@@ -137,7 +137,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     const ThreadPlacement placement = ThreadPlacement::ofThisProcess();
     const CpuConfinement confined(
         placement.rest); // before the device: a software device's workers inherit it
-    ReplaySession session(options, global, 2);
+    Session session(options, global);
     if (options.frameRate > 0.0 && session.camera->live()) {
         throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
                        "with a recording or a simulated camera: a live one has a rate of its own");

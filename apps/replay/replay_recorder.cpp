@@ -40,6 +40,19 @@ FrameRecord recordOf(const FrameReport& report, double t, const std::vector<std:
 
 } // namespace
 
+ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
+    : skipped(session.camera->skipped())
+    , contact(session.cycles.queryStatistics())
+    , where(session.where())
+    , stiffness(cycle.springs().stiffness)
+    , rotationalStiffness(cycle.springs().rotationalStiffness)
+    , device(session.cycles.facts().name)
+    , title(session.title())
+    , forceLimit(cycle.options().forceLimit)
+    , torqueLimit(cycle.options().torqueLimit)
+    , camera(session.cycles.camera())
+    , leaves(session.tool.leaves()) {}
+
 ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
                                bool saveFixtures, const ArmRig* arm, const std::string& realArm)
     : out_(prepared(std::move(out), saveFixtures))

@@ -8,9 +8,11 @@
 #include "apps/replay/summary.h"
 #include "apps/replay/tick_totals.h"
 #include "apps/replay/trace_history.h"
+#include "apps/session/session.h"
 #include "engine/contact/query_loop.h"
 #include "engine/contact/tool.h"
 #include "engine/cycle/frame_cycle.h"
+#include "engine/cycle/haptic_cycle.h"
 
 #include <filesystem>
 #include <memory>
@@ -37,6 +39,10 @@ public:
 
     // What only the caller knows.
     struct Ending {
+        Ending() = default;
+        // All that session and cycle know at the end of a run; audit, times and last frame stay empty.
+        Ending(const Session& session, const HapticCycle& cycle);
+
         std::optional<Percentiles> exposureMs; // [ms] live cameras: start of exposure to published set
         uint64_t skipped = 0;
         QueryStatistics contact;

@@ -40,20 +40,12 @@ void LockstepRig::show(Fixtures set) {
 }
 
 void LockstepRig::forgetOldSets() {
-    const uint64_t used = inForce_ ? inForce_->generation : generation_;
+    const ContactSet* active = contacts_.active();
+    const uint64_t used = active != nullptr ? active->generation : generation_;
     const uint64_t asked = pending_.empty() ? generation_ : pending_.front().set->generation;
     while (published_.size() > 1 && published_.front()->set.generation < std::min(used, asked)) {
         published_.pop_front();
     }
-}
-
-std::unique_ptr<ContactSet> LockstepRig::spare() {
-    if (spare_.empty()) {
-        return std::make_unique<ContactSet>();
-    }
-    std::unique_ptr<ContactSet> set = std::move(spare_.back());
-    spare_.pop_back();
-    return set;
 }
 
 void LockstepRig::ask() {
@@ -61,9 +53,10 @@ void LockstepRig::ask() {
         return;
     }
     const Published& newest = *published_.back();
-    std::unique_ptr<ContactSet> set = spare();
+    auto set = std::make_unique<ContactSet>();
     cull_.query(tool_, cycle_->pose(), setup_.reach, newest.set, newest.grid, *set);
     behind_.update(tool_, newest.set, newest.grid.maxRadius(), *set);
+    set->query = ++queries_;
     const uint64_t late = faults.jitter ? dice_.below(faults.late + 1) : faults.late;
     pending_.push_back({now_ + late, std::move(set)});
 }
@@ -72,9 +65,6 @@ void LockstepRig::ask() {
 std::unique_ptr<ContactSet> LockstepRig::arrived() {
     std::unique_ptr<ContactSet> offered;
     while (!pending_.empty() && pending_.front().due <= now_) {
-        if (offered) {
-            spare_.push_back(std::move(offered));
-        }
         offered = std::move(pending_.front().set);
         pending_.pop_front();
     }
@@ -83,27 +73,19 @@ std::unique_ptr<ContactSet> LockstepRig::arrived() {
 
 StepRecord LockstepRig::step(const Pose& hand) {
     ask();
-    std::unique_ptr<ContactSet> offered = arrived();
+    contacts_.offer([this] { return arrived(); });
+    const bool offered = contacts_.offered() != nullptr;
     const Pose before = cycle_->pose();
     StepInput input;
     input.time = static_cast<double>(now_) * options_.period;
     input.deviceThandle = hand;
-    input.contacts = inForce_.get();
-    input.offered = offered.get();
     if (!published_.empty()) {
         input.frame = published_.back()->set.frame;
         input.generation = generation_;
         input.captureTime = fresh_ ? input.time : captured_;
     }
-    const StepRecord record = cycle_->step(input);
-    if (record.adopted) {
-        std::swap(inForce_, offered);
-    } else if (offered) {
-        ++figures.refused;
-    }
-    if (offered) {
-        spare_.push_back(std::move(offered));
-    }
+    const StepRecord record = contacts_.step(*cycle_, input);
+    figures.refused += offered && !record.adopted ? 1 : 0;
     judge(before, record);
     ++now_;
     return record;
@@ -119,12 +101,12 @@ const LockstepRig::Published* LockstepRig::published(uint64_t generation) const 
 }
 
 void LockstepRig::judge(const Pose& before, const StepRecord& record) {
-    if (inForce_) {
+    if (const ContactSet* active = contacts_.active()) {
         std::vector<uint32_t> behind;
-        for (const ContactSet::Behind& flag : inForce_->behind) {
+        for (const ContactSet::Behind& flag : active->behind) {
             behind.push_back(flag.leaf);
         }
-        const Published& obeyed = *published(inForce_->generation);
+        const Published& obeyed = *published(active->generation);
         audit_.tick(obeyed.set, obeyed.grid, before, record.tool, behind);
     }
     ++figures.ticks;

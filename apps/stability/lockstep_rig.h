@@ -5,8 +5,8 @@
 
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"
-#include "engine/cycle/haptic_cycle.h"
 #include "engine/reference/penetration_audit.h"
+#include "engine/run/active_contacts.h"
 
 #include "apps/stability/dice.h"
 
@@ -77,7 +77,7 @@ public:
     const HapticOptions& options() const { return options_; }
     Pose pose() const { return cycle_->pose(); }
     const Fixtures& shown() const { return published_.back()->set; }
-    const ContactSet* inForce() const { return inForce_.get(); }
+    const ContactSet* active() const { return contacts_.active(); }
     // Deepest leaf in the set shown, brute force; negative = the smallest gap [m].
     double depth() const;
 
@@ -92,7 +92,6 @@ private:
     };
     void ask();
     std::unique_ptr<ContactSet> arrived();
-    std::unique_ptr<ContactSet> spare();
     const Published* published(uint64_t generation) const;
     void judge(const Pose& before, const StepRecord& record);
     void forgetOldSets();
@@ -107,9 +106,8 @@ private:
     Dice dice_{4711};
     std::deque<std::unique_ptr<Published>> published_; // oldest first; those that answers may still name
     std::deque<Answer> pending_;
-    std::unique_ptr<ContactSet> inForce_;
-    std::vector<std::unique_ptr<ContactSet>> spare_;
-    uint64_t generation_ = 0, now_ = 0;
+    ActiveContacts<std::unique_ptr<ContactSet>> contacts_;
+    uint64_t generation_ = 0, queries_ = 0, now_ = 0;
     double captured_ = 0.0;
     bool fresh_ = true;
     std::optional<Wrench> before_, askedBefore_;

@@ -91,18 +91,15 @@ const StepRecord& LoopRig::tick() {
     input.measuredPeriod = measured_;
     input.guidance = spec_.guidance;
     if (spec_.fixtures) {
-        cull_.query(tool_, cycle_->pose(), kReach, *spec_.fixtures, grid_, offered_);
-        input.offered = &offered_;
-        input.contacts = hasSet_ ? &inForce_ : nullptr;
+        ContactSet& next = sets_[contacts_.active() == &sets_[0] ? 1 : 0];
+        cull_.query(tool_, cycle_->pose(), kReach, *spec_.fixtures, grid_, next);
+        next.query = ticks_;
+        contacts_.offer([&next] { return &next; });
         input.frame = spec_.fixtures->frame;
         input.generation = spec_.fixtures->generation;
         input.captureTime = time_;
     }
-    record_ = cycle_->step(input);
-    if (record_.adopted) {
-        std::swap(inForce_, offered_);
-        hasSet_ = true;
-    }
+    record_ = contacts_.step(*cycle_, input);
     const uint64_t slots = spec_.delay + 1;
     sent_[ticks_ % slots] = record_.deviceWrench;
     ++ticks_;

@@ -5,7 +5,7 @@
 
 #include "devices/simulated/simulated_hand.h"
 #include "engine/contact/cull_cpu.h"
-#include "engine/cycle/haptic_cycle.h"
+#include "engine/run/active_contacts.h"
 
 #include <array>
 #include <memory>
@@ -94,8 +94,8 @@ private:
     std::unique_ptr<HapticCycle> cycle_;
     CullCpu cull_;
     RegionGrid grid_;
-    ContactSet inForce_, offered_;
-    bool hasSet_ = false;
+    std::array<ContactSet, 2> sets_; // the active one, and one for the next answer
+    ActiveContacts<ContactSet*> contacts_;
     std::array<Wrench, SimulatedHand::kMaxDelay + 1> sent_{};
     uint64_t ticks_ = 0;
     double time_ = 0.0, measured_ = 0.0;

@@ -36,7 +36,7 @@ struct Run {
         options.out = out;
         placement = ThreadPlacement::ofThisProcess();
         confined.emplace(placement.rest);
-        session.emplace(options, GlobalOptions{}, 2);
+        session.emplace(options, GlobalOptions{});
         recorder.emplace(out, session->scene, session->cycles.frames().passNames(), false);
         replay.emplace(*session, options, *recorder, placement, nullptr);
     }
@@ -49,7 +49,7 @@ struct Run {
     ReplayOptions options;
     ThreadPlacement placement;
     std::optional<CpuConfinement> confined;
-    std::optional<ReplaySession> session;
+    std::optional<Session> session;
     std::optional<ReplayRecorder> recorder;
     std::optional<RealtimeReplay> replay;
 };

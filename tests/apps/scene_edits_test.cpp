@@ -3,7 +3,7 @@
 #include "apps/binding/scene_edits.h"
 
 #include "apps/operate/fixture_editor.h"
-#include "apps/operate/operate_session.h"
+#include "apps/session/session.h"
 #include "engine/cloud/frame_params.h"
 #include "engine/types/error.h"
 #include "tests/apps/scratch_folder.h"

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/operate/repeating_camera.h"
+#include "apps/session/repeating_camera.h"
 
 #include "engine/types/error.h"
 
 #include <algorithm>
 
-namespace fathom::operate {
+namespace fathom {
 
 RepeatedCamera::RepeatedCamera(std::function<std::unique_ptr<Camera>()> open)
     : open_(std::move(open))
@@ -79,4 +79,4 @@ std::optional<Frame> ShuttleCamera::next() {
     return slot->lend(content);
 }
 
-} // namespace fathom::operate
+} // namespace fathom

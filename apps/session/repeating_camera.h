@@ -10,7 +10,7 @@
 #include <memory>
 #include <vector>
 
-namespace fathom::operate {
+namespace fathom {
 
 // Opens the source again when it has ended. Index and source number go on counting. info() and description()
 // may be asked from any thread.
@@ -62,4 +62,4 @@ private:
     uint32_t shown_ = 0;
 };
 
-} // namespace fathom::operate
+} // namespace fathom

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/session/session.h"
+
+#include "apps/binding/approach_path.h"
+#include "apps/binding/open_hand.h"
+#include "apps/binding/open_source.h"
+#include "apps/binding/raw_path.h"
+#include "apps/session/repeating_camera.h"
+#include "devices/recorded/hand_csv.h"
+#include "engine/types/error.h"
+#include "shaders/shared/frame_params.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+namespace fathom {
+
+namespace {
+
+constexpr const char* kSpare = ""; // the name of a spare class; a scene file's names are never empty
+constexpr size_t kShuttled = 48;   // frames of a simulated camera that never ends
+constexpr uint32_t kReaders = 2;   // feed, start of the run
+
+FixtureClass spareClass(Role role) {
+    FixtureClass spare;
+    spare.name = kSpare;
+    spare.role = role;
+    spare.hue = Band{0.0, 0.0};
+    spare.box = Box{dvec3(1e6), dvec3(1e6)}; // no point is there
+    return spare;
+}
+
+Scene sceneFor(const SessionOptions& options) {
+    Scene scene = openScene(options.scene);
+    if (!options.pilot.empty() && !scene.choosePilot(options.pilot)) {
+        std::string names;
+        for (const Scene::Pilot& pilot : scene.pilots) {
+            names += (names.empty() ? "" : ", ") + pilot.name;
+        }
+        throw BadInput(scene.file.string(), "--pilot", options.pilot,
+                       names.empty() ? "none: the scene has no pilots" : names);
+    }
+    if (!options.query.empty()) {
+        scene.contact.where =
+            options.query == "cpu" ? Scene::Contact::Where::Cpu : Scene::Contact::Where::Gpu;
+    }
+    return scene;
+}
+
+SceneEdits editsFor(Scene& scene, const SessionOptions& options) {
+    SceneEdits edits = takeEdits(scene, options.endless ? options.recording : options.source);
+    if (options.endless) {
+        scene = withSpareClasses(std::move(scene));
+    }
+    return edits;
+}
+
+std::optional<std::filesystem::path> given(const std::string& source) {
+    return source.empty() ? std::nullopt : std::optional<std::filesystem::path>(source);
+}
+
+// A simulated camera renders slower than real time, so its frames are rendered first and then shown to and
+// fro.
+std::unique_ptr<Camera> shuttle(const Scene& scene, const std::atomic<bool>& stop) {
+    if (scene.source.showsArm) {
+        std::fprintf(
+            stderr,
+            "fathom: the frames of the simulated camera are rendered in advance: they do not show the arm\n");
+    }
+    auto camera =
+        std::make_unique<ShuttleCamera>(openCamera(scene, std::nullopt), kShuttled, stop, [](size_t taken) {
+            std::fprintf(stderr, "\rfathom: rendering the simulated camera, frame %zu of %zu", taken,
+                         kShuttled);
+        });
+    std::fprintf(stderr, "\n");
+    return camera;
+}
+
+std::unique_ptr<Camera> openAny(const Scene& scene, const SessionOptions& options,
+                                const std::atomic<bool>& stop) {
+    if (!options.recording.empty()) {
+        return openCamera(scene, options.recording);
+    }
+    const auto source = given(options.source);
+    if (!options.endless) {
+        return openCamera(scene, source);
+    }
+    if (!source && scene.source.kind == CameraSource::Kind::Simulated) {
+        return shuttle(scene, stop);
+    }
+    return std::make_unique<RepeatedCamera>([scene, source] { return openCamera(scene, source); });
+}
+
+// Lockstep has its own clock, on which the frames of a live camera have no time.
+std::unique_ptr<Camera> cameraFor(Scene& scene, const SessionOptions& options,
+                                  const std::atomic<bool>& stop) {
+    auto camera = openAny(scene, options, stop);
+    if (camera->live() && !options.realtime) {
+        throw BadInput("replay", "--source", camera->description(), "--realtime with a live camera");
+    }
+    takeUncertainty(scene, *camera);
+    return camera;
+}
+
+std::string listed(const std::vector<int>& cpus) {
+    std::string text;
+    for (int cpu : cpus) {
+        text.append(text.empty() ? "" : ",").append(std::to_string(cpu));
+    }
+    return text;
+}
+
+} // namespace
+
+Scene withSpareClasses(Scene scene) {
+    auto& rows = scene.fixtures;
+    auto shapes =
+        std::stable_partition(rows.begin(), rows.end(), [](const FixtureClass& f) { return f.isPoints(); });
+    if (std::any_of(rows.begin(), shapes, isSpare)) {
+        return scene; // a recording has them already
+    }
+    // One forbidden and one guiding: together they put every pass into the plan.
+    for (Role role : {Role::Forbidden, Role::Guidance}) {
+        if (static_cast<size_t>(shapes - rows.begin()) < shared::kMaxClasses) {
+            shapes = rows.insert(shapes, spareClass(role)) + 1;
+        }
+    }
+    return scene;
+}
+
+Session::Session(const SessionOptions& asked, const GlobalOptions& global, const SessionWindow& window,
+                 const std::atomic<bool>& stop)
+    : options(asked)
+    , scene(sceneFor(options))
+    , edits(editsFor(scene, options))
+    , liveHand(options.handDevice.empty() ? nullptr : openLiveHand(options.handDevice, scene))
+    , camera(cameraFor(scene, options, stop))
+    , arm(openArm(scene))
+    , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
+    , tool(openTool(scene, arm.get()))
+    , instance(global.validation(), window.extensions)
+    , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), kReaders, window.drawing},
+             [this](const DeviceFacts& facts) {
+                 return options.endless || !edits.empty()
+                            ? planToEdit(scene, camera->info(), tool, facts)
+                            : makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
+             })
+    , passNames(cycles.frames().passNames())
+    , handover(window.drawing != gpu::Drawing::None ? std::make_unique<DeviceHandover>() : nullptr)
+    , answers(cycles) {
+    clock = std::make_unique<ClockKeeper>(global, cycles.facts());
+    edits.takeUncertainty(*camera);
+}
+
+std::string describe(const ThreadPlacement& placement) {
+    if (!placement.pinned()) {
+        return "one CPU: the haptic thread shares it with everything else";
+    }
+    return "haptic on CPU " + listed(placement.haptic) + ", contact on " + listed(placement.contact) +
+           ", camera, device workers and writer on " + listed(placement.rest);
+}
+
+std::string Session::title() const {
+    return scene.file.stem().string() + ", " + camera->description();
+}
+
+std::string Session::where() const {
+    const Plan::Query query = cycles.plan().query;
+    return query == Plan::Query::None ? "none" : (query == Plan::Query::Cpu ? "cpu" : "gpu");
+}
+
+void Session::requireFrame(bool first) const {
+    if (!first) {
+        throw BadInput(camera->description(), "frames", "none usable", "at least one usable frame");
+    }
+}
+
+ArmPosture Session::awaitArm(const std::atomic<bool>& stop) {
+    const ArmPosture stands = realArm->ready(stop);
+    arm->start = stands.q;
+    return stands;
+}
+
+HandPath Session::path() {
+    if (!options.operatorCsv.empty()) {
+        return HandPath(readHandCsv(options.operatorCsv));
+    }
+    if (!scene.hand.builtIn) {
+        return HandPath(readHandCsv(scene.hand.path));
+    }
+    if (approach_.empty()) {
+        const auto first = cycles.frames().sets().newest();
+        approach_ = approachPath(scene, tool, first->host, first->grid);
+    }
+    return HandPath(toHand(approach_, scene.hand));
+}
+
+const SceneEdit* Session::newEdit(uint32_t image) {
+    const SceneEdit* edit = edits.empty() ? nullptr : &edits.at(image);
+    return edit == std::exchange(edit_, edit) ? nullptr : edit;
+}
+
+} // namespace fathom

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/session/session_feed.h"
+
+#include "engine/types/error.h"
+
+#include <utility>
+
+namespace fathom {
+
+SessionFeed::SessionFeed(Session& session, std::function<void(const std::vector<Shape>&)> onShapes)
+    : session_(session)
+    , onShapes_(std::move(onShapes)) {
+    if (session_.arm) {
+        SessionFeed::armAtCapture({Pose{}, session_.arm->startPosture()});
+    }
+}
+
+void SessionFeed::armAtCapture(const ToolState& place) {
+    if (session_.cycles.plan().selfFilter && !lost()) {
+        session_.cycles.frames().setArm(session_.arm->inImage(place.arm));
+    }
+}
+
+std::optional<uint32_t> SessionFeed::fetch() {
+    next_ = session_.camera->next();
+    taken_ = next_ ? (*next_)->captureTime : taken_;
+    return next_ ? std::optional((*next_)->index) : std::nullopt;
+}
+
+std::optional<RunClock::Time> SessionFeed::captured() const {
+    return session_.camera->live() ? std::optional(RunClock::sinceBoot(taken_)) : std::nullopt;
+}
+
+uint64_t SessionFeed::setScene(const Scene& scene) {
+    const std::lock_guard lock(sceneMutex_);
+    pending_ = scene;
+    edited_.store(true);
+    return ++requested_;
+}
+
+// Applies the edits of a recording and of the window. True when the frame makes no set: all fixtures are
+// held.
+bool SessionFeed::takeEdits(uint32_t index) {
+    FrameCycle& frames = session_.cycles.frames();
+    if (const SceneEdit* edit = session_.newEdit(index)) {
+        frames.setScene(edit->scene);
+        if (onShapes_) {
+            onShapes_(shapesOf(edit->scene));
+        }
+    }
+    if ((frozen_.load() || session_.heldStill()) && published_) {
+        return true;
+    }
+    if (edited_.exchange(false)) {
+        const std::lock_guard lock(sceneMutex_);
+        frames.setScene(pending_);
+        applied_ = requested_;
+    }
+    return false;
+}
+
+FrameReport SessionFeed::process() {
+    FrameCycle& frames = session_.cycles.frames();
+    try {
+        frames.upload(std::move(*next_));
+        busy_.store(true, std::memory_order_release);
+        frames.submit();
+        FrameReport report = frames.finish();
+        busy_.store(false, std::memory_order_release);
+        return report;
+    } catch (const DeviceFailed& e) {
+        busy_.store(false, std::memory_order_release);
+        if (session_.handover) {
+            session_.handover->lose(e.what());
+        }
+        throw;
+    }
+}
+
+// Where a window draws on the device, it leaves the old one first, and is on the new one before forces
+// return.
+void SessionFeed::renew(const std::atomic<bool>& stop) {
+    DeviceHandover* handover = session_.handover.get();
+    if (handover != nullptr && !handover->awaitRelease(stop)) {
+        throw DeviceLost("the run ends");
+    }
+    session_.cycles.renew();
+    if (handover != nullptr && !handover->offer(stop)) {
+        throw DeviceLost(handover->why());
+    }
+}
+
+void SessionFeed::publish(double t, PublishedFrame& out) {
+    const bool begins = std::exchange(begins_, false);
+    next_->retime(t);
+    colours_.take(**next_);
+    out.report = {};
+    out.report.index = (*next_)->index;
+    out.edit = applied_;
+    out.still = false;
+    try {
+        publishNew(out);
+    } catch (const DeviceFailed&) {
+        out.changed = begins && session_.cycles.newestSet(out.fixtures, out.grid);
+        next_.reset();
+        if (!out.changed) {
+            throw;
+        }
+    }
+    next_.reset();
+    colours_.giveTo(out.colour);
+}
+
+void SessionFeed::publishNew(PublishedFrame& out) {
+    if (lost()) { // the window found out
+        throw DeviceLost(session_.handover->why());
+    }
+    out.still = takeEdits(out.report.index);
+    out.report = out.still ? session_.cycles.frames().without(out.report.index) : process();
+    out.edit = applied_;
+    out.changed = !out.report.unchanged;
+    if (out.changed) {
+        session_.cycles.newestSet(out.fixtures, out.grid);
+        published_ = true;
+    }
+}
+
+} // namespace fathom
