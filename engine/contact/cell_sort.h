@@ -64,7 +64,7 @@ template <class Put>
 void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins,
                     const Put& put, ThreadPool* workers) {
     const auto things = static_cast<uint32_t>(cell.size());
-    const size_t members = workers == nullptr ? 1 : workers->members();
+    const size_t members = workers == nullptr ? 1 : workers->size();
     const auto parts = static_cast<uint32_t>(std::clamp<size_t>(things / kLeastPart, 1, members));
     begins[cells] = things;
     if (parts < 2) {

@@ -229,8 +229,8 @@ FrameReport FrameCycle::finish() {
     if (!f.unchanged) {
         ThreadPool* const meanwhile =
             plan_.pack ? &workers_ : nullptr; // a CPU device works on its processors
-        if (meanwhile != nullptr && workers_.members() > 1) {
-            workers_.call();
+        if (meanwhile != nullptr && workers_.size() > 1) {
+            workers_.wake();
         }
         fillHost(f); // while the device works
         if (seenPoints_) {

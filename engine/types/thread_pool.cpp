@@ -7,7 +7,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr uint32_t kLooks = 256; // polls between two reads of the clock, or between two yields
+constexpr uint32_t kPolls = 256; // polls between two reads of the clock, or between two yields
 
 void relax() noexcept {
 #if defined(__x86_64__)
@@ -23,12 +23,12 @@ uint64_t firstClaim(uint64_t job, uint32_t parts) noexcept {
 
 } // namespace
 
-ThreadPool::ThreadPool(uint32_t members, std::chrono::microseconds spinTime)
+ThreadPool::ThreadPool(uint32_t workers, std::chrono::microseconds spinTime)
     : spinTime_(spinTime) {
-    threads_.reserve(members - 1);
+    threads_.reserve(workers - 1);
     try {
-        for (uint32_t i = 1; i < members; ++i) {
-            threads_.emplace_back([this] { member(); });
+        for (uint32_t i = 1; i < workers; ++i) {
+            threads_.emplace_back([this] { runWorker(); });
         }
     } catch (...) { // std::system_error: threads already started would never end
         end();
@@ -42,12 +42,12 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::end() noexcept {
     ending_.store(true);
-    call();
+    wake();
 }
 
-void ThreadPool::call() noexcept {
-    calls_.fetch_add(1, std::memory_order_release);
-    calls_.notify_all();
+void ThreadPool::wake() noexcept {
+    wakes_.fetch_add(1, std::memory_order_release);
+    wakes_.notify_all();
 }
 
 void ThreadPool::runWork(uint32_t parts, const Work& work) noexcept {
@@ -55,12 +55,12 @@ void ThreadPool::runWork(uint32_t parts, const Work& work) noexcept {
     done_.store(0, std::memory_order_relaxed);
     const uint64_t job = (claims_.load(std::memory_order_relaxed) >> 32) + 1;
     claims_.store(firstClaim(job, parts), std::memory_order_release);
-    call(); // wakes workers that stopped spinning
+    wake(); // wakes workers that stopped spinning
     while (takePart()) {
     }
     // Other workers finish their last parts: as short as those done here, unless a thread lost its processor.
-    for (uint32_t looks = 1; done_.load(std::memory_order_acquire) < parts; ++looks) {
-        if (looks % kLooks == 0) {
+    for (uint32_t polls = 1; done_.load(std::memory_order_acquire) < parts; ++polls) {
+        if (polls % kPolls == 0) {
             std::this_thread::yield();
         }
         relax();
@@ -79,23 +79,23 @@ bool ThreadPool::takePart() noexcept {
     return true;
 }
 
-void ThreadPool::member() noexcept {
+void ThreadPool::runWorker() noexcept {
     for (;;) {
         // In this order: the wake-up that follows ending_ is either seen here or ends the wait below.
-        const uint32_t seen = calls_.load(std::memory_order_acquire);
+        const uint32_t seen = wakes_.load(std::memory_order_acquire);
         if (ending_.load()) {
             return;
         }
         Clock::time_point until = Clock::now() + spinTime_;
         while (Clock::now() < until) {
-            for (uint32_t i = 0; i < kLooks; ++i) {
+            for (uint32_t i = 0; i < kPolls; ++i) {
                 if (takePart()) {
                     until = Clock::now() + spinTime_;
                 }
                 relax();
             }
         }
-        calls_.wait(seen, std::memory_order_acquire);
+        wakes_.wait(seen, std::memory_order_acquire);
     }
 }
 

@@ -17,15 +17,15 @@ namespace fathom {
 class ThreadPool {
 public:
     // workers: the caller counts as one; 1 = no thread is made. spinTime: how long idle workers spin.
-    explicit ThreadPool(uint32_t members, std::chrono::microseconds spinTime = std::chrono::milliseconds(1));
+    explicit ThreadPool(uint32_t workers, std::chrono::microseconds spinTime = std::chrono::milliseconds(1));
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    uint32_t members() const { return static_cast<uint32_t>(threads_.size()) + 1; }
+    uint32_t size() const { return static_cast<uint32_t>(threads_.size()) + 1; }
 
     // Wakes sleeping workers before a job. Costs a system call.
-    void call() noexcept;
+    void wake() noexcept;
 
     // Runs job(part) once for each part 0 .. parts - 1, in any order, on any worker. Returns when all are
     // done; the caller then sees what they wrote. The job must not throw. parts < 65536.
@@ -42,13 +42,13 @@ private:
     void end() noexcept;
     void runWork(uint32_t parts, const Work& work) noexcept;
     bool takePart() noexcept;
-    void member() noexcept;
+    void runWorker() noexcept;
 
     Work work_; // read only by workers that have claimed a part of it
     // Number of the job << 32 | parts << 16 | next part: one word, so that no worker claims a part of a
     // finished job.
     std::atomic<uint64_t> claims_{0};
-    std::atomic<uint32_t> done_{0}, calls_{0};
+    std::atomic<uint32_t> done_{0}, wakes_{0};
     std::atomic<bool> ending_{false};
     const std::chrono::microseconds spinTime_;
     std::vector<std::jthread> threads_;
@@ -57,7 +57,7 @@ private:
 // Number of parts, of at least `least` each, into which n items are split: up to four per worker, so that a
 // late worker takes fewer; one part without a pool, even when n is 0.
 inline uint32_t partsOf(const ThreadPool* workers, size_t n, size_t least) noexcept {
-    const size_t most = workers == nullptr || workers->members() == 1 ? 1 : size_t{workers->members()} * 4;
+    const size_t most = workers == nullptr || workers->size() == 1 ? 1 : size_t{workers->size()} * 4;
     return static_cast<uint32_t>(std::clamp<size_t>(n / least, 1, most));
 }
 

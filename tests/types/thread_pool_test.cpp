@@ -13,13 +13,13 @@ TEST_CASE("Each part of a job is done once, and what the members wrote is seen w
     for (const uint32_t members : {1u, 2u, 3u}) {
         CAPTURE(members);
         ThreadPool workers(members);
-        CHECK(workers.members() == members);
+        CHECK(workers.size() == members);
         size_t wrong = 0;
         for (uint32_t round = 0; round < 400; ++round) {
             const uint32_t parts = round % 23; // none, one, more than members
             std::vector<uint32_t> times(parts, 0);
             if (round % 3 == 0) {
-                workers.call();
+                workers.wake();
             }
             workers.run(parts, [&](uint32_t part) { times[part] += part + 1; });
             for (uint32_t part = 0; part < parts; ++part) {
@@ -43,7 +43,7 @@ TEST_CASE("A crew whose members sleep is woken by a call, and a job does not nee
     };
     bool shared = false; // at some time, however busy the machine is
     for (int round = 0; round < 20 && !shared; ++round) {
-        workers.call();
+        workers.wake();
         workers.run(static_cast<uint32_t>(by.size()), job);
         CHECK(std::ranges::count(by, std::thread::id()) == 0);
         shared = others();
