@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
 // Points of the listed patches: flying and isolated pixels rejected, the paper's Cartesian bilateral filter (eq. 1-2),
-// base frame. One group a patch, one invocation a pixel, or (kPair) two of a row, which share what they fetch of their windows, or (kBlock) a 4x4
+// base frame. One group per patch, one invocation per pixel, or (kPair) two of a row, which share what they fetch of their windows, or (kBlock) a 4x4
 // sub-patch, whose pixels share their window and weights in registers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
@@ -22,7 +22,7 @@ layout(constant_id = kSpecPair) const uint kPair = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(binding = 3) uniform usamplerBuffer masks; // a byte a slot: class bits
+layout(binding = 3) uniform usamplerBuffer masks; // one byte per slot: class bits
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot -> base point about the origin, w = z [m]; 0 = none
 

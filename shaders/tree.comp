@@ -16,7 +16,7 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
-// kPatches: nodes and counts of the sub-patches, four counts a texel.
+// kPatches: nodes and counts of the sub-patches, four counts per texel.
 layout(binding = 4) uniform samplerBuffer subNodes;
 layout(binding = 5) uniform usamplerBuffer subCounts;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spheres of points that the picture shows, from their depths alone: across a bus go four bytes a sphere
-// instead of sixteen. The same operations in the same order as on the device (rayOf, pointAt, transformPoint
-// and growthOf in shaders/), so that host and device have the same spheres to the last bit.
+// The spheres of points that the picture shows, from their depths alone: across a bus go four bytes per
+// sphere instead of sixteen. The same operations in the same order as on the device (rayOf, pointAt,
+// transformPoint and growthOf in shaders/), so that host and device have the same spheres to the last bit.
 #pragma once
 
 #include "engine/scene/plan.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One frame as the float64 twins see it: the plain scene, camera and pose, row-major pictures. Every twin of
-// a GPU pass lives in namespace reference and is written from the formulas of the design, not from the
+// a GPU pass lives in namespace reference and is written from the formulas in the paper, not from the
 // shader.
 #pragma once
 

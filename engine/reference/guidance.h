@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of the guidance pose (paper IV.B.2, design 4.5): plane test, normal, target; and of the choices that a
+// Twin of the guidance pose (paper IV.B.2): plane test, normal, target; and of the choices that a
 // class may ask for. The eigenvectors come from Eigen.
 #pragma once
 

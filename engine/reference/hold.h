@@ -6,12 +6,12 @@
 
 namespace fathom::reference {
 
-// A memory of two points a pixel: the forbidden point that it showed last frame, and the one that it holds.
+// A memory of two points per pixel: the forbidden point that it showed last frame, and the one that it holds.
 class HoldMemory {
 public:
-    // The next frame: what is held in it, one sphere a pixel. classes: class of the forbidden point seen now
-    // at each pixel. previousTime: the capture time at which the last frame's points were still seen. A point
-    // stays while it was last seen at most scene.holdSeconds ago and its pixel now shows no depth, or
+    // The next frame: what is held in it, one sphere per pixel. classes: class of the forbidden point seen
+    // now at each pixel. previousTime: the capture time at which the last frame's points were still seen. A
+    // point stays while it was last seen at most scene.holdSeconds ago and its pixel now shows no depth, or
     // something nearer by more than 3 sigma of depth, or lies outside the picture.
     std::vector<RegionSphere> step(const FrameView& view, double captureTime, double previousTime,
                                    std::span<const int> classes, const PointImage& points);

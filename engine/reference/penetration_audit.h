@@ -16,7 +16,7 @@ namespace fathom {
 
 // Sees the poses alone, nothing of the solver: every depth is taken in float64 from the very floats of the
 // set. A search round a leaf finds all spheres near it, and looks at these alone until the leaf has moved so
-// far that another could touch: exact, and a turn in free water costs a few nanoseconds a leaf. Allocates;
+// far that another could touch: exact, and a turn in free water costs a few nanoseconds per leaf. Allocates;
 // not for the haptic thread.
 class PenetrationAudit {
 public:

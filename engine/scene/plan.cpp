@@ -41,7 +41,7 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
     plan.beam = plan.spheres && camera.beam.has_value();
-    plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof wants one radius a class
+    plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof needs one radius per class
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
     plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
     for (const FixtureClass& f : scene.fixtures) {
@@ -69,8 +69,8 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
     }
-    // Beside a device of its own those who share it look out for it while the device works, so that the other
-    // cadences keep processors of their own; a CPU device has done its work by then.
+    // On GPUs publishers spin while the device works, so other threads need processors of their own. A CPU
+    // device has finished by then.
     if (plan.spheres && cpu) {
         plan.publishers = std::min(kMostPublishers, device.hostProcessors);
     } else if (plan.spheres && device.hostProcessors >= kManyProcessors) {

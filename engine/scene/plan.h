@@ -36,7 +36,7 @@ struct Plan {
     // Variants.
     bool rays = false;        // distorted lens, or a fan
     bool colour = false;      // some class uses colour: it is uploaded
-    bool yuyv = false;        // as the camera sends it, two pixels a word
+    bool yuyv = false;        // as the camera sends it, two pixels per word
     bool inPlace = false;     // images in whole pages are read in place, not copied
     bool tiled = false;       // the filter's window from shared memory
     bool filterBlock = false; // one invocation per 4x4 sub-patch, window in registers (radius <= 2)

@@ -25,7 +25,7 @@ public:
         double captureTime = 0.0;  // [s] on the source's clock
         std::span<const uint16_t> depth;
         std::span<const uint32_t> colour; // 0xAABBGGRR
-        std::span<const uint32_t> yuyv;   // two pixels a word
+        std::span<const uint32_t> yuyv;   // two pixels per word
         std::optional<Pose> baseTcamera;  // when the source knows it (poses.txt, simulated); else the scene's
         // Blocks of whole pages that begin where depth and colour do: a device may read them there, and who
         // holds one keeps its address from being used for anything else. Null, or of another address: copied.

@@ -29,7 +29,7 @@ struct SphereTree {
     std::span<const Sphere> lastLevel() const;
 };
 
-// Groups a flat set of spheres top-down (longest axis, median split, 2 children a node) into a tree that
+// Groups a flat set of spheres top-down (longest axis, median split, 2 children per node) into a tree that
 // encloses them. Leaf order follows the split, not the input. At least one sphere; radii must be positive:
 // throws Error.
 SphereTree buildSphereTree(std::span<const Sphere> leaves);

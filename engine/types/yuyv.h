@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour as most USB cameras send it, 4:2:2 in BT.601's limited range, two pixels a word: Y0 | U << 8 |
+// Colour as most USB cameras send it, 4:2:2 in BT.601's limited range, two pixels per word: Y0 | U << 8 |
 // Y1 << 16 | V << 24.
 #pragma once
 

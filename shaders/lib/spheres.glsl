@@ -83,8 +83,8 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
 
 // What the pixels of a sub-patch say together.
 struct Notes {
-    uint marks, remembered; // a bit a pixel of a forbidden class; points as in `live`
-    uvec4 classes;          // a byte a pixel
+    uint marks, remembered; // one bit per pixel of a forbidden class; points as in `live`
+    uvec4 classes;          // one byte per pixel
 };
 
 Notes noted(Notes n, const uint p, uint note) {

@@ -63,7 +63,7 @@ FATHOM_CONST kPatchHolding = 4; // listed, and its memory holds points; where cl
 FATHOM_CONST kArgumentWords = 20; // its first: x, y, z groups of five indirect dispatches, and a count each
 struct FrameCounters {
     uvec4 patchGroups;   // indirect arguments: one group a listed patch (x = listed patches, 1, 1)
-    uvec4 subGroups;     // indirect arguments: one invocation a sub-patch of a listed patch
+    uvec4 subGroups;     // indirect arguments: one invocation per sub-patch of a listed patch
     uvec4 guidedGroups;  // as patchGroups where classify makes the lists, else as subGroups; w = guided ones
     uvec4 quietGroups;   // as subGroups, of listed patches that hold nothing; w = how many these are
     uvec4 holdingGroups; // the same of those that hold
