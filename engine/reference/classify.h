@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of shaders/classify.comp: class bits of every pixel (paper IV.B, with the gates of shaders/README.md).
+// Twin of shaders/classify.comp: class bits of every pixel (paper IV.B, with colour, box and range gates).
 #pragma once
 
 #include "engine/reference/occlusion.h"
