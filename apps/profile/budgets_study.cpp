@@ -4,7 +4,7 @@
 #include "apps/profile/brute_force.h"
 #include "apps/profile/budget_sets.h"
 #include "apps/profile/drag.h"
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
 
 #include "engine/contact/cull_cpu.h"
@@ -161,7 +161,7 @@ void verifyGrid(const TouchRig& rig, const RegionGrid& grid, const std::string& 
 
 void addGrid(const StudyContext& context, Study& study, const TouchRig& rig, double budget) {
     const uint32_t publishers =
-        makePlan(everyPointScene(), wallShot(640, 480, 1.0).camera, 1, context.device.facts()).publishers;
+        makePlan(everyPointScene(), wallFrame(640, 480, 1.0).camera, 1, context.device.facts()).publishers;
     for (const uint32_t members : {publishers, 1u}) {
         ThreadPool workers(members);
         RegionGrid grid;
@@ -210,7 +210,7 @@ void addSolver(const StudyContext& context, Study& study, const TouchRig& rig) {
            sampleEach(amountOf(context).samples, problems.size(), solve), {0.0015, 0.003}, share);
 }
 
-void addTurn(const StudyContext& context, Study& study) {
+void addStep(const StudyContext& context, Study& study) {
     DragSetting d;
     d.ticks = static_cast<uint32_t>(amountOf(context).samples);
     d.spacing = 0.2 / 122.5; // 60 025 spheres
@@ -277,7 +277,7 @@ Study budgetsStudy(const StudyContext& context) {
     addGrid(context, study, ordinary, 1.0);
     addGrid(context, study, large, 5.0);
     addSolver(context, study, TouchRig(k60, 2048, std::max<size_t>(poses, 100), 0.0));
-    addTurn(context, study);
+    addStep(context, study);
     study.panels = {budgetPanel(study)};
     return study;
 }

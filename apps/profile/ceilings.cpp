@@ -46,7 +46,7 @@ double sumOfChains(uint32_t rounds) {
     return sum;
 }
 
-double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort) {
+double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats) {
     double best = 0.0;
     for (const ArithmeticShape& shape : arithmeticShapesOf(device)) {
         const gpu::Pipeline pipeline(
@@ -56,7 +56,7 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
                      {{shared::kSpecGroupSize, shape.group}, {shared::kSpecRounds, shape.rounds}}});
         const gpu::Buffer sums(device, shape.invocations * 4ull, gpu::MemoryKind::Device, "sums");
         const gpu::Bindings bindings(device, pipeline, {&sums}, sums);
-        const double ms = submissions.best(effort, [&](gpu::Commands& c) {
+        const double ms = submissions.best(repeats, [&](gpu::Commands& c) {
             c.dispatch(pipeline, bindings, shape.invocations / shape.group);
         });
         const gpu::Buffer first(device, 16, gpu::MemoryKind::Readback, "first sum");
@@ -69,12 +69,12 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
 }
 
 // What one more dispatch with its barrier adds when its single work group computes nothing.
-double emptyDispatch(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort) {
+double emptyDispatch(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats) {
     const gpu::Pipeline pipeline(device, {"empty", ceiling_spv, 1, false, 0, std::array{64u, 0u}});
     const gpu::Buffer sums(device, 64 * 4, gpu::MemoryKind::Device, "sums");
     const gpu::Bindings bindings(device, pipeline, {&sums}, sums);
     const auto chain = [&](int count) {
-        return submissions.best(effort, [&](gpu::Commands& c) {
+        return submissions.best(repeats, [&](gpu::Commands& c) {
             for (int i = 0; i < count; ++i) {
                 c.dispatch(pipeline, bindings, 1);
                 c.barrier();
@@ -86,12 +86,12 @@ double emptyDispatch(gpu::Device& device, TimedSubmissions& submissions, const E
     return std::max(1e-6, (chain(1 + kMore) - one) / kMore);
 }
 
-double hostCopy(uint32_t threads, const Effort& effort) {
+double hostCopy(uint32_t threads, const Repeats& repeats) {
     ThreadPool workers(threads);
     std::vector<char> from(kHostCopyBytes, 3), to(kHostCopyBytes, 0);
     double least = HUGE_VAL;
     repeat(
-        effort,
+        repeats,
         [&] {
             inParts(&workers, kHostCopyBytes, kLeastPart,
                     [&](size_t begin, size_t end) { std::memcpy(&to[begin], &from[begin], end - begin); });
@@ -103,9 +103,9 @@ double hostCopy(uint32_t threads, const Effort& effort) {
 
 } // namespace
 
-Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort& effort) {
+Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Repeats& repeats) {
     TimedSubmissions submissions(device);
-    const Effort each{effort.least, effort.most, 0.25 * effort.seconds}; // there are a dozen
+    const Repeats each{repeats.least, repeats.most, 0.25 * repeats.seconds}; // there are a dozen
     Ceilings c;
     c.deviceFlops = deviceArithmetic(device, submissions, each); // first: the clock rises under it
     c.dispatchMs = emptyDispatch(device, submissions, each);
@@ -123,11 +123,11 @@ Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort
     c.how += host.way.empty() ? "" : ", the host's own pages by " + host.way;
     verify(c.deviceBytes > 0.0 && c.uploadBytes > 0.0, "limit", "ceilings", "no memory for them");
     c.hostThreads = hostThreads;
-    c.hostBytes = hostCopy(1, effort);
-    c.workerBytes = hostCopy(hostThreads, effort);
+    c.hostBytes = hostCopy(1, repeats);
+    c.workerBytes = hostCopy(hostThreads, repeats);
     std::vector<double> empty;
     repeat(
-        effort, [&] { submissions.once([](gpu::Commands&) {}); },
+        repeats, [&] { submissions.once([](gpu::Commands&) {}); },
         [&](const Clocks&) { empty.push_back(submissions.lastWallMs()); });
     c.submitMs = spreadOf(empty).p50;
     return c;

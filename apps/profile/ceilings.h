@@ -25,9 +25,9 @@ struct Ceilings {
 // Each is the best of several sizes and repeats after a warm-up, some seconds in all; on a CPU device sizes
 // are those of a few milliseconds. Verifies what was computed, copied and read. hostThreads: that share work
 // on the host. Throws Error.
-Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Effort& effort);
+Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Repeats& repeats);
 
-// Least time [ms] of a pass that moves `own` bytes of the device's memory and reads `pictures` bytes: where
+// Least time [ms] of a pass that moves `own` bytes of the device's memory and reads `images` bytes: where
 // the camera left them, or where the CPU wrote them for the device. Two memories may be busy at once, one may
 // not.
 double readingMs(const Ceilings& c, double own, double images, bool inPlace);

@@ -130,17 +130,17 @@ double onesIn(const gpu::Buffer& buffer) {
     return static_cast<double>(buffer.bytes()) / sizeof(float);
 }
 
-void readAll(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort,
+void readAll(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats,
              const std::vector<gpu::Buffer>& from, StreamRate& best) {
     for (const StreamShape& shape : shapesOf(device)) {
         const StreamPass pass(device, shape, from, {});
-        const double ms = submissions.best(effort, [&](gpu::Commands& c) { pass.record(c); });
+        const double ms = submissions.best(repeats, [&](gpu::Commands& c) { pass.record(c); });
         verify(pass.sum(submissions) == onesIn(from.front()), "limit", "reading", "the sum of what was read");
         keepBetter(best, totalBytes(from), ms, wayOf("reads", from));
     }
 }
 
-void copyAll(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort,
+void copyAll(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats,
              const std::vector<gpu::Buffer>& from, const std::vector<gpu::Buffer>& to, StreamRate& best) {
     const auto check = [&] {
         const StreamPass look(device, shapesOf(device).front(), to, {});
@@ -148,7 +148,7 @@ void copyAll(gpu::Device& device, TimedSubmissions& submissions, const Effort& e
         verify(look.sum(submissions) == onesIn(to.front()), "limit", "copying", "the sum of the copy");
         submissions.once([&](gpu::Commands& c) { c.fill(to.front(), 0); });
     };
-    const double command = submissions.best(effort, [&](gpu::Commands& c) {
+    const double command = submissions.best(repeats, [&](gpu::Commands& c) {
         for (size_t i = 0; i < from.size(); ++i) {
             c.copy(from[i], to[i], from[i].bytes());
         }
@@ -157,7 +157,7 @@ void copyAll(gpu::Device& device, TimedSubmissions& submissions, const Effort& e
     keepBetter(best, 2.0 * totalBytes(from), command, wayOf("the copy command's copies", from));
     for (const StreamShape& shape : shapesOf(device)) {
         const StreamPass pass(device, shape, from, to);
-        const double ms = submissions.best(effort, [&](gpu::Commands& c) { pass.record(c); });
+        const double ms = submissions.best(repeats, [&](gpu::Commands& c) { pass.record(c); });
         check();
         keepBetter(best, 2.0 * totalBytes(from), ms, wayOf("a pass's copies", from));
     }
@@ -186,10 +186,10 @@ double TimedSubmissions::once(const std::function<void(gpu::Commands&)>& record)
     return watch_.works() ? watch_.intervalsMs().front() : lastWallMs_;
 }
 
-double TimedSubmissions::best(const Effort& effort, const std::function<void(gpu::Commands&)>& record) {
+double TimedSubmissions::best(const Repeats& repeats, const std::function<void(gpu::Commands&)>& record) {
     double least = HUGE_VAL;
     repeat(
-        effort, [&] { least = std::min(least, once(record)); }, [](const Clocks&) {});
+        repeats, [&] { least = std::min(least, once(record)); }, [](const Clocks&) {});
     return least;
 }
 
@@ -209,7 +209,7 @@ bool oneMemory(const gpu::Device& device) {
     return device.facts().kind != DeviceKind::Discrete;
 }
 
-StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort) {
+StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats) {
     const auto from = streamBuffers(device, StreamMemory::Device, streamSizeOf(device));
     StreamRate best;
     if (from.empty()) {
@@ -218,30 +218,30 @@ StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, 
     for (const gpu::Buffer& buffer : from) {
         submissions.once([&](gpu::Commands& c) { c.fill(buffer, kOne); });
     }
-    readAll(device, submissions, effort, from, best);
+    readAll(device, submissions, repeats, from, best);
     const auto to = streamBuffers(device, StreamMemory::Device,
                                   {from.front().bytes(), static_cast<uint32_t>(from.size())});
     if (to.size() == from.size() && to.front().bytes() == from.front().bytes()) {
-        copyAll(device, submissions, effort, from, to, best);
+        copyAll(device, submissions, repeats, from, to, best);
     }
     return best;
 }
 
 StreamRate bestRead(gpu::Device& device, TimedSubmissions& submissions, StreamMemory memory,
-                    const StreamSize& size, const Effort& effort) {
+                    const StreamSize& size, const Repeats& repeats) {
     const auto from = streamBuffers(device, memory, {size.bytes, 1}); // a bus has no cache to fill
     StreamRate best;
     if (from.empty()) {
         return best;
     }
-    readAll(device, submissions, effort, from, best);
+    readAll(device, submissions, repeats, from, best);
     const uint64_t bytes = from.front().bytes();
     const auto to = streamBuffers(device, StreamMemory::Device, {bytes, 1});
     if (to.empty() || to.front().bytes() != bytes) {
         return best;
     }
     const double ms =
-        submissions.best(effort, [&](gpu::Commands& c) { c.copy(from.front(), to.front(), bytes); });
+        submissions.best(repeats, [&](gpu::Commands& c) { c.copy(from.front(), to.front(), bytes); });
     const StreamPass look(device, shapesOf(device).front(), to, {});
     submissions.once([&](gpu::Commands& c) { look.record(c); });
     verify(look.sum(submissions) == onesIn(to.front()), "limit", "copying", "the sum of the copy");

@@ -19,7 +19,7 @@ public:
     // Device time of what record() records [ms]; wall time where the device has no timestamps.
     double once(const std::function<void(gpu::Commands&)>& record);
     // The shortest of several after a warm-up: a ceiling is what can be reached.
-    double best(const Effort& effort, const std::function<void(gpu::Commands&)>& record);
+    double best(const Repeats& repeats, const std::function<void(gpu::Commands&)>& record);
     double lastWallMs() const { return lastWallMs_; } // from submission until it was known to have ended
 
 private:
@@ -57,10 +57,10 @@ struct StreamRate {
 // Copies within the device's memory, by its copy command and by a pass, and reads by a pass; read and written
 // bytes both count. Takes less memory where there is less, as does bestRead(). Throws Error when a copy or a
 // sum is wrong.
-StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, const Effort& effort);
+StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats);
 // Reads by a pass, and by the copy command into the device's memory: what it writes counts where that is the
 // same memory. Throws Error when a sum is wrong.
 StreamRate bestRead(gpu::Device& device, TimedSubmissions& submissions, StreamMemory memory,
-                    const StreamSize& size, const Effort& effort);
+                    const StreamSize& size, const Repeats& repeats);
 
 } // namespace fathom::profile

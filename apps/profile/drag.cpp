@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/drag.h"
 
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/wavy_wall.h"
 #include "engine/contact/behind.h"
 #include "engine/contact/cull_cpu.h"

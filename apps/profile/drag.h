@@ -18,7 +18,7 @@ struct DragSetting {
     double press = 0.002;       // [m] that the hand is deeper than the touch
     bool follow = false;        // the hand goes up and down with the wall: pressed all the way round
     ProxyOptions proxy;         // step cap, solves
-    double deadlineMicros = 0;  // of a turn; 0 = none
+    double deadlineMicros = 0;  // of a tick; 0 = none
     double spacing = 0.00175;   // [m] of the wall's spheres
     const Tool* tool = nullptr; // in place of a ball of `leaves` leaves
 };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Depth error against time over the filter's window, sigma, weights, tiles and skipped patches: against exact
 // truth on analytic scenes, as scatter between repeats on recordings.
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
+#include "apps/profile/interleave.h"
 #include "apps/profile/studies.h"
-#include "apps/profile/turns.h"
 
 #include <algorithm>
 
@@ -73,10 +73,10 @@ std::vector<Setting> settingsOf(const Scene& scene, bool quick, Window usual) {
 }
 
 // Pixels near a jump of the true depth.
-std::vector<uint8_t> edgesOf(const ShotSource& source) {
+std::vector<uint8_t> edgesOf(const FrameSequence& source) {
     const int w = static_cast<int>(source.camera.depth.width),
               h = static_cast<int>(source.camera.depth.height);
-    const std::vector<double>& truth = source.shots.front().truth;
+    const std::vector<double>& truth = source.frames.front().truth;
     std::vector<uint8_t> edges(truth.size(), 0);
     const auto at = [&](int u, int v) { return truth[static_cast<size_t>(v) * w + u]; };
     for (int v = 0; v < h; ++v) {
@@ -102,10 +102,10 @@ struct DepthErrors {
     size_t count = 0;
     std::vector<double> edge;
 
-    void add(const ShotSource& source, const reference::PointImage& points, std::span<const uint32_t> masks,
-             const std::vector<uint8_t>& edges) {
+    void add(const FrameSequence& source, const reference::PointImage& points,
+             std::span<const uint32_t> masks, const std::vector<uint8_t>& edges) {
         for (size_t i = 0; i < points.z.size(); ++i) {
-            const double truth = source.shots.front().truth[i];
+            const double truth = source.frames.front().truth[i];
             if (points.z[i] == 0.0 || masks[i] == 0 || truth == 0.0) {
                 continue;
             }
@@ -150,7 +150,8 @@ Scene sceneFor(const Settings& settings, const Setting& s) {
     return scene;
 }
 
-std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const ShotSource& source, const Setting& s) {
+std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const FrameSequence& source,
+                                    const Setting& s) {
     return std::make_unique<FrameBench>(context.device, sceneFor(context.settings, s), source.camera,
                                         [&](Plan& plan) {
                                             plan.tiled = s.window == Window::Tiles;
@@ -159,21 +160,21 @@ std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const ShotSourc
 }
 
 // All but the times.
-StudyRow errorRow(const StudyContext& context, const ShotSource& source, const std::string& setting,
+StudyRow errorRow(const StudyContext& context, const FrameSequence& source, const std::string& setting,
                   FrameBench& bench) {
     StudyRow row;
     row.source = source.name;
     row.setting = setting;
-    const bool exact = !source.shots.front().truth.empty();
+    const bool exact = !source.frames.front().truth.empty();
     const std::vector<uint8_t> edges = exact ? edgesOf(source) : std::vector<uint8_t>{};
     const uint32_t own =
         (1u << studyScene(context.settings).fixtures.size()) - 1; // not the class of everyPatch
     DepthErrors errors;
     std::vector<reference::PointImage> frames;
-    for (const Shot& shot : source.shots) {
-        bench.run(shot);
-        if (&shot == &source.shots.front()) {
-            const std::string wrong = bench.differsFromTwins(shot);
+    for (const SampleFrame& image : source.frames) {
+        bench.run(image);
+        if (&image == &source.frames.front()) {
+            const std::string wrong = bench.differsFromTwins(image);
             verify(wrong.empty(), "filter", row.setting, wrong + " differs from the float64 twin");
         }
         frames.push_back(bench.points());
@@ -189,7 +190,7 @@ StudyRow errorRow(const StudyContext& context, const ShotSource& source, const s
 }
 
 // All settings of one source, in turns.
-void addSource(const StudyContext& context, Study& study, const ShotSource& source) {
+void addSource(const StudyContext& context, Study& study, const FrameSequence& source) {
     const Scene scene = studyScene(context.settings);
     const Window usual = windowOf(makePlan(scene, source.camera, 1, context.device.facts()));
     std::vector<std::unique_ptr<FrameBench>> benches;
@@ -201,7 +202,8 @@ void addSource(const StudyContext& context, Study& study, const ShotSource& sour
                                 s.window == windowFor(s.radius, usual) && !s.everyPatch &&
                                 s.polynomial == (scene.filter.weights == Scene::Filter::Weights::Polynomial);
     }
-    const std::vector<FrameCost> costs = measureInTurns(benches, source.shots, context.settings.effort());
+    const std::vector<FrameCost> costs =
+        measureInterleaved(benches, source.frames, context.settings.repeats());
     for (size_t i = 0; i < rows.size(); ++i) {
         const auto surface = costs[i].passes.find("surface");
         rows[i].cost = costs[i].frame;
@@ -221,16 +223,16 @@ Study filterStudy(const StudyContext& context) {
     const bool recorded = !context.settings.source.empty();
     study.errorName = recorded ? "scatter between repeats" : "depth error RMS away from edges";
     study.errorUnit = "mm";
-    study.judgement.time = gpuTime;
+    study.rankBy.time = gpuTime;
     study.timeName = "surface pass, GPU time p50";
     study.moreNames = {"edge_error_p90_mm", "all_passes_p50_ms", "upload_to_published_p50_ms"};
-    study.judgement.reason =
+    study.rankBy.reason =
         "no setting wins on every scene: narrow windows and sigmas serve thin things, wide ones broad "
         "surfaces "
         "(compare the scenes, and edge_error_p90_mm); rows of one window and sigma do the same work but for "
         "what their names say";
     const uint32_t frames = context.settings.quick ? 2 : 6;
-    for (const ShotSource& source : studySources(context.settings, {"torus", "corner", "tank"}, frames)) {
+    for (const FrameSequence& source : studySources(context.settings, {"torus", "corner", "tank"}, frames)) {
         addSource(context, study, source);
     }
     markFront(study);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Surface error against build time over the error budget and the radius: how far the boundary of the spheres
 // that are kept lies from that of all spheres.
+#include "apps/profile/frame_sequence.h"
+#include "apps/profile/interleave.h"
 #include "apps/profile/region_boundary.h"
-#include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
-#include "apps/profile/turns.h"
 
 #include "engine/contact/cull_cpu.h"
 #include "engine/reference/contact_oracle.h"
@@ -26,23 +26,23 @@ Scene sceneFor(const Settings& settings, double radius, double budget) {
     return scene;
 }
 
-// Of the first picture, whichever the bench saw last: every budget is asked about the same surface.
-void addQuery(const StudyContext& context, FrameBench& bench, const Shot& shot, StudyRow& row) {
-    bench.run(shot);
+// Of the first image, whichever the bench saw last: every budget is asked about the same surface.
+void addQuery(const StudyContext& context, FrameBench& bench, const SampleFrame& image, StudyRow& row) {
+    bench.run(image);
     const Fixtures& host = bench.set().host;
     if (host.spheres.size() == 0) {
         row.more.insert(row.more.end(), {NAN, 0.0});
         return;
     }
     const Tool tool = ballTool(256);
-    const Pose pose = touchingPose(tool, host, shot.baseTcamera);
+    const Pose pose = touchingPose(tool, host, image.baseTcamera);
     CullCpu cull({host.spheres.size(), tool.leafCount() * host.spheres.size()}); // whatever it finds fits
     ContactSet set;
     cull.query(tool, pose, kReach, host, bench.set().grid, set);
     verify(set.reach > 0.99 * kReach, "fixture", row.setting, "the query answered for a shorter reach");
     verify(set.source == oracleSources(tool, pose, kReach, host), "fixture", row.setting,
            "the query differs from brute force");
-    const Cost cost = timeCpu(context.settings.effort(),
+    const Cost cost = timeCpu(context.settings.repeats(),
                               [&] { cull.query(tool, pose, kReach, host, bench.set().grid, set); });
     row.more.insert(row.more.end(), {cost.submit.p50, static_cast<double>(host.spheres.size())});
 }
@@ -62,7 +62,7 @@ BoundaryError errorOf(const StudyContext& context, const RegionSpheres& all, con
 }
 
 // One radius: all budgets in turns. The first budget is 0.
-void addRadius(const StudyContext& context, Study& study, const ShotSource& source, double radius,
+void addRadius(const StudyContext& context, Study& study, const FrameSequence& source, double radius,
                const std::vector<double>& budgets, bool usual) {
     std::vector<std::unique_ptr<FrameBench>> benches;
     std::vector<StudyRow> rows;
@@ -70,7 +70,7 @@ void addRadius(const StudyContext& context, Study& study, const ShotSource& sour
     for (const double budget : budgets) {
         benches.push_back(std::make_unique<FrameBench>(
             context.device, sceneFor(context.settings, radius, budget), source.camera));
-        benches.back()->run(source.shots.front());
+        benches.back()->run(source.frames.front());
         const RegionSpheres& spheres = benches.back()->set().host.spheres;
         if (budget == 0.0) {
             all = spheres;
@@ -83,11 +83,12 @@ void addRadius(const StudyContext& context, Study& study, const ShotSource& sour
         row.error = error.max * 1e3;
         row.more = {error.rms * 1e3};
     }
-    const std::vector<FrameCost> costs = measureInTurns(benches, source.shots, context.settings.effort());
+    const std::vector<FrameCost> costs =
+        measureInterleaved(benches, source.frames, context.settings.repeats());
     for (size_t i = 0; i < rows.size(); ++i) {
         rows[i].cost = costs[i].frame;
         rows[i].more.insert(rows[i].more.end(), {costs[i].publish.p50, costs[i].total.p50});
-        addQuery(context, *benches[i], source.shots.front(), rows[i]);
+        addQuery(context, *benches[i], source.frames.front(), rows[i]);
         study.rows.push_back(std::move(rows[i]));
     }
 }
@@ -108,22 +109,21 @@ Study fixtureStudy(const StudyContext& context) {
     study.verified = "kept spheres cover all spheres, error within the budget, query equal to brute force";
     study.errorName = "largest distance between the boundaries of kept and of all spheres";
     study.errorUnit = "mm";
-    study.judgement.time = [](const StudyRow& row) { return row.more[2]; };
+    study.rankBy.time = [](const StudyRow& row) { return row.more[2]; };
     study.timeName = "upload until published, p50";
     study.moreNames = {"error_rms_mm", "publish_p50_ms", "upload_to_published_p50_ms", "query_p50_ms",
                        "spheres"};
-    study.judgement.reason =
-        "0.1 mm is a fifth of the sensor noise, so nobody can feel what a smaller budget "
-        "keeps; where the noise "
-        "itself lets few points go, leaving them out costs the pass and gains little, "
-        "elsewhere the query and "
-        "the publishing gain (query_p50_ms, spheres)";
+    study.rankBy.reason = "0.1 mm is a fifth of the sensor noise, so nobody can feel what a smaller budget "
+                          "keeps; where the noise "
+                          "itself lets few points go, leaving them out costs the pass and gains little, "
+                          "elsewhere the query and "
+                          "the publishing gain (query_p50_ms, spheres)";
     const bool quick = context.settings.quick;
     const std::vector<double> radii = quick ? std::vector{0.04} : std::vector{0.003, 0.01, 0.04, 0.06};
     const std::vector<double> budgets =
         quick ? std::vector{0.0, 0.0001, 0.001}
               : std::vector{0.0, 0.00002, 0.00005, 0.0001, 0.0002, 0.0005, 0.001, 0.002};
-    for (const ShotSource& source : studySources(context.settings, {"torus", "plane"}, 2)) {
+    for (const FrameSequence& source : studySources(context.settings, {"torus", "plane"}, 2)) {
         for (double radius : radii) {
             addRadius(context, study, source, radius, budgets,
                       radius == radii[radii.size() - (quick ? 1 : 2)]);

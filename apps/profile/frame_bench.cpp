@@ -9,7 +9,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr uint32_t kStill = 0xffffffffu; // source number that no other picture has
+constexpr uint32_t kStill = 0xffffffffu; // source number that no other image has
 
 double millis(std::chrono::steady_clock::duration d) {
     return std::chrono::duration<double, std::milli>(d).count();
@@ -52,26 +52,26 @@ FrameBench::FrameBench(gpu::Device& device, Scene scene, const CameraInfo& camer
     cycle_ = std::make_unique<FrameCycle>(device, scene_, camera_, plan_, 1);
 }
 
-FrameReport FrameBench::run(const Shot& shot) {
-    place(0, shot);
+FrameReport FrameBench::run(const SampleFrame& image) {
+    place(0, image);
     return process(0);
 }
 
-void FrameBench::place(size_t at, const Shot& shot) {
+void FrameBench::place(size_t at, const SampleFrame& image) {
     if (at >= memory_.size()) {
         memory_.resize(at + 1), placed_.resize(at + 1);
     }
     if (!memory_[at]) {
-        const auto most = static_cast<uint32_t>(std::max(shot.depth.size(), shot.colour.size()));
+        const auto most = static_cast<uint32_t>(std::max(image.depth.size(), image.colour.size()));
         memory_[at] = std::make_unique<FrameSlot>(most, true);
     }
-    std::copy(shot.depth.begin(), shot.depth.end(), memory_[at]->depth().begin());
-    const std::vector<uint32_t>& colours = camera_.yuyv ? shot.yuyv : shot.colour;
+    std::copy(image.depth.begin(), image.depth.end(), memory_[at]->depth().begin());
+    const std::vector<uint32_t>& colours = camera_.yuyv ? image.yuyv : image.colour;
     std::copy(colours.begin(), colours.end(), memory_[at]->colour().begin());
     Frame::Content& content = placed_[at];
-    content.depth = memory_[at]->depth().first(shot.depth.size());
+    content.depth = memory_[at]->depth().first(image.depth.size());
     (camera_.yuyv ? content.yuyv : content.colour) = memory_[at]->colour().first(colours.size());
-    content.baseTcamera = shot.baseTcamera;
+    content.baseTcamera = image.baseTcamera;
 }
 
 FrameReport FrameBench::process(size_t at) {
@@ -85,20 +85,21 @@ FrameReport FrameBench::process(size_t at) {
     return report;
 }
 
-void FrameBench::sample(const std::vector<Shot>& shots, const Effort& effort, FrameSamples& samples) {
-    for (size_t i = 0; i < shots.size(); ++i) {
-        place(i, shots[i]);
+void FrameBench::sample(const std::vector<SampleFrame>& frames, const Repeats& repeats,
+                        FrameSamples& samples) {
+    for (size_t i = 0; i < frames.size(); ++i) {
+        place(i, frames[i]);
     }
     size_t next = 0;
     FrameReport report;
     repeat(
-        effort, [&] { report = process(next++ % shots.size()); },
+        repeats, [&] { report = process(next++ % frames.size()); },
         [&](const Clocks& clocks) { samples.add(report, clocks); });
 }
 
-FrameCost FrameBench::measure(const std::vector<Shot>& shots, const Effort& effort) {
+FrameCost FrameBench::measure(const std::vector<SampleFrame>& frames, const Repeats& repeats) {
     FrameSamples samples;
-    sample(shots, effort, samples);
+    sample(frames, repeats, samples);
     return costOf(samples);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame cycle under measurement: pictures go through it, its buffers can be read back, its steps are
+// One frame cycle under measurement: images go through it, its buffers can be read back, its steps are
 // timed apart.
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace fathom::profile {
 
-// A picture and, where the scene is analytic, the exact depth behind each pixel [m] (0 = no surface).
-struct Shot {
+// A image and, where the scene is analytic, the exact depth behind each pixel [m] (0 = no surface).
+struct SampleFrame {
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour; // 0xAABBGGRR
     std::vector<uint32_t>
@@ -26,16 +26,16 @@ struct Shot {
     std::vector<double> truth;
 };
 
-// Some pictures of one camera.
-struct ShotSource {
+// Some images of one camera.
+struct FrameSequence {
     std::string name;
     CameraInfo camera;
-    std::vector<Shot> shots;
+    std::vector<SampleFrame> frames;
 };
 
 struct FrameCost {
     Cost frame;   // gpu = sum of the passes, submit = submission until landed, cpu = of the calling thread
-    Spread total; // upload to published [ms]; of a picture that is not new, until that is known
+    Spread total; // upload to published [ms]; of a image that is not new, until that is known
     Spread collected;       // upload until the host has what the device made: all of it but the grid [ms]
     Spread upload, publish; // on the host [ms]; publish: collect, then grid
     Spread collect, grid;   // what the device made; the grid over its spheres
@@ -58,16 +58,16 @@ public:
                uint32_t toolLeaves = 1);
 
     // As from a camera: the shot lies in whole pages before its time begins.
-    FrameReport run(const Shot& shot);
+    FrameReport run(const SampleFrame& image);
     // Every shot in turn, as often as the effort says.
-    FrameCost measure(const std::vector<Shot>& shots, const Effort& effort);
+    FrameCost measure(const std::vector<SampleFrame>& frames, const Repeats& repeats);
     // The same in parts, to take turns with another bench.
-    void sample(const std::vector<Shot>& shots, const Effort& effort, FrameSamples& samples);
+    void sample(const std::vector<SampleFrame>& frames, const Repeats& repeats, FrameSamples& samples);
     FrameCost costOf(const FrameSamples& samples) const;
 
-    // The arm that pictures show from now on; nothing happens without Plan::selfFilter.
+    // The arm that images show from now on; nothing happens without Plan::selfFilter.
     void setArm(cloud::LinkSpheres arm);
-    // From now on every picture is the same one again, as of a camera that has nothing new.
+    // From now on every image is the same one again, as of a camera that has nothing new.
     void holdStill() { still_ = true; }
 
     const Scene& scene() const { return scene_; }
@@ -83,8 +83,8 @@ public:
     // Compares occlusion cells, class bits and points of the last frame with the float64 twins. Empty when
     // they agree (cells to 1 um, points to 20 um; what the twins call unsure is left out), else what differs.
     // Cells are all compared, class bits are compared of every pixel, points of `mostPatches` patches spread
-    // over the picture, its corners among them.
-    std::string differsFromTwins(const Shot& shot, size_t mostPatches = SIZE_MAX) const;
+    // over the image, its corners among them.
+    std::string differsFromTwins(const SampleFrame& image, size_t mostPatches = SIZE_MAX) const;
     // Compares the host's spheres with the points that they came from: each stands about a forbidden point of
     // its own, no farther than rounding, with at least its class's radius. Empty when they agree.
     std::string spheresDiffer() const;
@@ -92,7 +92,7 @@ public:
     std::string guidanceDiffers() const;
 
 private:
-    void place(size_t at, const Shot& shot);
+    void place(size_t at, const SampleFrame& image);
     FrameReport process(size_t at);
 
     gpu::Device& device_;

@@ -64,8 +64,8 @@ std::string cellsDiffer(const reference::FrameView& view, const reference::CellI
 
 } // namespace
 
-std::string FrameBench::differsFromTwins(const Shot& shot, size_t mostPatches) const {
-    const reference::FrameView view(scene_, camera_, shot.baseTcamera, shot.depth, shot.colour);
+std::string FrameBench::differsFromTwins(const SampleFrame& image, size_t mostPatches) const {
+    const reference::FrameView view(scene_, camera_, image.baseTcamera, image.depth, image.colour);
     std::vector<uint32_t> looked = masks();
     std::optional<reference::CellImage> cells;
     if (plan_.occlusion) {

@@ -23,7 +23,7 @@ StudyRow lateRow(uint32_t delay, double reach, uint32_t ticks) {
     row.cost = run.queries.cost();
     row.more[kToolLeaves] = setting.leaves;
     row.more[kRegionSpheres] = static_cast<double>(run.spheres);
-    row.more[kStalledTurns] = static_cast<double>(run.stalled);
+    row.more[kStalledTicks] = static_cast<double>(run.stalled);
     row.more[kReachMm] = reach * 1e3;
     return row;
 }
@@ -32,16 +32,16 @@ StudyRow lateRow(uint32_t delay, double reach, uint32_t ticks) {
 
 PlotPanel stallPanel(const std::vector<StudyRow>& rows, uint32_t ticks) {
     PlotPanel panel;
-    panel.title = "the same drag: reach against stalled turns";
+    panel.title = "the same drag: reach against stalled ticks";
     panel.xLabel = "reach [mm]";
-    panel.yLabel = "stalled turns [% of " + std::to_string(ticks) + "]";
+    panel.yLabel = "stalled ticks [% of " + std::to_string(ticks) + "]";
     panel.logY = false;
     std::vector<PlotSeries> byDelay;
     for (const StudyRow& row : rows) {
         if (byDelay.empty() || byDelay.back().name != row.source) {
             byDelay.push_back({row.source, {}, true});
         }
-        const double share = 100.0 * row.more[kStalledTurns] / ticks;
+        const double share = 100.0 * row.more[kStalledTicks] / ticks;
         byDelay.back().points.push_back(
             {row.more[kReachMm], share, row.isDefault ? row.setting : "", row.isDefault, false});
     }
@@ -53,9 +53,8 @@ void addLateAnswers(const StudyContext& context, Study& study) {
     Study late; // fronts are of these rows alone
     late.name = study.name;
     late.errorName = study.errorName, late.errorUnit = study.errorUnit, late.timeName = study.timeName;
-    late.judgement.reason =
-        "with answers in time a shorter reach does as well; 10 mm is what still serves when "
-        "they come 10 ticks late";
+    late.rankBy.reason = "with answers in time a shorter reach does as well; 10 mm is what still serves when "
+                         "they come 10 ticks late";
     const bool quick = context.settings.quick;
     const uint32_t ticks = quick ? 300 : 1500;
     for (uint32_t delay : quick ? std::vector<uint32_t>{0, 10} : std::vector<uint32_t>{0, 5, 10, 20}) {

@@ -2,7 +2,7 @@
 // What a scene gains by what it leaves out: each optional stage on and off, one at a time, from a scene that
 // asks for everything.
 #include "apps/profile/device_stream.h"
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
 
 #include <functional>
@@ -42,7 +42,7 @@ Scene fullScene(const Settings& settings) {
     return scene;
 }
 
-// An arm of 64 spheres before the left of the picture.
+// An arm of 64 spheres before the left of the image.
 cloud::LinkSpheres armInView() {
     cloud::LinkSpheres arm;
     for (uint32_t i = 0; i < 64; ++i) {
@@ -55,10 +55,12 @@ cloud::LinkSpheres armInView() {
     return arm;
 }
 
-// Pictures of one camera, and the same with the colour of a second one beside it.
+// Images of one camera, and the same with the colour of a second one beside it.
 struct Images {
-    ShotSource registered, beside;
-    const ShotSource& of(const CameraInfo& camera) const { return camera.registered ? registered : beside; }
+    FrameSequence registered, beside;
+    const FrameSequence& of(const CameraInfo& camera) const {
+        return camera.registered ? registered : beside;
+    }
 };
 
 // The lens of TUM freiburg1, mild, on both cameras: rays come from a table then.
@@ -124,10 +126,10 @@ std::vector<Stage> stages() {
     };
 }
 
-// A frame cycle and its pictures, whose result was compared with the twins before anything is timed.
+// A frame cycle and its images, whose result was compared with the twins before anything is timed.
 struct Verified {
     std::unique_ptr<FrameBench> bench;
-    const std::vector<Shot>& shots;
+    const std::vector<SampleFrame>& frames;
     double heap = 0.0; // bytes that another of its kind takes, pipelines compiled
 };
 
@@ -141,24 +143,24 @@ std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const Setup& se
     return bench;
 }
 
-double heapOf(const StudyContext& context, const Setup& setup, const std::vector<Shot>& shots) {
+double heapOf(const StudyContext& context, const Setup& setup, const std::vector<SampleFrame>& frames) {
     const auto before = static_cast<double>(heapBytes());
     const auto bench = benchOf(context, setup);
-    bench->run(shots.front());
+    bench->run(frames.front());
     return static_cast<double>(heapBytes()) - before;
 }
 
 Verified verified(const StudyContext& context, const Setup& setup, const Images& images,
                   const std::string& name) {
-    Verified v{benchOf(context, setup), images.of(setup.camera).shots};
-    v.bench->run(v.shots.front());
-    const std::string wrong = v.bench->differsFromTwins(v.shots.front());
+    Verified v{benchOf(context, setup), images.of(setup.camera).frames};
+    v.bench->run(v.frames.front());
+    const std::string wrong = v.bench->differsFromTwins(v.frames.front());
     verify(wrong.empty(), "leave_out", name, wrong + " differs from the float64 twin");
     const std::string sphere = v.bench->spheresDiffer();
     verify(sphere.empty(), "leave_out", name, sphere + " is not about a forbidden point of its own");
     const std::string pose = v.bench->guidanceDiffers();
     verify(pose.empty(), "leave_out", name, pose + " differs from the float64 twin");
-    v.heap = heapOf(context, setup, v.shots);
+    v.heap = heapOf(context, setup, v.frames);
     if (setup.still) {
         v.bench->holdStill();
     }
@@ -170,13 +172,13 @@ Verified verified(const StudyContext& context, const Setup& setup, const Images&
 struct Pair {
     FrameCost full, less;
 };
-Pair measureInTurn(const Verified& full, const Verified& less, const Effort& effort) {
+Pair measureAlternating(const Verified& full, const Verified& less, const Repeats& repeats) {
     constexpr size_t kRounds = 5;
-    const Effort part{(effort.least + kRounds - 1) / kRounds, effort.most, effort.seconds / kRounds};
+    const Repeats part{(repeats.least + kRounds - 1) / kRounds, repeats.most, repeats.seconds / kRounds};
     FrameSamples a, b;
     for (size_t round = 0; round < kRounds; ++round) {
-        full.bench->sample(full.shots, part, a);
-        less.bench->sample(less.shots, part, b);
+        full.bench->sample(full.frames, part, a);
+        less.bench->sample(less.frames, part, b);
     }
     return {full.bench->costOf(a), less.bench->costOf(b)};
 }
@@ -213,7 +215,7 @@ StudyRow stageRow(const StudyContext& context, const Stage& stage, const Verifie
     stage.leaveOut(less);
     const Verified& from = own ? *own : full;
     const Verified without = verified(context, less, images, stage.name);
-    const Pair pair = measureInTurn(from, without, context.settings.effort());
+    const Pair pair = measureAlternating(from, without, context.settings.repeats());
     const double bytes = static_cast<double>(bytesOf(from.bench->plan())) -
                          static_cast<double>(bytesOf(without.bench->plan()));
     return rowOf(stage.name, pair, bytes, from.heap - without.heap);
@@ -253,11 +255,11 @@ Study leaveOutStudy(const StudyContext& context) {
                        "memory_saved_MiB",           "heap_saved_MiB"};
     const uint32_t w = context.settings.quick ? 320 : 640, h = context.settings.quick ? 240 : 480;
     const uint32_t frames = context.settings.quick ? 1 : 4;
-    const Images images{inYuyv(analyticShots("tank", w, h, frames)),
-                        inYuyv(twoCameraShots("tank", w, h, frames))};
+    const Images images{inYuyv(analyticFrames("tank", w, h, frames)),
+                        inYuyv(twoCameraFrames("tank", w, h, frames))};
     const Setup setup{fullScene(context.settings), fullCamera(images.beside.camera)};
     const Verified full = verified(context, setup, images, "nothing left out");
-    const FrameCost alone = full.bench->measure(full.shots, context.settings.effort());
+    const FrameCost alone = full.bench->measure(full.frames, context.settings.repeats());
     study.rows.push_back(rowOf("nothing left out", {alone, alone}, 0.0, 0.0));
     for (const Stage& stage : stages()) {
         study.rows.push_back(stageRow(context, stage, full, setup, images));

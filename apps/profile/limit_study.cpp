@@ -2,8 +2,8 @@
 // How far each step of a frame, and the device's contact query, is from what the machine allows: bytes that
 // must move and operations that must be done, over the measured bandwidth and rate.
 #include "apps/profile/ceilings.h"
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/query_limit.h"
-#include "apps/profile/shot_source.h"
 #include "apps/profile/studies.h"
 #include "engine/cloud/frame_params.h"
 #include "shaders/shared/frame_params.h"
@@ -18,7 +18,7 @@ namespace {
 struct Need {
     double bytes = 0.0, operations = 0.0;
     enum class Where { Device, Host, ThreadPool } where = Where::Device; // Crew: those who publish
-    double images = 0.0; // bytes that are read where the pictures lie, not among `bytes`
+    double images = 0.0; // bytes that are read where the images lie, not among `bytes`
 };
 
 // What a frame selects.
@@ -86,7 +86,7 @@ double sphereBytes(const Load& l) {
            (l.pack ? l.packed + 72.0 / 256.0 * l.slots : 0.0);
 }
 
-// The pictures are read where the camera left them, or where they were uploaded to; where a pass before has
+// The images are read where the camera left them, or where they were uploaded to; where a pass before has
 // read the depth the same bytes are read again, for it does not keep them.
 Need classifyNeed(const Load& l) {
     Need need{l.pixels * ((l.keepDepth ? 2.0 : 0.0) + 1.0) + 4.0 * l.cells, 40.0 * l.pixels};
@@ -177,18 +177,18 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
 struct LimitCase {
     std::string name;
     Scene scene;
-    ShotSource images;
+    FrameSequence images;
 };
-// A tenth of the picture and all of it, with noise and without (thinning leaves fewer points then), and the
+// A tenth of the image and all of it, with noise and without (thinning leaves fewer points then), and the
 // passes that such a scene does not have: colour of a second camera, and a tree for a query on the device.
 // Colours as USB cameras send them.
 std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t h) {
     Scene asked = studyScene(settings);
     asked.contact.where = Scene::Contact::Where::Gpu;
-    return {{"10 % forbidden", studyScene(settings), inYuyv(wallShot(w, h, 0.1, WallNoise::Sensor))},
-            {"100 % forbidden", studyScene(settings), inYuyv(wallShot(w, h, 1.0, WallNoise::Sensor))},
-            {"100 % forbidden, noise-free", studyScene(settings), inYuyv(wallShot(w, h, 1.0))},
-            {"two cameras, query on the device", asked, inYuyv(twoCameraShots("tank", w, h, 1))}};
+    return {{"10 % forbidden", studyScene(settings), inYuyv(wallFrame(w, h, 0.1, WallNoise::Sensor))},
+            {"100 % forbidden", studyScene(settings), inYuyv(wallFrame(w, h, 1.0, WallNoise::Sensor))},
+            {"100 % forbidden, noise-free", studyScene(settings), inYuyv(wallFrame(w, h, 1.0))},
+            {"two cameras, query on the device", asked, inYuyv(twoCameraFrames("tank", w, h, 1))}};
 }
 
 void sayCeilings(Study& study, const Ceilings& c) {
@@ -232,14 +232,14 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
 // Passes of a frame and, where the plan has a tree, the query of that frame's set.
 void addCase(const StudyContext& context, const LimitCase& each, const Ceilings& ceilings, Study& study) {
     FrameBench bench(context.device, each.scene, each.images.camera);
-    const Shot& first = each.images.shots.front();
+    const SampleFrame& first = each.images.frames.front();
     const FrameReport report = bench.run(first);
     const std::string wrong = bench.differsFromTwins(first);
     verify(wrong.empty(), "limit", each.name, wrong + " differs from the float64 twin");
     Load load = loadOf(bench, report);
     const QueryLimit query = load.tree ? measureQuery(context, bench, first.baseTcamera) : QueryLimit{};
     load.query = query.least;
-    FrameCost cost = bench.measure(each.images.shots, context.settings.effort());
+    FrameCost cost = bench.measure(each.images.frames, context.settings.repeats());
     cost.passes["tree_query"] = query.time;
     addRows(study, each.name, load, cost, ceilings);
     if (query.time) {
@@ -267,9 +267,9 @@ Study limitStudy(const StudyContext& context) {
     Settings plain = context.settings;
     plain.source.clear();
     const uint32_t w = plain.quick ? 320 : 640, h = plain.quick ? 240 : 480;
-    const CameraInfo camera = wallShot(w, h, 1.0).camera;
+    const CameraInfo camera = wallFrame(w, h, 1.0).camera;
     const uint32_t publishers = makePlan(studyScene(plain), camera, 1, context.device.facts()).publishers;
-    const Ceilings c = measureCeilings(context.device, publishers, context.settings.effort());
+    const Ceilings c = measureCeilings(context.device, publishers, context.settings.repeats());
     sayCeilings(study, c);
     for (const LimitCase& each : limitCases(plain, w, h)) {
         addCase(context, each, c, study);

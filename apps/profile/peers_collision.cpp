@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which region spheres lie within reach of the tool: our grid on the CPU, our tree on the GPU, and the trees
 // of others, on the same spheres, leaves and poses.
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/peers/nearby_oracle.h"
 #include "apps/profile/peers/peers.h"
 #include "apps/profile/peers_rows.h"
-#include "apps/profile/shot_source.h"
 
 #include "engine/cloud/tree_query.h"
 #include "engine/contact/cull_cpu.h"
@@ -23,9 +23,9 @@ struct Rig {
     FrameBench bench;
     double treeMs; // device time of the passes that make spheres and tree, p50
 
-    Rig(const StudyContext& context, const ShotSource& source)
+    Rig(const StudyContext& context, const FrameSequence& source)
         : bench(context.device, everyPointScene(), source.camera)
-        , treeMs(treeTime(bench.measure(source.shots, context.settings.effort()))) {}
+        , treeMs(treeTime(bench.measure(source.frames, context.settings.repeats()))) {}
     static double treeTime(const FrameCost& cost) {
         const auto spheres = cost.passes.find("spheres"), tree = cost.passes.find("tree");
         return spheres != cost.passes.end() && tree != cost.passes.end()
@@ -63,7 +63,7 @@ struct Workload {
 // Times work(pose index) over all poses, each a share of a sample.
 template <class Work>
 void timePoses(const StudyContext& context, Work&& work, StudyRow& row) {
-    row.cost = timeCpu(context.settings.effort(), [&] {
+    row.cost = timeCpu(context.settings.repeats(), [&] {
         for (size_t i = 0; i < kPoses; ++i) {
             work(i);
         }
@@ -89,7 +89,7 @@ void answerAndTime(const StudyContext& context, const Workload& work, Query&& qu
         context, [&](size_t i) { query(i, found); }, row);
 }
 
-void demandRight(const StudyRow& row) {
+void requireRight(const StudyRow& row) {
     verify(row.error == 0.0, "peers", row.source + ", " + row.setting,
            digits(row.error) + " spheres differ from float64");
 }
@@ -98,7 +98,8 @@ StudyRow ourGrid(const StudyContext& context, const Rig& rig, const Workload& wo
                  const std::string& source) {
     StudyRow row = peerRow(source, "Fathom CPU grid");
     RegionGrid grid;
-    row.more[kBuild] = timeCpu(context.settings.effort(), [&] { grid.build(rig.host().spheres); }).submit.p50;
+    row.more[kBuild] =
+        timeCpu(context.settings.repeats(), [&] { grid.build(rig.host().spheres); }).submit.p50;
     row.more[kThreads] = 1.0;
     row.isDefault = true;
     CullCpu cull;
@@ -108,7 +109,7 @@ StudyRow ourGrid(const StudyContext& context, const Rig& rig, const Workload& wo
             cull.cull(work.leaves[i], static_cast<float>(kReach), grid, found);
         },
         row);
-    demandRight(row);
+    requireRight(row);
     return row;
 }
 
@@ -142,7 +143,7 @@ StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workl
     }
     row.error = static_cast<double>(all.differ);
     row.more[kTies] = static_cast<double>(all.ties);
-    demandRight(row);
+    requireRight(row);
     timePoses(
         context,
         [&](size_t i) {
@@ -167,7 +168,7 @@ StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& wo
                 "peers", row.setting, "overflow");
         },
         row);
-    demandRight(row);
+    requireRight(row);
     return row;
 }
 
@@ -179,25 +180,25 @@ struct BuiltPeer {
 };
 
 std::vector<BuiltPeer> buildPeers(const StudyContext& context, const RegionSpheres& spheres) {
-    const Effort effort = context.settings.quick ? Effort{3, 10, 0.05} : Effort{5, 50, 0.4};
+    const Repeats repeats = context.settings.quick ? Repeats{3, 10, 0.05} : Repeats{5, 50, 0.4};
     std::vector<BuiltPeer> built;
     for (auto& way : peers::collisionWays()) {
         auto peer = way.make();
-        const double ms = timeCpu(effort, [&] { peer->build(spheres); }).submit.p50;
+        const double ms = timeCpu(repeats, [&] { peer->build(spheres); }).submit.p50;
         built.push_back({std::move(way), std::move(peer), ms});
     }
     return built;
 }
 
-void addSource(const StudyContext& context, const ShotSource& shots, const std::vector<uint32_t>& tools,
+void addSource(const StudyContext& context, const FrameSequence& frames, const std::vector<uint32_t>& tools,
                std::vector<StudyRow>& rows) {
-    const Rig rig(context, shots);
+    const Rig rig(context, frames);
     if (rig.host().spheres.size() == 0) {
         return;
     }
     const auto built = buildPeers(context, rig.host().spheres);
     for (const uint32_t leaves : tools) {
-        const Workload work(rig, shots.shots.front().baseTcamera, leaves);
+        const Workload work(rig, frames.frames.front().baseTcamera, leaves);
         const std::string source = kContactPrefix +
                                    digits(static_cast<double>(rig.host().spheres.size()) / 1000.0, 4) +
                                    " k spheres x " + std::to_string(leaves) + " leaves";
@@ -228,13 +229,13 @@ void addPeerCollision(const StudyContext& context, std::vector<StudyRow>& rows) 
     const std::vector<uint32_t> tools =
         quick ? std::vector<uint32_t>{1, 64} : std::vector<uint32_t>{1, 64, 1024};
     if (!context.settings.source.empty()) {
-        addSource(context, recordedShots(context.settings.source, 1), tools, rows);
+        addSource(context, recordedFrames(context.settings.source, 1), tools, rows);
         return;
     }
     using Sizes = std::vector<std::pair<uint32_t, uint32_t>>;
     for (const auto& [width, height] :
          quick ? Sizes{{40, 25}, {128, 80}} : Sizes{{40, 25}, {128, 80}, {400, 250}}) {
-        addSource(context, wallShot(width, height, 1.0), tools, rows);
+        addSource(context, wallFrame(width, height, 1.0), tools, rows);
     }
 }
 

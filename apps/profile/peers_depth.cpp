@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Smoothing depth and making points: our surface pass and its float64 twin beside OpenCV and PCL.
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/peers/peers.h"
 #include "apps/profile/peers_rows.h"
-#include "apps/profile/shot_source.h"
 
 #include "engine/reference/surface.h"
 
@@ -94,36 +94,36 @@ StudyRow twinRow(const StudyContext& context, const reference::FrameView& view, 
     StudyRow row = peerRow(source, "Fathom float64 twin");
     const std::vector<uint32_t> masks(view.pixels(), 1);
     reference::SurfaceImage twin;
-    const Effort few{3, 5, 0.2};
-    row.cost = timeCpu(context.settings.quick ? Effort{1, 1, 0.0} : few,
+    const Repeats few{3, 5, 0.2};
+    row.cost = timeCpu(context.settings.quick ? Repeats{1, 1, 0.0} : few,
                        [&] { twin = reference::surface(view, masks); });
     row.more[kThreads] = 1.0;
     z = twin.points.z;
     return row;
 }
 
-void addFilter(const StudyContext& context, const ShotSource& shots, uint32_t radius,
+void addFilter(const StudyContext& context, const FrameSequence& frames, uint32_t radius,
                std::vector<StudyRow>& rows) {
     const std::string window = std::to_string(2 * radius + 1);
-    const std::string source = "filter " + shots.name + " " + window + "x" + window;
-    const Shot& shot = shots.shots.front();
+    const std::string source = "filter " + frames.name + " " + window + "x" + window;
+    const SampleFrame& image = frames.frames.front();
     const Scene scene = everyPoint(radius, Scene{}.filter.edge);
-    FrameBench bench(context.device, scene, shots.camera);
-    bench.run(shot);
-    const std::string wrong = bench.differsFromTwins(shot);
+    FrameBench bench(context.device, scene, frames.camera);
+    bench.run(image);
+    const std::string wrong = bench.differsFromTwins(image);
     verify(wrong.empty(), "peers", source, wrong + " differs from the float64 twin");
     const std::vector<double> ours = bench.points().z;
-    const reference::FrameView view(scene, shots.camera, shot.baseTcamera, shot.depth, shot.colour);
+    const reference::FrameView view(scene, frames.camera, image.baseTcamera, image.depth, image.colour);
     const std::vector<float> raw = measured(view);
     const std::vector<uint8_t> flat = flatPixels(view, static_cast<int>(radius));
     const size_t first = rows.size();
     const auto judge = [&](StudyRow& row, const auto& z) {
         row.more[kFromOurs] = rmsBetween(z, ours, flat);
-        row.more[kFromTruth] = rmsBetween(z, shot.truth, flat);
+        row.more[kFromTruth] = rmsBetween(z, image.truth, flat);
         rows.push_back(row);
     };
     StudyRow row = peerRow(source, "Fathom surface pass");
-    row.cost = passCost(bench.measure({shot}, context.settings.effort()));
+    row.cost = passCost(bench.measure({image}, context.settings.repeats()));
     row.error = 0.0;
     row.isDefault = true;
     row.more[kThreads] = deviceThreads(context.device);
@@ -132,12 +132,12 @@ void addFilter(const StudyContext& context, const ShotSource& shots, uint32_t ra
     row = twinRow(context, view, source, twin);
     judge(row, twin);
     // The same Gaussian as ours for a surface square to the view at the middle depth.
-    const double pixels = scene.filter.sigma * shots.camera.depth.fx / medianOf(raw);
+    const double pixels = scene.filter.sigma * frames.camera.depth.fx / medianOf(raw);
     for (const auto& way : peers::filterWays(radius, pixels, scene.filter.sigma)) {
         const auto peer = way.make();
-        peer->load({shots.camera.depth, raw});
+        peer->load({frames.camera.depth, raw});
         row = peerRow(source, way.name);
-        row.cost = timeCpu(context.settings.effort(), [&] { peer->run(); });
+        row.cost = timeCpu(context.settings.repeats(), [&] { peer->run(); });
         row.more[kThreads] = way.threads;
         judge(row, peer->depths());
     }
@@ -167,47 +167,47 @@ double deviceThreads(const gpu::Device& device) {
 }
 
 void addPeerFilters(const StudyContext& context, std::vector<StudyRow>& rows) {
-    for (ShotSource& shots : studySources(context.settings, {"plane", "torus"}, 1)) {
-        if (shots.shots.empty()) {
+    for (FrameSequence& frames : studySources(context.settings, {"plane", "torus"}, 1)) {
+        if (frames.frames.empty()) {
             continue;
         }
         for (const uint32_t radius :
              context.settings.quick ? std::vector<uint32_t>{2} : std::vector<uint32_t>{2, 5}) {
-            addFilter(context, shots, radius, rows);
+            addFilter(context, frames, radius, rows);
         }
     }
 }
 
 void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
-    ShotSource shots = context.settings.quick ? wallShot(320, 240, 1.0) : wallShot(640, 480, 1.0);
-    Shot& shot = shots.shots.front();
-    for (size_t i = 0; i < shot.depth.size(); ++i) { // whole millimetres, and holes
-        shot.depth[i] = static_cast<uint16_t>(i % 97 == 0 ? 0 : shot.depth[i] / 10);
+    FrameSequence frames = context.settings.quick ? wallFrame(320, 240, 1.0) : wallFrame(640, 480, 1.0);
+    SampleFrame& image = frames.frames.front();
+    for (size_t i = 0; i < image.depth.size(); ++i) { // whole millimetres, and holes
+        image.depth[i] = static_cast<uint16_t>(i % 97 == 0 ? 0 : image.depth[i] / 10);
     }
-    shots.camera.metresPerUnit = 0.001;
-    const std::string source = "points " + shots.name;
+    frames.camera.metresPerUnit = 0.001;
+    const std::string source = "points " + frames.name;
     const Scene scene = everyPoint(0, 0.0);
-    FrameBench bench(context.device, scene, shots.camera);
-    bench.run(shot);
-    const reference::FrameView view(scene, shots.camera, shot.baseTcamera, shot.depth, shot.colour);
+    FrameBench bench(context.device, scene, frames.camera);
+    bench.run(image);
+    const reference::FrameView view(scene, frames.camera, image.baseTcamera, image.depth, image.colour);
     const reference::PointImage ours = bench.points();
     const size_t first = rows.size();
     StudyRow row = peerRow(source, "Fathom surface pass");
     row.error = static_cast<double>(wrongPoints(view, ours.at, [&](size_t i) { return ours.z[i] > 0.0; }));
     verify(row.error == 0.0, "peers", source, digits(row.error) + " points differ from float64");
-    row.cost = passCost(bench.measure({shot}, context.settings.effort()));
+    row.cost = passCost(bench.measure({image}, context.settings.repeats()));
     row.more[kThreads] = deviceThreads(context.device);
     row.isDefault = true;
     rows.push_back(row);
     for (const auto& way : peers::pointWays()) {
         const auto peer = way.make();
-        peer->load(shots.camera.depth, shot.depth);
+        peer->load(frames.camera.depth, image.depth);
         peer->run();
         const std::vector<dvec3> points = peer->points();
         row = peerRow(source, way.name);
         row.error =
             static_cast<double>(wrongPoints(view, points, [&](size_t i) { return points[i].z > 0.0; }));
-        row.cost = timeCpu(context.settings.effort(), [&] { peer->run(); });
+        row.cost = timeCpu(context.settings.repeats(), [&] { peer->run(); });
         row.more[kThreads] = way.threads;
         rows.push_back(row);
     }

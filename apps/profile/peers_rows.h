@@ -38,7 +38,7 @@ void addPeerFilters(const StudyContext& context, std::vector<StudyRow>& rows);
 void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows);
 void addPeerCollision(const StudyContext& context, std::vector<StudyRow>& rows);
 
-// "contact 10.24 k spheres" + " x 64 leaves": what the pictures are drawn by.
+// "contact 10.24 k spheres" + " x 64 leaves": what the images are drawn by.
 inline constexpr const char* kContactPrefix = "contact ";
 
 } // namespace fathom::profile

@@ -36,11 +36,9 @@ std::vector<std::string> sourcesOf(const Study& study) {
 // By the times that the ratios are of; a filter, which nobody's answer is wrong of, by its distance from the
 // exact surface.
 void judgeOurs(Study& study) {
-    study.judgement.time = peerTime;
-    study.judgement.error = [](const StudyRow& row) {
-        return isFilter(row) ? row.more[kFromTruth] : row.error;
-    };
-    study.judgement.errorUnit = [](const StudyRow& row) { return isFilter(row) ? "mm" : "wrong"; };
+    study.rankBy.time = peerTime;
+    study.rankBy.error = [](const StudyRow& row) { return isFilter(row) ? row.more[kFromTruth] : row.error; };
+    study.rankBy.errorUnit = [](const StudyRow& row) { return isFilter(row) ? "mm" : "wrong"; };
     markFront(study);
 }
 
@@ -172,7 +170,7 @@ Study peersStudy(const StudyContext& context) {
         "each filter means another average";
     study.errorName = "answers that differ";
     study.errorUnit = "count";
-    study.judgement.reason =
+    study.rankBy.reason =
         "ours needs no library, gives the same bits on every machine and is the part of a turn "
         "or a frame that the rest goes on from";
     study.timeName = "p50";

@@ -14,8 +14,8 @@ constexpr double kAscent = 11.0, kDescent = 3.0, kGap = 11.0; // [pixels]
 constexpr double kTouching = 10.0;                            // [pixels] between centres of two dots
 constexpr int kDirections = 24;
 
-LabelPlace placeAt(const LabelRequest& setpoint, double x, double y, bool beside) {
-    return {x, y, beside, {x, y - kAscent, x + setpoint.width, y + kDescent}};
+LabelPlace placeAt(const LabelRequest& request, double x, double y, bool beside) {
+    return {x, y, beside, {x, y - kAscent, x + request.width, y + kDescent}};
 }
 
 bool isFree(const PlotBox& box, const PlotBox& room, const std::vector<PlotBox>& taken) {
@@ -24,11 +24,11 @@ bool isFree(const PlotBox& box, const PlotBox& room, const std::vector<PlotBox>&
 }
 
 // At the right or the left of the point, above it, level with it or below.
-std::optional<LabelPlace> placeBeside(const LabelRequest& setpoint, const PlotBox& room,
+std::optional<LabelPlace> placeBeside(const LabelRequest& request, const PlotBox& room,
                                       const std::vector<PlotBox>& taken) {
-    for (const double dx : {kGap, -kGap - setpoint.width}) {
+    for (const double dx : {kGap, -kGap - request.width}) {
         for (const double dy : {-7.0, 4.0, 18.0}) {
-            const LabelPlace place = placeAt(setpoint, setpoint.x + dx, setpoint.y + dy, true);
+            const LabelPlace place = placeAt(request, request.x + dx, request.y + dy, true);
             if (isFree(place.box, room, taken)) {
                 return place;
             }
@@ -38,15 +38,15 @@ std::optional<LabelPlace> placeBeside(const LabelRequest& setpoint, const PlotBo
 }
 
 // On rings about the point, the nearest that is free.
-std::optional<LabelPlace> placeOff(const LabelRequest& setpoint, const PlotBox& room,
+std::optional<LabelPlace> placeOff(const LabelRequest& request, const PlotBox& room,
                                    const std::vector<PlotBox>& taken) {
     const double farthest = std::hypot(room.x1 - room.x0, room.y1 - room.y0);
     for (double ring = 24.0; ring < farthest; ring += 8.0) {
         for (int k = 0; k < kDirections; ++k) {
-            const double angle = 2.0 * M_PI * k / kDirections, x = setpoint.x + ring * std::cos(angle),
-                         y = setpoint.y + ring * std::sin(angle);
+            const double angle = 2.0 * M_PI * k / kDirections, x = request.x + ring * std::cos(angle),
+                         y = request.y + ring * std::sin(angle);
             const LabelPlace place =
-                placeAt(setpoint, std::cos(angle) < 0.0 ? x - setpoint.width : x, y, false);
+                placeAt(request, std::cos(angle) < 0.0 ? x - request.width : x, y, false);
             if (isFree(place.box, room, taken)) {
                 return place;
             }
@@ -57,13 +57,13 @@ std::optional<LabelPlace> placeOff(const LabelRequest& setpoint, const PlotBox& 
 
 } // namespace
 
-std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& setpoints) {
+std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& requests) {
     std::vector<size_t> kept;
-    for (size_t i = 0; i < setpoints.size(); ++i) {
-        const LabelRequest& setpoint = setpoints[i];
+    for (size_t i = 0; i < requests.size(); ++i) {
+        const LabelRequest& request = requests[i];
         const bool repeats = std::any_of(kept.begin(), kept.end(), [&](size_t k) {
-            return setpoints[k].text == setpoint.text &&
-                   std::hypot(setpoints[k].x - setpoint.x, setpoints[k].y - setpoint.y) < kTouching;
+            return requests[k].text == request.text &&
+                   std::hypot(requests[k].x - request.x, requests[k].y - request.y) < kTouching;
         });
         if (!repeats) {
             kept.push_back(i);
@@ -72,13 +72,13 @@ std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& setpoints) {
     return kept;
 }
 
-std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& setpoints, const PlotBox& room,
+std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, const PlotBox& room,
                                     std::vector<PlotBox> taken) {
     std::vector<LabelPlace> places;
-    for (const LabelRequest& setpoint : setpoints) {
-        std::optional<LabelPlace> place = placeBeside(setpoint, room, taken);
-        place = place ? place : placeOff(setpoint, room, taken);
-        places.push_back(place ? *place : placeAt(setpoint, setpoint.x + kGap, setpoint.y - 7.0, true));
+    for (const LabelRequest& request : requests) {
+        std::optional<LabelPlace> place = placeBeside(request, room, taken);
+        place = place ? place : placeOff(request, room, taken);
+        places.push_back(place ? *place : placeAt(request, request.x + kGap, request.y - 7.0, true));
         taken.push_back(places.back().box);
     }
     return places;

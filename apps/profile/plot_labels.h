@@ -27,12 +27,12 @@ struct LabelPlace {
 
 // Indices, ascending, of the wishes but those that say of a point what one before them says of another that
 // its dot touches: settings that come out alike are named once.
-std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& setpoints);
+std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& requests);
 
 // One place a wish, in their order: the first have the better ones. `taken` are boxes that no label may meet,
 // the points among them. No two labels meet while the room has a free spot; after that one stands beside its
 // point all the same, for none is left out.
-std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& setpoints, const PlotBox& room,
+std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, const PlotBox& room,
                                     std::vector<PlotBox> taken);
 
 } // namespace fathom::profile

@@ -26,7 +26,7 @@ std::vector<PrecisionLoop> nodeRows(const StudyContext& context);
 std::vector<PrecisionLoop> depthRows(const StudyContext& context);
 // The bilateral filter, 5x5: error of the filtered depth, over what its weights and sums are computed in.
 std::vector<PrecisionLoop> weightRows(const StudyContext& context);
-// Gaps of leaf-sphere pairs as the haptic turn takes them, over what they are computed in.
+// Gaps of leaf-sphere pairs as the haptic tick takes them, over what they are computed in.
 std::vector<PrecisionLoop> gapRows(const StudyContext& context);
 
 // One row of them. bytes: of an element; elements: how many the loop goes over; found NaN when nothing is

@@ -105,7 +105,7 @@ T kept(T weight) {
     return weight;
 }
 
-// The paper's filter over a picture (eq. 1-2), but for the border, in T.
+// The paper's filter over a image (eq. 1-2), but for the border, in T.
 template <class T, bool kHalfWeights>
 std::vector<double> filter(const Image& p) {
     const T inverse = static_cast<T>(1.0 / p.focal()), scale = static_cast<T>(1.0 / (2.0 * kSigma * kSigma));

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Half, single and double where it applies: stored centres, tree nodes, depth pixels, filter weights, pair
 // gaps.
+#include "apps/profile/interleave.h"
 #include "apps/profile/precision.h"
 #include "apps/profile/studies.h"
-#include "apps/profile/turns.h"
 
 namespace fathom::profile {
 
@@ -27,7 +27,7 @@ void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, St
         for (; end < loops.size() && loops[end].row.source == loops[begin].row.source; ++end) {
             works.push_back(loops[end].run);
         }
-        const std::vector<Cost> costs = timeCpuInTurns(context.settings.effort(), works);
+        const std::vector<Cost> costs = timeCpuInterleaved(context.settings.repeats(), works);
         for (size_t i = begin; i < end; ++i) {
             loops[i].row.cost = costs[i - begin];
             study.rows.push_back(std::move(loops[i].row));
@@ -38,7 +38,7 @@ void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, St
 // Of the sources that begin so.
 PlotPanel panelOf(const Study& study, const std::string& title, const std::string& source) {
     return frontPanel(study, title, [&](const StudyRow& row) {
-        return row.source.rfind(source, 0) == 0 ? study.judgement.time(row) : NAN;
+        return row.source.rfind(source, 0) == 0 ? study.rankBy.time(row) : NAN;
     });
 }
 
@@ -53,10 +53,10 @@ Study precisionStudy(const StudyContext& context) {
         "node, whatever the format; culls find every node that the double nodes find";
     study.errorName = "largest error";
     study.errorUnit = "mm";
-    study.judgement.time = cpuTime;
+    study.rankBy.time = cpuTime;
     study.timeName = "the whole loop, CPU time p50";
     study.moreNames = {"bytes_an_element", "elements", "nodes_found"};
-    study.judgement.reason =
+    study.rankBy.reason =
         "what is in half precision errs by more than the error budget allows or costs its "
         "conversion; single keeps every bit that the sensor gives, at half the memory of double";
     for (const auto part : {centreRows, nodeRows, depthRows, weightRows, gapRows}) {

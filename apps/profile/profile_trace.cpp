@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/profile_trace.h"
 
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "engine/cycle/cadence_trace.h"
 #include "engine/cycle/contact_cycle.h"
 #include "engine/haptics/proxy.h"
@@ -31,21 +31,21 @@ void traceTicks(ContactCycle& contact, const FrameBench& bench, Proxy& proxy, co
 } // namespace
 
 void writeTimeLine(const StudyContext& context, const std::filesystem::path& file) {
-    const ShotSource source = studySources(context.settings, {"tank"}, 4).front();
+    const FrameSequence source = studySources(context.settings, {"tank"}, 4).front();
     const Tool tool = ballTool(64);
     FrameBench bench(context.device, studyScene(context.settings), source.camera, {}, 64);
     CadenceTrace trace(file, bench.cycle().passNames());
-    bench.run(source.shots.front());
+    bench.run(source.frames.front());
     if (bench.set().host.spheres.size() == 0) {
         trace.file().finish(); // nothing to touch: the frames would be all
         return;
     }
-    const Pose touching = touchingPose(tool, bench.set().host, source.shots.front().baseTcamera);
+    const Pose touching = touchingPose(tool, bench.set().host, source.frames.front().baseTcamera);
     ContactCycle contact(context.device, bench.plan(), bench.cycle().layout(), bench.cycle().sets(), tool,
                          0.01);
     Proxy proxy(tool, {}, {}, touching);
     for (int frame = 0; frame < (context.settings.quick ? 10 : 60); ++frame) {
-        trace.frame(bench.run(source.shots[static_cast<size_t>(frame) % source.shots.size()]));
+        trace.frame(bench.run(source.frames[static_cast<size_t>(frame) % source.frames.size()]));
         traceTicks(contact, bench, proxy, touching, trace, frame);
         trace.file().drain();
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/query_crossings.h"
 
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "engine/gpu/query_crossover.h"
 #include "engine/scene/plan.h"
 
@@ -183,7 +183,7 @@ std::vector<std::string> crossingFindings(const std::vector<StudyRow>& rows) {
 std::string autoDecision(const DeviceFacts& device, const std::vector<uint32_t>& toolLeaves) {
     Scene scene = everyPointScene();
     scene.contact.where = Scene::Contact::Where::Auto;
-    const CameraInfo camera = wallShot(64, 48, 1.0).camera;
+    const CameraInfo camera = wallFrame(64, 48, 1.0).camera;
     std::vector<double> asked;
     for (const uint32_t leaves : toolLeaves) {
         if (makePlan(scene, camera, leaves, device).query == Plan::Query::Gpu) {

@@ -2,7 +2,7 @@
 #include "apps/profile/query_limit.h"
 
 #include "apps/profile/brute_force.h"
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "engine/cloud/tree_query.h"
 #include "shaders/shared/query_params.h"
 
@@ -87,7 +87,7 @@ QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, co
                                  set.keys, found);
     std::vector<double> ms;
     repeat(
-        context.settings.effort(), [&] { query.cull(set, leaves, pose, kLimitReach, found); },
+        context.settings.repeats(), [&] { query.cull(set, leaves, pose, kLimitReach, found); },
         [&](const Clocks&) { ms.push_back(query.gpuMs()); });
     limit.time = context.device.facts().timestampPeriodNs > 0.0 ? spreadOf(ms) : Spread{};
     return limit;

@@ -28,7 +28,7 @@ struct QueryLimit {
 };
 
 // A ball of 256 leaves that touches the set of the bench's last run(), at 10 mm reach. baseTcamera: of that
-// picture. The bench's plan must have a tree. Throws Error where the answer differs from brute force.
+// image. The bench's plan must have a tree. Throws Error where the answer differs from brute force.
 QueryLimit measureQuery(const StudyContext& context, const FrameBench& bench, const Pose& baseTcamera);
 
 } // namespace fathom::profile

@@ -2,7 +2,7 @@
 #include "apps/profile/query_rows.h"
 
 #include "apps/profile/brute_force.h"
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 
 #include "engine/contact/cull_cpu.h"
 #include "engine/cycle/contact_cycle.h"
@@ -31,13 +31,13 @@ struct SphereSet {
 
 // The wall as a set of width x height spheres.
 struct QueryRig {
-    ShotSource source;
+    FrameSequence source;
     FrameBench bench;
 
     QueryRig(gpu::Device& device, uint32_t width, uint32_t height)
-        : source(wallShot(width, height, 1.0))
+        : source(wallFrame(width, height, 1.0))
         , bench(device, everyPointScene(), source.camera) {
-        bench.run(source.shots.front());
+        bench.run(source.frames.front());
     }
     const Fixtures& host() const { return bench.set().host; }
     SphereSet set() const { return {host().spheres, bench.set().grid, host().origin}; }
@@ -106,7 +106,7 @@ void timeGpuCull(const StudyContext& context, const QueryRig& rig, const Touchin
         };
         verify(cull(), "query", row.setting, "overflow");
         verifyCull(found, at, row);
-        repeat(context.settings.effort(), cull, [&](const Clocks& c) {
+        repeat(context.settings.repeats(), cull, [&](const Clocks& c) {
             (stamped ? gpu : submit).push_back(stamped ? query.gpuMs() : c.wallMs());
         });
     }
@@ -121,7 +121,7 @@ void timeCpuCull(const StudyContext& context, const SphereSet& set, const Touchi
     const auto cull = [&] { query.cull(at.leaves, kSingleReach, set.grid, found); };
     cull();
     verifyCull(found, at, row);
-    const Cost cost = timeCpu(context.settings.effort(), cull);
+    const Cost cost = timeCpu(context.settings.repeats(), cull);
     row.more[kCpuCullWall] = cost.submit.p50;
     row.more[kCpuCullCpu] = cost.cpu.p50;
 }
@@ -133,7 +133,7 @@ StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const Touch
     }
     std::vector<uint32_t> found;
     std::vector<uint8_t> marks;
-    row.cost = timeCpu(context.settings.effort(),
+    row.cost = timeCpu(context.settings.repeats(),
                        [&] { bruteForceCull(at.leaves, kSingleReach, set.spheres, marks, found); });
     return row;
 }
@@ -148,9 +148,9 @@ std::vector<StudyRow> rowsOfTool(const StudyContext& context, const QueryRig& ri
     std::vector<StudyRow> rows{at.row(rig.set(), kCpuWay), at.row(rig.set(), kGpuWay)};
     verify(a.source == b.source && a.pairSphere == b.pairSphere && a.reach == b.reach, "query",
            rows[1].setting, "the contact sets of CPU and GPU differ");
-    rows[0].cost = timeCpu(context.settings.effort(), [&] { cpu.cycle.query(rig.bench.set(), at.pose, a); });
+    rows[0].cost = timeCpu(context.settings.repeats(), [&] { cpu.cycle.query(rig.bench.set(), at.pose, a); });
     timeCpuCull(context, rig.set(), at, rows[0]);
-    rows[1].cost = timeCpu(context.settings.effort(), [&] { gpu.cycle.query(rig.bench.set(), at.pose, b); });
+    rows[1].cost = timeCpu(context.settings.repeats(), [&] { gpu.cycle.query(rig.bench.set(), at.pose, b); });
     timeGpuCull(context, rig, at, rows[1]);
     rows.push_back(bruteRow(context, rig.set(), at));
     for (StudyRow& row : rows) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/profile/report.h"
 
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "apps/replay/csv.h"
 #include "apps/replay/output_file.h"
 #include "engine/types/processors.h"
@@ -145,7 +145,7 @@ Facts sceneFacts(const gpu::Device& device, const Settings& settings) {
         radii +=
             f.role == Role::Forbidden && f.isPoints() ? (radii.empty() ? "" : " ") + digits(f.radius) : "";
     }
-    const Plan plan = makePlan(scene, wallShot(640, 480, 1.0).camera, 1, device.facts());
+    const Plan plan = makePlan(scene, wallFrame(640, 480, 1.0).camera, 1, device.facts());
     return {{"filter_radius_pixels", std::to_string(scene.filter.radius)},
             {"filter_sigma_m", digits(scene.filter.sigma)},
             {"filter_edge", digits(scene.filter.edge)},

@@ -24,7 +24,7 @@ struct RunTime {
 void writeStudyCsv(const Study& study, const std::filesystem::path& file);
 void writeProfileJson(const Facts& facts, const std::vector<Study>& studies, const RunTime& time,
                       const std::filesystem::path& file);
-// Self-contained: the pictures, which lie beside it, are embedded.
+// Self-contained: the images, which lie beside it, are embedded.
 void writeReportHtml(const Facts& facts, const std::vector<Study>& studies,
                      const std::filesystem::path& folder);
 

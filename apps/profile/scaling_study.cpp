@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the cost of a frame grows and how: picture size, share of selected pixels, number of classes. Of a
+// Where the cost of a frame grows and how: image size, share of selected pixels, number of classes. Of a
 // wall with the sensor's noise; without noise thinning leaves fewer points, and what follows it has less to
 // do. Colours are YUYV, as USB cameras send them, and RGBA in rows that say so.
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace fathom::profile {
 
 namespace {
 
-// Patches whose points are compared with the float64 twin: all up to 320x240, so many of a larger picture.
+// Patches whose points are compared with the float64 twin: all up to 320x240, so many of a larger image.
 constexpr size_t kTwinPatches = 300;
 
 // What a row has how many of: it has its own column, and the others do not apply.
@@ -29,7 +29,7 @@ Scene sceneWith(const Settings& settings, uint32_t classes) {
     plain.source.clear();
     Scene scene = studyScene(plain);
     scene.contact.where = Scene::Contact::Where::Cpu; // the frame alone: `query` measures the device's
-    for (uint32_t c = 2; c < classes; ++c) {          // more hues that the picture does not show
+    for (uint32_t c = 2; c < classes; ++c) {          // more hues that the image does not show
         FixtureClass f = scene.fixtures.front();
         f.name = "class " + std::to_string(c + 1);
         f.role = c % 2 == 0 ? Role::Forbidden : Role::Guidance;
@@ -47,11 +47,11 @@ public:
         , study_(study) {}
 
     Measured take(const std::string& source, const std::string& setting, Grows by, double x,
-                  const ShotSource& shots, uint32_t classes) {
-        FrameBench bench(context_.device, sceneWith(context_.settings, classes), shots.camera);
-        const uint32_t guided = bench.run(shots.shots.front()).guidanceCount;
-        check(bench, setting, shots);
-        Measured m{x, bench.measure(shots.shots, context_.settings.effort())};
+                  const FrameSequence& frames, uint32_t classes) {
+        FrameBench bench(context_.device, sceneWith(context_.settings, classes), frames.camera);
+        const uint32_t guided = bench.run(frames.frames.front()).guidanceCount;
+        check(bench, setting, frames);
+        Measured m{x, bench.measure(frames.frames, context_.settings.repeats())};
         if (guided == 0) { // dispatched over nothing
             m.cost.passes.erase("moments");
         }
@@ -112,13 +112,13 @@ public:
 
 private:
     // Before anything is timed, at every size.
-    static void check(FrameBench& bench, const std::string& setting, const ShotSource& shots) {
-        const std::string wrong = bench.differsFromTwins(shots.shots.front(), kTwinPatches);
+    static void check(FrameBench& bench, const std::string& setting, const FrameSequence& frames) {
+        const std::string wrong = bench.differsFromTwins(frames.frames.front(), kTwinPatches);
         verify(wrong.empty(), "scaling", setting, wrong + " differs from the float64 twin");
         const std::string sphere = bench.spheresDiffer();
         verify(sphere.empty(), "scaling", setting, sphere + " is not about a forbidden point of its own");
-        const FrameReport report = bench.run(shots.shots.front());
-        verify(report.counts.valid == shots.camera.depth.pixels(), "scaling", setting,
+        const FrameReport report = bench.run(frames.frames.front());
+        verify(report.counts.valid == frames.camera.depth.pixels(), "scaling", setting,
                "valid pixels are missing");
     }
 
@@ -133,10 +133,10 @@ Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
     for (const auto& [w, h] :
          quick ? Sizes{{80, 60}, {160, 120}, {400, 300}}
                : Sizes{{160, 120}, {320, 240}, {640, 480}, {1280, 720}, {1920, 1080}, {3840, 2160}}) {
-        const ShotSource shots = inYuyv(wallShot(w, h, 1.0, noise));
+        const FrameSequence frames = inYuyv(wallFrame(w, h, 1.0, noise));
         const char* source = noise == WallNoise::Sensor ? "size, every point forbidden"
                                                         : "size, every point forbidden, noise-free";
-        sizes.push_back(run.take(source, shots.name, Grows::Pixels, w * static_cast<double>(h), shots, 2));
+        sizes.push_back(run.take(source, frames.name, Grows::Pixels, w * static_cast<double>(h), frames, 2));
     }
     return sizes;
 }
@@ -144,9 +144,9 @@ Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
 // What colours cost that are sent unpacked, or are another format that the host unpacks.
 void unpackedSizes(ScalingRun& run, bool quick) {
     for (const auto& [w, h] : quick ? Sizes{{160, 120}} : Sizes{{640, 480}, {1280, 720}, {3840, 2160}}) {
-        const ShotSource shots = wallShot(w, h, 1.0, WallNoise::Sensor);
-        run.take("size, every point forbidden, colours RGBA", shots.name, Grows::Pixels,
-                 w * static_cast<double>(h), shots, 2);
+        const FrameSequence frames = wallFrame(w, h, 1.0, WallNoise::Sensor);
+        run.take("size, every point forbidden, colours RGBA", frames.name, Grows::Pixels,
+                 w * static_cast<double>(h), frames, 2);
     }
 }
 
@@ -155,7 +155,7 @@ Curve sharesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     for (double share : quick ? std::vector{0.0, 0.5, 1.0} : std::vector{0.0, 0.1, 0.25, 0.5, 0.75, 1.0}) {
         shares.push_back(run.take("forbidden share of " + std::to_string(w) + "x" + std::to_string(h),
                                   digits(share * 100.0) + " %", Grows::SharePercent, share * 100.0,
-                                  inYuyv(wallShot(w, h, share, WallNoise::Sensor)), 2));
+                                  inYuyv(wallFrame(w, h, share, WallNoise::Sensor)), 2));
     }
     return shares;
 }
@@ -164,7 +164,7 @@ Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
     Curve classes;
     for (uint32_t c : quick ? std::vector<uint32_t>{1, 8} : std::vector<uint32_t>{1, 2, 3, 4, 6, 8}) {
         classes.push_back(run.take("classes, 10 % forbidden", std::to_string(c) + " classes", Grows::Classes,
-                                   c, inYuyv(wallShot(w, h, 0.1, WallNoise::Sensor)), c));
+                                   c, inYuyv(wallFrame(w, h, 0.1, WallNoise::Sensor)), c));
     }
     return Curve(classes.rbegin(), classes.rend()); // the most passes first: they name the lines
 }

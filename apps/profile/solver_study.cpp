@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pose error to the converged optimum, and lag, against the time of a turn: solves a turn, step cap, which
+// Pose error to the converged optimum, and lag, against the time of a tick: solves a turn, step cap, which
 // rows a solve gets, deadline.
 #include "apps/profile/drag.h"
+#include "apps/profile/interleave.h"
 #include "apps/profile/studies.h"
-#include "apps/profile/turns.h"
 
 namespace fathom::profile {
 
@@ -138,10 +138,10 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
 }
 
 // Every setting's run in turns. Where no deadline cuts a turn short, each repeats the first pose by pose.
-std::vector<DragResult> dragInTurns(const StudyContext& context, double speed,
-                                    const std::vector<Setting>& settings) {
+std::vector<DragResult> dragInterleaved(const StudyContext& context, double speed,
+                                        const std::vector<Setting>& settings) {
     std::vector<DragResult> runs(settings.size());
-    inTurns({}, settings.size(), [&](size_t i, const Effort&) {
+    interleave({}, settings.size(), [&](size_t i, const Repeats&) {
         DragResult run = drag(dragOf(context, speed, settings[i]));
         if (runs[i].poses.empty()) {
             runs[i] = std::move(run);
@@ -164,7 +164,7 @@ void addSpeed(const StudyContext& context, Study& study, double speed) {
     for (const RowReduction& rows : reductionsOf(context.settings.quick)) {
         settings.push_back({4, 0.002, 0.0, rows});
     }
-    const std::vector<DragResult> runs = dragInTurns(context, speed, settings);
+    const std::vector<DragResult> runs = dragInterleaved(context, speed, settings);
     const DragResult usual = drag(dragOf(context, speed, {4, 0.002}));
     const std::string hand = "hand at " + digits(speed) + " m/s";
     for (size_t i = 0; i < settings.size(); ++i) {
@@ -186,11 +186,11 @@ Study solverStudy(const StudyContext& context) {
         "lead where all rows do, tick by tick; no leaf in a sphere in any run";
     study.errorName = "pose error RMS to the converged optimum, a radian as 50 mm";
     study.errorUnit = "mm";
-    study.judgement.time = cpuTime;
+    study.rankBy.time = cpuTime;
     study.timeName = "turn, CPU time p50";
     study.moreNames = {"error_max_mm",        "lag_rms_mm",    "solves_a_turn",
                        "strengthened_a_turn", "stalled_turns", "share_in_contact"};
-    study.judgement.reason =
+    study.rankBy.reason =
         "the cap of 2 mm and 4 solves let the hand move at 8 m/s, slower hands need less; "
         "rows up to 1 cap take less time and lead to the same poses along this wall, but elsewhere between "
         "walls (suite haptics); other rows that are reduced cost and gain within what repeats of the same "
@@ -201,7 +201,7 @@ Study solverStudy(const StudyContext& context) {
     markFront(study);
     const auto timeIf = [&study](bool reduced) {
         return [&study, reduced](const StudyRow& row) {
-            return (row.source.rfind(kReduced, 0) == 0) == reduced ? study.judgement.time(row) : NAN;
+            return (row.source.rfind(kReduced, 0) == 0) == reduced ? study.rankBy.time(row) : NAN;
         };
     };
     study.panels.push_back(frontPanel(study, "pose error", timeIf(false)));

@@ -28,7 +28,7 @@ struct Cost {
 
 // How often a measurement is repeated: at least `least` times, then until `seconds` are over or `most` is
 // reached.
-struct Effort {
+struct Repeats {
     size_t least = 10, most = 200;
     double seconds = 0.5;
 };
@@ -64,13 +64,14 @@ struct CpuSamples {
 // Calls work() as `effort` says and hands each call's clocks to take(clocks), after calls that warm up for a
 // quarter of its seconds: a GPU that verification on the CPU left idle comes back at a third of its clock.
 template <class Work, class Take>
-void repeat(const Effort& effort, Work&& work, Take&& take) {
+void repeat(const Repeats& repeats, Work&& work, Take&& take) {
     const Clocks warming;
     do {
         work();
-    } while (warming.wallMs() < 0.25 * effort.seconds * 1e3);
+    } while (warming.wallMs() < 0.25 * repeats.seconds * 1e3);
     const Clocks whole;
-    for (size_t i = 0; i < effort.most && (i < effort.least || whole.wallMs() < effort.seconds * 1e3); ++i) {
+    for (size_t i = 0; i < repeats.most && (i < repeats.least || whole.wallMs() < repeats.seconds * 1e3);
+         ++i) {
         const Clocks clocks;
         work();
         take(clocks);
@@ -79,9 +80,9 @@ void repeat(const Effort& effort, Work&& work, Take&& take) {
 
 // CPU work that waits for nobody: wall and CPU time of each call.
 template <class Work>
-Cost timeCpu(const Effort& effort, Work&& work) {
+Cost timeCpu(const Repeats& repeats, Work&& work) {
     CpuSamples samples;
-    repeat(effort, work, [&](const Clocks& clocks) { samples.take(clocks); });
+    repeat(repeats, work, [&](const Clocks& clocks) { samples.take(clocks); });
     return samples.cost();
 }
 

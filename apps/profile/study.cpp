@@ -26,7 +26,7 @@ std::vector<std::string> sourcesOf(const Study& study) {
 class Ranking {
 public:
     explicit Ranking(const Study& study)
-        : by_(study.judgement)
+        : by_(study.rankBy)
         , studyUnit_(study.errorUnit) {}
     double time(const StudyRow& row) const { return by_.time(row); }
     double error(const StudyRow& row) const { return by_.error(row); }
@@ -39,7 +39,7 @@ public:
     }
 
 private:
-    const Judgement& by_;
+    const RankingRule& by_;
     const std::string& studyUnit_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a study found: rows of error against time, the pictures of them, and what they say in words.
+// What a study found: rows of error against time, the images of them, and what they say in words.
 #pragma once
 
 #include "apps/profile/spread.h"
@@ -23,7 +23,7 @@ struct Settings {
     std::filesystem::path out;
     bool quick = false;
 
-    Effort effort() const { return quick ? Effort{5, 12, 0.08} : Effort{20, 200, 0.6}; }
+    Repeats repeats() const { return quick ? Repeats{5, 12, 0.08} : Repeats{20, 200, 0.6}; }
 };
 
 struct StudyContext {
@@ -85,7 +85,7 @@ double cpuTime(const StudyRow& row);
 double p90Of(const StudyRow& row, double p50);
 
 // What the rows of a study are ranked and plotted by, and what is said for its default.
-struct Judgement {
+struct RankingRule {
     RowValue time = submitTime;                                     // [ms]; lower is better
     RowValue error = [](const StudyRow& row) { return row.error; }; // lower is better
     std::function<std::string(const StudyRow&)> errorUnit = {};     // empty = the study's
@@ -96,10 +96,10 @@ struct Study {
     std::string name;     // of its files
     std::string title;    // what it shows, for people
     std::string verified; // what was checked before anything was timed
-    std::string served;   // what it measured: a recording or pictures made for it; set by who runs it
+    std::string served;   // what it measured: a recording or images made for it; set by who runs it
     std::string errorName, errorUnit;
     std::string timeName; // what the plotted time is
-    Judgement judgement;
+    RankingRule rankBy;
     std::vector<std::string> moreNames;
     std::vector<StudyRow> rows;
     std::vector<PlotPanel> panels;

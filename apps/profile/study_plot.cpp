@@ -220,7 +220,7 @@ private:
     // Points of the front and defaults choose first.
     void paintLabels() const {
         std::vector<PlotBox> taken;
-        std::vector<LabelRequest> all, setpoints;
+        std::vector<LabelRequest> all, requests;
         std::vector<const PlotPoint*> points;
         for (const PlotSeries& s : panel_.series) {
             for (const PlotPoint& q : s.points) {
@@ -240,24 +240,24 @@ private:
         }
         const std::vector<size_t> distinct = distinctLabels(all);
         for (const size_t i : distinct) {
-            setpoints.push_back(all[i]);
+            requests.push_back(all[i]);
         }
-        const auto places = placeLabels(setpoints, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
+        const auto places = placeLabels(requests, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
         for (size_t i = 0; i < distinct.size(); ++i) {
-            paintLabel(*points[distinct[i]], setpoints[i], places[i]);
+            paintLabel(*points[distinct[i]], requests[i], places[i]);
         }
     }
 
     static std::string textOf(const PlotPoint& q) { return q.isDefault ? q.label + " (default)" : q.label; }
 
-    void paintLabel(const PlotPoint& q, const LabelRequest& setpoint, const LabelPlace& place) const {
+    void paintLabel(const PlotPoint& q, const LabelRequest& request, const LabelPlace& place) const {
         if (!place.beside) { // to the nearer end of the text
-            const bool right = place.x >= setpoint.x;
-            line(setpoint.x, setpoint.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0,
+            const bool right = place.x >= request.x;
+            line(request.x, request.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0,
                  kFaint.alpha(0.5), 0.8);
         }
         const Colour colour = q.isFront || q.isDefault ? kInk : kFaint;
-        words(place.x, place.y, setpoint.text, colour, q.isDefault);
+        words(place.x, place.y, request.text, colour, q.isDefault);
     }
 
     void paintLegend() const {
@@ -318,7 +318,7 @@ private:
 } // namespace
 
 PanelGrid panelGrid(size_t panels) {
-    constexpr int kMostInOneRow = 3; // more are too small to read where a picture is fitted to a page
+    constexpr int kMostInOneRow = 3; // more are too small to read where a image is fitted to a page
     const int count = std::max(1, static_cast<int>(panels));
     const int down = count > kMostInOneRow ? 2 : 1;
     return {(count + down - 1) / down, down};

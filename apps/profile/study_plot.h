@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The picture of a study: its panels in one row or two, points labelled by their settings, the default
+// The image of a study: its panels in one row or two, points labelled by their settings, the default
 // ringed, the Pareto front as a line.
 #pragma once
 
@@ -11,7 +11,7 @@ namespace fathom::profile {
 // subtitle: device and what was verified, one line under the title. Throws Error that names the file.
 void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file);
 
-// How panels stand in a picture: row by row, in one row or in two.
+// How panels stand in a image: row by row, in one row or in two.
 struct PanelGrid {
     int across, down;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protrusion and gaps of a tool's spheres against the time of a turn, over the number of leaves: of covers
+// Protrusion and gaps of a tool's spheres against the time of a tick, over the number of leaves: of covers
 // that `fathom spheres` makes, and of cubic grids.
 #include "apps/profile/drag.h"
 #include "apps/profile/gripper.h"
@@ -85,7 +85,7 @@ Study toolStudy(const StudyContext& context) {
                      "in any run, in contact in nine of ten turns";
     study.errorName = "protrusion or gap, the larger";
     study.errorUnit = "mm";
-    study.judgement.time = cpuTime;
+    study.rankBy.time = cpuTime;
     study.timeName = "turn in contact, CPU time p50";
     study.moreNames = {"protrusion_mm", "gap_mm", "leaves", "query_p50_ms", "share_in_contact"};
     const std::vector<Solid> shape = gripper();

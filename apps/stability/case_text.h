@@ -32,7 +32,7 @@ inline Outcome outcomeOf(double figure, double limit, std::string unit, std::str
 
 // A condition beside the figure: when it fails the figure becomes NaN, which never holds, and the note says
 // why.
-inline void demand(Outcome& outcome, bool holds, const std::string& what) {
+inline void require(Outcome& outcome, bool holds, const std::string& what) {
     if (!holds) {
         outcome.figure = std::numeric_limits<double>::quiet_NaN();
         outcome.note += " FAILED: " + what + ".";

@@ -17,14 +17,14 @@ struct Draft {         // what the rows of one set share
     std::vector<double> inside; // a point that feasible families obey
 };
 
-Draft draft(const RowScale& scale, Dice& dice) {
+Draft draft(const RowScale& scale, Rng& rng) {
     Draft d;
-    d.lean = 0.5 * kDegree * dice.logUniform(0.1, 20.0);
+    d.lean = 0.5 * kDegree * rng.logUniform(0.1, 20.0);
     for (dvec3& axis : d.bundles) {
-        axis = dice.direction();
+        axis = rng.direction();
     }
     for (int i = 0; i < 6; ++i) {
-        d.inside.push_back(dice.uniform(-0.1, 0.1) * (i < 3 ? scale.step : scale.turn));
+        d.inside.push_back(rng.uniform(-0.1, 0.1) * (i < 3 ? scale.step : scale.turn));
     }
     return d;
 }
@@ -38,10 +38,10 @@ double along(std::span<const double> row, std::span<const double> x) {
 }
 
 void addRow(RowSet& set, RowFamily family, size_t index, const RowScale& scale, const Draft& draft,
-            Dice& dice) {
-    const dvec3 noise = dice.direction();
-    const dvec3 arm = dice.inCube(scale.arm);
-    const double gap = dice.uniform(-0.2, 0.05) * scale.step;
+            Rng& rng) {
+    const dvec3 noise = rng.direction();
+    const dvec3 arm = rng.inCube(scale.arm);
+    const double gap = rng.uniform(-0.2, 0.05) * scale.step;
     const double side = index % 2 == 0 ? 1.0 : -1.0;
     switch (family) {
     case RowFamily::FlatWall:
@@ -51,7 +51,7 @@ void addRow(RowSet& set, RowFamily family, size_t index, const RowScale& scale, 
         set.addContact({side * std::cos(draft.lean), 0.0, std::sin(draft.lean)}, {0.0, arm.y, 0.0}, gap);
         break;
     case RowFamily::Needle: {
-        const double angle = dice.uniform(0.0, 6.283185307179586);
+        const double angle = rng.uniform(0.0, 6.283185307179586);
         set.addContact(glm::normalize(dvec3(std::cos(angle), std::sin(angle), 0.01 * noise.z)),
                        {0.0, 0.0, arm.z}, gap);
         break;
@@ -79,19 +79,19 @@ void addRow(RowSet& set, RowFamily family, size_t index, const RowScale& scale, 
     }
 }
 
-void addCopy(RowSet& set, double looser, Dice& dice) {
-    const size_t copied = dice.below(set.rows());
+void addCopy(RowSet& set, double looser, Rng& rng) {
+    const size_t copied = rng.below(set.rows());
     const auto row = set.normal(copied);
     const std::vector<double> twin(row.begin(), row.end());
-    set.add(twin, set.offsets[copied] - (dice.chance(0.5) ? 0.0 : looser));
+    set.add(twin, set.offsets[copied] - (rng.chance(0.5) ? 0.0 : looser));
 }
 
-RowSet emptyRowSet(const RowScale& scale, Dice& dice) {
+RowSet emptyRowSet(const RowScale& scale, Rng& rng) {
     RowSet set;
     set.metric.assign(36, 0.0);
     for (size_t i = 0; i < 6; ++i) {
         set.metric[i * 7] = i < 3 ? 1.0 : scale.radius * scale.radius;
-        set.target.push_back(dice.uniform(-1.0, 1.0) * (i < 3 ? scale.step : scale.turn));
+        set.target.push_back(rng.uniform(-1.0, 1.0) * (i < 3 ? scale.step : scale.turn));
     }
     return set;
 }
@@ -111,31 +111,30 @@ void RowSet::addContact(const dvec3& normalOut, const dvec3& arm, double offset)
     add(row, offset);
 }
 
-RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Dice& dice) {
-    RowSet set = emptyRowSet(scale, dice);
-    const Draft shared = draft(scale, dice);
+RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Rng& rng) {
+    RowSet set = emptyRowSet(scale, rng);
+    const Draft shared = draft(scale, rng);
     while (set.rows() < rows) {
         const size_t index = set.rows();
-        if (family == RowFamily::Duplicates && index > 0 && dice.chance(0.5)) {
-            addCopy(set, 0.01 * scale.step, dice);
+        if (family == RowFamily::Duplicates && index > 0 && rng.chance(0.5)) {
+            addCopy(set, 0.01 * scale.step, rng);
             continue;
         }
-        addRow(set, family, index, scale, shared, dice);
+        addRow(set, family, index, scale, shared, rng);
         if (family == RowFamily::Feasible || family == RowFamily::Duplicates) {
-            set.offsets.back() =
-                along(set.normal(index), shared.inside) - dice.uniform(0.0, 0.1) * scale.step;
+            set.offsets.back() = along(set.normal(index), shared.inside) - rng.uniform(0.0, 0.1) * scale.step;
         }
     }
     return set;
 }
 
-RowSet makeArmSet(size_t rows, double floor, Dice& dice) {
+RowSet makeArmSet(size_t rows, double floor, Rng& rng) {
     constexpr size_t kUnknowns = 8;
     RowSet set;
     set.unknowns = kUnknowns;
     std::array<double, kUnknowns * kUnknowns> a{};
     for (double& value : a) {
-        value = dice.normal();
+        value = rng.normal();
     }
     set.metric.assign(kUnknowns * kUnknowns, 0.0);
     for (size_t i = 0; i < kUnknowns; ++i) {
@@ -149,25 +148,25 @@ RowSet makeArmSet(size_t rows, double floor, Dice& dice) {
     }
     std::array<double, kUnknowns> row{}, inside{};
     for (size_t i = 0; i < kUnknowns; ++i) {
-        set.target.push_back(dice.uniform(-0.1, 0.1));
-        inside[i] = dice.uniform(-0.01, 0.01);
+        set.target.push_back(rng.uniform(-0.1, 0.1));
+        inside[i] = rng.uniform(-0.01, 0.01);
     }
     while (set.rows() < rows) {
         for (double& value : row) {
-            value = dice.normal();
+            value = rng.normal();
         }
-        set.add(row, along(row, inside) - dice.uniform(-0.002, 0.02));
+        set.add(row, along(row, inside) - rng.uniform(-0.002, 0.02));
     }
     return set;
 }
 
-RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale& scale, Dice& dice) {
-    RowSet set = emptyRowSet(scale, dice);
-    const Draft shared = draft(scale, dice);
+RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale& scale, Rng& rng) {
+    RowSet set = emptyRowSet(scale, rng);
+    const Draft shared = draft(scale, rng);
     while (set.rows() < rows) {
-        set.addContact(dice.direction(), dice.inCube(scale.arm), 0.0);
+        set.addContact(rng.direction(), rng.inCube(scale.arm), 0.0);
         set.offsets.back() =
-            along(set.normal(set.rows() - 1), shared.inside) - margin - dice.uniform(0.0, 0.1) * scale.step;
+            along(set.normal(set.rows() - 1), shared.inside) - margin - rng.uniform(0.0, 0.1) * scale.step;
     }
     if (feasible) {
         return set;
@@ -175,9 +174,9 @@ RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale&
     // The last row is made to contradict up to five others: n = -sum of w_i n_i, d = margin - sum of w_i d_i.
     std::vector<double> last(6, 0.0);
     double offset = margin;
-    const size_t others = std::min<size_t>(rows - 1, 1 + dice.below(5));
+    const size_t others = std::min<size_t>(rows - 1, 1 + rng.below(5));
     for (size_t k = 0; k < others; ++k) {
-        const double weight = dice.uniform(0.1, 1.0);
+        const double weight = rng.uniform(0.1, 1.0);
         for (size_t i = 0; i < 6; ++i) {
             last[i] -= weight * set.normal(k)[i];
         }

@@ -2,7 +2,7 @@
 // Families of random row sets for the solver: what a sphere tool meets, and what breaks solvers.
 #pragma once
 
-#include "apps/stability/dice.h"
+#include "apps/stability/rng.h"
 #include "engine/reference/kkt.h"
 
 #include <cstddef>
@@ -51,15 +51,15 @@ struct RowSet {
     void addContact(const dvec3& normalOut, const dvec3& arm, double offset);
 };
 
-RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Dice& dice);
+RowSet makeRowSet(RowFamily family, size_t rows, const RowScale& scale, Rng& rng);
 
 // Eight unknowns and a full metric A A^T + floor I (condition up to about 10 / floor): an arm's joint
 // increments.
-RowSet makeArmSet(size_t rows, double floor, Dice& dice);
+RowSet makeArmSet(size_t rows, double floor, Rng& rng);
 
 // Rows that some point obeys with `margin` [m] to spare, or (feasible false) rows of which a positive
 // combination asks for more than nothing can give: sum of w_i n_i = 0 and sum of w_i d_i = margin, sum of w_i
 // = 1.
-RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale& scale, Dice& dice);
+RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale& scale, Rng& rng);
 
 } // namespace fathom::stability

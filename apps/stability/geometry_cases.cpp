@@ -3,7 +3,7 @@
 #include "apps/stability/case_text.h"
 #include "apps/stability/escape_run.h"
 #include "apps/stability/geometry_truth.h"
-#include "apps/stability/storm.h"
+#include "apps/stability/hand_run.h"
 
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kNanometre =
     1e-9; // [m] limit of penetration here: the promise is 0, this is rounding of the audit
-constexpr double kPerTurn = 1e-3; // [m] depth given back a turn
+constexpr double kEscapePerTick = 1e-3; // [m] depth given back per tick
 
 Fixtures oneSphere(const dvec3& centre, double radius) {
     Fixtures set;
@@ -24,56 +24,56 @@ Fixtures oneSphere(const dvec3& centre, double radius) {
 }
 
 // New data whose sphere centre lies on the leaf's, exactly or by next to nothing: no direction is out.
-Outcome coincidingCase(Effort effort) {
-    Dice dice(1);
+Outcome coincidingCase(RunLength runLength) {
+    Rng rng(1);
     double worst = 0.0, growth = 0.0;
     uint64_t stuck = 0, bad = 0;
-    const int trials = some(effort, 2000, 80);
+    const int trials = some(runLength, 2000, 80);
     for (int i = 0; i < trials; ++i) {
-        const double radius = dice.logUniform(0.001, 0.05), leaf = dice.logUniform(0.001, 0.02);
-        const dvec3 at(std::floor(dice.uniform(-100.0, 100.0)) / 128.0, 0.25, 0.5); // exact in float32
-        const double off = i % 4 == 0 ? 0.0 : std::pow(10.0, -300.0 + 291.0 * dice.uniform(0.0, 1.0));
-        const Pose start{at + off * dice.direction(), kUpright};
+        const double radius = rng.logUniform(0.001, 0.05), leaf = rng.logUniform(0.001, 0.02);
+        const dvec3 at(std::floor(rng.uniform(-100.0, 100.0)) / 128.0, 0.25, 0.5); // exact in float32
+        const double off = i % 4 == 0 ? 0.0 : std::pow(10.0, -300.0 + 291.0 * rng.uniform(0.0, 1.0));
+        const Pose start{at + off * rng.direction(), kUpright};
         LockstepRig rig(ballTool(leaf), start);
         rig.show(oneSphere(at + dvec3(10, 0, 0), radius));
         rig.step(start);
         rig.show(oneSphere(at, radius));
         const EscapeFigures f = escape(rig, start, 400);
-        worst = std::max(worst, f.ticks / (std::ceil((radius + leaf) / kPerTurn) + 1.0));
+        worst = std::max(worst, f.ticks / (std::ceil((radius + leaf) / kEscapePerTick) + 1.0));
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
         bad += rig.figures.notFinite;
     }
     Outcome out = outcomeOf(
         worst, 1.0, "1",
-        "Turns until the tool is out over (R + r) / 1 mm, rounded up, and one: sphere centre at the leaf's "
+        "Ticks until the tool is out over (R + r) / 1 mm, rounded up, and one: sphere centre at the leaf's "
         "centre, off by 0 or 1e-300 to 1e-9 m, " +
             num(uint64_t(trials)) + " trials.");
-    demand(out, stuck == 0, num(stuck) + " never out");
-    demand(out, growth <= kNanometre, "a depth grew by " + num(growth) + " m");
-    demand(out, bad == 0, "a wrench that is not finite");
+    require(out, stuck == 0, num(stuck) + " never out");
+    require(out, growth <= kNanometre, "a depth grew by " + num(growth) + " m");
+    require(out, bad == 0, "a wrench that is not finite");
     return out;
 }
 
 // A gap of exactly 0 in float64, and a hand that pushes every way.
-Outcome zeroGapCase(Effort effort) {
-    Dice dice(2);
-    StormFigures all;
+Outcome zeroGapCase(RunLength runLength) {
+    Rng rng(2);
+    HandRunFigures all;
     uint64_t exact = 0;
-    const int trials = some(effort, 4000, 150);
+    const int trials = some(runLength, 4000, 150);
     for (int i = 0; i < trials; ++i) {
-        const double radius = std::exp2(-static_cast<double>(3 + dice.below(5))), leaf = std::exp2(-7.0);
-        dvec3 centre = (radius + leaf) * dice.direction();
+        const double radius = std::exp2(-static_cast<double>(3 + rng.below(5))), leaf = std::exp2(-7.0);
+        dvec3 centre = (radius + leaf) * rng.direction();
         if (i % 2 == 0) {
             centre = dvec3(0.0);
-            centre[static_cast<int>(dice.below(3))] = radius + leaf;
+            centre[static_cast<int>(rng.below(3))] = radius + leaf;
         }
         exact += glm::length(centre) - (radius + leaf) == 0.0 ? 1 : 0;
         LockstepRig rig(ballTool(leaf), {centre, kUpright});
         rig.show(oneSphere(dvec3(0.0), radius));
         for (int k = 0; k < 12; ++k) {
-            rig.step({centre - dice.logUniform(1e-9, 1.0) * glm::normalize(centre + 0.1 * dice.direction()),
-                      dice.rotation()});
+            rig.step({centre - rng.logUniform(1e-9, 1.0) * glm::normalize(centre + 0.1 * rng.direction()),
+                      rng.rotation()});
         }
         all.add(rig);
     }
@@ -82,21 +82,21 @@ Outcome zeroGapCase(Effort effort) {
 }
 
 // The leaf in the midst of hundreds of spheres whose centres lie to one side: deep, but with a way out.
-Outcome insideManyCase(Effort effort) {
-    Dice dice(3);
+Outcome insideManyCase(RunLength runLength) {
+    Rng rng(3);
     double worst = 0.0, growth = 0.0;
     uint64_t stuck = 0;
-    const int trials = some(effort, 400, 20);
+    const int trials = some(runLength, 400, 20);
     for (int i = 0; i < trials; ++i) {
-        const double radius = dice.uniform(0.02, 0.05);
-        const dvec3 up = dice.direction();
+        const double radius = rng.uniform(0.02, 0.05);
+        const dvec3 up = rng.direction();
         Fixtures set;
         for (int k = 0; k < 800; ++k) {
-            const dvec3 about = 0.5 * radius * dice.direction();
+            const dvec3 about = 0.5 * radius * rng.direction();
             addSphere(set, about - (std::max(0.0, glm::dot(about, up)) + 0.006) * up,
                       radius); // below every leaf
         }
-        const Pose start{dvec3(0.0), dice.rotation()};
+        const Pose start{dvec3(0.0), rng.rotation()};
         LockstepRig rig(
             toolOf({{dvec3(0.0), 0.01}, {dvec3(0, 0, 0.005), 0.008}, {dvec3(0.005, 0, 0), 0.006}}), start);
         rig.show(oneSphere(dvec3(10, 0, 0), radius));
@@ -104,17 +104,17 @@ Outcome insideManyCase(Effort effort) {
         rig.show(std::move(set));
         const EscapeFigures f = escape(rig, start, 1000);
         // The farthest way out of the union is along `up`: R + r + leaf offset of travel at most.
-        worst = std::max(worst, f.ticks * kPerTurn / (radius + 0.02 + 0.005));
+        worst = std::max(worst, f.ticks * kEscapePerTick / (radius + 0.02 + 0.005));
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
     }
     Outcome out =
         outcomeOf(worst, 1.2, "1",
-                  "Turns x 1 mm until three leaves inside 800 spheres are out, over the straight way out; " +
+                  "Ticks x 1 mm until three leaves inside 800 spheres are out, over the straight way out; " +
                       num(uint64_t(trials)) +
                       " trials. The limit leaves a fifth for ways that bend from dimple to dimple.");
-    demand(out, stuck == 0, num(stuck) + " never out");
-    demand(out, growth <= kNanometre, "a depth grew by " + num(growth) + " m");
+    require(out, stuck == 0, num(stuck) + " never out");
+    require(out, growth <= kNanometre, "a depth grew by " + num(growth) + " m");
     return out;
 }
 
@@ -122,11 +122,11 @@ World radiiWorld() {
     World w = wallWorld();
     w.name = "radii";
     w.fixtures = {};
-    Dice dice(4);
+    Rng rng(4);
     for (int k = 0; k < 3000; ++k) {
-        const double radius = dice.logUniform(1e-4, 10.0);
-        const dvec3 way = dice.direction();
-        addSphere(w.fixtures, way * (radius + dice.uniform(0.1, 0.2)), radius); // its skin touches the arena
+        const double radius = rng.logUniform(1e-4, 10.0);
+        const dvec3 way = rng.direction();
+        addSphere(w.fixtures, way * (radius + rng.uniform(0.1, 0.2)), radius); // its skin touches the arena
     }
     w.leaves = crossLeaves(0.004);
     w.start = {dvec3(0.0), kUpright};
@@ -176,34 +176,34 @@ World plateOfLeavesWorld() {
     return w;
 }
 
-Outcome storms(const World& world, Effort effort, int full, const std::string& what,
-               const RigSetup& setup = {}) {
-    StormFigures all;
+Outcome handRuns(const World& world, RunLength runLength, int full, const std::string& what,
+                 const RigSetup& setup = {}) {
+    HandRunFigures all;
     for (uint64_t seed = 1; seed <= 3; ++seed) {
-        Storm storm;
-        storm.ticks = some(effort, full, std::max(60, full / 50));
-        storm.seed = seed;
-        storm.setup = setup;
-        storm.manner.speed = seed == 3 ? 5.0 : 0.3;
-        storm.faults.late = seed == 2 ? 5 : 0;
-        rage(world, storm, all);
+        HandRun handRun;
+        handRun.ticks = some(runLength, full, std::max(60, full / 50));
+        handRun.seed = seed;
+        handRun.setup = setup;
+        handRun.motion.speed = seed == 3 ? 5.0 : 0.3;
+        handRun.faults.late = seed == 2 ? 5 : 0;
+        runHand(world, handRun, all);
     }
     return penetrationOutcome(all, kNanometre, what + " ");
 }
 
 // The same run at the base origin and far from it: positions about a local origin, so nothing may change but
 // rounding.
-Outcome farCase(Effort effort, double distance) {
+Outcome farCase(RunLength runLength, double distance) {
     const World near = rubbleWorld();
     const dvec3 way = distance * glm::normalize(dvec3(0.6, -0.5, 0.62));
     const World far = movedBy(near, way);
     LockstepRig a(toolOf(near.leaves), near.start), b(toolOf(far.leaves), far.start);
     a.show(near.fixtures);
     b.show(far.fixtures);
-    WildHand hand(near.start, near.focus, near.arena, {0.3, 3.0, 0.0, 0.0, 0.0, 0.0}, 5);
+    RandomHand hand(near.start, near.focus, near.arena, {0.3, 3.0, 0.0, 0.0, 0.0, 0.0}, 5);
     double apart = 0.0;
-    const int ticks = some(effort, 20000, 1000);
-    Outcome::Curve curve{"difference of the tool's way", "turn", "difference [m]", {}, {}, false, true};
+    const int ticks = some(runLength, 20000, 1000);
+    Outcome::Curve curve{"difference of the tool's path", "tick", "difference [m]", {}, {}, false, true};
     for (int k = 0; k < ticks; ++k) {
         const Pose wanted = hand.next(0.001);
         const dvec3 here = a.step(wanted).tool.position;
@@ -219,11 +219,11 @@ Outcome farCase(Effort effort, double distance) {
     Outcome out = outcomeOf(
         b.audit().maxPenetration(), kNanometre, "m",
         "Deepest penetration beyond the allowance in rubble " + num(distance / 1000.0) +
-            " km from the base origin over " + num(uint64_t(ticks)) + " turns, " + num(b.figures.contact) +
+            " km from the base origin over " + num(uint64_t(ticks)) + " ticks, " + num(b.figures.contact) +
             " in contact; the way differs from the same run at the origin by at most " + num(apart) +
             " m (rounding of the base frame is " + num(distance * 2.2e-16) + " m).");
-    demand(out, b.figures.contact > 0, "the tool never touched");
-    demand(out, apart <= 5e-3, "the ways part by more than 5 mm");
+    require(out, b.figures.contact > 0, "the tool never touched");
+    require(out, apart <= 5e-3, "the ways part by more than 5 mm");
     out.curves.push_back(std::move(curve));
     return out;
 }
@@ -232,36 +232,38 @@ Outcome farCase(Effort effort, double distance) {
 
 std::vector<Case> geometryCases() {
     std::vector<Case> cases;
-    const auto put = [&](const char* name, std::function<Outcome(Effort)> run) {
+    const auto put = [&](const char* name, std::function<Outcome(RunLength)> run) {
         cases.push_back({std::string("geometry-") + name, Group::Geometry, std::move(run)});
     };
     put("coinciding-centres", coincidingCase);
     put("gap-of-zero", zeroGapCase);
     put("inside-many-spheres", insideManyCase);
-    put("radii-01mm-to-10m", [](Effort e) {
-        return storms(radiiWorld(), e, 8000, "3000 spheres of 0.1 mm to 10 m in one scene.");
+    put("radii-01mm-to-10m", [](RunLength e) {
+        return handRuns(radiiWorld(), e, 8000, "3000 spheres of 0.1 mm to 10 m in one scene.");
     });
-    put("thousand-equal-spheres",
-        [](Effort e) { return storms(equalsWorld(), e, 20000, "Three bundles of 1000 equal spheres."); });
-    put("needle", [](Effort e) {
-        return storms(needleWorld(), e, 40000, "Spikes of 0.1 and 0.2 mm, tool of 0.5 mm, steps of 2 mm.");
+    put("thousand-equal-spheres", [](RunLength e) {
+        return handRuns(equalsWorld(), e, 20000, "Three bundles of 1000 equal spheres.");
     });
-    put("tool-10m", [](Effort e) {
-        return storms(giantToolWorld(), e, 4000, "Tool of 10 m, 101 leaves: rotation sweeps arcs.");
+    put("needle", [](RunLength e) {
+        return handRuns(needleWorld(), e, 40000, "Spikes of 0.1 and 0.2 mm, tool of 0.5 mm, steps of 2 mm.");
     });
-    put("tool-1mm", [](Effort e) {
-        return storms(tinyToolWorld(), e, 20000, "Tool of 1 mm with leaves of 1 um to 0.1 mm.");
+    put("tool-10m", [](RunLength e) {
+        return handRuns(giantToolWorld(), e, 4000, "Tool of 10 m, 101 leaves: rotation sweeps arcs.");
     });
-    put("thousand-leaves", [](Effort e) {
-        return storms(plateOfLeavesWorld(), e, 2000, "1024 leaves flat on a wall: more contacts than rows.");
+    put("tool-1mm", [](RunLength e) {
+        return handRuns(tinyToolWorld(), e, 20000, "Tool of 1 mm with leaves of 1 um to 0.1 mm.");
     });
-    put("overflowing-answers", [](Effort e) {
-        return storms(rubbleWorld(), e, 6000,
-                      "Answers that hold 64 spheres and 256 pairs at first: the reach shrinks instead.",
-                      {0.05, {64, 256}});
+    put("thousand-leaves", [](RunLength e) {
+        return handRuns(plateOfLeavesWorld(), e, 2000,
+                        "1024 leaves flat on a wall: more contacts than rows.");
     });
-    put("origin-1km", [](Effort e) { return farCase(e, 1e3); });
-    put("origin-100km", [](Effort e) { return farCase(e, 1e5); });
+    put("overflowing-answers", [](RunLength e) {
+        return handRuns(rubbleWorld(), e, 6000,
+                        "Answers that hold 64 spheres and 256 pairs at first: the reach shrinks instead.",
+                        {0.05, {64, 256}});
+    });
+    put("origin-1km", [](RunLength e) { return farCase(e, 1e3); });
+    put("origin-100km", [](RunLength e) { return farCase(e, 1e5); });
     addTruthCases(cases);
     return cases;
 }

@@ -3,8 +3,8 @@
 
 #include "apps/stability/case_text.h"
 #include "apps/stability/escape_run.h"
+#include "apps/stability/hand_run.h"
 #include "apps/stability/image_fixtures.h"
-#include "apps/stability/storm.h"
 #include "devices/simulated/simulated_camera.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kBall = 0.01;     // [m] radius of the tool
-constexpr double kUnit = 0.0001;   // [m] of the depth picture
+constexpr double kUnit = 0.0001;   // [m] of the depth image
 constexpr double kBudget = 0.0001; // [m] error budget of thinning
 
 struct TruthImage {
@@ -39,16 +39,16 @@ TruthImage imageOf(AnalyticScene scene, double radius, double edge, uint32_t wid
 }
 
 // Pressed on a ball from all over the camera's side: the tool stands where the region's skin is.
-Outcome ballTruthCase(Effort effort) {
+Outcome ballTruthCase(RunLength runLength) {
     const double region = 0.04;
     const TruthImage p = imageOf(analyticScene("sphere").value(), region, 0.03, 320);
     const dvec3 centre(0.0, 0.0, 0.7);
     const double wanted = 0.1 + region + kBall;
     double above = 0.0, below = 0.0;
-    Dice dice(11);
-    const int trials = some(effort, 500, 40);
+    Rng rng(11);
+    const int trials = some(runLength, 500, 40);
     for (int i = 0; i < trials; ++i) {
-        dvec3 way = dice.direction();
+        dvec3 way = rng.direction();
         way = glm::normalize(dvec3(way.x, way.y, -std::abs(way.z) - 0.7)); // well inside the visible side
         LockstepRig rig(ballTool(kBall), {centre + (wanted + 0.004) * way, kUpright});
         rig.show(p.set);
@@ -72,9 +72,9 @@ Outcome ballTruthCase(Effort effort) {
 
 // A plane seen at `degrees` from face-on: where the points lie as far apart as s, the tool may sink into the
 // dimple between them, to sqrt((R + r)^2 - s^2 / 2) and no deeper.
-Outcome grazingCase(Effort effort) {
+Outcome grazingCase(RunLength runLength) {
     double worst = 0.0, spacing = 0.0;
-    Dice dice(12);
+    Rng rng(12);
     for (const double degrees : {60.0, 75.0, 82.0, 86.0}) {
         const double tilt = degrees * 0.017453292519943295;
         AnalyticScene scene;
@@ -85,11 +85,11 @@ Outcome grazingCase(Effort effort) {
         scene.solids.back().object = 1;
         const double region = 0.03;
         const TruthImage p = imageOf(scene, region, 0.0, 320);
-        const int trials = some(effort, 100, 6);
+        const int trials = some(runLength, 100, 6);
         for (int i = 0; i < trials; ++i) {
             const dvec3 along(0.0, std::cos(tilt), std::sin(tilt));
             const dvec3 foot =
-                point + dice.uniform(-0.03, 0.03) * dvec3(1, 0, 0) + dice.uniform(-0.1, 0.1) * along;
+                point + rng.uniform(-0.03, 0.03) * dvec3(1, 0, 0) + rng.uniform(-0.1, 0.1) * along;
             LockstepRig rig(ballTool(kBall), {foot + (region + kBall + 0.003) * normal, kUpright});
             rig.show(p.set);
             for (int k = 0; k < 150; ++k) {
@@ -110,23 +110,23 @@ Outcome grazingCase(Effort effort) {
 }
 
 // A plate of 2 mm, regions of 10 mm, hands that go straight through it.
-Outcome plateCase(Effort effort) {
+Outcome plateCase(RunLength runLength) {
     const TruthImage p = imageOf(analyticScene("plate").value(), 0.01, 0.03, 320);
     const Solid& plate = p.scene.solids.front();
     double worst = -1.0;
-    StormFigures all;
-    Dice dice(13);
-    const int trials = some(effort, 300, 15);
+    HandRunFigures all;
+    Rng rng(13);
+    const int trials = some(runLength, 300, 15);
     for (int i = 0; i < trials; ++i) {
-        const double speed = dice.logUniform(0.05, 5.0);
+        const double speed = rng.logUniform(0.05, 5.0);
         const dvec3 through = glm::transpose(plate.localTscene) *
-                                  dvec3(dice.uniform(-0.08, 0.08), dice.uniform(-0.07, 0.07), 0.0) +
+                                  dvec3(rng.uniform(-0.08, 0.08), rng.uniform(-0.07, 0.07), 0.0) +
                               plate.position;
-        const dvec3 way = glm::normalize(through + 0.1 * dice.direction());
+        const dvec3 way = glm::normalize(through + 0.1 * rng.direction());
         const dvec3 start = through - 0.06 * way;
         LockstepRig rig(ballTool(kBall), {start, kUpright});
         rig.show(p.set);
-        rig.faults = {static_cast<uint32_t>(dice.below(20)), false, 0.1};
+        rig.faults = {static_cast<uint32_t>(rng.below(20)), false, 0.1};
         const double reach = std::min(0.12, 0.6 * speed);
         for (double s = 0.0; s < reach; s += speed * 0.001) {
             const StepRecord record = rig.step({start + s * way, kUpright});
@@ -139,24 +139,24 @@ Outcome plateCase(Effort effort) {
                             "hands that go through it at "
                             "0.05 to 5 m/s with answers late by up to 20 ms. " +
                                 all.words());
-    demand(out, all.penetration <= 1e-9, "a region was entered");
-    demand(out, all.rig.contact > 0, "the tool never touched");
+    require(out, all.penetration <= 1e-9, "a region was entered");
+    require(out, all.rig.contact > 0, "the tool never touched");
     return out;
 }
 
 // Pressed into places without room: what still moves when the hand has been still for a while?
-Outcome restCase(Effort effort, const std::vector<World>& worlds, const std::string& what) {
+Outcome restCase(RunLength runLength, const std::vector<World>& worlds, const std::string& what) {
     double jitter = 0.0;
-    StormFigures all;
-    Dice dice(14);
+    HandRunFigures all;
+    Rng rng(14);
     for (const World& world : worlds) {
-        const int trials = some(effort, 40, 4);
+        const int trials = some(runLength, 40, 4);
         for (int i = 0; i < trials; ++i) {
             LockstepRig rig(toolOf(world.leaves), world.start);
             rig.show(world.fixtures);
-            const Pose hand{world.focus + 0.02 * dice.direction() +
+            const Pose hand{world.focus + 0.02 * rng.direction() +
                                 0.05 * glm::normalize(world.focus - world.start.position),
-                            rotationExp(0.3 * dice.direction())};
+                            rotationExp(0.3 * rng.direction())};
             for (int k = 0; k < 1500; ++k) {
                 const dvec3 before = rig.pose().position;
                 rig.step(hand);
@@ -166,21 +166,21 @@ Outcome restCase(Effort effort, const std::vector<World>& worlds, const std::str
         }
     }
     Outcome out = outcomeOf(jitter, 1e-6, "m",
-                            "Largest motion in a turn after 1.4 s of pressing: " + what + " " + all.words());
-    demand(out, all.penetration <= 1e-9, "a region was entered");
-    demand(out, all.rig.contact > 0, "the tool never touched");
+                            "Largest motion per tick after 1.4 s of pressing: " + what + " " + all.words());
+    require(out, all.penetration <= 1e-9, "a region was entered");
+    require(out, all.rig.contact > 0, "the tool never touched");
     return out;
 }
 
 // Leaf, sphere and camera in one point.
-Outcome cameraOriginCase(Effort effort) {
-    Dice dice(15);
+Outcome cameraOriginCase(RunLength runLength) {
+    Rng rng(15);
     double worst = 0.0, growth = 0.0;
     uint64_t stuck = 0, bad = 0;
-    const int trials = some(effort, 500, 40);
+    const int trials = some(runLength, 500, 40);
     for (int i = 0; i < trials; ++i) {
-        const double radius = dice.logUniform(0.001, 0.05);
-        const Pose start{dvec3(0.0, 0.0, i % 3 == 0 ? 0.0 : -dice.logUniform(1e-12, 1e-6)), kUpright};
+        const double radius = rng.logUniform(0.001, 0.05);
+        const Pose start{dvec3(0.0, 0.0, i % 3 == 0 ? 0.0 : -rng.logUniform(1e-12, 1e-6)), kUpright};
         LockstepRig rig(ballTool(kBall), start);
         const auto withImage = [](Fixtures set, uint16_t depth) {
             set.camera.depth.width = 16, set.camera.depth.height = 12;
@@ -193,7 +193,7 @@ Outcome cameraOriginCase(Effort effort) {
         Fixtures first, second;
         addSphere(first, dvec3(10, 0, 0), radius);
         for (int k = 0; k < 1 + i % 5; ++k) { // to one side, so that there is a way out
-            const dvec3 off = k == 0 ? dvec3(0.0) : glm::normalize(dice.direction() + dvec3(0, 0, 1.5));
+            const dvec3 off = k == 0 ? dvec3(0.0) : glm::normalize(rng.direction() + dvec3(0, 0, 1.5));
             addSphere(second, 1e-3 * radius * off, radius);
         }
         rig.show(withImage(std::move(first), 500));
@@ -207,12 +207,12 @@ Outcome cameraOriginCase(Effort effort) {
     }
     Outcome out = outcomeOf(
         worst, 1.0, "1",
-        "Turns until out over (R + r) / 1 mm and two: up to five spheres within 1e-3 R of the camera's own "
+        "Ticks until out over (R + r) / 1 mm and two: up to five spheres within 1e-3 R of the camera's own "
         "centre, the leaf there too, " +
             num(uint64_t(trials)) + " trials.");
-    demand(out, stuck == 0, num(stuck) + " never out");
-    demand(out, growth <= 1e-9, "a depth grew by " + num(growth) + " m");
-    demand(out, bad == 0, "a wrench that is not finite");
+    require(out, stuck == 0, num(stuck) + " never out");
+    require(out, growth <= 1e-9, "a depth grew by " + num(growth) + " m");
+    require(out, bad == 0, "a wrench that is not finite");
     return out;
 }
 
@@ -228,7 +228,7 @@ World tightSlot() { // 2 mm too narrow
 } // namespace
 
 void addTruthCases(std::vector<Case>& cases) {
-    const auto put = [&](const char* name, std::function<Outcome(Effort)> run) {
+    const auto put = [&](const char* name, std::function<Outcome(RunLength)> run) {
         cases.push_back({std::string("geometry-") + name, Group::Geometry, std::move(run)});
     };
     put("ball-skin", ballTruthCase);
@@ -236,12 +236,12 @@ void addTruthCases(std::vector<Case>& cases) {
     put("thin-plate", plateCase);
     put("camera-origin", cameraOriginCase);
     put("rest-in-narrow-slot",
-        [](Effort e) { return restCase(e, {tightSlot()}, "slot 2 mm narrower than the tool."); });
-    put("rest-in-groove", [](Effort e) {
+        [](RunLength e) { return restCase(e, {tightSlot()}, "slot 2 mm narrower than the tool."); });
+    put("rest-in-groove", [](RunLength e) {
         return restCase(e, {grooveWorld(5.0), grooveWorld(20.0), grooveWorld(60.0)},
                         "grooves of 5, 20 and 60 degrees.");
     });
-    put("rest-in-corner", [](Effort e) { return restCase(e, {cornerWorld()}, "corner of three walls."); });
+    put("rest-in-corner", [](RunLength e) { return restCase(e, {cornerWorld()}, "corner of three walls."); });
 }
 
 } // namespace fathom::stability

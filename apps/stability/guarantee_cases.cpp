@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group guarantee: whatever the hand does and however late the contact answers come, no leaf enters a region.
 #include "apps/stability/case_text.h"
-#include "apps/stability/storm.h"
+#include "apps/stability/hand_run.h"
 #include "devices/simulated/analytic_scene.h"
 
 #include <array>
@@ -15,29 +15,28 @@ constexpr std::array<double, 3> kSpeeds{0.05, 0.5, 5.0};   // [m/s]
 constexpr std::array<uint32_t, 5> kLate{0, 1, 5, 20, 100}; // [ms]
 constexpr double kTwentyTurns = 20.0 * 6.283185307179586;  // [rad/s]
 
-int turnsOf(Effort effort, int full) {
-    return effort == Effort::Full ? full : full / 30;
+int ticksPerRun(RunLength runLength, int full) {
+    return runLength == RunLength::Full ? full : full / 30;
 }
 
 // All speeds and latenesses; shortened, one speed for each lateness.
-Outcome anyHand(const World& world, Effort effort, const std::string& what) {
-    StormFigures all;
-    Outcome::Curve stalls{
-        "stalled turns", "answers late by [ms]", "share of the turns", {}, {}, false, false};
+Outcome anyHand(const World& world, RunLength runLength, const std::string& what) {
+    HandRunFigures all;
+    Outcome::Curve stalls{"stalled ticks", "answer delay [ms]", "share of the ticks", {}, {}, false, false};
     for (size_t late = 0; late < kLate.size(); ++late) {
-        StormFigures some;
+        HandRunFigures some;
         for (size_t s = 0; s < kSpeeds.size(); ++s) {
-            if (effort == Effort::Short && s != late % kSpeeds.size()) {
+            if (runLength == RunLength::Short && s != late % kSpeeds.size()) {
                 continue;
             }
-            Storm storm;
-            storm.manner.speed = kSpeeds[s];
-            storm.manner.spin = s == 2 ? kTwentyTurns : 20.0;
-            storm.manner.turnOvers = 2.0;
-            storm.faults = {kLate[late], false, late % 2 == 1 ? 0.3 : 0.0};
-            storm.ticks = turnsOf(effort, 30000);
-            storm.seed = 100 * late + s;
-            rage(world, storm, some);
+            HandRun handRun;
+            handRun.motion.speed = kSpeeds[s];
+            handRun.motion.spin = s == 2 ? kTwentyTurns : 20.0;
+            handRun.motion.turnOvers = 2.0;
+            handRun.faults = {kLate[late], false, late % 2 == 1 ? 0.3 : 0.0};
+            handRun.ticks = ticksPerRun(runLength, 30000);
+            handRun.seed = 100 * late + s;
+            runHand(world, handRun, some);
         }
         stalls.x.push_back(kLate[late]);
         stalls.y.push_back(static_cast<double>(some.rig.stalled) / static_cast<double>(some.rig.ticks));
@@ -52,26 +51,26 @@ Outcome anyHand(const World& world, Effort effort, const std::string& what) {
 }
 
 // One manner in every world that is laid by hand.
-Outcome anyWorld(const HandManner& manner, const AnswerFaults& faults, Effort effort,
+Outcome anyWorld(const HandMotion& motion, const AnswerFaults& faults, RunLength runLength,
                  const std::string& what) {
-    StormFigures all;
+    HandRunFigures all;
     const std::array<World, 5> worlds{wallWorld(), cornerWorld(), slotWorld(), grooveWorld(20.0),
                                       rubbleWorld()};
     for (size_t w = 0; w < worlds.size(); ++w) {
-        Storm storm;
-        storm.manner = manner;
-        storm.faults = faults;
-        storm.ticks = turnsOf(effort, 30000);
-        storm.seed = w + 1;
-        rage(worlds[w], storm, all);
+        HandRun handRun;
+        handRun.motion = motion;
+        handRun.faults = faults;
+        handRun.ticks = ticksPerRun(runLength, 30000);
+        handRun.seed = w + 1;
+        runHand(worlds[w], handRun, all);
     }
     return penetrationOutcome(all, kLimit, what + " Wall, corner, slot, groove and rubble. ");
 }
 
 void addWorldCases(std::vector<Case>& cases) {
     for (const std::string& scene : analyticSceneNames()) {
-        cases.push_back({"guarantee-scene-" + scene, Group::Guarantee, [scene](Effort effort) {
-                             return anyHand(analyticWorld(scene, 0.04, true), effort,
+        cases.push_back({"guarantee-scene-" + scene, Group::Guarantee, [scene](RunLength runLength) {
+                             return anyHand(analyticWorld(scene, 0.04, true), runLength,
                                             "Analytic scene '" + scene +
                                                 "' with camera noise, regions of 40 mm, 9 leaves.");
                          }});
@@ -85,9 +84,9 @@ void addWorldCases(std::vector<Case>& cases) {
             continue; // counted by nobody: the suite says which recordings are missing
         }
         cases.push_back({std::string("guarantee-recording-") + folder, Group::Guarantee,
-                         [file = std::string(file), folder = std::string(folder)](Effort effort) {
+                         [file = std::string(file), folder = std::string(folder)](RunLength runLength) {
                              return anyHand(
-                                 recordedWorld(file, folder).value(), effort,
+                                 recordedWorld(file, folder).value(), runLength,
                                  "First frame of the recording " + folder +
                                      ", its regions made on the CPU by the float64 twins of the passes.");
                          }});
@@ -98,12 +97,12 @@ void addWorldCases(std::vector<Case>& cases) {
 
 std::vector<Case> guaranteeCases() {
     std::vector<Case> cases;
-    const auto put = [&](const std::string& name, const HandManner& manner, const AnswerFaults& faults,
+    const auto put = [&](const std::string& name, const HandMotion& motion, const AnswerFaults& faults,
                          const std::string& what) {
         cases.push_back({"guarantee-" + name, Group::Guarantee,
-                         [=](Effort effort) { return anyWorld(manner, faults, effort, what); }});
+                         [=](RunLength runLength) { return anyWorld(motion, faults, runLength, what); }});
     };
-    const HandManner plain{};
+    const HandMotion plain{};
     put("speed-005", {0.05, 2.0, 0.0, 0.0, 8.0, 0.0}, {}, "Hand of 0.05 m/s that hops about the arena.");
     put("speed-05", {0.5, 5.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 0.5 m/s.");
     put("speed-5", {5.0, 20.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 5 m/s.");

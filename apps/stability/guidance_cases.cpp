@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group guidance, targets: far ones, and ones that flicker. The points are in guidance_plane_cases.cpp.
 #include "apps/stability/case_text.h"
-#include "apps/stability/dice.h"
 #include "apps/stability/guidance_parts.h"
 #include "apps/stability/loop_rig.h"
+#include "apps/stability/rng.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,18 +18,18 @@ double angleBetween(const dvec3& a, const dvec3& b) {
 
 // How hard guidance pulls when its target is out of reach: F_g and tau_g, in both modes, in the right
 // direction.
-Outcome farTarget(Effort effort) {
+Outcome farTarget(RunLength runLength) {
     double worst = 0.0;
-    Dice dice(1);
-    const int targets = effort == Effort::Full ? 2000 : 300;
+    Rng rng(1);
+    const int targets = runLength == RunLength::Full ? 2000 : 300;
     const GuidanceLimits limits;
     for (int n = 0; n < targets; ++n) {
         GuidancePose target;
         target.present = target.planar = true;
         target.rollFree = n % 2 == 0;
-        const double distance = dice.logUniform(0.01, 1e6);
-        const dvec3 way = dice.direction();
-        target.target = {distance * way, dice.rotation()};
+        const double distance = rng.logUniform(0.01, 1e6);
+        const dvec3 way = rng.direction();
+        target.target = {distance * way, rng.rotation()};
         Guidance guidance;
         guidance.step({}, {}, false, false, 0.001);
         for (int i = 0; i < 600; ++i) {
@@ -54,10 +54,10 @@ Outcome farTarget(Effort effort) {
 }
 
 // Two valves: one class whose place flips between them, and two classes of which one or the other is lost.
-Outcome flicker(Effort effort) {
+Outcome flicker(RunLength runLength) {
     double largest = 0.0;
     int changes = 0;
-    Dice dice(2);
+    Rng rng(2);
     for (const bool oneClass : {true, false}) {
         LoopSpec spec;
         spec.stiffness = 1000.0;
@@ -71,13 +71,13 @@ Outcome flicker(Effort effort) {
         }
         dvec3 before(0.0);
         int chosen = -2;
-        for (int i = 0; i < (effort == Effort::Full ? 60000 : 8000); ++i) {
+        for (int i = 0; i < (runLength == RunLength::Full ? 60000 : 8000); ++i) {
             if (i % 33 == 0) { // a frame
                 if (oneClass) {
-                    poses[0].target.position.x = dice.chance(0.5) ? 0.3 : -0.3;
+                    poses[0].target.position.x = rng.chance(0.5) ? 0.3 : -0.3;
                 } else {
-                    poses[0].present = dice.chance(0.6);
-                    poses[1].present = !poses[0].present || dice.chance(0.5);
+                    poses[0].present = rng.chance(0.6);
+                    poses[1].present = !poses[0].present || rng.chance(0.5);
                 }
             }
             StepInput input;
@@ -99,8 +99,8 @@ Outcome flicker(Effort effort) {
                             "A target that flips between two valves 0.6 m apart at random frames, and two "
                             "classes that come and go: largest step of the force "
                             "between two turns. Limit: the slew of 0.1 m/s times K = 1000 N/m and 1 ms.");
-    demand(out, changes == 0,
-           "the valve was changed " + std::to_string(changes) + " times while the button was held");
+    require(out, changes == 0,
+            "the valve was changed " + std::to_string(changes) + " times while the button was held");
     return out;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group guidance, points: those that are no plane, exact planes, noise against theory, eigenvectors.
 #include "apps/stability/case_text.h"
-#include "apps/stability/dice.h"
 #include "apps/stability/guidance_parts.h"
+#include "apps/stability/rng.h"
 #include "engine/cloud/guidance_pose.h"
 
 #include <algorithm>
@@ -33,15 +33,15 @@ bool isSound(const GuidancePose& pose) {
 }
 
 // Disc of points about `centre`, across `normal`, with noise along z (the optical axis of a camera).
-std::vector<dvec3> disc(Dice& dice, const dvec3& centre, const dvec3& normal, double radius, int count,
+std::vector<dvec3> disc(Rng& rng, const dvec3& centre, const dvec3& normal, double radius, int count,
                         double sigma) {
     const dvec3 u =
         glm::normalize(glm::cross(normal, std::abs(normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0)));
     const dvec3 v = glm::cross(normal, u);
     std::vector<dvec3> points;
     for (int i = 0; i < count; ++i) {
-        const double r = radius * std::sqrt(dice.uniform(0.0, 1.0)), a = dice.uniform(0.0, kTwoPi);
-        points.push_back(centre + r * std::cos(a) * u + r * std::sin(a) * v + sigma * dice.normal() * normal);
+        const double r = radius * std::sqrt(rng.uniform(0.0, 1.0)), a = rng.uniform(0.0, kTwoPi);
+        points.push_back(centre + r * std::cos(a) * u + r * std::sin(a) * v + sigma * rng.normal() * normal);
     }
     return points;
 }
@@ -51,15 +51,15 @@ double angleOf(const dvec3& a, const dvec3& b) {
 }
 
 // Points on a line have a normal only by rounding.
-Outcome collinear(Effort effort) {
+Outcome collinear(RunLength runLength) {
     int wrong = 0, tried = 0;
-    Dice dice(4);
-    for (int n = 0; n < (effort == Effort::Full ? 3000 : 400); ++n) {
-        const dvec3 along = dice.direction(), centre = dice.logUniform(0.1, 100.0) * dice.direction();
-        const double length = dice.logUniform(1e-4, 10.0);
+    Rng rng(4);
+    for (int n = 0; n < (runLength == RunLength::Full ? 3000 : 400); ++n) {
+        const dvec3 along = rng.direction(), centre = rng.logUniform(0.1, 100.0) * rng.direction();
+        const double length = rng.logUniform(1e-4, 10.0);
         std::vector<dvec3> points;
-        for (size_t i = 0, count = 2 + dice.below(400); i < count; ++i) {
-            points.push_back(centre + dice.uniform(-length, length) * along);
+        for (size_t i = 0, count = 2 + rng.below(400); i < count; ++i) {
+            points.push_back(centre + rng.uniform(-length, length) * along);
         }
         const GuidancePose pose = poseOf(points);
         ++tried;
@@ -72,12 +72,12 @@ Outcome collinear(Effort effort) {
 }
 
 // One point, two, none, and any number at one place.
-Outcome fewPoints(Effort) {
+Outcome fewPoints(RunLength) {
     int wrong = 0;
-    Dice dice(6);
+    Rng rng(6);
     for (const size_t count : {size_t{0}, size_t{1}, size_t{2}, size_t{3}, size_t{1000}}) {
         for (int n = 0; n < 50; ++n) {
-            const dvec3 place = n == 0 ? kCamera : dice.logUniform(0.1, 1e5) * dice.direction();
+            const dvec3 place = n == 0 ? kCamera : rng.logUniform(0.1, 1e5) * rng.direction();
             const GuidancePose pose = poseOf(std::vector<dvec3>(count, place));
             const double off = count == 0 ? 0.0 : glm::distance(pose.position, place);
             wrong += pose.planar || !isSound(pose) || pose.present != (count > 0) ||
@@ -92,14 +92,14 @@ Outcome fewPoints(Effort) {
                      "at that place; 250 sets.");
 }
 
-Outcome exactPlane(Effort effort) {
+Outcome exactPlane(RunLength runLength) {
     double worst = 0.0;
     int lost = 0;
-    Dice dice(7);
-    const int planes = effort == Effort::Full ? 3000 : 300;
+    Rng rng(7);
+    const int planes = runLength == RunLength::Full ? 3000 : 300;
     for (int n = 0; n < planes; ++n) {
-        const dvec3 centre = dice.logUniform(0.1, 1e5) * dice.direction(), normal = dice.direction();
-        const GuidancePose pose = poseOf(disc(dice, centre, normal, dice.logUniform(0.02, 2.0), 300, 0.0));
+        const dvec3 centre = rng.logUniform(0.1, 1e5) * rng.direction(), normal = rng.direction();
+        const GuidancePose pose = poseOf(disc(rng, centre, normal, rng.logUniform(0.02, 2.0), 300, 0.0));
         lost += !pose.planar || !isSound(pose) ? 1 : 0;
         worst = std::max(worst,
                          angleOf(pose.normal, glm::dot(normal, kCamera - centre) < 0.0 ? -normal : normal));
@@ -108,15 +108,15 @@ Outcome exactPlane(Effort effort) {
                             "Exact planes of 20 mm to 2 m, 0.1 m to 100 km from the base origin, seen from "
                             "every side: largest error of the normal over " +
                                 std::to_string(planes) + "; at 100 km a coordinate is rounded to 1.5e-11 m.");
-    demand(out, lost == 0, std::to_string(lost) + " were not taken for a plane");
+    require(out, lost == 0, std::to_string(lost) + " were not taken for a plane");
     return out;
 }
 
 // Normal noise sigma / (s_rms sqrt(N)) on each of its two axes.
-Outcome noisyPlane(Effort effort) {
+Outcome noisyPlane(RunLength runLength) {
     double worst = 0.0;
-    Dice dice(9);
-    const int trials = effort == Effort::Full ? 3000 : 700;
+    Rng rng(9);
+    const int trials = runLength == RunLength::Full ? 3000 : 700;
     Outcome::Curve measured{"measured", "sigma [m]", "normal error per axis [rad]", {}, {}, true, true},
         theory = measured;
     theory.name = "sigma / (s_rms sqrt(N))";
@@ -129,7 +129,7 @@ Outcome noisyPlane(Effort effort) {
         int planar = 0;
         for (int n = 0; n < trials; ++n) {
             const dvec3 normal = glm::normalize(dvec3(0.3, -0.2, -1.0));
-            const GuidancePose pose = poseOf(disc(dice, {0.0, 0.0, 1.0}, normal, radius, count, sigma));
+            const GuidancePose pose = poseOf(disc(rng, {0.0, 0.0, 1.0}, normal, radius, count, sigma));
             const double angle = pose.planar ? angleOf(pose.normal, normal) : 0.0;
             sum += angle * angle;
             planar += pose.planar ? 1 : 0;
@@ -153,15 +153,15 @@ Outcome noisyPlane(Effort effort) {
 }
 
 // Thick clouds are no plane, and a disc has no long axis.
-Outcome decisions(Effort effort) {
+Outcome decisions(RunLength runLength) {
     int wrong = 0, tried = 0;
-    Dice dice(11);
-    for (int n = 0; n < (effort == Effort::Full ? 2000 : 300); ++n) {
-        const dvec3 normal = dice.direction(), centre = dice.logUniform(0.3, 30.0) * dice.direction();
-        const double radius = dice.logUniform(0.03, 0.3), spread = 0.5 * radius; // s_rms on each axis
+    Rng rng(11);
+    for (int n = 0; n < (runLength == RunLength::Full ? 2000 : 300); ++n) {
+        const dvec3 normal = rng.direction(), centre = rng.logUniform(0.3, 30.0) * rng.direction();
+        const double radius = rng.logUniform(0.03, 0.3), spread = 0.5 * radius; // s_rms on each axis
         const double thin = 0.8 * std::max(0.003, 0.1 * spread), thick = 1.25 * std::max(0.003, 0.1 * spread);
-        const GuidancePose plane = poseOf(disc(dice, centre, normal, radius, 2000, thin));
-        const GuidancePose cloud = poseOf(disc(dice, centre, normal, radius, 2000, thick));
+        const GuidancePose plane = poseOf(disc(rng, centre, normal, radius, 2000, thin));
+        const GuidancePose cloud = poseOf(disc(rng, centre, normal, radius, 2000, thick));
         tried += 2;
         wrong += plane.planar && plane.rollFree ? 0 : 1;
         wrong += !cloud.planar && cloud.target.rotation == guided().orientation ? 0 : 1;
@@ -174,14 +174,14 @@ Outcome decisions(Effort effort) {
 }
 
 // Near-equal eigenvalues are where closed forms fail.
-Outcome eigenvectors(Effort effort) {
+Outcome eigenvectors(RunLength runLength) {
     double worst = 0.0;
-    Dice dice(12);
-    for (int n = 0; n < (effort == Effort::Full ? 200000 : 20000); ++n) {
-        const double scale = dice.logUniform(1e-12, 1e6), close = dice.logUniform(1e-17, 1.0);
+    Rng rng(12);
+    for (int n = 0; n < (runLength == RunLength::Full ? 200000 : 20000); ++n) {
+        const double scale = rng.logUniform(1e-12, 1e6), close = rng.logUniform(1e-17, 1.0);
         const dvec3 values =
-            scale * dvec3(1.0, 1.0 - close, n % 3 == 0 ? 1.0 + close : dice.uniform(0.0, 1.0));
-        const glm::dmat3 r = glm::mat3_cast(dice.rotation());
+            scale * dvec3(1.0, 1.0 - close, n % 3 == 0 ? 1.0 + close : rng.uniform(0.0, 1.0));
+        const glm::dmat3 r = glm::mat3_cast(rng.rotation());
         std::array<double, 6> m{};
         const std::array<std::pair<int, int>, 6> at{{{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
         for (size_t i = 0; i < 6; ++i) {

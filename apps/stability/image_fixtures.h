@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixture sets from depth pictures, made on the CPU by the float64 twins of the shaders: classify, surface,
+// Fixture sets from depth images, made on the CPU by the float64 twins of the shaders: classify, surface,
 // thin, spheres, hold. So the cases need no GPU and see the regions that the engine would make of the same
 // frames.
 #pragma once

@@ -49,7 +49,7 @@ void LockstepRig::forgetOldSets() {
 }
 
 void LockstepRig::ask() {
-    if (published_.empty() || dice_.chance(faults.lost)) {
+    if (published_.empty() || rng_.chance(faults.lost)) {
         return;
     }
     const Published& newest = *published_.back();
@@ -57,7 +57,7 @@ void LockstepRig::ask() {
     cull_.query(tool_, cycle_->pose(), setup_.reach, newest.set, newest.grid, *set);
     behind_.update(tool_, newest.set, newest.grid.maxRadius(), *set);
     set->query = ++queries_;
-    const uint64_t late = faults.jitter ? dice_.below(faults.late + 1) : faults.late;
+    const uint64_t late = faults.jitter ? rng_.below(faults.late + 1) : faults.late;
     pending_.push_back({now_ + late, std::move(set)});
 }
 

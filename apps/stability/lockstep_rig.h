@@ -8,7 +8,7 @@
 #include "engine/reference/penetration_audit.h"
 #include "engine/run/active_contacts.h"
 
-#include "apps/stability/dice.h"
+#include "apps/stability/rng.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ public:
     // News of the frame cadence: what the next query is asked of. The generation and the frame number are
     // given here.
     void show(Fixtures set);
-    // From now on the set shown ages; otherwise every turn counts as a fresh picture of the same.
+    // From now on the set shown ages; otherwise every turn counts as a fresh image of the same.
     void freeze() { fresh_ = false; }
 
     StepRecord step(const Pose& hand);
@@ -103,7 +103,7 @@ private:
     CullCpu cull_;
     BehindTracker behind_;
     PenetrationAudit audit_;
-    Dice dice_{4711};
+    Rng rng_{4711};
     std::deque<std::unique_ptr<Published>> published_; // oldest first; those that answers may still name
     std::deque<Answer> pending_;
     ActiveContacts<std::unique_ptr<ContactSet>> contacts_;

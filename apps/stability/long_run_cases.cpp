@@ -4,8 +4,8 @@
 #include "apps/replay/digest.h"
 #include "apps/replay/step_to_tick.h"
 #include "apps/stability/case_text.h"
-#include "apps/stability/dice.h"
 #include "apps/stability/loop_rig.h"
+#include "apps/stability/rng.h"
 #include "apps/stability/worlds.h"
 
 #include <algorithm>
@@ -18,10 +18,10 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kLegSeconds = 0.35; // from one waypoint of the hand to the next
-constexpr int kTurnsAFrame = 33;
+constexpr int kTicksPerFrame = 33;
 
-uint64_t ticksFor(Effort effort) {
-    return effort == Effort::Full ? 1000000 : 50000;
+uint64_t ticksFor(RunLength runLength) {
+    return runLength == RunLength::Full ? 1000000 : 50000;
 }
 
 // A hand that roams over and into a wall for so long, turns over, presses the buttons of guidance and
@@ -37,15 +37,15 @@ LoopSpec roamingSpec(uint64_t ticks) {
     target.present = target.planar = true;
     target.target = {{0.01, 0.02, 0.05}, rotationExp({0.4, 0.2, 0.0})};
     spec.guidance = {target};
-    Dice dice(77);
+    Rng rng(77);
     const double seconds = static_cast<double>(ticks) * spec.period();
     double t = 0.0;
     spec.path = {wayAt(0.0, {0.0, 0.0, 0.15})};
     for (; t < seconds - 4.0 * kLegSeconds; t += kLegSeconds) {
-        HandWaypoint way = wayAt(t + kLegSeconds, {dice.uniform(-0.03, 0.03), dice.uniform(-0.03, 0.03),
-                                                   dice.uniform(-0.01, 0.09)});
-        way.deviceThandle.rotation = dice.rotation();
-        way.buttons = dice.chance(0.3) ? kGuidanceButton : dice.chance(0.05) ? kDeadManOpen : 0u;
+        HandWaypoint way = wayAt(
+            t + kLegSeconds, {rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03), rng.uniform(-0.01, 0.09)});
+        way.deviceThandle.rotation = rng.rotation();
+        way.buttons = rng.chance(0.3) ? kGuidanceButton : rng.chance(0.05) ? kDeadManOpen : 0u;
         spec.path.push_back(way);
     }
     spec.path.push_back(wayAt(t + kLegSeconds, {0.0, 0.0, 0.15}));
@@ -66,7 +66,7 @@ struct LongRun {
     double clock = 0.0;  // [s] the cycle's clock off ticks x period at the end
     uint64_t contacts = 0, escapes = 0, guided = 0, notFinite = 0;
     double rest = 0.0; // [m] tool to hand at the end
-    Outcome::Curve memory{"resident memory", "turn", "MiB", {}, {}, false, false};
+    Outcome::Curve memory{"resident memory", "tick", "MiB", {}, {}, false, false};
 };
 
 void judge(const StepRecord& record, LongRun& run, Digest& digest) {
@@ -82,12 +82,12 @@ LongRun roam(uint64_t ticks) {
     LongRun run;
     Digest digest;
     LoopRig rig(roamingSpec(ticks));
-    Dice dice(5);
+    Rng rng(5);
     double early = 0.0;
     uint64_t generation = 1;
     for (uint64_t i = 0; i < ticks; ++i) {
-        if (i % kTurnsAFrame == kTurnsAFrame - 1) { // the surface comes and goes by up to 1.5 mm
-            rig.show(sphereWall(dice.uniform(0.0, 0.0015), ++generation));
+        if (i % kTicksPerFrame == kTicksPerFrame - 1) { // the surface comes and goes by up to 1.5 mm
+            rig.show(sphereWall(rng.uniform(0.0, 0.0015), ++generation));
         }
         judge(rig.tick(), run, digest);
         if (i % (ticks / 20) == ticks / 20 - 1) {
@@ -106,56 +106,56 @@ LongRun roam(uint64_t ticks) {
 
 std::string storyOf(const LongRun& run, uint64_t ticks) {
     return num(ticks) +
-           " turns of a closed loop in lockstep: frames at 30 Hz, a hand that roams, turns over and presses "
+           " ticks of a closed loop in lockstep: frames at 30 Hz, a hand that roams, turns over and presses "
            "its buttons (" +
-           num(run.contacts) + " turns in contact, " + num(run.escapes) + " escaping, " + num(run.guided) +
+           num(run.contacts) + " ticks in contact, " + num(run.escapes) + " escaping, " + num(run.guided) +
            " guided). ";
 }
 
-void demandLively(Outcome& out, const LongRun& run, uint64_t ticks) {
-    demand(out, run.contacts > ticks / 50 && run.guided > ticks / 50 && run.escapes > 10,
-           "contact, guidance and escapes were expected");
-    demand(out, run.notFinite == 0, "some turn was not finite");
+void requireContact(Outcome& out, const LongRun& run, uint64_t ticks) {
+    require(out, run.contacts > ticks / 50 && run.guided > ticks / 50 && run.escapes > 10,
+            "contact, guidance and escapes were expected");
+    require(out, run.notFinite == 0, "some tick was not finite");
 }
 
-Outcome norms(Effort effort) {
-    const LongRun run = roam(ticksFor(effort));
+Outcome norms(RunLength runLength) {
+    const LongRun run = roam(ticksFor(runLength));
     Outcome out = outcomeOf(run.norm, 1e-14, "1",
-                            storyOf(run, ticksFor(effort)) +
-                                "Largest distance of a quaternion's length from 1 at any turn.");
-    demandLively(out, run, ticksFor(effort));
+                            storyOf(run, ticksFor(runLength)) +
+                                "Largest distance of a quaternion's length from 1 at any tick.");
+    requireContact(out, run, ticksFor(runLength));
     return out;
 }
 
-Outcome memory(Effort effort) {
-    const LongRun run = roam(ticksFor(effort));
+Outcome memory(RunLength runLength) {
+    const LongRun run = roam(ticksFor(runLength));
     Outcome out = outcomeOf(run.growth, 1.0, "MiB",
-                            storyOf(run, ticksFor(effort)) +
+                            storyOf(run, ticksFor(runLength)) +
                                 "Growth of the process from a tenth of the run to its end.");
-    demandLively(out, run, ticksFor(effort));
+    requireContact(out, run, ticksFor(runLength));
     out.curves.push_back(run.memory);
     return out;
 }
 
-Outcome digests(Effort effort) {
-    const LongRun first = roam(ticksFor(effort)), second = roam(ticksFor(effort)),
-                  other = roam(ticksFor(effort) / 2);
+Outcome digests(RunLength runLength) {
+    const LongRun first = roam(ticksFor(runLength)), second = roam(ticksFor(runLength)),
+                  other = roam(ticksFor(runLength) / 2);
     Outcome out = outcomeOf(first.digest == second.digest ? 0.0 : 1.0, 0.0, "1",
-                            storyOf(first, ticksFor(effort)) +
+                            storyOf(first, ticksFor(runLength)) +
                                 "Digests that differ between two equal runs: " + first.digest + ".");
-    demandLively(out, first, ticksFor(effort));
-    demand(out, other.digest != first.digest, "half the run was expected to have another digest");
+    requireContact(out, first, ticksFor(runLength));
+    require(out, other.digest != first.digest, "half the run was expected to have another digest");
     return out;
 }
 
-Outcome rest(Effort effort) {
-    const LongRun run = roam(ticksFor(effort));
+Outcome rest(RunLength runLength) {
+    const LongRun run = roam(ticksFor(runLength));
     Outcome out = outcomeOf(
         run.rest, 1e-9, "m",
-        storyOf(run, ticksFor(effort)) +
+        storyOf(run, ticksFor(runLength)) +
             "Back in free space at the end, the tool is where the hand is; the loop's clock was off by " +
             num(run.clock) + " s.");
-    demandLively(out, run, ticksFor(effort));
+    requireContact(out, run, ticksFor(runLength));
     return out;
 }
 

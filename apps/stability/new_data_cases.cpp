@@ -14,11 +14,11 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kPerTurn = 1e-3;                      // [m] depth given back a turn
+constexpr double kEscapePerTick = 1e-3;                // [m] depth given back per tick
 constexpr double kTool = 0.01;                         // [m] tool
 constexpr double kStand = WallCamera::kRegion + kTool; // [m] before the wall where the tool rests
 constexpr double kWall = 0.5;                          // [m]
-constexpr double kTurnsAside =
+constexpr double kExtraTicks =
     3.0; // beyond depth / 1 mm: the answer, the last fraction, dimples that send it sideways
 
 // Measured: 1.7 N and 0.048 N m; a proxy that gives back all depth at once asks for 10 N and 0.10 N m.
@@ -31,7 +31,7 @@ std::function<bool(const Pose&)> inFrontOf(double z) {
 }
 
 struct JumpFigures {
-    double ratio = 0.0;                       // turns over what 1 mm a turn allows
+    double ratio = 0.0;                       // turns over what 1 mm per tick allows
     double growth = 0.0;                      // [m]
     double front = 1.0;                       // [m] least distance in front of the wall at the end
     double forceStep = 0.0;                   // [N]
@@ -43,10 +43,10 @@ struct JumpFigures {
 // Rests on the wall (pressed or not), then the wall stands `jump` nearer.
 void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_t late, uint64_t seed,
               JumpFigures& f) {
-    Dice dice(seed);
+    Rng rng(seed);
     WallCamera camera(false, seed);
-    const dvec3 at(dice.uniform(-0.03, 0.03), dice.uniform(-0.03, 0.03), kWall - kStand - 0.005);
-    const Pose hand{at + dvec3(0, 0, press), dice.rotation()};
+    const dvec3 at(rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03), kWall - kStand - 0.005);
+    const Pose hand{at + dvec3(0, 0, press), rng.rotation()};
     const double back =
         tool.boundingRadius() - kTool; // wherever its leaves are, the tool starts before the wall
     LockstepRig rig(tool, {at - dvec3(0, 0, back), hand.rotation});
@@ -62,7 +62,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     const double way = std::max(0.0, resting - (kWall - jump - kStand)) + 3.0 * noise;
     // A late answer is certified for 10 mm about the pose it was asked at: one wait for each.
     const double waits = late > 0 ? (std::ceil(way / 0.00999) + 2.0) * (late + 1.0) : 0.0;
-    f.ratio = std::max(f.ratio, e.ticks / (std::ceil(way / kPerTurn) + kTurnsAside + waits));
+    f.ratio = std::max(f.ratio, e.ticks / (std::ceil(way / kEscapePerTick) + kExtraTicks + waits));
     f.ticks = std::max(f.ticks, static_cast<double>(e.ticks));
     f.growth = std::max(f.growth, rig.audit().maxPenetration());
     f.front = std::min(f.front, kWall - jump - rig.pose().position.z);
@@ -74,22 +74,22 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     ++f.runs;
 }
 
-void demandJump(Outcome& out, const JumpFigures& f) {
-    demand(out, f.stuck == 0, num(f.stuck) + " runs never out");
-    demand(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
-    demand(out, f.front > 0.5 * kStand, "a tool came out " + num(f.front) + " m in front: the far side");
+void requireJump(Outcome& out, const JumpFigures& f) {
+    require(out, f.stuck == 0, num(f.stuck) + " runs never out");
+    require(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
+    require(out, f.front > 0.5 * kStand, "a tool came out " + num(f.front) + " m in front: the far side");
 }
 
 std::string wordsOf(const JumpFigures& f) {
     return num(f.runs) + " runs, " + num(f.flagged) + " of them flagged behind; at most " + num(f.ticks) +
-           " turns; ends at least " + num(f.front * 1e3) +
+           " ticks; ends at least " + num(f.front * 1e3) +
            " mm in front of the new surface; force step at most " + num(f.forceStep) + " N.";
 }
 
-JumpFigures jumps(Effort effort, double jump, uint32_t late) {
+JumpFigures jumps(RunLength runLength, double jump, uint32_t late) {
     JumpFigures f;
     const Tool ball = ballTool(kTool);
-    const int trials = some(effort, 40, 4);
+    const int trials = some(runLength, 40, 4);
     for (int i = 0; i < trials; ++i) {
         jumpOnce(ball, jump, i % 2 == 0 ? 0.0 : 0.0005, i % 4 < 2 ? 0.0 : 0.02, late,
                  static_cast<uint64_t>(i + 1), f);
@@ -97,21 +97,21 @@ JumpFigures jumps(Effort effort, double jump, uint32_t late) {
     return f;
 }
 
-Outcome jumpCase(Effort effort, double jump) {
-    const JumpFigures f = jumps(effort, jump, 0);
+Outcome jumpCase(RunLength runLength, double jump) {
+    const JumpFigures f = jumps(runLength, jump, 0);
     Outcome out = outcomeOf(
         f.ratio, 1.0, "1",
-        "Turns until the tool is out over way / 1 mm + 3: wall 500 mm away jumps " + num(jump * 1e3) +
+        "Ticks until the tool is out over way / 1 mm + 3: wall 500 mm away jumps " + num(jump * 1e3) +
             " mm over a ball of 10 mm with regions of 40 mm, pressed or not, noise 0 or 0.5 mm. " +
             wordsOf(f));
-    demandJump(out, f);
+    requireJump(out, f);
     return out;
 }
 
-Outcome lateJumpCase(Effort effort, uint32_t late) {
+Outcome lateJumpCase(RunLength runLength, uint32_t late) {
     JumpFigures all;
     for (const double jump : {0.01, 0.055}) {
-        const JumpFigures f = jumps(effort, jump, late);
+        const JumpFigures f = jumps(runLength, jump, late);
         all.ratio = std::max(all.ratio, f.ratio);
         all.ticks = std::max(all.ticks, f.ticks);
         all.growth = std::max(all.growth, f.growth);
@@ -122,21 +122,21 @@ Outcome lateJumpCase(Effort effort, uint32_t late) {
         all.flagged += f.flagged;
     }
     Outcome out = outcomeOf(all.ratio, 1.0, "1",
-                            "Turns until out over what 1 mm a turn and a wait for every 10 mm of certified "
+                            "Ticks until out over what 1 mm per tick and a wait for every 10 mm of certified "
                             "reach allow: jumps of 10 "
                             "and 55 mm, answers late by " +
                                 num(uint64_t{late}) + " ms. " + wordsOf(all));
-    demandJump(out, all);
+    requireJump(out, all);
     return out;
 }
 
 // All jumps with a tool whose leaves make levers: what the hand feels of it.
-Outcome stepCase(Effort effort, bool torque) {
+Outcome stepCase(RunLength runLength, bool torque) {
     JumpFigures f;
     const Tool cross = toolOf(crossLeaves(0.008));
     uint64_t seed = 1;
     for (const double jump : {0.002, 0.01, 0.03, 0.06}) {
-        for (int i = 0; i < some(effort, 12, 2); ++i) {
+        for (int i = 0; i < some(runLength, 12, 2); ++i) {
             jumpOnce(cross, jump, 0.0005, i % 2 == 0 ? 0.0 : 0.03, 0, ++seed, f);
         }
     }
@@ -147,22 +147,22 @@ Outcome stepCase(Effort effort, bool torque) {
             "of "
             "nine leaves. Limit: measured, with a margin. " +
             num(f.runs) + " runs.");
-    demand(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
-    demand(out, f.forceStep > 0.0, "no force was felt");
-    demand(out, f.stuck == 0, num(f.stuck) + " runs never out");
+    require(out, f.growth <= 1e-5, "a depth grew by " + num(f.growth) + " m");
+    require(out, f.forceStep > 0.0, "no force was felt");
+    require(out, f.stuck == 0, num(f.stuck) + " runs never out");
     return out;
 }
 
 // The wall comes at the tool frame after frame.
-Outcome sweepCase(Effort effort, double speed) {
+Outcome sweepCase(RunLength runLength, double speed) {
     double ratio = 0.0, front = 1.0, growth = 0.0, forceStep = 0.0;
     uint64_t stuck = 0;
-    const int trials = some(effort, 20, 2);
+    const int trials = some(runLength, 20, 2);
     for (int i = 0; i < trials; ++i) {
-        Dice dice(static_cast<uint64_t>(40 + i));
+        Rng rng(static_cast<uint64_t>(40 + i));
         WallCamera camera(i % 2 == 1, static_cast<uint64_t>(i + 1));
         const double sweep = 0.25, noise = i % 4 < 2 ? 0.0 : 0.0005;
-        const Pose hand{dvec3(dice.uniform(-0.02, 0.02), dice.uniform(-0.02, 0.02), 0.6 - kStand - 0.01),
+        const Pose hand{dvec3(rng.uniform(-0.02, 0.02), rng.uniform(-0.02, 0.02), 0.6 - kStand - 0.01),
                         kUpright};
         LockstepRig rig(ballTool(kTool), hand);
         const auto frames = static_cast<int>(std::ceil(sweep / (speed * WallCamera::kFrame)));
@@ -178,7 +178,7 @@ Outcome sweepCase(Effort effort, double speed) {
         const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(z));
         const double way = sweep, swept = frames * WallCamera::kFrame * 1000.0;
         ratio = std::max(ratio, (tick + e.ticks) /
-                                    (std::max(std::ceil(way / kPerTurn), swept) + 34.0 + kTurnsAside));
+                                    (std::max(std::ceil(way / kEscapePerTick), swept) + 34.0 + kExtraTicks));
         front = std::min(front, z - rig.pose().position.z);
         growth = std::max(growth, rig.audit().maxPenetration());
         forceStep = std::max(forceStep, rig.figures.forceStep);
@@ -186,17 +186,17 @@ Outcome sweepCase(Effort effort, double speed) {
     }
     Outcome out =
         outcomeOf(ratio, 1.0, "1",
-                  "Turns from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
+                  "Ticks from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
                   "mm a turn, and a "
                   "frame: wall at " +
                       num(speed) + " m/s, 30 Hz, with and without hold and noise, " + num(uint64_t(trials)) +
-                      " runs. At over 1 m/s the surface outruns the 1 mm a turn and the tool is out "
+                      " runs. At over 1 m/s the surface outruns the 1 mm per tick and the tool is out "
                       "after it has stopped, still on the camera's side (" +
                       num(front * 1e3) + " mm in front).");
-    demand(out, stuck == 0, num(stuck) + " runs never out");
-    demand(out, growth <= 1e-5, "a depth grew by " + num(growth) + " m");
-    demand(out, front > 0.5 * kStand, "a tool came out on the far side");
-    demand(out, forceStep <= 2.0 + 1e-9, "force step of " + num(forceStep) + " N");
+    require(out, stuck == 0, num(stuck) + " runs never out");
+    require(out, growth <= 1e-5, "a depth grew by " + num(growth) + " m");
+    require(out, front > 0.5 * kStand, "a tool came out on the far side");
+    require(out, forceStep <= 2.0 + 1e-9, "force step of " + num(forceStep) + " N");
     return out;
 }
 
@@ -204,20 +204,21 @@ Outcome sweepCase(Effort effort, double speed) {
 
 std::vector<Case> newDataCases() {
     std::vector<Case> cases;
-    const auto put = [&](const std::string& name, std::function<Outcome(Effort)> run) {
+    const auto put = [&](const std::string& name, std::function<Outcome(RunLength)> run) {
         cases.push_back({"new-data-" + name, Group::NewData, std::move(run)});
     };
     for (const int jump : {1, 3, 10, 30, 50, 55, 80, 100}) {
-        put("jump-" + std::to_string(jump) + "mm", [jump](Effort e) { return jumpCase(e, 1e-3 * jump); });
+        put("jump-" + std::to_string(jump) + "mm", [jump](RunLength e) { return jumpCase(e, 1e-3 * jump); });
     }
     for (const uint32_t late : {5u, 20u, 100u}) {
-        put("jump-late-" + std::to_string(late) + "ms", [late](Effort e) { return lateJumpCase(e, late); });
+        put("jump-late-" + std::to_string(late) + "ms",
+            [late](RunLength e) { return lateJumpCase(e, late); });
     }
-    put("force-step", [](Effort e) { return stepCase(e, false); });
-    put("torque-step", [](Effort e) { return stepCase(e, true); });
-    put("sweep-05", [](Effort e) { return sweepCase(e, 0.5); });
-    put("sweep-15", [](Effort e) { return sweepCase(e, 1.5); });
-    put("sweep-3", [](Effort e) { return sweepCase(e, 3.0); });
+    put("force-step", [](RunLength e) { return stepCase(e, false); });
+    put("torque-step", [](RunLength e) { return stepCase(e, true); });
+    put("sweep-05", [](RunLength e) { return sweepCase(e, 0.5); });
+    put("sweep-15", [](RunLength e) { return sweepCase(e, 1.5); });
+    put("sweep-3", [](RunLength e) { return sweepCase(e, 3.0); });
     addStreamCases(cases);
     return cases;
 }

@@ -19,24 +19,24 @@ constexpr double kStreamBall = 0.01, kStreamWall = 0.5,
                  kStreamStand = WallCamera::kRegion + kStreamBall; // [m]
 constexpr double kSlewStep = 2.0 * (1.0 + 1e-9);                   // [N] a turn at 2000 N/s and 1 kHz
 
-void demandSound(Outcome& out, const LockstepRig& rig) {
-    demand(out, rig.audit().maxPenetration() <= 1e-5,
-           "a depth grew by " + num(rig.audit().maxPenetration()) + " m");
-    demand(out, rig.figures.forceStep <= kSlewStep, "force step of " + num(rig.figures.forceStep) + " N");
-    demand(out, rig.figures.notFinite == 0, "a wrench that is not finite");
-    demand(out, rig.figures.contact > 0, "the tool never touched");
+void requireSound(Outcome& out, const LockstepRig& rig) {
+    require(out, rig.audit().maxPenetration() <= 1e-5,
+            "a depth grew by " + num(rig.audit().maxPenetration()) + " m");
+    require(out, rig.figures.forceStep <= kSlewStep, "force step of " + num(rig.figures.forceStep) + " N");
+    require(out, rig.figures.notFinite == 0, "a wrench that is not finite");
+    require(out, rig.figures.contact > 0, "the tool never touched");
 }
 
 std::string wordsOf(const LockstepRig& rig) {
-    return num(rig.figures.ticks) + " turns, force step at most " + num(rig.figures.forceStep) +
+    return num(rig.figures.ticks) + " ticks, force step at most " + num(rig.figures.forceStep) +
            " N, force up to " + num(rig.figures.force) + " N, " + num(rig.figures.escape) +
-           " turns escaping, " + num(rig.figures.trapped) + " trapped, deepest beyond the allowance " +
+           " ticks escaping, " + num(rig.figures.trapped) + " trapped, deepest beyond the allowance " +
            num(rig.audit().maxPenetration()) + " m.";
 }
 
 // The hand presses 15 mm into the wall while it loses a share of its pixels in every frame. Figure: how far
 // the tool sinks.
-Outcome flickerCase(Effort effort, bool hold) {
+Outcome flickerCase(RunLength runLength, bool hold) {
     WallCamera camera(hold, 3);
     const Pose hand{dvec3(0.004, -0.003, kStreamWall - kStreamStand + 0.015), kUpright};
     LockstepRig rig(ballTool(kStreamBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
@@ -53,7 +53,7 @@ Outcome flickerCase(Effort effort, bool hold) {
                          {},
                          false,
                          false};
-    const int frames = some(effort, 300, 20);
+    const int frames = some(runLength, 300, 20);
     for (int frame = 0; frame < frames; ++frame) {
         rig.show(camera.look({kStreamWall, 0.0, 0.24}));
         hole = std::max(hole, camera.largestHole(rig.pose().position.x, rig.pose().position.y));
@@ -73,18 +73,18 @@ Outcome flickerCase(Effort effort, bool hold) {
             (hold ? std::string("nothing")
                   : "R + r - sqrt((R + r)^2 - h^2) for the largest hole, h = " + num(hole * 1e3) + " mm") +
             ", and twice the error budget. " + wordsOf(rig));
-    demandSound(out, rig);
+    requireSound(out, rig);
     out.curves.push_back(std::move(curve));
     return out;
 }
 
 // Whole frames without any depth.
-Outcome dropoutCase(Effort effort, bool hold) {
+Outcome dropoutCase(RunLength runLength, bool hold) {
     WallCamera camera(hold, 4);
     const Pose hand{dvec3(0.001, 0.002, kStreamWall - kStreamStand + 0.015), kUpright};
     LockstepRig rig(ballTool(kStreamBall), {hand.position - dvec3(0, 0, 0.02), kUpright});
     double worst = 0.0;
-    const int rounds = some(effort, 60, 4);
+    const int rounds = some(runLength, 60, 4);
     uint64_t stuck = 0;
     for (int round = 0; round < rounds; ++round) {
         rig.show(camera.look({kStreamWall, 0.0, 0.0}));
@@ -109,11 +109,11 @@ Outcome dropoutCase(Effort effort, bool hold) {
                                    "of 0.5 s: it must not. ")
                        : outcomeOf(worst, 1.0, "1",
                                    "Without hold the tool follows the hand 15 mm into the wall in five blind "
-                                   "frames; turns until it is "
+                                   "frames; ticks until it is "
                                    "out again over way / 1 mm + 3. ");
     out.note += wordsOf(rig);
-    demandSound(out, rig);
-    demand(out, stuck == 0, num(stuck) + " times never out");
+    requireSound(out, rig);
+    require(out, stuck == 0, num(stuck) + " times never out");
     return out;
 }
 
@@ -125,11 +125,11 @@ struct Restless {
     double limit; // [N] measured, with a margin
 };
 
-Outcome restlessCase(Effort effort, const Restless& stream, const std::string& what) {
+Outcome restlessCase(RunLength runLength, const Restless& stream, const std::string& what) {
     WallCamera camera(false, 5);
     const Pose hand{dvec3(-0.003, 0.001, kStreamWall - kStreamStand + 0.01), kUpright};
     LockstepRig rig(toolOf(crossLeaves(0.008)), {hand.position - dvec3(0, 0, 0.15), kUpright});
-    const int frames = some(effort, 600, 40);
+    const int frames = some(runLength, 600, 40);
     for (int frame = -1; frame < frames; ++frame) { // the first is the approach
         rig.show(camera.look({kStreamWall - (frame % 2 == 1 ? stream.leap : 0.0), stream.noise, 0.0}));
         for (int k = 0; k < (frame < 0 ? 200 : stream.ticksPerFrame); ++k) {
@@ -142,7 +142,7 @@ Outcome restlessCase(Effort effort, const Restless& stream, const std::string& w
         std::string(stream.rms ? "RMS" : "Largest") +
             " rise per tick of the force that the springs ask for, before the slew limiter: " + what +
             " Limit: measured, with a margin. " + wordsOf(rig));
-    demandSound(out, rig);
+    requireSound(out, rig);
     return out;
 }
 
@@ -189,14 +189,14 @@ ViceRun closeVice(LockstepRig& rig, double overlap, const Pose& hand) {
 
 enum class ViceFigure { Recognised, ForceOut, Left };
 
-Outcome viceCase(Effort effort, ViceFigure what) {
+Outcome viceCase(RunLength runLength, ViceFigure what) {
     double worst = 0.0, moved = 0.0;
-    Dice dice(6);
+    Rng rng(6);
     Outcome out = outcomeOf(0.0, 0.0, "1", "");
-    const int trials = some(effort, 40, 4);
+    const int trials = some(runLength, 40, 4);
     for (int i = 0; i < trials; ++i) {
-        const double overlap = dice.logUniform(0.0005, 0.02);
-        const Pose hand{0.0005 * dice.direction() + dvec3(0.012 * (i % 2), 0, 0), kUpright};
+        const double overlap = rng.logUniform(0.0005, 0.02);
+        const Pose hand{0.0005 * rng.direction() + dvec3(0.012 * (i % 2), 0, 0), kUpright};
         LockstepRig rig(ballTool(kStreamBall), {hand.position, kUpright});
         const ViceRun run = closeVice(rig, overlap, hand);
         const double ticks = run.recognised < 0 ? 1e9 : run.recognised;
@@ -205,9 +205,10 @@ Outcome viceCase(Effort effort, ViceFigure what) {
                                 : what == ViceFigure::ForceOut ? run.forceAfter
                                                                : left);
         moved = std::max(moved, run.moved);
-        demand(out, run.left.out, "a tool that never left");
-        demand(out, rig.figures.forceStep <= kSlewStep, "force step of " + num(rig.figures.forceStep) + " N");
-        demand(out, rig.audit().maxPenetration() <= 1e-5, "a depth grew");
+        require(out, run.left.out, "a tool that never left");
+        require(out, rig.figures.forceStep <= kSlewStep,
+                "force step of " + num(rig.figures.forceStep) + " N");
+        require(out, rig.audit().maxPenetration() <= 1e-5, "a depth grew");
     }
     const std::string vices = " Two walls close on the ball, 0.5 to 20 mm too near on either side; " +
                               num(uint64_t(trials)) + " runs. The tool moved by at most " + num(moved) +
@@ -216,36 +217,36 @@ Outcome viceCase(Effort effort, ViceFigure what) {
     const bool sound = failed.empty();
     switch (what) {
     case ViceFigure::Recognised:
-        out = outcomeOf(worst, 3.0, "turns", "Turns until the state says trapped." + vices);
+        out = outcomeOf(worst, 3.0, "turns", "Ticks until the state says trapped." + vices);
         break;
     case ViceFigure::ForceOut:
         out = outcomeOf(worst, 1e-9, "N", "Force from 0.2 s after being trapped on: it ramps out." + vices);
         break;
     case ViceFigure::Left:
         out = outcomeOf(worst, 1.0, "1",
-                        "Turns until out once one wall is gone, over depth / 1 mm + 4." + vices);
+                        "Ticks until out once one wall is gone, over depth / 1 mm + 4." + vices);
         break;
     }
-    demand(out, sound, failed);
+    require(out, sound, failed);
     return out;
 }
 
 // A recording's own frames at 30 Hz over a tool that the hand presses into its regions.
-Outcome recordingCase(Effort effort, const std::string& file, const std::string& folder) {
+Outcome recordingCase(RunLength runLength, const std::string& file, const std::string& folder) {
     const World world = recordedWorld(file, folder).value();
     const Scene scene = loadScene(file);
     RecordedCamera camera(recordingFolder(folder));
     ImageFixtures make(scene, camera.info(), true);
     LockstepRig rig(toolOf(world.leaves), world.start);
-    const int frames = some(effort, 60, 4);
-    Dice dice(7);
+    const int frames = some(runLength, 60, 4);
+    Rng rng(7);
     for (int frame = 0; frame < frames; ++frame) {
         const std::optional<Frame> next = camera.next();
         if (!next) {
             break;
         }
         rig.show(make.make(**next));
-        const Pose hand{world.focus + 0.05 * dice.direction(), rotationExp(0.2 * dice.direction())};
+        const Pose hand{world.focus + 0.05 * rng.direction(), rotationExp(0.2 * rng.direction())};
         for (int k = 0; k < (frame == 0 ? 300 : 33); ++k) {
             rig.step(hand);
         }
@@ -256,7 +257,7 @@ Outcome recordingCase(Effort effort, const std::string& file, const std::string&
                                 "CPU by the float64 twins, hold "
                                 "on. " +
                                 wordsOf(rig));
-    demandSound(out, rig);
+    requireSound(out, rig);
     return out;
 }
 
@@ -266,7 +267,7 @@ void addRecordings(std::vector<Case>& cases) {
                           folder = std::string(name) + "_d435";
         if (std::filesystem::exists(recordingFolder(folder)) && std::filesystem::exists(file)) {
             cases.push_back({"new-data-recording-" + folder, Group::NewData,
-                             [=](Effort effort) { return recordingCase(effort, file, folder); }});
+                             [=](RunLength runLength) { return recordingCase(runLength, file, folder); }});
         }
     }
 }
@@ -274,26 +275,26 @@ void addRecordings(std::vector<Case>& cases) {
 } // namespace
 
 void addStreamCases(std::vector<Case>& cases) {
-    const auto put = [&](const char* name, std::function<Outcome(Effort)> run) {
+    const auto put = [&](const char* name, std::function<Outcome(RunLength)> run) {
         cases.push_back({std::string("new-data-") + name, Group::NewData, std::move(run)});
     };
-    put("flicker-24-percent", [](Effort e) { return flickerCase(e, false); });
-    put("flicker-24-percent-hold", [](Effort e) { return flickerCase(e, true); });
-    put("dropout-frames", [](Effort e) { return dropoutCase(e, false); });
-    put("dropout-frames-hold", [](Effort e) { return dropoutCase(e, true); });
-    put("noise-5mm", [](Effort e) {
+    put("flicker-24-percent", [](RunLength e) { return flickerCase(e, false); });
+    put("flicker-24-percent-hold", [](RunLength e) { return flickerCase(e, true); });
+    put("dropout-frames", [](RunLength e) { return dropoutCase(e, false); });
+    put("dropout-frames-hold", [](RunLength e) { return dropoutCase(e, true); });
+    put("noise-5mm", [](RunLength e) {
         return restlessCase(e, {0.005, 0.0, 33, true, 0.26}, "noise of 5 mm drawn anew in every frame.");
     });
-    put("every-turn", [](Effort e) {
-        return restlessCase(e, {0.001, 0.0, 1, false, 2.5}, "a new set with noise of 1 mm in every turn.");
+    put("every-turn", [](RunLength e) {
+        return restlessCase(e, {0.001, 0.0, 1, false, 2.5}, "a new set with noise of 1 mm in every tick.");
     });
-    put("two-places", [](Effort e) {
+    put("two-places", [](RunLength e) {
         return restlessCase(e, {0.0, 0.02, 33, false, 2.5},
                             "a wall that stands 20 mm nearer in every second frame.");
     });
-    put("trapped-recognised", [](Effort e) { return viceCase(e, ViceFigure::Recognised); });
-    put("trapped-force-out", [](Effort e) { return viceCase(e, ViceFigure::ForceOut); });
-    put("trapped-left", [](Effort e) { return viceCase(e, ViceFigure::Left); });
+    put("trapped-recognised", [](RunLength e) { return viceCase(e, ViceFigure::Recognised); });
+    put("trapped-force-out", [](RunLength e) { return viceCase(e, ViceFigure::ForceOut); });
+    put("trapped-left", [](RunLength e) { return viceCase(e, ViceFigure::Left); });
     addRecordings(cases);
 }
 

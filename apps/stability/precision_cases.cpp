@@ -13,9 +13,9 @@ namespace {
 
 constexpr double kShare = 1e-6; // of the range: 1 um at 1 m; float32 itself rounds to 6e-8
 
-std::vector<double> rangesFor(Effort effort) {
-    return effort == Effort::Full ? std::vector<double>{0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}
-                                  : std::vector<double>{0.1, 1.0, 100.0};
+std::vector<double> rangesFor(RunLength runLength) {
+    return runLength == RunLength::Full ? std::vector<double>{0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}
+                                        : std::vector<double>{0.1, 1.0, 100.0};
 }
 
 using Measure = std::function<PassError(const PrecisionRig&, double range)>;
@@ -27,10 +27,10 @@ struct Sweep {
 };
 
 // One frame at each range and noise; `change` alters scene and camera before anything is built.
-Sweep overRanges(const DeviceSource& device, Effort effort, const std::vector<double>& noises,
+Sweep overRanges(const DeviceSource& device, RunLength runLength, const std::vector<double>& noises,
                  const Measure& measure, const Change& change = {}) {
     Sweep sweep;
-    for (const double range : rangesFor(effort)) {
+    for (const double range : rangesFor(runLength)) {
         CameraInfo camera = cameraFor(range);
         Scene scene = sceneFor(range);
         if (change) {
@@ -54,8 +54,8 @@ Outcome errorOutcome(const Sweep& sweep, double limit, const std::string& unit, 
     Outcome out = outcomeOf(e.error, limit, unit,
                             what + " " + num(e.values) + " values compared, " + num(e.unsure) +
                                 " decisions on a threshold, " + num(e.wrong) + " wrong ones.");
-    demand(out, e.wrong == 0 && e.values > 0,
-           "decisions differ from the twin's, or there was nothing to compare");
+    require(out, e.wrong == 0 && e.values > 0,
+            "decisions differ from the twin's, or there was nothing to compare");
     out.curves.push_back(sweep.curve);
     return out;
 }
@@ -66,8 +66,8 @@ Outcome rangeOutcome(const Sweep& sweep, double limit, const std::string& unit, 
 
 const std::vector<double> kNoises{0.0, 0.0005, 0.005};
 
-Outcome classify(const DeviceSource& device, Effort effort) {
-    const Sweep sweep = overRanges(device, effort, kNoises,
+Outcome classify(const DeviceSource& device, RunLength runLength) {
+    const Sweep sweep = overRanges(device, runLength, kNoises,
                                    [](const PrecisionRig& rig, double) { return classifyError(rig); });
     Outcome out = rangeOutcome(
         sweep, 0.0, "1",
@@ -77,18 +77,18 @@ Outcome classify(const DeviceSource& device, Effort effort) {
     return out;
 }
 
-Outcome surfaceClean(const DeviceSource& device, Effort effort) {
-    return rangeOutcome(overRanges(device, effort, {0.0}, surfaceError), kShare, "1",
+Outcome surfaceClean(const DeviceSource& device, RunLength runLength) {
+    return rangeOutcome(overRanges(device, runLength, {0.0}, surfaceError), kShare, "1",
                         "Surface (filter of 5 x 5), no noise: largest error of a point over the range.");
 }
 
-Outcome surfaceNoisy(const DeviceSource& device, Effort effort) {
-    return rangeOutcome(overRanges(device, effort, {0.0005, 0.005, 0.02}, surfaceError), kShare, "1",
+Outcome surfaceNoisy(const DeviceSource& device, RunLength runLength) {
+    return rangeOutcome(overRanges(device, runLength, {0.0005, 0.005, 0.02}, surfaceError), kShare, "1",
                         "Surface (filter of 5 x 5), noise of 0.05, 0.5 and 2 % of the depth and 4 % holes: "
                         "largest error of a point over the range.");
 }
 
-Outcome occlusion(const DeviceSource& device, Effort effort) {
+Outcome occlusion(const DeviceSource& device, RunLength runLength) {
     const Change apart = [](Scene&, CameraInfo& camera, double range) {
         camera.registered = false;
         camera.colour.width = 120, camera.colour.height = 90;
@@ -97,32 +97,32 @@ Outcome occlusion(const DeviceSource& device, Effort effort) {
         camera.colourTdepth = {{0.05 * range, 0.002 * range, 0.001 * range},
                                rotationExp({0.002, 0.004, -0.003})};
     };
-    return rangeOutcome(overRanges(device, effort, kNoises, occlusionError, apart), kShare, "1",
+    return rangeOutcome(overRanges(device, runLength, kNoises, occlusionError, apart), kShare, "1",
                         "Occlusion, a colour camera beside the depth camera: nearest depth of a cell against "
                         "the twin's bounds, over the range.");
 }
 
-Outcome thin(const DeviceSource& device, Effort effort) {
-    return rangeOutcome(overRanges(device, effort, {0.0, 0.0002}, thinError), kShare, "1",
+Outcome thin(const DeviceSource& device, RunLength runLength) {
+    return rangeOutcome(overRanges(device, runLength, {0.0, 0.0002}, thinError), kShare, "1",
                         "Thin: growth of the kept spheres, but for a step outward, over the range.");
 }
 
-Outcome spheres(const DeviceSource& device, Effort effort) {
-    return rangeOutcome(overRanges(device, effort, kNoises, sphereError), kShare, "1",
+Outcome spheres(const DeviceSource& device, RunLength runLength) {
+    return rangeOutcome(overRanges(device, runLength, kNoises, sphereError), kShare, "1",
                         "Spheres: centre and radius over the range.");
 }
 
-Outcome tree(const DeviceSource& device, Effort effort) {
+Outcome tree(const DeviceSource& device, RunLength runLength) {
     return rangeOutcome(
-        overRanges(device, effort, kNoises, treeError), kShare, "1",
+        overRanges(device, runLength, kNoises, treeError), kShare, "1",
         "Tree: centre and radius of every node over the range; no child outside its parent in float64. Radii "
         "are rounded outward by 1e-6 of themselves and 0.1 um, and so are the twin's.");
 }
 
 // Six frames with other noise and other holes each.
-Outcome hold(const DeviceSource& device, Effort effort) {
+Outcome hold(const DeviceSource& device, RunLength runLength) {
     Sweep sweep;
-    for (const double range : rangesFor(effort)) {
+    for (const double range : rangesFor(runLength)) {
         Scene scene = sceneFor(range);
         scene.holdSeconds = 0.12;
         PrecisionRig rig(device(), scene, cameraFor(range));
@@ -141,15 +141,15 @@ Outcome hold(const DeviceSource& device, Effort effort) {
         "Hold, six frames with noise and changing holes: centre and radius of what is held over the range.");
 }
 
-Outcome moments(const DeviceSource& device, Effort effort) {
-    return rangeOutcome(overRanges(device, effort, kNoises, momentsError), kShare, "1",
+Outcome moments(const DeviceSource& device, RunLength runLength) {
+    return rangeOutcome(overRanges(device, runLength, kNoises, momentsError), kShare, "1",
                         "Moments: mean of the guidance class over the range.");
 }
 
-Outcome guidance(const DeviceSource& device, Effort effort) {
+Outcome guidance(const DeviceSource& device, RunLength runLength) {
     return rangeOutcome(
         overRanges(
-            device, effort, kNoises, [](const PrecisionRig& rig, double) { return guidanceError(rig); },
+            device, runLength, kNoises, [](const PrecisionRig& rig, double) { return guidanceError(rig); },
             [](Scene& scene, CameraInfo&, double range) {
                 // the flat part left of the step
                 const dvec3 centre = scene.baseTcamera.apply({-0.25 * range, 0.0, range});
@@ -159,17 +159,17 @@ Outcome guidance(const DeviceSource& device, Effort effort) {
         "Guidance: the normal of a class that is a plane, against the twin's by another eigen solver.");
 }
 
-// Filter widths at 1 m: from far below a pixel's spacing to far beyond the picture.
-Outcome filterWidths(const DeviceSource& device, Effort effort) {
+// Filter widths at 1 m: from far below a pixel's spacing to far beyond the image.
+Outcome filterWidths(const DeviceSource& device, RunLength runLength) {
     Sweep sweep;
     sweep.curve.xLabel = "sigma [m]";
     const std::vector<double> sigmas =
-        effort == Effort::Full ? std::vector<double>{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0}
-                               : std::vector<double>{1e-4, 1e-2, 1.0};
+        runLength == RunLength::Full ? std::vector<double>{1e-4, 3e-4, 1e-3, 3e-3, 1e-2, 3e-2, 0.1, 0.3, 1.0}
+                                     : std::vector<double>{1e-4, 1e-2, 1.0};
     for (const double sigma : sigmas) {
         PassError here;
-        for (const uint32_t radius :
-             effort == Effort::Full ? std::vector<uint32_t>{1, 2, 5, 16} : std::vector<uint32_t>{2, 16}) {
+        for (const uint32_t radius : runLength == RunLength::Full ? std::vector<uint32_t>{1, 2, 5, 16}
+                                                                  : std::vector<uint32_t>{2, 16}) {
             Scene scene = sceneFor(1.0);
             scene.filter.sigma = sigma;
             scene.filter.radius = radius;
@@ -190,12 +190,12 @@ Outcome filterWidths(const DeviceSource& device, Effort effort) {
 
 // Weights exp(-d^2 / (2 sigma^2)) of a pixel's neighbours between 1e-36 and 1e-46: where float32 goes
 // denormal, and zero.
-Outcome tinyWeights(const DeviceSource& device, Effort effort) {
+Outcome tinyWeights(const DeviceSource& device, RunLength runLength) {
     Sweep sweep;
     sweep.curve.xLabel = "weight of a neighbour";
     const double spacing = 1.0 / (1.1 * 96.0); // of neighbours at 1 m
     for (const double exponent :
-         effort == Effort::Full
+         runLength == RunLength::Full
              ? std::vector<double>{80.0, 85.0, 87.0, 87.5, 90.0, 95.0, 100.0, 103.0, 104.0, 110.0}
              : std::vector<double>{87.0, 95.0, 104.0}) {
         Scene scene = sceneFor(1.0);
@@ -218,8 +218,9 @@ Outcome tinyWeights(const DeviceSource& device, Effort effort) {
 } // namespace
 
 std::vector<Case> precisionCases(const DeviceSource& device) {
-    const auto on = [&](const char* name, Outcome (*run)(const DeviceSource&, Effort)) {
-        return Case{name, Group::Precision, [device, run](Effort effort) { return run(device, effort); }};
+    const auto on = [&](const char* name, Outcome (*run)(const DeviceSource&, RunLength)) {
+        return Case{name, Group::Precision,
+                    [device, run](RunLength runLength) { return run(device, runLength); }};
     };
     return {on("precision-occlusion", occlusion),
             on("precision-classify", classify),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/stability/precision_rig.h"
 
-#include "apps/stability/dice.h"
+#include "apps/stability/rng.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,7 +39,7 @@ Scene sceneFor(double range) {
 }
 
 Image imageFor(const CameraInfo& camera, double range, double noise, uint64_t seed) {
-    Dice dice(seed);
+    Rng rng(seed);
     Image image;
     const uint32_t w = camera.depth.width, h = camera.depth.height;
     for (uint32_t v = 0; v < h; ++v) {
@@ -47,8 +47,8 @@ Image imageFor(const CameraInfo& camera, double range, double noise, uint64_t se
             const double x = (u + 0.5) / w, y = (v + 0.5) / h;
             double z = 0.9 + 0.25 * x + 0.05 * std::sin(9.0 * y) * std::cos(7.0 * x);
             z -= std::hypot(x - 0.6, y - 0.45) < 0.2 ? 0.3 : 0.0;
-            z *= 1.0 + noise * dice.normal();
-            const bool none = noise > 0.0 && dice.chance(0.04);
+            z *= 1.0 + noise * rng.normal();
+            const bool none = noise > 0.0 && rng.chance(0.04);
             image.depth.push_back(none ? uint16_t{0}
                                        : static_cast<uint16_t>(std::clamp(
                                              std::round(z * range / camera.metresPerUnit), 0.0, 65535.0)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the precision cases measure, and on what: cameras, scenes and pictures that scale with the range.
+// What the precision cases measure, and on what: cameras, scenes and images that scale with the range.
 #pragma once
 
 #include "apps/verify/pass_rig.h"

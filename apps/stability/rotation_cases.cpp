@@ -2,8 +2,8 @@
 // Group rotation: half turns, whole turns, fast spins, guidance without roll, levers. Devices are in
 // rotation_device_cases.cpp.
 #include "apps/stability/case_text.h"
-#include "apps/stability/dice.h"
 #include "apps/stability/pressing.h"
+#include "apps/stability/rng.h"
 #include "apps/stability/step_timer.h"
 
 #include <algorithm>
@@ -26,10 +26,10 @@ Pose turned(const dvec3& rotation) {
 }
 
 // Through the half turn and back, slowly, about axes across the one that is held.
-Outcome halfTurn(Effort effort) {
+Outcome halfTurn(RunLength runLength) {
     double step = 0.0, torque = 0.0, allowed = 1.0;
     bool sound = true;
-    const int ticks = effort == Effort::Full ? 20000 : 4000;
+    const int ticks = runLength == RunLength::Full ? 20000 : 4000;
     for (const double heading : {0.0, 0.7, 2.9}) {
         const Shape axis = axisShape();
         StepTimer stepTimer("ideal", true, {&axis, 1}, {});
@@ -52,14 +52,14 @@ Outcome halfTurn(Effort effort) {
                   "largest step of the torque over the "
                   "slew limit of a turn. The shortest arc changes sides there; the largest torque was " +
                       num(torque) + " N m.");
-    demand(out, sound && torque <= 2.0 + 1e-9,
-           "finite numbers, a unit quaternion and at most 2 N m were expected");
+    require(out, sound && torque <= 2.0 + 1e-9,
+            "finite numbers, a unit quaternion and at most 2 N m were expected");
     return out;
 }
 
 // Whole turns: over the half turn the spring lets go of what it took.
-Outcome wholeTurns(Effort effort) {
-    const int ticks = effort == Effort::Full ? 40000 : 8000;
+Outcome wholeTurns(RunLength runLength) {
+    const int ticks = runLength == RunLength::Full ? 40000 : 8000;
     double drawn = -1e9, stored = 1.0;
     for (const double heading : {0.0, 1.1, 2.5}) {
         const Shape axis = axisShape();
@@ -88,15 +88,15 @@ Outcome wholeTurns(Effort effort) {
 
 // Guidance without a roll of its own: the torque has no part about the axis that it aims, wherever the hand
 // points.
-Outcome noRoll(Effort effort) {
+Outcome noRoll(RunLength runLength) {
     double worst = 0.0, felt = 0.0;
-    Dice dice(8);
-    const int hands = effort == Effort::Full ? 60 : 10;
+    Rng rng(8);
+    const int hands = runLength == RunLength::Full ? 60 : 10;
     for (int n = 0; n < hands; ++n) {
         GuidancePose target;
         target.present = target.planar = target.rollFree = true;
-        target.target = {dvec3(0.0), dice.rotation()};
-        Pose hand{dvec3(0.0), dice.rotation()};
+        target.target = {dvec3(0.0), rng.rotation()};
+        Pose hand{dvec3(0.0), rng.rotation()};
         if (n % 5 == 0) { // points the very other way
             hand.rotation = target.target.rotation * rotationExp({kPi, 0.0, 0.0});
         }
@@ -114,23 +114,23 @@ Outcome noRoll(Effort effort) {
                             "other way: largest torque about the axis of the "
                             "target; across it " +
                                 num(felt) + " N m (0.1 is the limit).");
-    demand(out, felt > 0.09 && felt < 0.1001, "guidance was expected to pull with 0.1 N m");
+    require(out, felt > 0.09 && felt < 0.1001, "guidance was expected to pull with 0.1 N m");
     return out;
 }
 
 // Twenty turns a second with a tool that has no room to turn.
-Outcome fastSpin(Effort effort) {
+Outcome fastSpin(RunLength runLength) {
     double norm = 0.0, step = 0.0;
     bool sound = true;
     const Shape axis = axisShape();
     StepTimer stepTimer("ideal", true, {&axis, 1}, {});
     const double allowed = stepTimer.options().slewTorque * stepTimer.options().period;
     dvec3 before(0.0);
-    Dice dice(5);
-    dvec3 about = dice.direction();
+    Rng rng(5);
+    dvec3 about = rng.direction();
     dquat hand(1.0, 0.0, 0.0, 0.0);
-    for (int i = 0; i < (effort == Effort::Full ? 100000 : 10000); ++i) {
-        about = i % 500 == 0 ? dice.direction() : about;
+    for (int i = 0; i < (runLength == RunLength::Full ? 100000 : 10000); ++i) {
+        about = i % 500 == 0 ? rng.direction() : about;
         hand = glm::normalize(rotationExp(40.0 * kPi * 0.001 * about) * hand);
         const StepRecord& record = stepTimer.step({dvec3(0.0), hand});
         norm = std::max({norm, std::abs(glm::length(record.tool.rotation) - 1.0),
@@ -144,16 +144,16 @@ Outcome fastSpin(Effort effort) {
                             "against a held axis: largest torque step over the slew "
                             "limit; quaternions off unit length by at most " +
                                 num(norm) + ".");
-    demand(out, sound && norm < 1e-14, "finite numbers and unit quaternions were expected");
+    require(out, sound && norm < 1e-14, "finite numbers and unit quaternions were expected");
     return out;
 }
 
 // The lever: a cross of balls pressed with a tilt, the loop closed in all six ways.
-Outcome leverSettles(Effort effort) {
+Outcome leverSettles(RunLength runLength) {
     double worst = 0.0;
     LoopGrid grid;
     grid.masses = {0.1, 0.5};
-    grid.every = effort == Effort::Full ? 1 : 7;
+    grid.every = runLength == RunLength::Full ? 1 : 7;
     LoopSpec base = pressedSpec(Ground::Wall, kPressed);
     base.leaves = crossLeaves(0.008);
     for (HandWaypoint& way : base.path) {

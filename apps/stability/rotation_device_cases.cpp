@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Group rotation, devices: quaternions of any length, no torque, a dead axis.
 #include "apps/stability/case_text.h"
-#include "apps/stability/dice.h"
+#include "apps/stability/rng.h"
 #include "apps/stability/step_timer.h"
 
 #include <algorithm>
@@ -13,10 +13,10 @@ namespace fathom::stability {
 namespace {
 
 // The same motion with quaternions a thousand times too short and too long.
-Outcome anyLength(Effort effort) {
+Outcome anyLength(RunLength runLength) {
     double worst = 0.0;
-    Dice dice(3);
-    const int ticks = effort == Effort::Full ? 4000 : 800;
+    Rng rng(3);
+    const int ticks = runLength == RunLength::Full ? 4000 : 800;
     for (const char* device : {"ideal", "w5d"}) {
         for (const double length : {1e-6, 1e-3, 0.5, 1.001, 1e3, 1e6}) {
             const Shape wall = wallShape({0.0, 0.0, 1.0}, 0.0);
@@ -27,7 +27,7 @@ Outcome anyLength(Effort effort) {
                 Pose pose{{0.0, 0.0, 0.03 - 0.03 * s},
                           rotationExp({1.2 * std::sin(9.0 * s), 0.8 * s, 3.0 * s})};
                 const StepRecord a = unit.step(pose);
-                pose.rotation = pose.rotation * (length * dice.uniform(0.9, 1.1));
+                pose.rotation = pose.rotation * (length * rng.uniform(0.9, 1.1));
                 const StepRecord b = scaled.step(pose);
                 worst = std::max({worst, glm::distance(a.deviceWrench.force, b.deviceWrench.force),
                                   glm::distance(a.deviceWrench.torque, b.deviceWrench.torque),
@@ -48,10 +48,10 @@ struct Leak {
 
 Leak leakOf(const char* device, const std::function<dvec3(const Wrench&, const Pose&)>& absent, int ticks) {
     Leak leak;
-    Dice dice(17);
+    Rng rng(17);
     const Shape wall = wallShape({0.0, 0.0, 1.0}, 0.0);
     StepTimer stepTimer(device, true, {&wall, 1}, {{0.0, 0.0, 0.02}, dquat(1.0, 0.0, 0.0, 0.0)});
-    const dvec3 a = dice.direction(), b = dice.direction();
+    const dvec3 a = rng.direction(), b = rng.direction();
     for (int i = 0; i < ticks; ++i) {
         const double s = 6.0 * i / 1000.0;
         const Pose raw{{0.01 * std::sin(s), 0.0, 0.01 * std::cos(0.7 * s)},
@@ -73,23 +73,23 @@ Outcome leakOutcome(const Leak& leak, const std::string& what) {
                                 " Largest torque on what is not there, and largest gap between the parts and "
                                 "the whole; the whole reached " +
                                 num(leak.felt) + " N m.");
-    demand(out, leak.felt > 0.05, "some torque was expected");
+    require(out, leak.felt > 0.05, "some torque was expected");
     return out;
 }
 
-Outcome noTorque(Effort effort) {
+Outcome noTorque(RunLength runLength) {
     return leakOutcome(leakOf(
                            "touch", [](const Wrench& w, const Pose&) { return w.torque; },
-                           effort == Effort::Full ? 20000 : 3000),
+                           runLength == RunLength::Full ? 20000 : 3000),
                        "A device without torque, turned over and over on a wall with a cross of nine balls.");
 }
 
-Outcome deadAxis(Effort effort) {
+Outcome deadAxis(RunLength runLength) {
     const auto roll = [](const Wrench& w, const Pose& raw) {
         const dvec3 axis = raw.rotation * dvec3(0.0, 0.0, 1.0);
         return glm::dot(w.torque, axis) * axis;
     };
-    return leakOutcome(leakOf("w5d", roll, effort == Effort::Full ? 20000 : 3000),
+    return leakOutcome(leakOf("w5d", roll, runLength == RunLength::Full ? 20000 : 3000),
                        "A device whose roll is not actuated, turned over and over.");
 }
 

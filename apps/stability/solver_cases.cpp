@@ -14,12 +14,12 @@ namespace {
 constexpr double kLimit =
     1e-9; // relative: KKT residual, violated row over the step, distance to the exact optimum
 
-size_t sizeOf(Effort effort, size_t full) {
-    return effort == Effort::Full ? full : std::max<size_t>(40, full / 25);
+size_t sizeOf(RunLength runLength, size_t full) {
+    return runLength == RunLength::Full ? full : std::max<size_t>(40, full / 25);
 }
 
-size_t someRows(Dice& dice) {
-    return std::min<size_t>(SolverTrial::kMostRows, static_cast<size_t>(dice.logUniform(1.0, 513.0)));
+size_t someRows(Rng& rng) {
+    return std::min<size_t>(SolverTrial::kMostRows, static_cast<size_t>(rng.logUniform(1.0, 513.0)));
 }
 
 std::string counts(const SolverTally& t) {
@@ -35,10 +35,10 @@ Outcome judged(const SolverTally& tally, const std::string& what) {
         outcomeOf(tally.worst(), kLimit, "1",
                   "Worst of KKT residual, violated row and distance to the optimum in long double. " + what +
                       counts(tally));
-    demand(out, tally.disagreements == 0,
-           num(tally.disagreements) + " sets where the two methods disagree on feasibility");
-    demand(out, tally.cycled == 0, num(tally.cycled) + " sets ended by the cycling guard");
-    demand(out, tally.optimal * 20 >= tally.sets, "too few solvable sets to judge");
+    require(out, tally.disagreements == 0,
+            num(tally.disagreements) + " sets where the two methods disagree on feasibility");
+    require(out, tally.cycled == 0, num(tally.cycled) + " sets ended by the cycling guard");
+    require(out, tally.optimal * 20 >= tally.sets, "too few solvable sets to judge");
     Outcome::Curve curve{"worst residual", "rows", "relative residual", {}, {}, true, true};
     for (size_t k = 0; k < tally.byRows.size(); ++k) {
         if (tally.byRows[k] > 0.0) {
@@ -50,55 +50,55 @@ Outcome judged(const SolverTally& tally, const std::string& what) {
     return out;
 }
 
-Outcome familyCase(Effort effort, RowFamily family) {
-    Dice dice(1000 + static_cast<uint64_t>(family));
+Outcome familyCase(RunLength runLength, RowFamily family) {
+    Rng rng(1000 + static_cast<uint64_t>(family));
     SolverTrial trial;
     SolverTally tally;
-    const size_t sets = sizeOf(effort, 7000);
+    const size_t sets = sizeOf(runLength, 7000);
     for (size_t i = 0; i < sets; ++i) {
         RowScale scale;
-        scale.radius = dice.logUniform(0.001, 1.0);
-        trial.judge(makeRowSet(family, someRows(dice), scale, dice), tally);
+        scale.radius = rng.logUniform(0.001, 1.0);
+        trial.judge(makeRowSet(family, someRows(rng), scale, rng), tally);
     }
     return judged(tally, "Gyration radius 1 mm to 1 m. ");
 }
 
 // Every family at one scale of tool and metric.
-Outcome scaleCase(Effort effort, const RowScale& scale, const std::string& what) {
-    Dice dice(77);
+Outcome scaleCase(RunLength runLength, const RowScale& scale, const std::string& what) {
+    Rng rng(77);
     SolverTrial trial;
     SolverTally tally;
-    const size_t sets = sizeOf(effort, 7000);
+    const size_t sets = sizeOf(runLength, 7000);
     for (size_t i = 0; i < sets; ++i) {
         const auto family = static_cast<RowFamily>(i % kRowFamilies);
-        trial.judge(makeRowSet(family, someRows(dice), scale, dice), tally);
+        trial.judge(makeRowSet(family, someRows(rng), scale, rng), tally);
     }
     return judged(tally, what);
 }
 
-Outcome armCase(Effort effort) {
-    Dice dice(8);
+Outcome armCase(RunLength runLength) {
+    Rng rng(8);
     SolverTrial trial(8);
     SolverTally tally;
-    const size_t sets = sizeOf(effort, 5000);
+    const size_t sets = sizeOf(runLength, 5000);
     for (size_t i = 0; i < sets; ++i) {
-        trial.judge(makeArmSet(someRows(dice), dice.logUniform(1e-6, 1e-2), dice), tally);
+        trial.judge(makeArmSet(someRows(rng), rng.logUniform(1e-6, 1e-2), rng), tally);
     }
     return judged(tally, "Eight unknowns, full metric of condition up to about 1e7. ");
 }
 
 // Sets whose answer is known by construction, down to a margin of 1e-9 of the step.
-Outcome feasibilityCase(Effort effort) {
-    Dice dice(31);
+Outcome feasibilityCase(RunLength runLength) {
+    Rng rng(31);
     SolverTrial trial;
     SolverTally tally;
     uint64_t wrong = 0, infeasible = 0;
-    const size_t sets = sizeOf(effort, 10000);
+    const size_t sets = sizeOf(runLength, 10000);
     const RowScale scale;
     for (size_t i = 0; i < sets; ++i) {
         const bool feasible = i % 2 == 0;
-        const double margin = scale.step * dice.logUniform(1e-9, 1e-1);
-        const RowSet set = makeCertainSet(feasible, std::max<size_t>(2, someRows(dice)), margin, scale, dice);
+        const double margin = scale.step * rng.logUniform(1e-9, 1e-1);
+        const RowSet set = makeCertainSet(feasible, std::max<size_t>(2, someRows(rng)), margin, scale, rng);
         const bool found = trial.judge(set, tally) == SolveStatus::Optimal;
         wrong += found != feasible ? 1 : 0;
         infeasible += feasible ? 0 : 1;
@@ -111,19 +111,19 @@ Outcome feasibilityCase(Effort effort) {
                          num(tally.disagreements) + " disagreements).");
 }
 
-Outcome iterationCase(Effort effort) {
-    Dice dice(55);
+Outcome iterationCase(RunLength runLength) {
+    Rng rng(55);
     SolverTrial trial;
     SolverTally tally;
     Outcome::Curve curve{"changes of the active set", "rows", "share of the guard", {}, {}, true, false};
     for (size_t rows = 1; rows <= SolverTrial::kMostRows; rows *= 2) {
         SolverTally some;
-        const size_t sets = sizeOf(effort, 800);
+        const size_t sets = sizeOf(runLength, 800);
         for (size_t i = 0; i < sets; ++i) {
             RowScale scale;
-            scale.arm = dice.logUniform(0.001, 10.0);
-            scale.radius = dice.logUniform(0.001, 1.0);
-            trial.judge(makeRowSet(static_cast<RowFamily>(i % kRowFamilies), rows, scale, dice), some);
+            scale.arm = rng.logUniform(0.001, 10.0);
+            scale.radius = rng.logUniform(0.001, 1.0);
+            trial.judge(makeRowSet(static_cast<RowFamily>(i % kRowFamilies), rows, scale, rng), some);
         }
         curve.x.push_back(static_cast<double>(rows));
         curve.y.push_back(some.changes);
@@ -134,7 +134,7 @@ Outcome iterationCase(Effort effort) {
                   "Most rows taken in or dropped in one solve, as a share of the guard 16 n + 64 + rows/4: " +
                       num(tally.sets) + " sets of every family, tools of 1 mm to 10 m; " + num(tally.cycled) +
                       " ended by the guard.");
-    demand(out, tally.cycled == 0, "the guard ended a solve");
+    require(out, tally.cycled == 0, "the guard ended a solve");
     out.curves.push_back(std::move(curve));
     return out;
 }
@@ -152,63 +152,63 @@ Outcome conditioned(SolverTally tally, const std::string& what) {
             num(distance) + ", is below 1e-9 or at most " + num(ofRounding) +
             " times what one rounding of the rows moves that optimum, so that no float64 method is much "
             "nearer; demanded: 64 times. ");
-    demand(out, ofRounding <= 64.0, "an optimum missed by more than 64 times what rounding does");
+    require(out, ofRounding <= 64.0, "an optimum missed by more than 64 times what rounding does");
     out.curves.clear();
     return out;
 }
 
 // Two planes that lean by 1e-9: the corner lies far along them.
-Outcome leaningCase(Effort effort) {
-    Dice dice(17);
+Outcome leaningCase(RunLength runLength) {
+    Rng rng(17);
     SolverTrial trial;
     SolverTally tally;
-    const size_t sets = sizeOf(effort, 5000);
+    const size_t sets = sizeOf(runLength, 5000);
     for (size_t i = 0; i < sets; ++i) {
-        RowSet set = makeRowSet(RowFamily::FlatWall, 0, RowScale{}, dice);
-        const double lean = dice.logUniform(1e-9, 1e-3);
-        const dvec3 out = dice.direction();
-        const dvec3 side = glm::normalize(glm::cross(out, dice.direction()));
+        RowSet set = makeRowSet(RowFamily::FlatWall, 0, RowScale{}, rng);
+        const double lean = rng.logUniform(1e-9, 1e-3);
+        const dvec3 out = rng.direction();
+        const dvec3 side = glm::normalize(glm::cross(out, rng.direction()));
         const dvec3 leaning = glm::normalize((i % 2 == 0 ? 1.0 : -1.0) * out + lean * side);
-        const dvec3 corner = 1e-3 * dice.direction();
+        const dvec3 corner = 1e-3 * rng.direction();
         set.addContact(out, dvec3(0.0), glm::dot(out, corner));
         set.addContact(leaning, dvec3(0.0), glm::dot(leaning, corner));
-        const dvec3 wanted = corner - 2e-3 * out - dice.uniform(0.0, 1e-3) * side;
+        const dvec3 wanted = corner - 2e-3 * out - rng.uniform(0.0, 1e-3) * side;
         set.target = {wanted.x, wanted.y, wanted.z, 0.0, 0.0, 0.0};
         trial.judge(set, tally);
     }
     return conditioned(tally, "Corners of two planes that lean by 1e-9 to 1e-3 rad. ");
 }
 
-Outcome mismatchedCase(Effort effort) {
-    Dice dice(78);
+Outcome mismatchedCase(RunLength runLength) {
+    Rng rng(78);
     SolverTrial trial;
     SolverTally tally;
     RowScale scale;
     scale.arm = 10.0;
     scale.step = 1.0;
     scale.radius = 0.001;
-    const size_t sets = sizeOf(effort, 7000);
+    const size_t sets = sizeOf(runLength, 7000);
     for (size_t i = 0; i < sets; ++i) {
-        trial.judge(makeRowSet(static_cast<RowFamily>(i % kRowFamilies), someRows(dice), scale, dice), tally);
+        trial.judge(makeRowSet(static_cast<RowFamily>(i % kRowFamilies), someRows(rng), scale, rng), tally);
     }
     return conditioned(tally, "Tool of 10 m with a gyration radius of 1 mm, every family. ");
 }
 
 // The same rows solved warm (rows come, go and change places) and cold.
-Outcome warmCase(Effort effort) {
-    Dice dice(99);
+Outcome warmCase(RunLength runLength) {
+    Rng rng(99);
     double worst = 0.0;
     uint64_t compared = 0, differ = 0;
-    const size_t runs = sizeOf(effort, 2000);
+    const size_t runs = sizeOf(runLength, 2000);
     for (size_t run = 0; run < runs; ++run) {
         RowSet set =
-            makeRowSet(static_cast<RowFamily>(run % kRowFamilies), 1 + dice.below(80), RowScale{}, dice);
+            makeRowSet(static_cast<RowFamily>(run % kRowFamilies), 1 + rng.below(80), RowScale{}, rng);
         ConstraintSolver warm(6, 80), cold(6, 80);
         warm.setMetric(set.metric);
         cold.setMetric(set.metric);
         for (uint64_t tick = 0; tick < 10; ++tick) {
-            set.target[dice.below(6)] += dice.uniform(-1e-3, 1e-3);
-            const size_t first = dice.below(set.rows());
+            set.target[rng.below(6)] += rng.uniform(-1e-3, 1e-3);
+            const size_t first = rng.below(set.rows());
             warm.clearRows();
             cold.clearRows();
             for (size_t k = 0; k < set.rows(); ++k) {
@@ -232,8 +232,8 @@ Outcome warmCase(Effort effort) {
     Outcome out = outcomeOf(worst, kLimit, "1",
                             "Difference of warm and cold start over the target, " + num(compared) +
                                 " pairs, rows in changing order.");
-    demand(out, differ == 0, num(differ) + " pairs of different status");
-    demand(out, compared > 0, "nothing compared");
+    require(out, differ == 0, num(differ) + " pairs of different status");
+    require(out, compared > 0, "nothing compared");
     return out;
 }
 
@@ -251,10 +251,11 @@ std::vector<Case> solverCases() {
     for (size_t f = 0; f < kRowFamilies; ++f) {
         const auto family = static_cast<RowFamily>(f);
         cases.push_back({std::string("solver-") + nameOf(family), Group::Solver,
-                         [family](Effort effort) { return familyCase(effort, family); }});
+                         [family](RunLength runLength) { return familyCase(runLength, family); }});
     }
     const auto scaled = [&](const char* name, const RowScale& scale, const std::string& what) {
-        cases.push_back({name, Group::Solver, [=](Effort effort) { return scaleCase(effort, scale, what); }});
+        cases.push_back(
+            {name, Group::Solver, [=](RunLength runLength) { return scaleCase(runLength, scale, what); }});
     };
     scaled("solver-tool-1mm", scaleOf(0.001, 0.05), "Tool of 1 mm, every family. ");
     scaled("solver-tool-10m", scaleOf(10.0, 0.05), "Tool of 10 m, every family. ");

@@ -19,10 +19,10 @@ constexpr double kEpsilon = 2.2204460492503131e-16;
 
 // The same set with every number of its rows off by one rounding, up or down.
 RowSet rounded(const RowSet& set, uint64_t seed) {
-    Dice dice(seed);
+    Rng rng(seed);
     RowSet out = set;
     for (double& value : out.normals) {
-        value *= dice.chance(0.5) ? 1.0 + kEpsilon : 1.0 - kEpsilon;
+        value *= rng.chance(0.5) ? 1.0 + kEpsilon : 1.0 - kEpsilon;
     }
     return out;
 }

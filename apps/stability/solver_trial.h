@@ -29,7 +29,7 @@ struct SolverTally {
     void add(const SolverTally& other);
 };
 
-// Keeps one solver, warm from set to set as the haptic turn does. One thread.
+// Keeps one solver, warm from set to set as the haptic tick does. One thread.
 class SolverTrial {
 public:
     explicit SolverTrial(int unknowns = 6)

@@ -32,10 +32,10 @@ inline constexpr const char* kGroupNames[] = {"solver",   "geometry", "guarantee
 
 // How much of a case runs: the whole of it (`fathom stability`), or a shortened form with the same limits
 // (`./run test`).
-enum class Effort : uint8_t { Full, Short };
+enum class RunLength : uint8_t { Full, Short };
 // How many of something.
-inline int some(Effort effort, int full, int brief) {
-    return effort == Effort::Full ? full : brief;
+inline int some(RunLength runLength, int full, int brief) {
+    return runLength == RunLength::Full ? full : brief;
 }
 
 // What one case came to. holds: the figure obeys the limit in the way that `relation` says.
@@ -57,7 +57,7 @@ struct Outcome {
 struct Case {
     std::string name; // lower-case words with hyphens, unique
     Group group;
-    std::function<Outcome(Effort)> run; // throws only for internal errors
+    std::function<Outcome(RunLength)> run; // throws only for internal errors
 };
 
 // The Vulkan device that the shaders run on, made when the first case asks for it. Throws Error when there is

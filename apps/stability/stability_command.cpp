@@ -52,8 +52,8 @@ int runStability(const StabilityOptions& options, const GlobalOptions& global) {
     std::vector<stability::CaseResult> results;
     double seconds = 0.0;
     for (const stability::Case& one : cases) {
-        results.push_back(
-            stability::runCase(one, options.brief ? stability::Effort::Short : stability::Effort::Full));
+        results.push_back(stability::runCase(one, options.brief ? stability::RunLength::Short
+                                                                : stability::RunLength::Full));
         seconds += results.back().seconds;
         print(results.back());
     }

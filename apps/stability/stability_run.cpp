@@ -71,14 +71,14 @@ std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<st
     return chosen;
 }
 
-CaseResult runCase(const Case& one, Effort effort) {
+CaseResult runCase(const Case& one, RunLength runLength) {
     CaseResult result{one.name, one.group, {}, 0.0};
     const auto start = std::chrono::steady_clock::now();
     try {
-        result.outcome = one.run(effort);
+        result.outcome = one.run(runLength);
     } catch (const Error& e) {
         result.outcome = outcomeOf(std::numeric_limits<double>::quiet_NaN(), 0.0, "1", "");
-        demand(result.outcome, false, e.what());
+        require(result.outcome, false, e.what());
     }
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;

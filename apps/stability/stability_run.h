@@ -25,7 +25,7 @@ struct CaseResult {
 };
 
 // A case that throws an Error counts as one that does not hold, with the message in its note.
-CaseResult runCase(const Case& one, Effort effort);
+CaseResult runCase(const Case& one, RunLength runLength);
 
 // "0.00123 <= 0.01 m"
 std::string comparison(const Outcome& outcome);

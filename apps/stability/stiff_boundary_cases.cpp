@@ -78,9 +78,9 @@ Outcome against(const Deviation& all, bool byModel, double limit, const std::str
     return out;
 }
 
-Outcome freeDevice(Effort effort) {
+Outcome freeDevice(RunLength runLength) {
     Grid grid{{0.05, 0.2, 1.0}, {0.1, 0.2, 0.5, 1.0, 2.0}, {1000.0}, {0}, {0.0}};
-    if (effort == Effort::Short) {
+    if (runLength == RunLength::Short) {
         grid.masses = {0.2}, grid.dampings = {0.1, 0.5, 2.0};
     }
     return against(measure(grid), false, 0.01,
@@ -88,25 +88,25 @@ Outcome freeDevice(Effort effort) {
                    "T/(6 m), at most 0.7 % here.");
 }
 
-Outcome delays(Effort effort) {
+Outcome delays(RunLength runLength) {
     Grid grid{{0.1, 0.25, 1.0}, {0.1, 0.5, 2.0}, {1000.0}, {1, 2, 3}, {0.0}};
-    if (effort == Effort::Short) {
+    if (runLength == RunLength::Short) {
         grid.masses = {0.25}, grid.dampings = {0.5}, grid.delays = {1, 3};
     }
     return against(measure(grid), true, 0.005, "One to three ticks of delay, 0.1-1 kg, 0.1-2 N s/m.");
 }
 
-Outcome rates(Effort effort) {
+Outcome rates(RunLength runLength) {
     Grid grid{{0.2, 1.0}, {0.2, 1.0}, {500.0, 2000.0, 4000.0, 10000.0}, {0, 1}, {0.0}};
-    if (effort == Effort::Short) {
+    if (runLength == RunLength::Short) {
         grid.masses = {0.2}, grid.dampings = {1.0}, grid.rates = {500.0, 10000.0}, grid.delays = {0};
     }
     return against(measure(grid), true, 0.005, "500 Hz to 10 kHz, with and without a tick of delay.");
 }
 
-Outcome virtualDamping(Effort effort) {
+Outcome virtualDamping(RunLength runLength) {
     Grid grid{{0.1, 0.25}, {0.5, 1.0}, {1000.0}, {0, 1}, {0.25, 1.0, 2.0, 5.0}};
-    if (effort == Effort::Short) {
+    if (runLength == RunLength::Short) {
         grid.masses = {0.25}, grid.dampings = {0.5}, grid.virtualDampings = {2.0}, grid.delays = {0};
     }
     return against(measure(grid), true, 0.01,
@@ -114,9 +114,9 @@ Outcome virtualDamping(Effort effort) {
                    "|B|), as the margins report apart.");
 }
 
-Outcome rotation(Effort effort) {
+Outcome rotation(RunLength runLength) {
     Grid grid{{0.1, 0.5}, {0.1, 0.5, 2.0}, {1000.0, 4000.0}, {0, 1}, {0.0}};
-    if (effort == Effort::Short) {
+    if (runLength == RunLength::Short) {
         grid.masses = {0.1}, grid.dampings = {0.5}, grid.rates = {1000.0}, grid.delays = {0, 1};
     }
     return against(measure(grid, true), true, 0.005,
@@ -124,15 +124,15 @@ Outcome rotation(Effort effort) {
 }
 
 // No hand makes a passive loop unstable: with any of them the boundary is at or above the passive bound.
-Outcome hands(Effort effort) {
+Outcome hands(RunLength runLength) {
     double least = 1e9;
     std::string worst;
     size_t runs = 0;
     for (const HandModel& hand : kHands) {
         for (const double b :
-             effort == Effort::Full ? std::vector<double>{0.1, 0.5, 2.0} : std::vector<double>{0.5}) {
-            for (const uint32_t delay :
-                 effort == Effort::Full ? std::vector<uint32_t>{0, 1, 3} : std::vector<uint32_t>{0, 1}) {
+             runLength == RunLength::Full ? std::vector<double>{0.1, 0.5, 2.0} : std::vector<double>{0.5}) {
+            for (const uint32_t delay : runLength == RunLength::Full ? std::vector<uint32_t>{0, 1, 3}
+                                                                     : std::vector<uint32_t>{0, 1}) {
                 LoopSpec spec;
                 spec.damping = b;
                 spec.hand = hand;

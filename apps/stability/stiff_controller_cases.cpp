@@ -42,7 +42,7 @@ struct Held {
     double restingRise(double jump) const { return jump * 1000.0 / (1000.0 + spec.hand.stiffness); }
 };
 
-Outcome injectionCounted(Effort) {
+Outcome injectionCounted(RunLength) {
     double worst = 0.0;
     for (size_t h = 1; h < kHands.size(); ++h) {
         for (const double jump : {0.0005, 0.001, 0.002, 0.003}) {
@@ -83,7 +83,7 @@ Burst burstOf(const HandModel& hand, bool controller) {
     return {most - work, work};
 }
 
-Outcome jumpBurst(Effort) {
+Outcome jumpBurst(RunLength) {
     double worst = 0.0, on = 0.0, off = 0.0;
     for (size_t h = 1; h < kHands.size(); ++h) {
         const Burst with = burstOf(kHands[h], true), without = burstOf(kHands[h], false);
@@ -101,7 +101,7 @@ Outcome jumpBurst(Effort) {
 }
 
 // The wall goes up and down by 2 mm, 30 times a second or as the hand swings, whichever is the worse.
-Outcome shakenWall(Effort effort) {
+Outcome shakenWall(RunLength runLength) {
     double worst = 0.0, worstOff = 0.0, energyOn = 0.0, energyOff = 0.0;
     for (size_t h = 1; h < kHands.size(); ++h) {
         const double own = std::sqrt((1000.0 + kHands[h].stiffness) / (0.1 + kHands[h].mass)) / 6.283185307;
@@ -109,7 +109,7 @@ Outcome shakenWall(Effort effort) {
             for (const bool on : {true, false}) {
                 Held held(kHands[h], on);
                 const double start = held.rig->time(), energy = held.rig->energyOut();
-                const double seconds = effort == Effort::Full ? 4.0 : 1.0;
+                const double seconds = runLength == RunLength::Full ? 4.0 : 1.0;
                 double most = 0.0, given = 0.0;
                 int flips = 0;
                 while (held.rig->time() < start + seconds) {
@@ -135,17 +135,17 @@ Outcome shakenWall(Effort effort) {
 }
 
 // Springs that the user asked for, beyond the bound.
-Outcome beyondBound(Effort effort) {
+Outcome beyondBound(RunLength runLength) {
     double worst = -1e9, worstOff = -1e9;
     size_t runs = 0;
-    for (const double times :
-         effort == Effort::Full ? std::vector<double>{1.5, 2.0, 3.0, 4.0} : std::vector<double>{2.0, 4.0}) {
+    for (const double times : runLength == RunLength::Full ? std::vector<double>{1.5, 2.0, 3.0, 4.0}
+                                                           : std::vector<double>{2.0, 4.0}) {
         LoopGrid grid;
         grid.masses = {0.1, 0.3};
         grid.dampings = {0.2, 0.5};
         grid.delays = {0, 2};
         grid.hands = {0, 1, 2, 3, 4};
-        grid.every = effort == Effort::Full ? 1 : 7;
+        grid.every = runLength == RunLength::Full ? 1 : 7;
         runs += forEachLoop(grid, pressedSpec(Ground::Wall, 4.0), [&](LoopSpec spec) {
             spec.hand.stiffness = std::max(50.0, spec.hand.stiffness);
             spec.stiffness = times * passiveStiffness(spec.damping, 0.0, spec.period(), spec.delay);
@@ -167,18 +167,18 @@ Outcome beyondBound(Effort effort) {
                             "worst of " +
                                 num(uint64_t{runs}) + " loops with the controller; without it " +
                                 num(worstOff * 1e3) + " mJ.");
-    demand(out, worstOff > 1e-4, "without the controller energy was expected");
+    require(out, worstOff > 1e-4, "without the controller energy was expected");
     return out;
 }
 
 // Turns come 1.5 to 3 times slower than planned, in the middle of a contact.
-Outcome slowTurns(Effort effort) {
+Outcome slowTicks(RunLength runLength) {
     double worst = 0.0, fixed = 0.0, margin = 0.0;
     for (const double slow : {1.5, 2.0, 3.0}) {
         LoopGrid grid;
         grid.masses = {0.05, 0.2};
         grid.dampings = {0.2, 0.5, 2.0};
-        grid.every = effort == Effort::Full ? 1 : 5;
+        grid.every = runLength == RunLength::Full ? 1 : 5;
         forEachLoop(grid, pressedSpec(Ground::Wall, kPressed), [&](LoopSpec spec) {
             for (const bool automatic : {true, false}) {
                 spec.controller = automatic;
@@ -210,12 +210,12 @@ Outcome slowTurns(Effort effort) {
                       num(margin) +
                       " b), late over early speed of the hand; with the stiffness kept and no controller " +
                       num(fixed) + ".");
-    demand(out, margin > -1e-6, "the live margin was expected to come back to 0");
+    require(out, margin > -1e-6, "the live margin was expected to come back to 0");
     return out;
 }
 
 // Faster than the springs' slew limit can follow.
-Outcome fastHits(Effort effort) {
+Outcome fastHits(RunLength runLength) {
     double net = -1e9, left = 0.0;
     size_t runs = 0;
     for (const double speed : {0.5, 1.0, 2.0, 5.0}) {
@@ -223,7 +223,7 @@ Outcome fastHits(Effort effort) {
         grid.dampings = {0.5, 2.0};
         grid.masses = {0.1, 0.5};
         grid.delays = {0, 1};
-        grid.every = effort == Effort::Full ? 1 : 5;
+        grid.every = runLength == RunLength::Full ? 1 : 5;
         LoopSpec base = pressedSpec(Ground::Wall, 3.0);
         base.path = {wayAt(0.0, {0.0, 0.0, 0.2}), wayAt(0.3, {0.0, 0.0, 0.2}),
                      wayAt(0.3 + 0.22 / speed, {0.0, 0.0, -0.02})};
@@ -243,7 +243,7 @@ Outcome fastHits(Effort effort) {
                   "energy out of the wall at any time after "
                   "the hit, worst of " +
                       num(uint64_t{runs}) + " loops; fastest left at the end " + num(left * 1e3) + " mm/s.");
-    demand(out, left < 2e-3, "the hand was expected to come to rest");
+    require(out, left < 2e-3, "the hand was expected to come to rest");
     return out;
 }
 
@@ -254,7 +254,7 @@ std::vector<Case> controllerCases() {
             {"moving-fixture-burst-is-damped", Group::Stiff, jumpBurst},
             {"shaken-fixture-does-not-throw-the-hand", Group::Stiff, shakenWall},
             {"stiffness-beyond-the-bound-is-tamed", Group::Stiff, beyondBound},
-            {"slow-turns-lower-the-stiffness", Group::Stiff, slowTurns},
+            {"slow-turns-lower-the-stiffness", Group::Stiff, slowTicks},
             {"hits-faster-than-the-slew-limit", Group::Stiff, fastHits}};
 }
 

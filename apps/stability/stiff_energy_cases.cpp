@@ -38,10 +38,10 @@ void pressAndWatch(const LoopSpec& spec, double allowance, EnergyFigures& all) {
     all.taken = std::max(all.taken, rig.cycle().passivity().taken());
 }
 
-LoopGrid gridFor(Effort effort, size_t every) {
+LoopGrid gridFor(RunLength runLength, size_t every) {
     LoopGrid grid;
     grid.hands = {0, 1, 2, 3, 4};
-    grid.every = effort == Effort::Full ? 1 : every;
+    grid.every = runLength == RunLength::Full ? 1 : every;
     return grid;
 }
 
@@ -54,10 +54,10 @@ LoopSpec inAndOut(Ground ground) {
     return spec;
 }
 
-Outcome staticGrounds(Effort effort) {
+Outcome staticGrounds(RunLength runLength) {
     EnergyFigures all;
     for (const Ground ground : kGrounds) {
-        LoopGrid grid = gridFor(effort, 23);
+        LoopGrid grid = gridFor(runLength, 23);
         if (ground == Ground::Spheres) {
             grid.masses = {0.2};
         }
@@ -76,12 +76,12 @@ Outcome staticGrounds(Effort effort) {
                          num(all.taken * 1e6) + " uJ.");
 }
 
-Outcome withEncoders(Effort effort) {
+Outcome withEncoders(RunLength runLength) {
     EnergyFigures all;
     for (const double step : {1e-6, 1e-5, 1e-4}) {
         LoopSpec base = inAndOut(Ground::Wall);
         base.encoderStep = step;
-        all.runs += forEachLoop(gridFor(effort, 23), base, [&](LoopSpec spec) {
+        all.runs += forEachLoop(gridFor(runLength, 23), base, [&](LoopSpec spec) {
             spec.hand.stiffness = std::max(spec.hand.stiffness, 10.0);
             const double k = passiveStiffness(spec.damping, 0.0, spec.period(), spec.delay);
             pressAndWatch(spec, std::sqrt(3.0) * k * step / 2.0, all);
@@ -97,11 +97,11 @@ Outcome withEncoders(Effort effort) {
 }
 
 // Controller on and off, the same loop: equal to the last bit unless it acted.
-Outcome controllerIdle(Effort effort) {
+Outcome controllerIdle(RunLength runLength) {
     double largest = 0.0;
     size_t runs = 0;
     for (const Ground ground : kGrounds) {
-        LoopGrid grid = gridFor(effort, 31);
+        LoopGrid grid = gridFor(runLength, 31);
         if (ground == Ground::Spheres) {
             grid.masses = {0.2};
         }

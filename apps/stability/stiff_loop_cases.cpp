@@ -2,8 +2,8 @@
 // Group stiff, part four: closed paths of the hand round static contacts draw no energy, because the solver's
 // metric is tied to the springs.
 #include "apps/stability/case_text.h"
-#include "apps/stability/dice.h"
 #include "apps/stability/loop_rig.h"
+#include "apps/stability/rng.h"
 #include "apps/stability/stiff_cases.h"
 #include "apps/stability/worlds.h"
 
@@ -129,18 +129,19 @@ HapticOptions quietOptions(const Tool& tool, double metricError) {
     return options;
 }
 
-Drawn walkLoops(Effort effort, double metricError) {
+Drawn walkLoops(RunLength runLength, double metricError) {
     Drawn all;
-    Dice dice(20);
+    Rng rng(20);
     const Tool tool = toolOf(crossLeaves(0.008));
-    const int rounds = effort == Effort::Full ? 6 : 1, ticks = effort == Effort::Full ? 20000 : 8000;
+    const int rounds = runLength == RunLength::Full ? 6 : 1,
+              ticks = runLength == RunLength::Full ? 20000 : 8000;
     for (const Scenery& scenery : sceneries()) {
         for (int round = 0; round < rounds; ++round) {
             ClosedPath path;
             path.focus = scenery.focus;
             for (size_t i = 0; i < 2; ++i) {
-                path.way[i] = 0.012 * dice.direction();
-                path.tick[i] = 0.3 * dice.direction();
+                path.way[i] = 0.012 * rng.direction();
+                path.tick[i] = 0.3 * rng.direction();
             }
             LoopWalk walk(tool, scenery.shapes, quietOptions(tool, metricError), path);
             walk.warmUp();
@@ -155,8 +156,8 @@ Drawn walkLoops(Effort effort, double metricError) {
     return all;
 }
 
-Outcome closedLoops(Effort effort) {
-    const Drawn tied = walkLoops(effort, 1.0), off = walkLoops(effort, 1.6);
+Outcome closedLoops(RunLength runLength) {
+    const Drawn tied = walkLoops(runLength, 1.0), off = walkLoops(runLength, 1.6);
     Outcome out = outcomeOf(tied.most / tied.stored, 1e-4, "1",
                             "Closed 6-axis paths of the hand round a wall, a corner, a groove, a ball, a box "
                             "and a bar with a cross of nine balls: most "
@@ -167,7 +168,7 @@ Outcome closedLoops(Effort effort) {
                                 " mJ; both halve with the length of a turn). With a metric 1.6 times off the "
                                 "springs' own up to " +
                                 num(off.most * 1e3) + " mJ are drawn.");
-    demand(out, off.most > 1e-3, "a wrong metric was expected to be seen");
+    require(out, off.most > 1e-3, "a wrong metric was expected to be seen");
     return out;
 }
 

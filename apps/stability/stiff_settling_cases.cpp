@@ -50,29 +50,29 @@ Outcome settles(Ground ground, const LoopGrid& grid, const std::string& where) {
                          num(residual * 1e3) + " mm/s. 1 would be an oscillation that stays.");
 }
 
-LoopGrid settlingGrid(Effort effort, size_t every) {
+LoopGrid settlingGrid(RunLength runLength, size_t every) {
     LoopGrid grid;
-    grid.every = effort == Effort::Full ? 1 : every;
+    grid.every = runLength == RunLength::Full ? 1 : every;
     return grid;
 }
 
-Outcome walls(Effort effort) {
-    return settles(Ground::Wall, settlingGrid(effort, 7), "A wall.");
+Outcome walls(RunLength runLength) {
+    return settles(Ground::Wall, settlingGrid(runLength, 7), "A wall.");
 }
-Outcome corners(Effort effort) {
-    return settles(Ground::Corner, settlingGrid(effort, 11), "A corner of three walls.");
+Outcome corners(RunLength runLength) {
+    return settles(Ground::Corner, settlingGrid(runLength, 11), "A corner of three walls.");
 }
-Outcome slots(Effort effort) {
-    return settles(Ground::Slot, settlingGrid(effort, 11),
+Outcome slots(RunLength runLength) {
+    return settles(Ground::Slot, settlingGrid(runLength, 11),
                    "A slot with 0.5 mm of room on each side, slid from one side to the other.");
 }
-Outcome spheres(Effort effort) {
-    LoopGrid grid = settlingGrid(effort, 19);
+Outcome spheres(RunLength runLength) {
+    LoopGrid grid = settlingGrid(runLength, 19);
     grid.delays = {0, 2};
     return settles(Ground::Spheres, grid, "A wall of region spheres with 0.05 mm dimples.");
 }
-Outcome settlingRates(Effort effort) {
-    LoopGrid grid = settlingGrid(effort, 13);
+Outcome settlingRates(RunLength runLength) {
+    LoopGrid grid = settlingGrid(runLength, 13);
     grid.rates = {500.0, 2000.0, 4000.0, 10000.0};
     grid.delays = {0, 2};
     grid.masses = {0.05, 1.0};
@@ -81,11 +81,11 @@ Outcome settlingRates(Effort effort) {
 
 // Nothing damps but the device itself, and all of that is used up by the passive bound: a push of a spring
 // without damping bounces for ever, and must not bounce higher.
-Outcome bounces(Effort effort) {
+Outcome bounces(RunLength runLength) {
     double worst = 0.0;
     LoopGrid grid;
     grid.hands = {0};
-    grid.every = effort == Effort::Full ? 1 : 4;
+    grid.every = runLength == RunLength::Full ? 1 : 4;
     grid.masses = {0.05, 0.1, 0.2, 0.5, 1.0};
     LoopSpec base = pressedSpec(Ground::Wall, 4.0);
     base.limited = false;
@@ -110,13 +110,13 @@ Outcome bounces(Effort effort) {
 }
 
 // Encoders: in steps of the encoder, how far the hand still moves when all else is at rest.
-Outcome encoders(Effort effort) {
+Outcome encoders(RunLength runLength) {
     double worst = 0.0;
     std::string who;
     Outcome::Curve curve{"hand at rest", "encoder step [m]", "peak to peak [m]", {}, {}, true, true};
     size_t runs = 0;
     for (const double step : {1e-6, 1e-5, 5e-5, 1e-4}) {
-        LoopGrid grid = settlingGrid(effort, 17);
+        LoopGrid grid = settlingGrid(runLength, 17);
         LoopSpec base = pressedSpec(Ground::Wall, 3.0);
         base.encoderStep = step;
         double largest = 0.0;
@@ -154,11 +154,11 @@ Outcome encoders(Effort effort) {
 }
 
 // The low-pass counts as delay.
-Outcome lowPass(Effort effort) {
+Outcome lowPass(RunLength runLength) {
     double worst = 0.0;
     size_t runs = 0;
     for (const double hz : {30.0, 100.0, 300.0}) {
-        LoopGrid grid = settlingGrid(effort, 13);
+        LoopGrid grid = settlingGrid(runLength, 13);
         grid.delays = {0, 1};
         LoopSpec base = pressedSpec(Ground::Wall, kPressed);
         base.lowPassHz = hz;

@@ -9,7 +9,7 @@ namespace fathom::stability {
 WallCamera::WallCamera(bool hold, uint64_t seed)
     : camera_(camera())
     , make_(scene(), camera_, hold)
-    , dice_(seed) {}
+    , rng_(seed) {}
 
 Scene WallCamera::scene() {
     Scene all;
@@ -33,11 +33,11 @@ CameraInfo WallCamera::camera() {
     return info;
 }
 
-Fixtures WallCamera::look(const WallLook& look) {
+Fixtures WallCamera::look(const WallView& look) {
     depth_.assign(camera_.depth.pixels(), 0);
     for (uint16_t& raw : depth_) {
-        const double seen = look.z + (look.noise > 0.0 ? look.noise * dice_.normal() : 0.0);
-        const bool blind = look.missing > 0.0 && dice_.chance(look.missing);
+        const double seen = look.z + (look.noise > 0.0 ? look.noise * rng_.normal() : 0.0);
+        const bool blind = look.missing > 0.0 && rng_.chance(look.missing);
         raw = blind ? uint16_t{0} : static_cast<uint16_t>(std::lround(seen / camera_.metresPerUnit));
     }
     z_ = look.z;

@@ -3,15 +3,15 @@
 // at will.
 #pragma once
 
-#include "apps/stability/dice.h"
 #include "apps/stability/image_fixtures.h"
+#include "apps/stability/rng.h"
 
 #include <cstdint>
 #include <vector>
 
 namespace fathom::stability {
 
-struct WallLook {
+struct WallView {
     double z = 0.5;       // [m] of the wall before the camera at the base origin, which looks along +z
     double noise = 0.0;   // [m] sigma of every depth
     double missing = 0.0; // share of the pixels without depth
@@ -24,7 +24,7 @@ public:
     static constexpr double kFrame = 1.0 / 30.0;
 
     WallCamera(bool hold, uint64_t seed);
-    Fixtures look(const WallLook& look);
+    Fixtures look(const WallView& look);
 
     // Farthest that any point of the last wall within 30 mm of (x, y) is from a pixel with depth [m].
     double largestHole(double x, double y) const;
@@ -34,7 +34,7 @@ private:
     static CameraInfo camera();
     CameraInfo camera_;
     ImageFixtures make_;
-    Dice dice_;
+    Rng rng_;
     std::vector<uint16_t> depth_;
     double z_ = 0.0, time_ = 0.0;
 };

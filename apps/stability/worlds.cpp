@@ -146,10 +146,10 @@ World needleWorld() {
 
 World rubbleWorld() {
     World w = emptyWorld("rubble", crossLeaves(0.006), {0, 0, 0.29});
-    Dice dice(99);
+    Rng rng(99);
     for (int i = 0; i < 1500; ++i) {
-        const dvec3 centre = dice.inCube(0.25);
-        addSphere(w.fixtures, centre, dice.logUniform(0.002, 0.02));
+        const dvec3 centre = rng.inCube(0.25);
+        addSphere(w.fixtures, centre, rng.logUniform(0.002, 0.02));
     }
     w.start.position = {0, 0, 0.30};
     return w;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the cases touch: clouds of region spheres laid by hand, pictures of analytic scenes, recordings; each
+// What the cases touch: clouds of region spheres laid by hand, images of analytic scenes, recordings; each
 // with a tool and a place to start from.
 #pragma once
 
-#include "apps/stability/wild_hand.h"
+#include "apps/stability/random_hand.h"
 #include "engine/contact/fixtures.h"
 #include "engine/contact/tool.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the libraries of others make of depth pictures, against the formulas that they say they compute.
+// What the libraries of others make of depth images, against the formulas that they say they compute.
 #include "apps/profile/peers/peers.h"
 
 #include <cmath>

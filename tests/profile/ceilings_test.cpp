@@ -11,7 +11,7 @@ using namespace fathom::profile;
 
 namespace {
 
-constexpr Effort kFew{2, 2, 0.0};
+constexpr Repeats kFew{2, 2, 0.0};
 
 } // namespace
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What studies verify before they time: that a wrong frame is found, wherever in the picture it is wrong.
+// What studies verify before they time: that a wrong frame is found, wherever in the image it is wrong.
+#include "apps/profile/frame_sequence.h"
 #include "apps/profile/half_number.h"
-#include "apps/profile/shot_source.h"
 #include "tests/support/vulkan.h"
 
 #include <doctest/doctest.h>
@@ -14,9 +14,9 @@ namespace {
 struct Rig {
     gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
-    ShotSource source = wallShot(203, 117, 1.0);
+    FrameSequence source = wallFrame(203, 117, 1.0);
     FrameBench bench{device, studyScene({}), source.camera};
-    Rig() { bench.run(source.shots.front()); }
+    Rig() { bench.run(source.frames.front()); }
 };
 
 } // namespace
@@ -24,26 +24,26 @@ struct Rig {
 TEST_CASE(
     "A frame is equal to its twins over every patch and over few, and a wrong depth anywhere is found") {
     const Rig rig;
-    const Shot& shot = rig.source.shots.front();
-    CHECK(rig.bench.differsFromTwins(shot).empty());
-    CHECK(rig.bench.differsFromTwins(shot, 7).empty());
-    CHECK(rig.bench.differsFromTwins(shot, 1).empty());
+    const SampleFrame& image = rig.source.frames.front();
+    CHECK(rig.bench.differsFromTwins(image).empty());
+    CHECK(rig.bench.differsFromTwins(image, 7).empty());
+    CHECK(rig.bench.differsFromTwins(image, 1).empty());
     for (const size_t pixel : {size_t{0}, size_t{202}, size_t{116 * 203}, size_t{117 * 203 - 1}}) {
-        Shot wrong = shot; // the corners are always looked at
+        SampleFrame wrong = image; // the corners are always looked at
         wrong.depth[pixel] = static_cast<uint16_t>(wrong.depth[pixel] + 40);
         CAPTURE(pixel);
         CHECK(rig.bench.differsFromTwins(wrong, 1).rfind("point of pixel ", 0) == 0);
     }
     size_t found = 0;
     for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel a patch; 5 patches asked for, 4 corners besides
-        Shot wrong = shot;
+        SampleFrame wrong = image;
         const size_t u = std::min(p % 13 * 16 + 8, 200u), v = std::min(p / 13 * 16 + 2, 115u);
         wrong.depth[v * 203 + u] = static_cast<uint16_t>(wrong.depth[v * 203 + u] + 40);
         found += rig.bench.differsFromTwins(wrong, 5).empty() ? 0 : 1;
     }
     CHECK(found >= 5);
     CHECK(found <= 30); // a window reaches over a patch's border
-    Shot grey = shot;
+    SampleFrame grey = image;
     grey.colour[60 * 203 + 100] = 0xff808080u; // class bits are compared everywhere
     CHECK(rig.bench.differsFromTwins(grey, 1) == "class bits of pixel " + std::to_string(60 * 203 + 100));
 }
@@ -69,16 +69,16 @@ TEST_CASE(
     "twins") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
-    const ShotSource source = twoCameraShots("tank", 160, 120, 1);
-    const Shot& shot = source.shots.front();
+    const FrameSequence source = twoCameraFrames("tank", 160, 120, 1);
+    const SampleFrame& image = source.frames.front();
     FrameBench bench(device, studyScene({}), source.camera);
-    bench.run(shot);
+    bench.run(image);
     REQUIRE(bench.plan().occlusion);
-    CHECK(bench.differsFromTwins(shot).empty());
-    Shot near = shot; // a cell that must be lower
+    CHECK(bench.differsFromTwins(image).empty());
+    SampleFrame near = image; // a cell that must be lower
     near.depth[60 * 160 + 80] = static_cast<uint16_t>(near.depth[60 * 160 + 80] / 2);
     CHECK(bench.differsFromTwins(near).rfind("occlusion cell ", 0) == 0);
-    Shot grey = shot; // no pixel finds its class again
+    SampleFrame grey = image; // no pixel finds its class again
     std::fill(grey.colour.begin(), grey.colour.end(), 0xff808080u);
     CHECK(bench.differsFromTwins(grey).rfind("class bits of pixel ", 0) == 0);
 }
@@ -88,19 +88,19 @@ TEST_CASE(
     "hide") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
-    const ShotSource one = analyticShots("tank", 320, 240, 1), two = twoCameraShots("tank", 320, 240, 1);
+    const FrameSequence one = analyticFrames("tank", 320, 240, 1), two = twoCameraFrames("tank", 320, 240, 1);
     CHECK(glm::length(two.camera.colourTdepth.position) > 0.020);
     CHECK(glm::length(two.camera.colourTdepth.position) < 0.030);
-    CHECK(two.shots.front().depth == one.shots.front().depth);
-    const auto masksOf = [&](const CameraInfo& camera, const Shot& shot) {
+    CHECK(two.frames.front().depth == one.frames.front().depth);
+    const auto masksOf = [&](const CameraInfo& camera, const SampleFrame& image) {
         FrameBench bench(device, studyScene({}), camera);
-        bench.run(shot);
+        bench.run(image);
         return bench.masks();
     };
-    const auto own = masksOf(one.camera, one.shots.front());
+    const auto own = masksOf(one.camera, one.frames.front());
     CameraInfo nowhere = two.camera; // as if both stood in one place
     nowhere.colourTdepth = {};
-    const auto seen = masksOf(two.camera, two.shots.front()), astray = masksOf(nowhere, two.shots.front());
+    const auto seen = masksOf(two.camera, two.frames.front()), astray = masksOf(nowhere, two.frames.front());
     size_t marked = 0, missed = 0, wrong = 0;
     for (size_t i = 0; i < own.size(); ++i) {
         marked += own[i] != 0 ? 1 : 0;
@@ -116,17 +116,17 @@ TEST_CASE(
 TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidance is what its points say") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
-    const ShotSource source = wallShot(160, 120, 0.5);
+    const FrameSequence source = wallFrame(160, 120, 0.5);
     Scene scene = studyScene({});
     scene.fixtures.back().largestPart = true, scene.fixtures.back().trim = 0.1;
     scene.fixtures.back().minCount = 10;
     FrameBench bench(device, scene, source.camera, [](Plan& plan) { plan.selfFilter = true; });
-    bench.run(source.shots.front());
+    bench.run(source.frames.front());
     const auto before = bench.masks();
     bench.setArm({{{dvec3(0.0, -0.1, 0.8), 0.08}}, {1}});
-    bench.run(source.shots.front());
+    bench.run(source.frames.front());
     CHECK(bench.masks() != before);
-    CHECK(bench.differsFromTwins(source.shots.front()).empty());
+    CHECK(bench.differsFromTwins(source.frames.front()).empty());
     CHECK(bench.guidanceDiffers().empty());
     auto& guidance = const_cast<std::vector<GuidancePose>&>(bench.set().host.guidance);
     REQUIRE(guidance.size() == 1);
@@ -138,28 +138,29 @@ TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidan
 TEST_CASE("A picture that is not new costs nothing of the device and publishes nothing") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
-    const ShotSource source = wallShot(160, 120, 0.5);
+    const FrameSequence source = wallFrame(160, 120, 0.5);
     FrameBench bench(device, studyScene({}), source.camera);
     bench.holdStill();
-    CHECK(!bench.run(source.shots.front()).unchanged);
+    CHECK(!bench.run(source.frames.front()).unchanged);
     const uint64_t generation = bench.set().host.generation;
-    CHECK(bench.run(source.shots.front()).unchanged);
-    const FrameCost cost = bench.measure(source.shots, {5, 5, 0.0});
+    CHECK(bench.run(source.frames.front()).unchanged);
+    const FrameCost cost = bench.measure(source.frames, {5, 5, 0.0});
     CHECK(bench.set().host.generation == generation);
     CHECK(!cost.frame.gpu);
     CHECK(!cost.frame.submit);
     CHECK(cost.total.count == 5);
     FrameBench fresh(device, studyScene({}), source.camera);
-    const FrameCost whole = fresh.measure(source.shots, {5, 5, 0.0});
+    const FrameCost whole = fresh.measure(source.frames, {5, 5, 0.0});
     CHECK(whole.frame.submit.count == 5);
     CHECK(cost.total.p50 > 0.0);
     CHECK(cost.total.p50 < 0.5 * whole.total.p50);
 }
 
 TEST_CASE("The wall's noise is the simulated camera's: its sigma at 0.8 m, no pixel without a reading") {
-    const ShotSource noisy = wallShot(320, 240, 1.0, WallNoise::Sensor), smooth = wallShot(320, 240, 1.0);
-    const auto& a = noisy.shots.front().depth;
-    const auto& b = smooth.shots.front().depth;
+    const FrameSequence noisy = wallFrame(320, 240, 1.0, WallNoise::Sensor),
+                        smooth = wallFrame(320, 240, 1.0);
+    const auto& a = noisy.frames.front().depth;
+    const auto& b = smooth.frames.front().depth;
     double squares = 0.0, sum = 0.0;
     for (size_t i = 0; i < a.size(); ++i) {
         const double e = (a[i] - b[i]) * noisy.camera.metresPerUnit;
@@ -177,9 +178,9 @@ TEST_CASE(
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const auto left = [&](WallNoise noise) {
-        const ShotSource source = wallShot(640, 480, 1.0, noise);
+        const FrameSequence source = wallFrame(640, 480, 1.0, noise);
         FrameBench bench(device, studyScene({}), source.camera);
-        bench.run(source.shots.front());
+        bench.run(source.frames.front());
         return static_cast<double>(bench.set().host.spheres.size()) / (640.0 * 480.0);
     };
     CHECK(left(WallNoise::Sensor) == doctest::Approx(0.77).epsilon(0.03));

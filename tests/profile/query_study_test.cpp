@@ -14,7 +14,7 @@ namespace {
 
 StudyRow lateAnswers(const char* source, double reach, double stalled, bool isDefault) {
     StudyRow row = queryRow(source, "reach " + digits(reach) + " mm");
-    row.more[kReachMm] = reach, row.more[kStalledTurns] = stalled;
+    row.more[kReachMm] = reach, row.more[kStalledTicks] = stalled;
     row.isDefault = isDefault;
     return row;
 }
@@ -56,7 +56,7 @@ TEST_CASE(
     CHECK(late.points[1].label == "reach 10 mm");
     CHECK(early.points[1].y == 0.0);
     CHECK(panel.xLabel == "reach [mm]");
-    CHECK(panel.yLabel == "stalled turns [% of 300]");
+    CHECK(panel.yLabel == "stalled ticks [% of 300]");
     CHECK(!panel.logY); // 0 is a value like others
 }
 
@@ -95,7 +95,7 @@ TEST_CASE(
             rows["cull is whole"] += row["cpu_cull_wall_p50_ms"] == row["submit_to_result_p50_ms"] ? 1 : 0;
         }
     }
-    CHECK(rows["CPU"] == 6 + 9); // in sets of a picture, and in few spheres
+    CHECK(rows["CPU"] == 6 + 9); // in sets of a image, and in few spheres
     CHECK(rows["GPU"] == 6);
     CHECK(rows["neither"] == 6 + 9 + 4); // brute force, late answers
     CHECK(rows["wall is CPU"] < 15);     // two clocks may agree once

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the studies of a quick run found: figures that hold on any machine, no times.
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 #include "tests/profile/quick_run.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/vulkan.h"
@@ -118,9 +118,9 @@ TEST_CASE("The spheres and the query of a budget are of the first picture, which
         scene.errorBudget = 0.0;
         scene.holdSeconds = 0.0;
         profile::FrameBench bench(device, scene, source.camera);
-        bench.run(source.shots.back());
+        bench.run(source.frames.back());
         const size_t last = bench.set().host.spheres.size();
-        bench.run(source.shots.front());
+        bench.run(source.frames.front());
         const size_t first = bench.set().host.spheres.size();
         CHECK(first != last); // else this would show nothing
         for (const auto& row : quickRun().study("fixture")["rows"]) {
@@ -207,7 +207,7 @@ TEST_CASE("What is left out of a scene saves the memory that its buffers took") 
     CHECK(saved.at("forbidden class") > saved.at("hold"));
     CHECK(saved.at("filter") == 0.0);
     CHECK(saved.at("times of passes") == 0.0);
-    CHECK(saved.at("colour, of gates that pass all") > 0.5); // the colour picture, twice
+    CHECK(saved.at("colour, of gates that pass all") > 0.5); // the colour image, twice
     CHECK(ms.at("pictures that are not new") > 90.0);        // nothing is done, not faster
     for (const char* also : {"trimmed mean", "self-filter", "guidance points on the host (both)"}) {
         CHECK_MESSAGE(saved.count(also) == 1, also);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The arithmetic that studies rest on: percentiles, the front, the fit, the distance between boundaries.
+#include "apps/profile/interleave.h"
 #include "apps/profile/plot_labels.h"
 #include "apps/profile/region_boundary.h"
 #include "apps/profile/study_plot.h"
-#include "apps/profile/turns.h"
 #include "engine/types/error.h"
 
 #include <doctest/doctest.h>
@@ -77,7 +77,7 @@ TEST_CASE(
     "A default off the front is named with the setting that beats it and the reason; one within 5 % is not") {
     Study study;
     study.errorUnit = "mm";
-    study.judgement.reason = "because";
+    study.rankBy.reason = "because";
     study.rows = {row("good", 1.0, 2.0), row("mine", 2.0, 3.0, true)};
     markFront(study);
     REQUIRE(study.findings.size() == 1);
@@ -92,13 +92,13 @@ TEST_CASE(
 TEST_CASE("A study whose sources differ in what errs and what is timed is judged by that, in its own unit") {
     Study study;
     study.errorUnit = "count";
-    study.judgement.reason = "because";
+    study.rankBy.reason = "because";
     study.rows = {row("ours", NAN, 2.0, true), row("theirs", NAN, 1.0)};
     study.rows[0].cost.cpu = {0.5, 0.5, 0.5, 5}, study.rows[1].cost.cpu = {0.4, 0.4, 0.4, 5};
     study.rows[0].more = {3.0}, study.rows[1].more = {2.0};
-    study.judgement.time = cpuTime;
-    study.judgement.error = [](const StudyRow& r) { return r.more[0]; };
-    study.judgement.errorUnit = [](const StudyRow&) { return "mm"; };
+    study.rankBy.time = cpuTime;
+    study.rankBy.error = [](const StudyRow& r) { return r.more[0]; };
+    study.rankBy.errorUnit = [](const StudyRow&) { return "mm"; };
     markFront(study);
     REQUIRE(study.verdicts.size() == 1);
     CHECK(
@@ -124,7 +124,7 @@ TEST_CASE("A default without an error is not called one on the front") {
 
 TEST_CASE("A study that ranks by a time of its own is judged by it") {
     Study study;
-    study.judgement.time = [](const StudyRow& r) { return r.more[0]; };
+    study.rankBy.time = [](const StudyRow& r) { return r.more[0]; };
     study.rows = {row("slow", 2.0, 1.0), row("quick", 2.0, 3.0)};
     study.rows[0].more = {7.0};
     study.rows[1].more = {4.0};
@@ -147,7 +147,7 @@ TEST_CASE("The device's time of a row without timestamps is that from submission
 TEST_CASE("Settings that are measured in turns all have a part in every round, and none is always first") {
     std::vector<size_t> order;
     double seconds = 0.0;
-    inTurns({8, 40, 2.0}, 3, [&](size_t i, const Effort& part) {
+    interleave({8, 40, 2.0}, 3, [&](size_t i, const Repeats& part) {
         order.push_back(i);
         seconds += part.seconds;
         CHECK(part.least == 2);
@@ -160,7 +160,7 @@ TEST_CASE("Settings that are measured in turns all have a part in every round, a
 TEST_CASE("Loops that are timed in turns interleave, and each keeps the samples of all its rounds") {
     std::vector<char> calls;
     const std::vector<Cost> costs =
-        timeCpuInTurns({4, 4, 0.0}, {[&] { calls.push_back('a'); }, [&] { calls.push_back('b'); }});
+        timeCpuInterleaved({4, 4, 0.0}, {[&] { calls.push_back('a'); }, [&] { calls.push_back('b'); }});
     REQUIRE(costs.size() == 2);
     CHECK(costs[0].cpu.count == 4);
     CHECK(costs[1].submit.count == 4);
@@ -233,17 +233,17 @@ TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart
 TEST_CASE(
     "Every point of a crowded panel gets a label of its own that meets no other, no point and no border") {
     const PlotBox room{80.0, 100.0, 700.0, 560.0};
-    std::vector<LabelRequest> setpoints;
+    std::vector<LabelRequest> requests;
     std::vector<PlotBox> points;
     for (int i = 0; i < 70; ++i) { // a cluster, and some at the borders
         const int across = i % 10, down = i / 10;
         const double x = i < 60 ? 300.0 + 7.0 * across : 85.0 + 68.0 * (i - 60),
                      y = i < 60 ? 200.0 + 6.0 * down : (i % 2 == 0 ? 104.0 : 556.0);
-        setpoints.push_back({x, y, 90.0});
+        requests.push_back({x, y, 90.0});
         points.push_back({x - 4.0, y - 4.0, x + 4.0, y + 4.0});
     }
-    const std::vector<LabelPlace> places = placeLabels(setpoints, room, points);
-    REQUIRE(places.size() == setpoints.size());
+    const std::vector<LabelPlace> places = placeLabels(requests, room, points);
+    REQUIRE(places.size() == requests.size());
     size_t led = 0;
     for (size_t i = 0; i < places.size(); ++i) {
         CAPTURE(i);
@@ -264,11 +264,11 @@ TEST_CASE(
 }
 
 TEST_CASE("A name that several points in one place have is written once, and again where one stands apart") {
-    const std::vector<LabelRequest> setpoints = {{100.0, 50.0, 90.0, "reach 10 mm"},
-                                                 {104.0, 53.0, 90.0, "reach 10 mm"},
-                                                 {102.0, 50.0, 90.0, "reach 20 mm"},
-                                                 {100.0, 80.0, 90.0, "reach 10 mm"}};
-    CHECK(distinctLabels(setpoints) == std::vector<size_t>{0, 2, 3});
+    const std::vector<LabelRequest> requests = {{100.0, 50.0, 90.0, "reach 10 mm"},
+                                                {104.0, 53.0, 90.0, "reach 10 mm"},
+                                                {102.0, 50.0, 90.0, "reach 20 mm"},
+                                                {100.0, 80.0, 90.0, "reach 10 mm"}};
+    CHECK(distinctLabels(requests) == std::vector<size_t>{0, 2, 3});
     CHECK(distinctLabels({}).empty());
 }
 

@@ -13,7 +13,7 @@ inline void checkGroup(const std::vector<stability::Case>& cases, stability::Gro
     double seconds = 0.0;
     for (const stability::Case& one : cases) {
         CHECK(one.group == group);
-        const stability::CaseResult result = stability::runCase(one, stability::Effort::Short);
+        const stability::CaseResult result = stability::runCase(one, stability::RunLength::Short);
         seconds += result.seconds;
         CAPTURE(one.name);
         CAPTURE(stability::comparison(result.outcome));

@@ -77,8 +77,8 @@ TEST_CASE("Cases are chosen by name or group in the order of the suite, and an u
 }
 
 TEST_CASE("A case that throws does not hold, and neither does a figure that is not a number") {
-    const CaseResult thrown =
-        runCase({"x", Group::Solver, [](Effort) -> Outcome { throw Error("what happened"); }}, Effort::Short);
+    const CaseResult thrown = runCase(
+        {"x", Group::Solver, [](RunLength) -> Outcome { throw Error("what happened"); }}, RunLength::Short);
     CHECK(!thrown.outcome.holds());
     CHECK(thrown.outcome.note.find("what happened") != std::string::npos);
     CHECK(!outcome(std::nan(""), 1.0).holds());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV: bilateralFilter on the depth picture in float32 metres, rgbd::depthTo3d on raw millimetres.
+// OpenCV: bilateralFilter on the depth image in float32 metres, rgbd::depthTo3d on raw millimetres.
 #include "apps/profile/peers/peers.h"
 
 #include <algorithm>

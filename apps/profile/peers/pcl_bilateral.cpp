@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // PCL: FastBilateralFilterOMP on an organised cloud: a bilateral grid, which approximates the Gaussian in the
-// picture and in depth and has no window. It puts a depth where there was no measurement; depths() takes that
+// image and in depth and has no window. It puts a depth where there was no measurement; depths() takes that
 // out again.
 #include "apps/profile/peers/peers.h"
 

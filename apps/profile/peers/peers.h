@@ -27,23 +27,23 @@ public:
     virtual void query(const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) = 0;
 };
 
-// Depth pictures, row-major [m], not a number = no measurement.
+// Depth images, row-major [m], not a number = no measurement.
 struct DepthImage {
     Intrinsics lens; // without distortion
     std::span<const float> z;
 };
 
-// Smooths a picture. One thread calls; the work may be spread over more.
+// Smooths a image. One thread calls; the work may be spread over more.
 class FilterPeer {
 public:
     virtual ~FilterPeer() = default;
-    // Copies the picture into the form that the library takes: not part of what is timed.
+    // Copies the image into the form that the library takes: not part of what is timed.
     virtual void load(const DepthImage& image) = 0;
     virtual void run() = 0;
     virtual std::vector<float> depths() const = 0; // [m] row-major, not a number = none
 };
 
-// Points of a depth picture in the camera's frame. Raw depth in millimetres, 0 = no measurement.
+// Points of a depth image in the camera's frame. Raw depth in millimetres, 0 = no measurement.
 class PointPeer {
 public:
     virtual ~PointPeer() = default;
@@ -59,7 +59,7 @@ struct Way {
     std::function<std::unique_ptr<Peer>()> make;
 };
 std::vector<Way<CollisionPeer>> collisionWays();
-// A Gaussian of `pixels` pixels in the picture and `metres` in depth; window of 2 radius + 1 pixels where the
+// A Gaussian of `pixels` pixels in the image and `metres` in depth; window of 2 radius + 1 pixels where the
 // library has one.
 std::vector<Way<FilterPeer>> filterWays(uint32_t radius, double pixels, double metres);
 std::vector<Way<PointPeer>> pointWays();

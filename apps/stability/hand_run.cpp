@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/stability/storm.h"
+#include "apps/stability/hand_run.h"
 
 #include "apps/stability/case_text.h"
 
@@ -7,11 +7,11 @@
 
 namespace fathom::stability {
 
-void StormFigures::add(const LockstepRig& one) {
-    add(StormFigures{one.audit().maxPenetration(), 1, one.figures});
+void HandRunFigures::add(const LockstepRig& one) {
+    add(HandRunFigures{one.audit().maxPenetration(), 1, one.figures});
 }
 
-void StormFigures::add(const StormFigures& other) {
+void HandRunFigures::add(const HandRunFigures& other) {
     const RigFigures& f = other.rig;
     penetration = std::max(penetration, other.penetration);
     runs += other.runs;
@@ -29,30 +29,30 @@ void StormFigures::add(const StormFigures& other) {
     rig.torqueStep = std::max(rig.torqueStep, f.torqueStep);
 }
 
-std::string StormFigures::words() const {
+std::string HandRunFigures::words() const {
     return num(runs) + " runs, " + num(rig.ticks) + " turns, " + num(rig.contact) + " in contact, " +
            num(rig.stalled) + " stalled, " + num(rig.trapped) + " trapped, " + num(rig.refused) +
            " answers refused, path " + num(rig.path) + " m.";
 }
 
-void rage(const World& world, const Storm& storm, StormFigures& figures) {
-    LockstepRig rig(toolOf(world.leaves), world.start, storm.setup);
+void runHand(const World& world, const HandRun& handRun, HandRunFigures& figures) {
+    LockstepRig rig(toolOf(world.leaves), world.start, handRun.setup);
     rig.show(world.fixtures);
-    rig.faults = storm.faults;
-    WildHand hand(world.start, world.focus, world.arena, storm.manner, storm.seed);
-    for (int k = 0; k < storm.ticks; ++k) {
+    rig.faults = handRun.faults;
+    RandomHand hand(world.start, world.focus, world.arena, handRun.motion, handRun.seed);
+    for (int k = 0; k < handRun.ticks; ++k) {
         rig.step(hand.next(rig.options().period));
     }
     figures.add(rig);
 }
 
-Outcome penetrationOutcome(const StormFigures& figures, double limit, const std::string& what) {
+Outcome penetrationOutcome(const HandRunFigures& figures, double limit, const std::string& what) {
     Outcome out = outcomeOf(
         figures.penetration, limit, "m",
         "Deepest penetration of any leaf beyond its allowance, by an audit that sees the poses alone. " +
             what + figures.words());
-    demand(out, figures.rig.contact > 0 && figures.rig.path > 0.0, "the tool never touched");
-    demand(out, figures.rig.notFinite == 0, "a wrench that is not finite");
+    require(out, figures.rig.contact > 0 && figures.rig.path > 0.0, "the tool never touched");
+    require(out, figures.rig.notFinite == 0, "a wrench that is not finite");
     return out;
 }
 

@@ -10,9 +10,9 @@
 
 namespace fathom::stability {
 
-class Dice {
+class Rng {
 public:
-    explicit Dice(uint64_t seed)
+    explicit Rng(uint64_t seed)
         : engine_(seed) {}
 
     double uniform(double lo, double hi) {

@@ -8,18 +8,18 @@
 
 namespace fathom::stability {
 
-struct StormFigures {
+struct HandRunFigures {
     double penetration = 0.0; // [m] deepest beyond the allowance, all runs
     uint64_t runs = 0;
     RigFigures rig; // sums and largest figures of all runs
 
     void add(const LockstepRig& rig);
-    void add(const StormFigures& other);
+    void add(const HandRunFigures& other);
     std::string words() const; // for a note
 };
 
-struct Storm {
-    HandManner manner;
+struct HandRun {
+    HandMotion motion;
     AnswerFaults faults;
     int ticks = 2000;
     uint64_t seed = 1;
@@ -27,10 +27,10 @@ struct Storm {
 };
 
 // One run; adds to `figures`.
-void rage(const World& world, const Storm& storm, StormFigures& figures);
+void runHand(const World& world, const HandRun& handRun, HandRunFigures& figures);
 
 // Outcome "deepest penetration <= limit" that also demands that the runs were no air: contacts, a path,
 // finite numbers.
-Outcome penetrationOutcome(const StormFigures& figures, double limit, const std::string& what);
+Outcome penetrationOutcome(const HandRunFigures& figures, double limit, const std::string& what);
 
 } // namespace fathom::stability

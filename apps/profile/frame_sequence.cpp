@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/profile/shot_source.h"
+#include "apps/profile/frame_sequence.h"
 
 #include "apps/binding/open_source.h"
 #include "devices/recorded/recorded_camera.h"
@@ -16,16 +16,16 @@ namespace {
 
 constexpr uint32_t kRed = 0xff2020c0u, kYellow = 0xff20b0c0u, kGrey = 0xff808080u; // 0xAABBGGRR
 
-void take(Camera& camera, uint32_t frames, ShotSource& source) {
+void take(Camera& camera, uint32_t frames, FrameSequence& source) {
     for (uint32_t i = 0; i < frames; ++i) {
         const std::optional<Frame> frame = camera.next();
         if (!frame) {
             break;
         }
-        Shot& shot = source.shots.emplace_back();
-        shot.depth.assign((*frame)->depth.begin(), (*frame)->depth.end());
-        readColours(**frame, shot.colour);
-        shot.baseTcamera = (*frame)->baseTcamera.value_or(Pose{});
+        SampleFrame& image = source.frames.emplace_back();
+        image.depth.assign((*frame)->depth.begin(), (*frame)->depth.end());
+        readColours(**frame, image.colour);
+        image.baseTcamera = (*frame)->baseTcamera.value_or(Pose{});
     }
 }
 
@@ -56,24 +56,24 @@ FixtureClass coloured(const std::string& name, Role role, Band hue) {
 
 } // namespace
 
-ShotSource analyticShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
+FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
     SimulatedCamera camera = cameraOn(scene, width, height, {});
-    ShotSource source{scene, camera.info(), {}};
+    FrameSequence source{scene, camera.info(), {}};
     take(camera, frames, source);
     const auto exact = camera.exactView(0); // nothing moves
-    for (Shot& shot : source.shots) {
-        shot.truth = exact.depth;
+    for (SampleFrame& image : source.frames) {
+        image.truth = exact.depth;
     }
     return source;
 }
 
-ShotSource twoCameraShots(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
+FrameSequence twoCameraFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
     constexpr uint32_t kAside = 52; // where the sway has taken the camera 25 mm from its first pose
-    ShotSource source = analyticShots(scene, width, height, frames);
+    FrameSequence source = analyticFrames(scene, width, height, frames);
     SimulatedCamera second = cameraOn(scene, width, height, kAside);
     const std::optional<Frame> frame = second.next();
-    for (Shot& shot : source.shots) {
-        readColours(**frame, shot.colour);
+    for (SampleFrame& image : source.frames) {
+        readColours(**frame, image.colour);
     }
     source.camera.colour = source.camera.depth;
     source.camera.registered = false;
@@ -81,24 +81,24 @@ ShotSource twoCameraShots(const std::string& scene, uint32_t width, uint32_t hei
     return source;
 }
 
-ShotSource recordedShots(const std::filesystem::path& folder, uint32_t frames) {
+FrameSequence recordedFrames(const std::filesystem::path& folder, uint32_t frames) {
     RecordedCamera camera(folder);
     const std::filesystem::path clean = folder.lexically_normal();
-    ShotSource source{
+    FrameSequence source{
         (clean.has_filename() ? clean : clean.parent_path()).filename().string(), camera.info(), {}};
     take(camera, frames, source);
     return source;
 }
 
-ShotSource wallShot(uint32_t width, uint32_t height, double share, WallNoise noise) {
-    ShotSource source{std::to_string(width) + "x" + std::to_string(height), {}, {}};
+FrameSequence wallFrame(uint32_t width, uint32_t height, double share, WallNoise noise) {
+    FrameSequence source{std::to_string(width) + "x" + std::to_string(height), {}, {}};
     Intrinsics& lens = source.camera.depth;
     lens.width = width, lens.height = height;
     lens.fx = lens.fy = 0.9 * width;
     lens.cx = 0.5 * (width - 1.0), lens.cy = 0.5 * (height - 1.0);
     source.camera.colour = lens;
     source.camera.metresPerUnit = 0.0001;
-    Shot& shot = source.shots.emplace_back();
+    SampleFrame& image = source.frames.emplace_back();
     const NormalTable normal;
     const auto redRows = static_cast<uint32_t>(std::lround(share * height));
     const auto yellowRows = std::max(1u, height / 50);
@@ -110,33 +110,33 @@ ShotSource wallShot(uint32_t width, uint32_t height, double share, WallNoise noi
                 const uint64_t bits = counterBits(1, 0, v * width + u, NoisePurpose::Depth);
                 z += SimulatedCamera::kDepthSigmaShare * depthSigma(z) * normal(static_cast<uint32_t>(bits));
             }
-            shot.depth.push_back(static_cast<uint16_t>(std::lround(z / source.camera.metresPerUnit)));
-            shot.colour.push_back(v < redRows ? kRed : v < redRows + yellowRows ? kYellow : kGrey);
+            image.depth.push_back(static_cast<uint16_t>(std::lround(z / source.camera.metresPerUnit)));
+            image.colour.push_back(v < redRows ? kRed : v < redRows + yellowRows ? kYellow : kGrey);
         }
     }
     return source;
 }
 
-ShotSource inYuyv(ShotSource source) {
+FrameSequence inYuyv(FrameSequence source) {
     source.camera.yuyv = true;
-    for (Shot& shot : source.shots) {
-        shot.yuyv.resize(shot.colour.size() / 2);
-        packYuyv(shot.colour, shot.yuyv);
-        unpackYuyv(shot.yuyv, shot.colour);
+    for (SampleFrame& image : source.frames) {
+        image.yuyv.resize(image.colour.size() / 2);
+        packYuyv(image.colour, image.yuyv);
+        unpackYuyv(image.yuyv, image.colour);
     }
     return source;
 }
 
-std::vector<ShotSource> studySources(const Settings& settings, const std::vector<std::string>& analytic,
-                                     uint32_t frames) {
-    std::vector<ShotSource> sources;
+std::vector<FrameSequence> studySources(const Settings& settings, const std::vector<std::string>& analytic,
+                                        uint32_t frames) {
+    std::vector<FrameSequence> sources;
     if (!settings.source.empty()) {
-        sources.push_back(recordedShots(settings.source, frames));
+        sources.push_back(recordedFrames(settings.source, frames));
         return sources;
     }
     for (const std::string& name : analytic) {
-        sources.push_back(settings.quick ? analyticShots(name, 320, 240, frames)
-                                         : analyticShots(name, 640, 480, frames));
+        sources.push_back(settings.quick ? analyticFrames(name, 320, 240, frames)
+                                         : analyticFrames(name, 640, 480, frames));
     }
     return sources;
 }
