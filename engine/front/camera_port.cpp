@@ -150,11 +150,11 @@ std::optional<fathom::Frame> CameraPort::Impl::take() {
 }
 
 void CameraPort::Impl::close() {
-    std::optional<fathom::Frame> last;
+    std::optional<fathom::Frame> unwanted; // released outside of the lock
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;
-        std::swap(waiting_, last);
+        std::swap(waiting_, unwanted);
     }
     changed_.notify_all();
 }

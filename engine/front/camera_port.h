@@ -15,9 +15,9 @@
 namespace fathom::v0 {
 
 struct CameraPort::Impl {
-    Impl(const CameraModel& model, const CameraInfo& info)
-        : model(model)
-        , info(info) {}
+    Impl(const CameraModel& given, const CameraInfo& made)
+        : model(given)
+        , info(made) {}
 
     // Camera thread. `release` empty: copies; else lends where the formats allow it. Calls release() exactly
     // once.

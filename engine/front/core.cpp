@@ -3,6 +3,9 @@
 
 #include "engine/run/open_scene.h"
 
+#include <algorithm>
+#include <string_view>
+
 namespace fathom::front {
 
 namespace {
@@ -22,6 +25,12 @@ void requireSupported(const fathom::Scene& scene) {
         throw v0::BadInput(scene.file.string() +
                            ": arm: a scene with an arm (allowed: none in the library yet; use "
                            "`fathom operate`)");
+    }
+    const std::filesystem::path& tool = scene.tool.file;
+    if (!tool.empty() &&
+        tool.extension() == ".urdf") { // read in a forked process, which a library must not start
+        throw v0::BadInput(scene.file.string() + ": tool.file: " + tool.string() +
+                           " (allowed: a .sph file in the library; `fathom spheres` converts)");
     }
     if (scene.port) {
         throw v0::BadInput(scene.file.string() +
