@@ -63,13 +63,9 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     };
 }
 
-OperatorRun::~OperatorRun() {
-    endThreads();
-}
-
 bool OperatorRun::wantsToEnd() const {
     const bool turned = options_.ticks > 0.0 && view_.step().record.t >= options_.ticks;
-    return turned || window_.closed() || console_.quit || ended_.load() || signals_.asked().load() ||
+    return turned || window_.closed() || console_.quit || thread_->ended() || signals_.asked().load() ||
            (options_.seconds > 0.0 && seconds() - started_ >= options_.seconds);
 }
 
@@ -100,13 +96,13 @@ void OperatorRun::run() {
         frame();
     }
     log_.write(console_, view_, extras(), true);
-    endThreads();
+    thread_->end();
     recorder_.stop();
     recorder_.finish();
     view_.refresh();
     report();
-    if (failure_) {
-        std::rethrow_exception(failure_);
+    if (thread_->failure()) {
+        std::rethrow_exception(thread_->failure());
     }
 }
 

@@ -8,6 +8,7 @@
 #include "apps/operate/operate_command.h"
 #include "apps/operate/pilot_hand.h"
 #include "apps/operate/recorder.h"
+#include "apps/operate/run_thread.h"
 #include "apps/operate/screen.h"
 #include "apps/operate/state_log.h"
 #include "apps/operate/steering.h"
@@ -18,8 +19,6 @@
 #include "engine/run/realtime_run.h"
 
 #include <memory>
-#include <semaphore>
-#include <thread>
 
 namespace fathom::operate {
 
@@ -30,7 +29,6 @@ class OperatorRun {
 public:
     // Throws BadInput (scene, display, device), Error, DeviceLost.
     OperatorRun(const OperateOptions& options, const GlobalOptions& global);
-    ~OperatorRun();
 
     // Until the window is closed, the time is up, a signal or a failure, which is thrown.
     void run();
@@ -46,9 +44,6 @@ private:
     void makeEngine(const Pose& start, const Pose* tool);
     void forgetFrames();
     void startThreads();
-    void resumeThreads();
-    void pauseThreads(); // the last thing that the hand gets is a zero wrench
-    void endThreads();
     void followPilot();
     void frame();
     void show();   // what has been drawn, where there is a device
@@ -84,11 +79,6 @@ private:
     std::unique_ptr<GatedHand> hand_;
     std::unique_ptr<Steering> steering_;
     std::unique_ptr<FixtureEditor> editor_;
-    std::atomic<bool> stop_{false}, ended_{false};
-    std::binary_semaphore go_{0}, done_{0};
-    bool running_ = false, over_ = false; // over_: read after go_
-    std::exception_ptr failure_;
-    std::thread thread_;
 
     Console console_;
     std::unique_ptr<Canvas> canvas_;
@@ -102,6 +92,8 @@ private:
     double started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
     uint32_t recordings_ = 0; // tried names
     std::string recordingTo_; // folder, until all is on disk; empty = none
+    std::unique_ptr<RunThread>
+        thread_; // the last member, so it ends before what it uses; its last wrench is zero
 };
 
 } // namespace fathom::operate

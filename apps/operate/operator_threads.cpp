@@ -86,45 +86,13 @@ void OperatorRun::startThreads() {
                                                       observers_->setShapes(shapes);
                                                   }
                                               });
-    // This one stays: threads that it makes have the priority of the start, not that of the window.
-    thread_ = std::thread([this] {
-        for (go_.acquire(); !over_; go_.acquire()) {
-            try {
-                engine_->run(*cycle_, *hand_, std::numeric_limits<double>::infinity(), sink_, stop_);
-                failure_ = engine_->failure();
-            } catch (...) {
-                failure_ = std::current_exception();
-            }
-            ended_.store(failure_ != nullptr || !stop_.load());
-            done_.release();
-        }
+    thread_ = std::make_unique<RunThread>([this](const std::atomic<bool>& stop) {
+        engine_->run(*cycle_, *hand_, std::numeric_limits<double>::infinity(), sink_, stop);
+        return engine_->failure();
     });
-    resumeThreads();
+    thread_->resume();
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)),
                   kNiceness); // after the others began
-}
-
-void OperatorRun::resumeThreads() {
-    stop_.store(false);
-    running_ = true;
-    go_.release();
-}
-
-void OperatorRun::pauseThreads() {
-    stop_.store(true);
-    if (running_) {
-        done_.acquire();
-        running_ = false;
-    }
-}
-
-void OperatorRun::endThreads() {
-    pauseThreads();
-    if (thread_.joinable()) {
-        over_ = true;
-        go_.release();
-        thread_.join();
-    }
 }
 
 // The clock of a run begins anew. Another device remembers nothing anyway.
@@ -149,8 +117,8 @@ void OperatorRun::followPilot() {
     feed_.freeze(false);
     followRecorder();
     hand_->setForces(false);
-    pauseThreads();
-    if (ended_.load()) {
+    thread_->pause();
+    if (thread_->ended()) {
         return; // it failed: the window ends
     }
     forgetFrames();
@@ -165,7 +133,7 @@ void OperatorRun::followPilot() {
     haptics_ = softly(session_.scene, session_.tool);
     editor_->keep(console_.settings(), name);
     makeEngine(raw, stays ? &last.tool : nullptr);
-    resumeThreads();
+    thread_->resume();
     console_.notify(name + " flies now: arm the forces");
 }
 
