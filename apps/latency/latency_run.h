@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of a realtime run, watched: how late the haptic thread wakes, how long its turn takes, whether
+// Measures the threads of a real-time run: how late the haptic thread wakes, how long its step takes, whether
 // memory stays flat.
 #pragma once
 
@@ -18,21 +18,21 @@
 
 namespace fathom {
 
-// One part: so long under one load.
+// One part of a measurement: one load for some seconds.
 struct LatencyPart {
     std::string
         load; // idle: one picture, then none; frames: 30 a second; window: frames, and the window drawing
     double seconds = 0.0;       // that it really took
     Histogram late;             // [us] wake-ups after they were due
-    Histogram tick;             // [us] compute time of a turn
+    Histogram tick;             // [us] compute time of a step
     uint64_t frames = 0;        // published
-    uint64_t framesLost = 0;    // that a live camera would have thrown away
-    uint64_t periodsMissed = 0; // without a turn
+    uint64_t framesLost = 0;    // that a live camera would have dropped
+    uint64_t periodsMissed = 0; // without a step
     uint64_t recordsLost = 0;
     double armTravel = 0.0;     // [rad], [m] that all joints went, added up; 0 without an arm or in a window
     std::vector<double> memory; // [MiB] resident, about 100 over the part, after its first 5 %
-    // How much more of it in the last tenth than in the first one, each by its largest; 0 when there are too
-    // few.
+    // [MiB] growth from the first tenth of the samples to the last, by the maximum of each; 0 when there are
+    // too few.
     double memoryGrowth() const;
     void take(const RealtimeRun& run); // its counts, after the run
 };
@@ -76,7 +76,7 @@ private:
     HapticOptions haptics_;
 };
 
-// [MiB] resident memory of this process; 0 when the system does not tell.
+// [MiB] resident memory of this process; 0 when the system does not report it.
 double residentMemory();
 
 } // namespace fathom

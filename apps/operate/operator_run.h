@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pilot's session from start to end: the threads of a realtime run, and the window on the main thread.
+// A pilot's session: the threads of a real-time run, and the window on the main thread.
 #pragma once
 
 #include "apps/binding/stop_signals.h"
@@ -22,9 +22,9 @@
 
 namespace fathom::operate {
 
-// The run never waits for the window: the haptic, contact, camera and writer threads are those of `replay
-// --realtime`, the window reads what the writer left for it. A GPU that is lost, under the passes or under
-// the painter, is made anew by the camera thread (DeviceHandover) while hand and keys go on.
+// The run never waits for the window: its haptic, contact, camera and writer threads are those of `replay
+// --realtime`, and the window reads what the writer published. When the GPU is lost, the camera thread opens
+// it again (DeviceHandover) while hand and keys keep working.
 class OperatorRun {
 public:
     // Throws BadInput (scene, display, device), Error, DeviceLost.
@@ -67,7 +67,7 @@ private:
     Session session_;
     HapticOptions haptics_;
     SessionFeed feed_;
-    std::unique_ptr<ViewPublisher> observers_; // null = nobody may look on
+    std::unique_ptr<ViewPublisher> observers_; // null = no observers
     Recorder recorder_;
     PublishedSink published_;
     FaultTrace faults_;

@@ -14,7 +14,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kClockSlack = 1e-9; // [s] a frame due at a tick's own time is in force in that tick
+constexpr double kClockSlack = 1e-9; // [s] a frame due at the time of a tick is active in that tick
 
 double micros(std::chrono::steady_clock::time_point since) {
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - since).count();
@@ -48,8 +48,8 @@ void LockstepReplay::fetch() {
     }
 }
 
-// As the pilot had it from this picture on: gates with its set, shapes now, which is within a picture of when
-// they were placed.
+// Applies the pilot's edit from this frame on: gates with its set, shapes now, at most one frame after they
+// were placed.
 void LockstepReplay::takeEdit(uint32_t image) {
     const SceneEdit* edit = session_.newEdit(image);
     if (edit == nullptr) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lockstep: all cadences on one thread, on the run's own clock. Nothing measured enters what is written to
-// haptics.csv.
+// Lockstep: all cadences on one thread, on the run's own clock. haptics.csv has no measured times in it.
 #pragma once
 
 #include "apps/replay/replay_command.h"
@@ -17,9 +16,9 @@
 
 namespace fathom {
 
-// Tick i is at i / rate_hz, frame j at j / 30 s whatever its stamp, in force from the first tick at or after
-// that. One contact query before every turn at the pose the turn starts from, in force contact.delay ticks
-// later. Ends when the frames (plus 1/30 s) and the hand path both have.
+// Tick i is at i / rate_hz. Frame j is at j / 30 s whatever its stamp, and active from the first tick at or
+// after that. Each step is preceded by one contact query at its start pose, whose answer is offered
+// contact.delay ticks later. The run ends when the frames (plus 1/30 s) and the hand path have ended.
 class LockstepReplay {
 public:
     // trace: null = none.
@@ -32,7 +31,7 @@ public:
     static constexpr double kFramePeriod = 1.0 / 30.0; // [s]
 
 private:
-    // A published set, kept for the audit as long as some contact set may still obey it.
+    // A published set, kept for the audit while a contact set may come from it.
     struct Kept {
         Fixtures fixtures;
         RegionGrid grid;
@@ -65,7 +64,7 @@ private:
     std::optional<FrameReport> ready_; // processed, not yet due
     double nextTime_ = 0.0;            // [s] of next_ or ready_
     double pathStart_ = 0.0;           // [s]
-    bool published_ = false;           // some set is in force
+    bool published_ = false;           // some set is active
     std::vector<uint32_t> lastColour_;
 
     std::deque<std::unique_ptr<Kept>> kept_;

@@ -21,28 +21,28 @@
 
 namespace fathom {
 
-// What only a realtime run has to tell.
+// Figures that only a real-time run has.
 struct RealtimeFigures {
     Percentiles wokenLateMicros; // [us] wake-ups after they were due, compute time apart
     Percentiles exposureMs;      // [ms] live camera: from start of exposure to the published set
     bool live = false;           // the camera is
     uint64_t framesLost = 0;     // by a live camera, or that one would have thrown away
-    uint64_t periodsMissed = 0;  // without a turn
-    uint64_t framesInPlace = 0;  // whose depth the device read where the camera left it
+    uint64_t periodsMissed = 0;  // without a step
+    uint64_t framesInPlace = 0;  // whose depth the device read in place
     uint64_t staleTicks = 0;     // with a scene old enough for forces to fade
-    uint64_t recordsLost = 0;    // the writer fell behind
-    uint32_t renewals = 0;       // times that the device was made anew
+    uint64_t recordsLost = 0;    // because the writer was too slow
+    uint32_t renewals = 0;       // times that a lost device was opened again
     bool stopped = false;        // by a signal
 };
 
 // Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is
 // captured at (index j - index 0) / 30 s by the clock (ReplayOptions::frameRate). Ends when frames (plus
-// one such period) and hand path both have, or on a signal of StopSignals: then too every file is whole.
+// one such period) and hand path both have, or on a signal of StopSignals: then every file is complete, too.
 class RealtimeReplay final : private RunSink {
 public:
-    // The session must have been built on a thread confined to placement.rest: a software device's workers
-    // stay where it is. Takes the pictures of a simulated camera beforehand (SpooledCamera): rendering is not
-    // what a run measures. trace may be null.
+    // The session must have been built on a thread confined to placement.rest, because the workers of a
+    // software device inherit it. Renders the frames of a simulated camera in advance (SpooledCamera), so
+    // that a run does not measure rendering. trace may be null.
     RealtimeReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    const ThreadPlacement& placement, CadenceTrace* trace);
     ~RealtimeReplay() override;
@@ -78,9 +78,9 @@ private:
     std::vector<Shape> shapes_;
     HapticOptions haptics_;
     ToolAudit audit_;
-    bool audited_ = true;                 // every turn so far could be
+    bool audited_ = true;                 // every step so far was audited
     FaultTrace faults_;                   // before this as a sink
-    std::unique_ptr<ViewPublisher> view_; // null = nobody may watch
+    std::unique_ptr<ViewPublisher> view_; // null = no observers
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<RealtimeRun> run_;
     std::optional<HapticCycle> cycle_;

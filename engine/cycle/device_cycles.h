@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compute device with the frame cycle and the contact cycle on it: what has to be made anew together when
-// the device is lost.
+// The compute device with its frame cycle and contact cycle: they are rebuilt together when the device is
+// lost.
 #pragma once
 
 #include "engine/cycle/contact_cycle.h"
@@ -15,8 +15,8 @@
 
 namespace fathom {
 
-// While there is no device the newest set's host copy and the CPU query stand in (design 10). The frame
-// cadence calls everything but answer(), which is the contact cadence's; these two may meet.
+// While the device is lost, answer() uses the host copy of the newest set and the CPU query. The contact
+// thread calls answer(), the frame thread everything else; the two may overlap.
 class DeviceCycles {
 public:
     // What is referred to must outlive this. arm: null = the tool moves freely.
@@ -53,8 +53,8 @@ public:
     bool newestSet(Fixtures& set, RegionGrid& grid);
 
     // After frames() threw DeviceFailed: gives the device back and opens the same one again.
-    // Origin, generations and edited fixtures go on (FrameCycle::Mark); points that a scene holds in memory
-    // are forgotten. Throws DeviceFailed while there is none: to be tried again.
+    // Origin, generations and edited fixtures continue (FrameCycle::Mark); held points are forgotten. Throws
+    // DeviceFailed while no device is there: retry later.
     void renew();
     uint32_t renewals() const { return renewals_.load(); } // any thread
 
@@ -69,7 +69,7 @@ private:
     std::unique_ptr<FrameCycle> frames_; // null while there is no device
     std::mutex mutex_;                   // an answer, or the exchange of what answers are made from
     ContactCycle contact_;
-    FrameCycle::Mark mark_;                  // where a new frame cycle goes on
+    FrameCycle::Mark mark_;                  // where a new frame cycle resumes
     std::optional<cloud::FixtureSet> stale_; // host copy of the last set of a device that is gone
     std::atomic<uint32_t> renewals_{0};
 };

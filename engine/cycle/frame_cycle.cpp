@@ -26,8 +26,8 @@ std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
     return buffers;
 }
 
-// Beside a device of its own the crew looks out while the passes run, which take less than a millisecond; a
-// CPU device needs its processors for them.
+// On a GPU the workers spin while the passes run, which take less than a millisecond; a CPU device needs the
+// processors itself.
 std::chrono::microseconds spinTimeOf(const Plan& plan) {
     return std::chrono::microseconds(plan.pack ? 1000 : 100);
 }
@@ -61,10 +61,10 @@ FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo
 FrameCycle::~FrameCycle() {
     try {
         if (ticket_ != 0) {
-            timeline_.wait(ticket_); // nothing is freed under the device's feet
+            timeline_.wait(ticket_); // the device may still use the buffers
         }
     } catch (const Error&) {
-        // A device that is lost is at nothing any more.
+        // A lost device uses no buffer.
     }
 }
 
@@ -114,10 +114,11 @@ void FrameCycle::setScene(const Scene& scene) {
     if (origin_) {
         params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
     }
-    lastSource_.reset(); // the same picture is another set now
+    lastSource_.reset(); // the same frame makes another set now
 }
 
-// Some drivers compile a pipeline at its first use: let that be now. A frame of zero depth selects nothing.
+// Some drivers compile a pipeline at its first use, so run each one now. A frame of zero depth selects
+// nothing.
 void FrameCycle::warmUp() {
     clearMemory();
     if (!plan_.cloud) {
@@ -271,8 +272,8 @@ FrameReport FrameCycle::finish() {
     return report;
 }
 
-// When nobody waits for the set any more. It is out and must be told of: a device that is lost by now says so
-// at the next submission, and the times stay zero.
+// Called after publish, so a lost device must not fail the frame: the next submission reports the loss, and
+// the times stay zero.
 void FrameCycle::readTimes(const InFlight& f, FrameReport& report) const {
     if (!plan_.cloud || !plan_.passTimes) {
         return;

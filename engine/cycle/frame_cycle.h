@@ -24,7 +24,7 @@ namespace fathom {
 // What became of one frame.
 struct FrameReport {
     uint32_t index = 0;
-    bool unchanged = false; // the same picture again (source number): no work, only a new capture time
+    bool unchanged = false; // a repeated frame (same source number): no work, only a new capture time
     bool inPlace = false;   // the device read depth where the camera left it
     cloud::FrameCounts counts;
     uint32_t guidanceCount = 0; // pixels in guidance classes, as classify marks them
@@ -45,8 +45,8 @@ public:
                uint32_t readers);
     ~FrameCycle();
 
-    // Where a cycle on another device goes on: generations count up from here, positions keep their origin,
-    // fixtures are as setScene() left them, and what is held still stays where it is.
+    // State that a cycle on another device resumes from: generations continue, positions keep their origin,
+    // fixtures stay as setScene() left them, and frozen classes stay where they are.
     struct Mark {
         uint64_t generation = 0;
         std::optional<dvec3> origin; // [m] base frame; empty = not chosen yet
@@ -58,31 +58,32 @@ public:
 
     // One frame through, start to end.
     FrameReport process(Frame frame);
-    // In place of it, of a picture that is to make no set: the one in force stays.
+    // Instead of process(), for a frame that makes no set: the active one stays.
     FrameReport without(uint32_t index) const;
-    // Other gates, radii, roles, boxes and frozen classes for the frames from now on. The scene must have as
+    // Changes gates, radii, roles, boxes and frozen classes from the next frame on. The scene must have as
     // many classes of points as before, and the same plan; throws Error otherwise.
     void setScene(const Scene& scene);
-    // What earlier pictures left (held points) is gone, and the next one may be of any time: for who jumps
-    // about in a recording. Waits for the device; no frame in flight.
+    // Forgets held points of earlier frames, so that the next frame may have any time (a jump in a
+    // recording). Waits for the device; no frame may be in flight.
     void forget();
-    // Where the arm is in the pictures from the next upload() on. Nothing happens without a self-filter in
-    // the plan.
+    // The arm that the frames show from the next upload() on. No effect without a self-filter in the plan.
     void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
-    // The same in three steps: upload() may run while the device works on the frame before.
+    // process() in three steps: upload() may run while the device works on the previous frame.
     void upload(Frame frame);
     void submit();
     FrameReport finish();
 
     cloud::FixturePool& sets() { return pool_; }
-    // Capture time [s] of the newest published picture, unchanged ones included.
+    // Capture time [s] of the newest published frame, repeated ones included.
     double captureTime() const { return captureTime_.load(std::memory_order_acquire); }
 
     const std::vector<std::string>& passNames() const { return passes_.names(); }
     const PatchLayout& layout() const { return layout_; }
     const CameraInfo& camera() const { return camera_; }
-    uint32_t dispatches() const { return dispatches_; }      // of the last frame
-    const cloud::WorkBuffers& work() const { return work_; } // for tests that compare passes with their twins
+    uint32_t dispatches() const { return dispatches_; } // of the last frame
+    const cloud::WorkBuffers& work() const {
+        return work_;
+    } // for tests that compare passes with their CPU twins
 
 private:
     struct InFlight {

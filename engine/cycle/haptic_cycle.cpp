@@ -9,8 +9,8 @@
 namespace fathom {
 namespace {
 
-// Up by the nominal period and down by the measured one: turns that come late put no fading off, and none
-// makes a force grow faster.
+// Ramps up by the nominal period and down by the measured one: late ticks cannot delay fading out and cannot
+// make a force grow faster.
 void ramp(double& value, bool up, double nominal, double measured, double whole) {
     value = std::clamp(value + (up ? nominal : -measured) / whole, 0.0, 1.0);
 }
@@ -28,7 +28,7 @@ double shareOf(const dvec3& part, const dvec3& whole) {
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
-// Where the hand commands the tool at first.
+// Where the hand commands the tool before the first step.
 Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm) {
     if (tool0 == nullptr) {
         return map.map(start, false);
@@ -103,7 +103,7 @@ StepRecord HapticCycle::step(const StepInput& input) noexcept {
     recordTouches(set, moved, out);
     holdArm(now, moved.trapped, out);
     fillMargins(input, out);
-    watch_.step(input.measuredPeriod); // in force from the next turn on
+    watch_.step(input.measuredPeriod); // active from the next step on
     return out;
 }
 
@@ -154,8 +154,8 @@ Wrench HapticCycle::springWrench() noexcept {
     return wrench;
 }
 
-// The part of the spring wrench that guidance asked for: meant to move the hand, and no business of the
-// passivity controller.
+// The part of the spring wrench that guidance adds. It moves the hand on purpose, so the passivity controller
+// excludes it.
 Wrench HapticCycle::guidancePull() const noexcept {
     return options_.paperGuidance ? guidance_.pull(device_, watch_.springs())
                                   : couple(watch_.springs(), springEnd_, device_, dvec3(0.0), dvec3(0.0));
@@ -179,7 +179,7 @@ Wrench HapticCycle::passivityWrench(const Wrench& spring, const Wrench& pull, do
     return passivity_.step(tick);
 }
 
-// Guidance has its share of the delivered wrench taken out, at what the size limit left of it.
+// Subtracts the guidance share of the delivered wrench, scaled as the size limit scaled it.
 void HapticCycle::tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked,
                                 const Wrench& sized, const Wrench& delivered) noexcept {
     const double ramp = ramps_.product();
@@ -232,8 +232,8 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved) con
     return moved.contact ? StepState::Contact : StepState::Free;
 }
 
-// An arm stands still while anything is wrong, and after that until tool and hand have met again or were
-// re-indexed. Where one follows, the tool never left it.
+// An arm stands still while anything is wrong, and then until tool and hand meet again or are re-indexed.
+// When a real arm follows, the tool never left it.
 void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept {
     const bool wrong =
         !now.sane || !now.running || now.off || now.stale || trapped || !out.finite || now.held;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One turn of the haptic cadence: hand pose in, wrench out, in the same tick. Design 6.
+// One step of the haptic cadence: hand pose in, wrench out, in the same tick.
 #pragma once
 
 #include "engine/cycle/arm_rig.h"
@@ -13,28 +13,28 @@
 
 namespace fathom {
 
-// One thread (the haptic one). Allocates in the constructor only; turn() is noexcept and never locks, throws,
-// waits or touches Vulkan. The caller owns the device, the clock and the contact sets.
-//
-// Rules of a turn:
-// - Until the first contact set (when the scene needs one) the tool is held, the wrench is zero, the state is
-// off.
-// - Forces off or dead-man open: in that very turn w = 0; the wrench ramps to zero over 0.2 s while the tool
-// follows the
-//   hand and still obeys the regions.
-// - Trapped: the tool is held, the force ramps out over 0.2 s, and back when a way is found. The clutch ramps
-// the same way.
-// - Scene older than staleAfter: the force fades over 0.5 s, and back when a frame comes. Fading goes by the
-//   clock, whatever turns are missed; what comes back goes by turns.
-// - A real arm that follows the tool (follow()) and stands still, or has to for forces off, an old scene or a
-// broken
-//   sample: the tool is held, the force ramps out over 0.2 s; then the tool is put where the arm was measured
-//   and the hand is re-indexed to it, so that both go on from there.
-// - A number that is not finite, anywhere: zero wrench in that turn, counted; the next one slews up from
+// One thread (the haptic one). Allocates in the constructor only; step() never locks, throws, waits or
+// touches Vulkan. The caller owns the device, the clock and the contact sets. Rules of a step:
+// - Until the first contact set (when the scene needs one): the tool is held, the wrench is zero, the state
+// is off.
+// - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over 0.2
+// s while the tool follows the hand
+//   and still obeys the regions.
+// - Trapped: the tool is held and the force ramps out over 0.2 s; it ramps in again when a motion is found.
+// The clutch ramps
+//   the same way.
+// - Scene older than staleAfter: the force fades out over 0.5 s and returns when a frame arrives. Fading out
+// uses measured time, so
+//   late ticks cannot delay it; fading in counts ticks.
+// - A real arm follows the tool (follow()) and stands still, or must because forces are off, the scene is old
+// or the sample is
+//   broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the measured arm and
+//   the hand is re-indexed to it, so that both resume from there.
+// - A number that is not finite: zero wrench in that step, which is counted; the next wrench slews up from
 // zero.
 class HapticCycle {
 public:
-    // start: raw pose of the hand before the first turn; the tool starts where it commands, or at base_T_tool
+    // start: raw pose of the hand before the first step; the tool starts where it commands, or at base_T_tool
     // `tool0` when that is given: then the hand map is aligned, as after a clutch. arm: null = the tool moves
     // freely; else it must outlive this, the tool is its tip and starts where the arm does (tool0, when
     // given, says only that the hand map is aligned to that), and contact sets are of ArmRig::toolAt().
@@ -43,12 +43,12 @@ public:
 
     StepRecord step(const StepInput& input) noexcept;
 
-    // Before a turn, where a real arm follows; from the first call on the rules above hold. True when the
-    // tool was put where the arm is: then pose() and place() are new.
+    // Call before a step when a real arm follows; from the first call on the rules above apply. True when the
+    // tool moved to the measured arm: pose() and place() have changed.
     bool follow(const ArmFollow& told) noexcept;
 
-    // Other authored shapes from the next turn on; those beyond what the constructor made room for are left
-    // out. On the haptic thread, between turns.
+    // Replaces the authored shapes from the next step on; drops those beyond the room made by the
+    // constructor. Haptic thread, between steps.
     void setShapes(std::span<const Shape> shapes) noexcept {
         arm_ ? arm_->setShapes(shapes) : proxy_->setShapes(shapes);
     }
@@ -59,10 +59,10 @@ public:
     bool onArm() const { return arm_.has_value(); }
     const Springs& springs() const {
         return watch_.springs();
-    } // in force: those of the options, or less while turns are slow
+    } // active: those of the options, or softer ones while ticks are slow
     const PassivityController& passivity() const { return passivity_; }
     const HapticOptions& options() const { return options_; }
-    uint64_t notFinite() const { return notFinite_; } // turns with a number that was not
+    uint64_t notFinite() const { return notFinite_; } // steps with a number that is not finite
 
     static constexpr double kRampTime = 0.2;       // [s] forces off, clutch, trapped
     static constexpr double kFadeTime = 0.5;       // [s] old scene
@@ -75,7 +75,7 @@ private:
         double fresh = 1.0; // scene young enough
         double product() const { return power * free * fresh; }
     };
-    struct Situation {    // what the rules look at
+    struct Situation {    // what the rules depend on
         bool sane = true; // the hand's sample is finite
         bool off = false; // forces off or dead-man open
         bool clutch = false;
@@ -118,21 +118,21 @@ private:
     PassivityController passivity_;
 
     std::vector<double> leafRadius_; // [m]
-    Pose tool_;                      // base_T_tool after the last turn
+    Pose tool_;                      // base_T_tool after the last step
     Pose springEnd_;                 // base_T_tool that the solver aims at: device, led by guidance
     Pose device_, handle_;           // last good sample: mapped, raw
-    Pose toolBefore_, deviceBefore_; // at the end of the turn before, for the damping
+    Pose toolBefore_, deviceBefore_; // at the end of the previous step, for the damping
     Wrench smooth_;                  // low-pass
     Wrench previous_;                // delivered, for the slew limit
     Ramps ramps_;
     double age_ = 0.0;
     bool hasAge_ = false;
     bool armHold_ = true;
-    bool followed_ = false;   // by a real arm
-    bool armFollows_ = false; // that says it does
-    bool held_ = true;        // Situation::held of the last turn
-    bool placed_ = false;     // the tool was put where no set in force may cover it
-    bool arming_ = true;      // forces come back after having been off, as softly as the options say
+    bool followed_ = false;   // a real arm is connected
+    bool armFollows_ = false; // and reports that it follows
+    bool held_ = true;        // Situation::held of the last step
+    bool placed_ = false;     // the tool moved to where the active set may not cover it
+    bool arming_ = true;      // forces return after they were off: within HapticOptions::armTime
     uint64_t notFinite_ = 0;
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The part of a turn that moves the tool: which contact set is in force, what the hand asks for, what the
-// free tool or the arm makes of it.
+// The part of a step that moves the tool: the active contact set, the pose that the hand commands, and the
+// motion of the free tool or the arm.
 #include "engine/cycle/haptic_cycle.h"
 
 #include <algorithm>
@@ -37,8 +37,8 @@ bool HapticCycle::follow(const ArmFollow& told) noexcept {
 }
 
 double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noexcept {
-    // The set in force may be older than the newest fixture set; while it is the same one, the picture may be
-    // newer.
+    // The active set may be older than the newest fixture set. While they are the same, the frame that
+    // confirms it may be newer.
     const bool newest = set == nullptr || set->generation == input.generation;
     const double age = input.time - (newest ? input.captureTime : set->captureTime);
     age_ = input.sourceEnded && hasAge_ ? std::min(age, age_) : age;
@@ -53,8 +53,8 @@ ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, S
     wanted.contacts = set;
     wanted.deadline = input.deadline;
     if (!options_.paperGuidance) {
-        // The turn is composed, not added to log(q_dev q^-1): the same to first order, and at rest the torque
-        // is exactly K_r times the lead.
+        // The rotation is composed, not added to log(q_dev q^-1): equal to first order, and at rest the
+        // torque is exactly K_r times the lead.
         const auto lead = guidance_.lead(device_, watch_.springs());
         wanted.target.position += lead.translation;
         if (lead.rotation != dvec3(0.0)) {
@@ -70,15 +70,15 @@ ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, S
     return moved;
 }
 
-// With a free direction of an arm the hand's means nothing: it is the tip's, so that no spring turns the
-// hand, and none when the arm is held either.
+// When the arm leaves the tool's direction free, the hand's rotation has no meaning. It is set to the tip's,
+// so no spring turns the hand, even while the arm is held.
 void HapticCycle::freeDirection() noexcept {
     if (rig_ != nullptr && rig_->freeDirection) {
         device_.rotation = springEnd_.rotation = tool_.rotation;
     }
 }
 
-// The arm's tip in place of the tool.
+// Moves the arm's tip instead of a free tool.
 ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept {
     const bool button = (input.buttons & rig_->graspButton) != 0;
     ArmInput request{wanted, button ? 1.0 : 0.0};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that the haptic turn was told before it starts: derived once from scene, tool and device preset.
+// Options of the haptic cycle, derived once from scene, tool and device preset.
 #pragma once
 
 #include "engine/contact/tool.h"
@@ -11,9 +11,9 @@
 namespace fathom {
 
 struct HapticOptions {
-    double period = 0.001; // T [s] nominal; every ramp, slew and damping counts in it
+    double period = 0.001; // T [s] nominal; ramps, slew and damping use it
     DevicePreset device;
-    CouplingOptions coupling; // what the springs were made from; the margins need it
+    CouplingOptions coupling; // input of the springs; the margins need it
     Springs springs;
     ProxyOptions proxy;
     GuidanceLimits guidance;
@@ -25,13 +25,12 @@ struct HapticOptions {
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     double lowPassGain = 1.0;                     // limits.h; 1 = off
     bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
-    double armTime = 0.2;      // [s] in which forces come back after forces off or an open dead-man
+    double armTime = 0.2;      // [s] in which forces return after forces off or an open dead-man
     double staleAfter = 0.1;   // [s] scene age from which forces fade
-    // Damps what moving fixtures put into the hand (engine/haptics/passivity.h); where nothing is generated
-    // no force changes.
+    // Damps the energy that moving fixtures feed into the hand (engine/haptics/passivity.h); changes no force
+    // when there is none.
     bool passivityController = true;
-    uint32_t deviceDelayTicks =
-        0; // whole turns from write() to the hand; coupling.delayTicks counts them too
+    uint32_t deviceDelayTicks = 0; // ticks from write() to the hand; coupling.delayTicks includes them
 };
 
 // Throws BadInput (unknown device) or Error (springs impossible).

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes into one haptic turn and what comes out: plain values, no owners.
+// Input and output of one haptic step: plain values, no owners.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -16,12 +16,12 @@
 
 namespace fathom {
 
-// In the words of haptics.csv: off, free, contact, escape, trapped, fading.
+// Names in haptics.csv: off, free, contact, escape, trapped, fading.
 enum class StepState : uint8_t {
     Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
     Free,    // no row pushes
     Contact, // some row pushes
-    Escape,  // new data lies over the tool, which is on its way out
+    Escape,  // new data covers the tool, which moves out
     Trapped, // no motion obeys every row: the tool is held, the force ramps out
     Fading,  // scene too old, or forces off and not yet ramped out
 };
@@ -30,35 +30,35 @@ enum class StepState : uint8_t {
 inline constexpr uint32_t kGuidanceButton = 1;
 inline constexpr uint32_t kDeadManOpen = 2; // by level; the clutch's bit is an option
 
-// What a turn is given.
+// Input of a step.
 struct StepInput {
-    double time = 0.0;    // [s] of this turn, on the clock of capture times
+    double time = 0.0;    // [s] of this step, on the clock of capture times
     Pose deviceThandle;   // raw, as the device gives it
     uint32_t buttons = 0; // bit field by level
     bool forcesOff = false;
 
-    // The set in force (the one that the turn before obeyed; null = none), and a newer answer if there is
-    // one. Both must outlive the turn. When StepRecord::adopted is true, the newer one is in force from now
-    // on. A set that does not cover the tool is not adopted: keep offering it or a newer one.
+    // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
+    // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set that
+    // does not cover the tool is not adopted: keep offering it or a newer one.
     const ContactSet* contacts = nullptr;
     const ContactSet* offered = nullptr;
 
-    // News of the frame cadence: its newest fixture set.
+    // The newest fixture set of the frame cadence.
     int64_t frame = -1;
     uint64_t generation = 0;
     double captureTime =
-        0.0; // [s] of the newest picture that shows it: later than the set's own while nothing changes
+        0.0; // [s] of the newest frame that shows it: later than the set's own while nothing changes
     std::span<const GuidancePose> guidance;
-    bool sourceEnded = false; // lockstep: the last frame stays in force and does not age
+    bool sourceEnded = false; // lockstep: the last frame stays valid and does not age
 
-    double measuredPeriod = 0.0; // [s] since the turn before, for the margins; 0 = the nominal one
+    double measuredPeriod = 0.0; // [s] since the previous step, for the margins; 0 = the nominal one
     Deadline deadline;           // realtime; none in lockstep
 };
 
-// A number of a record that no turn has found yet.
+// A number that no step has measured yet.
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
-// A condition that pushed in the last solve of the turn, for those who look on. Base frame [m].
+// A row that pushed in the last solve of the step, for displays and logs. Base frame [m].
 struct Touch {
     ContactRow::Kind kind = ContactRow::Kind::Sphere;
     dvec3 point{0.0};        // of the leaf's surface, nearest to the region
@@ -71,37 +71,37 @@ struct Touch {
 };
 inline constexpr size_t kMostTouches = 8;
 
-// Where the tool is, and its arm when it hangs on one: what a contact query asks about.
+// Pose of the tool, and the posture of its arm if it has one: the input of a contact query.
 struct ToolState {
     Pose pose; // base_T_tool
     ArmPosture arm;
 };
 
-// What a real arm that goes where the tool's arm does tells before a turn.
+// Status of the real arm that follows the tool's arm, before a step.
 struct ArmFollow {
-    bool follows = false; // false: it stands still, for whatever reason
+    bool follows = false; // false: it stands still
     bool known = false;   // `posture` was measured lately
     ArmPosture posture;
 };
 
-// What a turn did to an arm; all zero without one.
+// What a step did to an arm; all zero without one.
 struct ArmRecord {
-    ArmPosture posture;          // after the turn
-    double residual = 0.0;       // [m] |what is left to the target|_M
+    ArmPosture posture;          // after the step
+    double residual = 0.0;       // [m] distance to the target in the metric M
     double manipulability = 0.0; // [m/rad] smallest singular value of M^1/2 J
     uint32_t atLimits = 0;       // limits of joints or of their speeds that pushed
     bool graspHeld = false;      // a finger would have entered a region
     bool singular = false;       // damped
 };
 
-// One row of haptics.csv and what the view shows beside it.
+// One row of haptics.csv, and what the window shows besides.
 struct StepRecord {
     double t = 0.0;            // [s]
     Pose device;               // base_T_tool that the hand commands, mapped
-    Pose tool;                 // base_T_tool of the proxy after the turn
+    Pose tool;                 // base_T_tool of the proxy after the step
     Wrench wrench;             // on the hand, base axes, after all limits, before projection
     uint32_t contacts = 0;     // rows with a positive multiplier in the last solve
-    double minGap = kNotKnown; // [m] over the contact set after the turn; its reach when none is nearer
+    double minGap = kNotKnown; // [m] over the contact set after the step; its reach when none is nearer
     StepState state = StepState::Off;
     double guidance = 0.0;                                         // w
     int64_t frame = -1;                                            // index of the set obeyed
@@ -112,8 +112,8 @@ struct StepRecord {
     ArmRecord arm;
     Wrench deviceWrench;     // for HapticDevice::write: device axes, about the handle, on actuated axes only
     Wrench residual;         // base axes: what the device cannot render
-    bool adopted = false;    // StepInput::offered is in force now
-    bool finite = true;      // false: something was not, and the wrench of this turn is zero
+    bool adopted = false;    // StepInput::offered is active now
+    bool finite = true;      // false: some number is not, and the wrench of this step is zero
     bool armHold = true;     // an arm that follows the tool must stand still
     uint32_t solves = 0;     // linearisations
     uint32_t infeasible = 0; // solver calls without an answer

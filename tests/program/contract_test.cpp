@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `replay --out` leaves: files, keys, columns, counts (design 8), and that equal runs are equal to the
-// bit.
+// The output of `replay --out`: files, keys, columns, counts. Equal runs are equal to the bit.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Readers of what `replay --out` leaves, written from the contract alone: they share no code with the
-// program.
+// Readers for the files of `replay --out`. They share no code with the program.
 #pragma once
 
 #include "engine/types/pose.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A temporary folder with a recording, a scene and a hand path, and replays of it whose contract is checked
-// each time.
+// A temporary folder with a recording, a scene and a hand path. Each replay of it is checked against the
+// contract of `replay --out`.
 #pragma once
 
 #include "tests/rig/replay_output.h"
@@ -32,7 +32,7 @@ struct Terms {
     bool calm = true; // the hand never outruns the tool: no force before the first contact, stall or guidance
 };
 
-// Reads and checks a finished replay: files, keys, columns, counts, invariants (design 8).
+// Reads and checks a finished replay: files, keys, columns, counts, times, invariants.
 Replay readReplay(const std::filesystem::path& out, const ProgramRun& run);
 void checkContract(const Replay& replay, const Terms& terms);
 
@@ -51,7 +51,7 @@ public:
     // Command line of a replay of scene.yaml; rec and hand.csv are used where they are there.
     std::vector<std::string> command(const std::vector<std::string>& more = {},
                                      const std::string& out = "out") const;
-    // Runs it, demands exit 0 and a silent standard error, and checks the contract.
+    // Runs it, requires exit code 0 and an empty standard error, and checks the contract.
     Replay replay(const std::vector<std::string>& more = {}, const Terms& terms = {},
                   const std::string& out = "out") const;
 
