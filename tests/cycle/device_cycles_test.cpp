@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that is made anew under running cycles: what is in force stays, what follows goes on from it.
+// The device is opened again under running cycles: the active set stays, and later frames resume from it.
 #include "engine/cycle/device_cycles.h"
 
 #include "devices/simulated/analytic_scene.h"

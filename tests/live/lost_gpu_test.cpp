@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A GPU that is lost under the running program (a layer below it says so): the hand goes on with what is
-// known, the device is opened again, the pictures go on.
+// The GPU is lost while the program runs (a Vulkan layer simulates it): the haptic thread continues with the
+// last set, the device is opened again, and frames resume.
 #include "tests/rig/losing.h"
 #include "tests/rig/stage.h"
 

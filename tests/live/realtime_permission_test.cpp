@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the kernel says of a live run's threads and memory where it permits real-time priority and locking.
+// Where the kernel permits real-time priority and locked memory: what it reports of the threads and memory of
+// a live run.
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 

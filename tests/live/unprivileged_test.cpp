@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What somebody has who was granted nothing: no real-time priority, hardly any locked memory.
+// A run by a user without privileges: no real-time priority and hardly any locked memory.
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 

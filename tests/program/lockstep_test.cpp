@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of lockstep (design 2): when frames and answers come into force, who waits for whom, when a run
-// ends.
+// The rules of lockstep: when frames and contact answers become active, which cadence waits for which, when a
+// run ends.
 #include "tests/rig/stage.h"
 
 #include <cmath>

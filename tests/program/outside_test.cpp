@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths in a scene and links in a recording that lead out of their folders are used, and told of.
+// Paths in a scene and links in a recording that lead out of their folders are used, with a warning.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>

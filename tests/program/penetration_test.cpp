@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise, recomputed from outside: from the saved sets and the tool poses of haptics.csv alone, every
-// leaf against every sphere of the set in force, with the allowance rule of design 6 and 8.
+// Recomputes the penetration promise from the saved sets and the tool poses of haptics.csv alone: every leaf
+// against every sphere of the active set, with the allowance for the motion of a tick.
 #include "tests/rig/stage.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A device that two threads share, lost by either of them again and again: nobody touches one that is gone.
+// Two threads share a device that either of them loses again and again: neither uses a lost device.
 #include "engine/run/device_handover.h"
 
 #include <doctest/doctest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene with an arm before a wall, and what its simulated twin behind a serial line says of it.
+// A scene with an arm in front of a wall, and the log of its simulated arm behind a serial line.
 #pragma once
 
 #include "tests/rig/arm_bench.h"

@@ -21,18 +21,19 @@ struct RunSetting {
     bool terminal = false;        // standard error is a terminal (a pseudo one), not a pipe
     double timeLimit = 240.0;     // [s]; then the child is killed
     std::filesystem::path folder; // working folder; empty = ours
-    bool unprivileged = false; // as nobody, where we are root; no real-time priority, 64 KiB of locked memory
+    bool unprivileged =
+        false; // as user nobody when the test runs as root; no real-time priority, 64 KiB of locked memory
 };
 
 // Throws std::runtime_error when no child can be made. Its standard input is empty.
 ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting = {});
 
-// The same as a child that goes on meanwhile and is the caller's to wait for; what it says is added to the
-// file `said`, or goes where ours does. Throws std::runtime_error when no child can be made.
+// Starts it as a child process that the caller must wait for. Its output is appended to the file `said`, or
+// goes to the test's own. Throws std::runtime_error when no child can be made.
 pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said = {});
 
-// Of the sanitized programs that are started from now on: what libraries keep until the process ends is not
-// ours (support/sanitizer_options.cpp).
+// Programs started from now on under a sanitizer ignore memory that third-party libraries keep until the
+// process ends (support/sanitizer_options.cpp).
 void allowLibraryLeaks();
 
 } // namespace fathom
