@@ -157,7 +157,9 @@ TEST_CASE("a URDF that would end the stack of its reader is refused: elements ne
         chain += "<link name='" + name(i) + "'/>" + jointOf("j" + name(i), "fixed", name(i), name(i - 1));
     }
     const std::string refusal = refusalOf(nested);
-    CHECK_MESSAGE(refusal.find("robot: breaks the URDF reader") != std::string::npos, refusal);
+    CHECK_MESSAGE((refusal.find("robot: breaks the URDF reader") != std::string::npos ||
+                   refusal.find("XML_ELEMENT_DEPTH_EXCEEDED") != std::string::npos), // newer TinyXML-2
+                  refusal);
     const std::string links = refusalOf(chain + "</robot>"); // a larger stack may survive them
     CHECK_MESSAGE((links.find("robot: 50000 links (allowed: 1000 at most)") != std::string::npos ||
                    links.find("robot: breaks the URDF reader") != std::string::npos),

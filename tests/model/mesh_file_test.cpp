@@ -244,6 +244,14 @@ TEST_CASE("A file that crashes the mesh reader is refused in one line, and so is
         CHECK_THROWS_AS(loadMesh(file), BadInput);
     }
     std::ofstream(file, std::ios::binary) << input.substr(1);
-    CHECK_THROWS_WITH_AS(loadMesh(file), doctest::Contains("breaks the mesh reader"), BadInput);
+    try {
+        loadMesh(file);
+        FAIL("not refused");
+    } catch (const BadInput& e) {
+        const std::string line = e.what(); // Assimp 5.4 refuses by itself what crashes 5.2
+        CHECK_MESSAGE((line.find("breaks the mesh reader") != std::string::npos ||
+                       line.find("Not enough data for accessor") != std::string::npos),
+                      line);
+    }
     std::filesystem::remove(file);
 }
