@@ -8,14 +8,12 @@
 
 #include <thread>
 
-namespace fathom::v0 {
-
-namespace {
+namespace fathom::front {
 
 // The submitted frames as the frame loop sees them. Frame thread only, but for lost.
 class SubmittedFeed final : public FrameFeed {
 public:
-    SubmittedFeed(CameraPort::Impl& camera, DeviceCycles& cycles, Channels& channels)
+    SubmittedFeed(v0::CameraPort::Impl& camera, DeviceCycles& cycles, Channels& channels)
         : camera_(camera)
         , cycles_(cycles)
         , channels_(channels) {}
@@ -56,7 +54,7 @@ public:
     std::atomic<bool> lost{false}; // the device is
 
 private:
-    CameraPort::Impl& camera_;
+    v0::CameraPort::Impl& camera_;
     DeviceCycles& cycles_;
     Channels& channels_;
     std::optional<fathom::Frame> next_;
@@ -71,6 +69,12 @@ public:
 private:
     DeviceCycles& cycles_;
 };
+
+} // namespace fathom::front
+
+namespace fathom::v0 {
+
+namespace {
 
 const CameraModel& onlyOne(std::span<const CameraModel> cameras) {
     if (cameras.size() != 1) {
@@ -124,8 +128,8 @@ struct Engine::Impl {
     std::shared_ptr<front::Shared> shared;
     front::ComputeSide compute;
     std::shared_ptr<CameraPort::Impl> camera;
-    SubmittedFeed feed;
-    CycleAnswers answers;
+    front::SubmittedFeed feed;
+    front::CycleAnswers answers;
     FrameLoop frames;
     ContactLoop contacts;
     std::atomic<bool> stop{false};
