@@ -95,6 +95,11 @@ void OperatorRun::run() {
         lastFrame_ = now;
         frame();
     }
+    if (window_.offscreen() && !options_.shots.empty()) { // no key can ask for one
+        console_.screenshot = true;
+        window_.beginFrame(0.0);
+        frame();
+    }
     log_.write(console_, view_, extras(), true);
     thread_->end();
     recorder_.stop();

@@ -32,9 +32,9 @@ CameraInfo someCamera() {
 }
 
 // Frames at 30 Hz, each followed by ticks with one touch.
-class Session {
+class RecordedRun {
 public:
-    explicit Session(Recorder& recorder, int ticks = 33)
+    explicit RecordedRun(Recorder& recorder, int ticks = 33)
         : recorder_(recorder)
         , ticks_(ticks) {}
 
@@ -112,7 +112,7 @@ TEST_CASE("A stopped recording is complete: every frame, and every tick until th
     const ScratchFolder scratch;
     const auto folder = scratch.path() / "rec";
     Recorder recorder;
-    Session session(recorder);
+    RecordedRun session(recorder);
     session.image(); // before it records
     recorder.start(folder, "camera: {}\n", someCamera());
     CHECK(recorder.recording());
@@ -146,7 +146,7 @@ TEST_CASE("A disk that is full ends a recording by name, and what had room can b
         Recorder recorder;
         {
             const SmallDisk disk(bytes);
-            Session session(recorder, ticks);
+            RecordedRun session(recorder, ticks);
             recorder.start(folder, "camera: {}\n", someCamera());
             for (int i = 0; i < 4000 && recorder.recording(); ++i) {
                 session.image();
@@ -164,7 +164,7 @@ TEST_CASE("A disk that is full ends a recording by name, and what had room can b
         }
         recorder.start(scratch.path() / (std::string("after ") + file), "", someCamera()); // there is room
         CHECK(recorder.failure() == "");
-        Session(recorder).image();
+        RecordedRun(recorder).image();
         recorder.stop();
         recorder.finish();
         CHECK(recorder.failure() == "");
@@ -178,7 +178,7 @@ TEST_CASE("A process that is killed while it records leaves a recording up to th
     REQUIRE(child >= 0);
     if (child == 0) {
         Recorder recorder;
-        Session session(recorder);
+        RecordedRun session(recorder);
         recorder.start(folder, "camera: {}\n", someCamera());
         for (;;) {
             session.image();

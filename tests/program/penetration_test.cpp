@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Recomputes the penetration promise from the saved sets and the tool poses of haptics.csv alone: every leaf
-// against every sphere of the active set, with the allowance for the motion of a tick.
+// against every sphere of the active set. A leaf may stay as deep as it was when a new set covered it, never
+// deeper.
 #include "tests/rig/stage.h"
 
 #include <algorithm>
