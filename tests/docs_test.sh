@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs every block of a document that begins with ```runnable, and checks that links between documents resolve: files and headings.
+# A block that follows a line '<!-- FILE -->' must equal that file, and some document must show each program of apps/examples.
 # Each document runs in a folder that looks like the repository's root with the built tree at build/, so commands run as written and
 # what they write stays out of the tree. The built program is first in PATH, and $OUT is an empty folder.
-# Ends with 'docs: N passed, N failed'. A block is a case, and so are the links of a document.
+# Ends with 'docs: N passed, N failed'. A block is a case, and so are the links of a document and each example.
 #   docs_test.sh BUILD_FOLDER
 set -uo pipefail
 build=$(realpath "$1")
@@ -11,7 +12,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 export PATH="$build:$PATH"
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-passed=0 failed=0 blocks=0
+passed=0 failed=0 blocks=0 shown=""
 
 # Prints the anchors of a document as GitHub makes them: of its headings, and <a id="...">.
 anchors() {
@@ -36,7 +37,26 @@ broken_links() {
     done
 }
 
+# Prints the files that a document shows, each a line '<!-- FILE -->' in front of a block.
+shown_files() {
+    sed -nE 's/^<!-- ([a-z0-9_./]+) -->$/\1/p' "$1"
+}
+
+# Prints the block behind the line '<!-- FILE -->' of a document.
+shown_block() {
+    awk -v mark="<!-- $2 -->" '/^```/ && inside { exit } inside { print } /^```/ && next_is { inside = 1 } { next_is = ($0 == mark) }' "$1"
+}
+
 while read -r document; do
+    for file in $(shown_files "$document"); do
+        if shown_block "$document" "$file" | cmp -s - "$file"; then
+            passed=$((passed + 1))
+            shown+=" $file "
+        else
+            echo "ERROR: $document: the block behind '<!-- $file -->' differs from the file: copy the file into it"
+            failed=$((failed + 1))
+        fi
+    done
     broken=$(broken_links "$document")
     if [ -z "$broken" ]; then
         passed=$((passed + 1))
@@ -69,6 +89,9 @@ while read -r document; do
         rm -f "$block"
     done
 done < <(find . \( -name build -o -name out -o -name '.?*' \) -prune -o -name '*.md' -print | cut -c3- | sort)
+for example in apps/examples/*.cpp; do
+    [[ $shown == *" $example "* ]] || { echo "ERROR: no document shows $example as it is"; failed=$((failed + 1)); }
+done
 [ "$blocks" -gt 0 ] || { echo "ERROR: no document has a runnable block"; failed=$((failed + 1)); }
 echo "docs: took $SECONDS s"
 echo "docs: $passed passed, $failed failed"
