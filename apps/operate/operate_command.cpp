@@ -27,7 +27,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
-    command->add_option("--offscreen", options->offscreen, "WxH: draw the same frames without a display");
+    command->add_option("--offscreen", options->offscreen, "WxH: draw without a display; with --folder, ends with a screenshot");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
         ->check(CLI::NonNegativeNumber);
     command->add_option("--pilot", options->pilot,

@@ -70,7 +70,9 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
 
 // What one more dispatch with its barrier adds when its single work group computes nothing.
 double emptyDispatch(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats) {
-    const gpu::Pipeline pipeline(device, {"empty", ceiling_spv, 1, false, 0, std::array{64u, 0u}});
+    const gpu::Pipeline pipeline(
+        device,
+        {"empty", ceiling_spv, {gpu::kStorage}, {{shared::kSpecGroupSize, 64u}, {shared::kSpecRounds, 0u}}});
     const gpu::Buffer sums(device, 64 * 4, gpu::MemoryKind::Device, "sums");
     const gpu::Bindings bindings(device, pipeline, {&sums}, sums);
     const auto chain = [&](int count) {
