@@ -8,11 +8,11 @@ namespace fathom {
 
 namespace {
 
-// Of what it is beside its diagonal an element leaves the eigenvalues as they are to the last bit (Demmel and
-// Veselic, "Jacobi's method is more accurate than QR", 1992: the relative criterion, for a Gram matrix).
+// An off-diagonal element this small relative to the diagonal does not change the eigenvalues in float64.
+// Relative criterion for a Gram matrix: Demmel and Veselic, "Jacobi's method is more accurate than QR", 1992.
 constexpr double kRotated2 = 1e-34; // squared
 
-// Smallest eigenvalue of a symmetric m x m matrix by cyclic Jacobi rotations, until a sweep finds none to do.
+// Smallest eigenvalue of a symmetric m x m matrix by cyclic Jacobi rotations, until a sweep needs none.
 template <size_t kMost>
 double smallestEigenvalue(std::array<std::array<double, kMost>, kMost>& a, size_t m) {
     bool rotated = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Damped least squares in joint space: J^T M J + lambda^2 I and what follows from it.
+// Damped least squares in joint space: the matrix J^T M J + lambda^2 I, its factor and the singular values of
+// M^1/2 J.
 #pragma once
 
 #include "engine/model/arm_model.h"
@@ -8,7 +9,7 @@
 
 namespace fathom {
 
-// No allocation, noexcept. Columns are M^1/2 J: [v; k omega] a unit of joint motion [m].
+// No allocation, noexcept. Columns are M^1/2 J: [v; k omega] [m] per unit of joint motion.
 class ArmNormal {
 public:
     explicit ArmNormal(size_t joints) noexcept
@@ -16,11 +17,11 @@ public:
     void setColumn(size_t joint, const dvec3& v, const dvec3& scaledOmega) noexcept {
         columns_[joint] = {v.x, v.y, v.z, scaledOmega.x, scaledOmega.y, scaledOmega.z};
     }
-    // A joint that cannot move: its column does not count for what the arm can do.
+    // A joint that cannot move: its column is excluded from smallestSingular().
     void leaveOut(size_t joint) noexcept { leftOut_[joint] = true; }
-    // Smallest singular value of the columns that are not left out [m], or of the rows when there are more
-    // joints than rows: 6, or 3 where directions do not count (k = 0). By Jacobi rotations of the
-    // smaller Gram matrix.
+    // Smallest singular value [m] of the included columns, or of the rows when there are more joints than
+    // rows: 6, or 3 where directions do not count (k = 0). Computed by Jacobi rotations of the smaller Gram
+    // matrix.
     double smallestSingular(size_t rows = 6) const noexcept;
     void damp(double lambda) noexcept; // fills metric()
     std::span<const double> metric() const noexcept { return {metric_.data(), n_ * n_}; }
@@ -34,8 +35,8 @@ private:
     std::array<double, kMostJoints * kMostJoints> metric_{};
 };
 
-// lambda: `least` where the smallest singular value is above `below`, rising to `most` at 0 (Nakamura and
-// Hanafusa 1986: lambda^2 by (1 - s / below)^2).
+// lambda: `least` where the smallest singular value is above `below`, rising to `most` at 0: lambda^2 grows
+// with (1 - s / below)^2 (Nakamura and Hanafusa 1986).
 double dampingFor(double smallest, double below, double least, double most) noexcept;
 
 } // namespace fathom

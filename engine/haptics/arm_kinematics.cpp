@@ -9,7 +9,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kFarthestAim = 2.0; // times the step cap
+constexpr double kFarthestAim = 2.0; // step caps
 constexpr int kCapTries = 12;
 
 } // namespace
@@ -51,7 +51,7 @@ void ArmKinematics::report(ArmStep& out) const noexcept {
     out.contact = out.contacts > 0 || out.atLimits > 0;
 }
 
-// Limits of place and of speed, whichever is nearer.
+// The tighter of the position and the speed limit.
 ArmKinematics::Range ArmKinematics::rangeOf(size_t joint) const noexcept {
     const ArmJoint& j = arm_.joints[joint];
     const double reach = j.speed * options_.period;
@@ -76,7 +76,7 @@ void ArmKinematics::addLimits(ProxyRows& rows) const noexcept {
 
 JointVector ArmKinematics::normalOf(const ContactRow& row, const LeafState& leaves) const noexcept {
     JointVector normal{};
-    if (row.kind == ContactRow::Kind::Equality) { // of the tip
+    if (row.kind == ContactRow::Kind::Equality) { // constrains the tip
         const dvec3 tip = pose().position;
         for (size_t k = 0; k < arm_.count(); ++k) {
             const dvec3 rotation = arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k);
@@ -95,7 +95,7 @@ JointVector ArmKinematics::normalOf(const ContactRow& row, const LeafState& leav
 bool ArmKinematics::addRow(ContactRow row, const LeafState& leaves, ProxyRows& rows) const noexcept {
     const JointVector normal = normalOf(row, leaves);
     if (row.offset > proxy::kEscapeThreshold && row.kind != ContactRow::Kind::Equality) {
-        // No more than half of what the joints can do in what is left of the tick.
+        // At most half of the motion that the joints have left in this tick.
         double possible = 0.0;
         for (size_t k = 0; k < arm_.leaves[row.leaf].joint; ++k) {
             const Range range = rangeOf(k);
@@ -109,7 +109,7 @@ bool ArmKinematics::addRow(ContactRow row, const LeafState& leaves, ProxyRows& r
 
 bool ArmKinematics::aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcept {
     const Pose tip = pose();
-    // A target far away bends the way there: ask only for what one solve can go, or a stretched arm
+    // The path to a far target is curved: request only what one solve can reach, or a stretched arm
     // oscillates.
     Motion left = remaining(tip, target_);
     left = std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(left, metricRadius_)) * left;
@@ -170,7 +170,7 @@ void ArmKinematics::tryPart(const Answer& answer, double part, LeafState& leaves
     tryPosture(q, now_.posture.grasp, leaves);
 }
 
-// Cuts the answer to the step cap and tries it; the trust region is left to the check.
+// Cuts the solution to the step cap and tries it. The exact check enforces the trust region.
 bool ArmKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows&) noexcept {
     answer.share = 1.0;
     for (int k = 0; k < kCapTries; ++k) {
@@ -191,7 +191,7 @@ StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& le
     if (part == 0.0) {
         return StepOutcome::None;
     }
-    // What arcs and raised offsets add must not carry the tip away from a hand that is still.
+    // Arcs and raised offsets must not move the tip away from a hand at rest.
     const double before = lengthOf(remaining(pose(), target_), metricRadius_);
     const double after = lengthOf(remaining(nextPose(), target_), metricRadius_);
     if (!out.escape && after >= before && before > proxy::kNothing) {
@@ -201,8 +201,8 @@ StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& le
     return leaves.travel() > proxy::kNothing ? StepOutcome::More : StepOutcome::Last;
 }
 
-// The arcs of the joints carry the tip off a line by more than its rows can tell: the rows ask for that error
-// the other way.
+// Joint arcs move the tip off a line by more than its linear rows predict, so the rows request the opposite
+// error.
 bool ArmKinematics::tightenEqualities(std::span<const Shape> shapes, double share,
                                       ProxyRows& rows) const noexcept {
     bool changed = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kinematics of an arm for ConstrainedProxy. Unknowns: joint increments dq; minimised is
-// |J dq - x_u|_M^2 + lambda^2 |dq|^2 (damped least squares, Nakamura and Hanafusa 1986) subject to
-// n^T J_leaf dq >= -gap, joint limits and joint speeds, all as rows of the same solver.
+// Kinematics of an arm for ConstrainedProxy. The unknowns are joint increments dq. The solver minimises |J dq
+// - x_u|_M^2 + lambda^2 |dq|^2 (damped least squares, Nakamura and Hanafusa 1986) subject to n^T J_leaf dq >=
+// -gap, joint limits and joint speeds, all as rows of the same solver.
 #pragma once
 
 #include "engine/haptics/arm_leaf_places.h"
@@ -11,35 +11,36 @@
 
 namespace fathom {
 
-// How an arm's proxy moves; fixed when it is made. The step cap holds for any leaf of any link.
+// Motion options of an arm's proxy, fixed at construction. The step cap applies to every leaf of every link.
 struct ArmProxyOptions : ProxyOptions {
-    double period = 0.001;         // [s] of a tick, for the joint speeds
+    double period = 0.001;         // [s] tick, for the joint speeds
     double damping = 1e-3;         // [m/rad] lambda away from singular postures
     double singularBelow = 0.02;   // [m/rad] smallest singular value of M^1/2 J below which lambda grows
-    double singularDamping = 0.05; // [m/rad] lambda in the singular posture itself
-    double graspPerTick = 0.0;     // share of the way from open to closed, per tick
+    double singularDamping = 0.05; // [m/rad] lambda at the singular posture
+    double graspPerTick = 0.0;     // most change of the grasp per tick; 1 = from open to closed
 };
 
 // The result of a tick; `pose` is base_T_tip.
 struct ArmStep : ProxyStep {
-    JointVector q{};           // after the tick
-    double grasp = 0.0;        // after the tick
-    double residual = 0.0;     // [m] |what is left to the target|_M: what the pilot feels as the arm's limit
+    JointVector q{};    // after the tick
+    double grasp = 0.0; // after the tick
+    double residual =
+        0.0; // [m] distance to the target in the metric M; the pilot feels it as the arm's limit
     double manipulability = 0; // [m/rad] smallest singular value of M^1/2 J at the start
-    uint32_t contacts = 0;     // rows of leaves that pushed in the last solve
-    uint32_t atLimits = 0;     // rows of joint limits or speeds that pushed in the last solve
+    uint32_t contacts = 0;     // leaf rows with a positive multiplier in the last solve
+    uint32_t atLimits = 0;     // joint limit and speed rows with a positive multiplier in the last solve
     bool singular = false;     // manipulability below the threshold: damped
-    bool graspHeld = false;    // a finger would have entered a region: the grasp stays
+    bool graspHeld = false;    // a finger would have entered a region, so the grasp did not change
 };
 
 // One thread. Allocates in the constructor only; everything else is noexcept. `arm` must outlive it.
 class ArmKinematics {
 public:
     using Step = ArmStep;
-    static constexpr bool kSolvesLastRound = true; // bisect what the last tightening gives
+    static constexpr bool kSolvesLastRound = true; // bisect the result of the last tightening
     struct Answer {
         JointVector dq{};
-        double share = 1.0;   // that the step cap leaves
+        double share = 1.0;   // of the solution, within the step cap
         bool stalled = false; // cut by the trust region
     };
 
@@ -47,7 +48,7 @@ public:
 
     size_t unknowns() const noexcept { return arm_.count(); }
     Pose pose() const noexcept { return arm_.tip(now_.frames); }
-    const dvec3& origin() const noexcept { return now_.frames[0].position; } // when no set says one
+    const dvec3& origin() const noexcept { return now_.frames[0].position; } // used without an active set
     Pose nextPose() const noexcept { return arm_.tip(next_.frames); }
     const ArmPosture& posture() const noexcept { return now_.posture; }
     const ArmFrames& frames() const noexcept { return now_.frames; }
@@ -61,7 +62,8 @@ public:
     // Rows.
     void addLimits(ProxyRows& rows) const noexcept;
     bool addRow(ContactRow row, const LeafState& leaves, ProxyRows& rows) const noexcept;
-    double escapeOffset(double depth) const noexcept { // [m] that a row of this depth asks for, with the skin
+    double
+    escapeOffset(double depth) const noexcept { // [m] motion requested by a row of this depth, with the skin
         return std::min(depth, escapeLeft_) + proxy::kSkin;
     }
     double equalityLimit(const Equality&) const noexcept { return escapeLeft_; }
@@ -83,7 +85,7 @@ public:
                       const ArmStep& out) noexcept;
     void take() noexcept { now_ = next_; }
 
-    // Tightening. share: of the solution that was tried.
+    // Tightening. share: the part of the solution that was tried.
     double share(const Answer& answer) const noexcept { return answer.share; }
     double shortfall(const NarrowPhase::Violation& violation, double, const LeafState&) const noexcept {
         return violation.depth;
@@ -99,7 +101,7 @@ private:
         ArmPosture posture;
         ArmFrames frames;
     };
-    struct Range { // [rad], [m] of a joint in this tick
+    struct Range { // [rad], [m] allowed motion of a joint in this tick
         double low, high;
     };
     Range rangeOf(size_t joint) const noexcept;
@@ -114,8 +116,8 @@ private:
     JointVector start_{}; // joints at the start of the tick
     Pose target_;
     double metricRadius_ = 0.0;
-    JointVector wanted_{};    // of this linearisation
-    double escapeLeft_ = 0.0; // [m] of this tick
+    JointVector wanted_{};    // target of this linearisation
+    double escapeLeft_ = 0.0; // [m] left in this tick
 };
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an arm's leaves are, frame by frame.
+// Leaf centres of an arm, computed per link frame.
 #pragma once
 
 #include "engine/contact/leaf_centres.h"
@@ -14,11 +14,11 @@ class ArmLeafPlaces {
 public:
     explicit ArmLeafPlaces(const ArmModel& arm);
 
-    // Leaf centres about `origin` [m]: ArmModel::centre() but for rounding.
+    // Leaf centres about `origin` [m]: equal to ArmModel::centre() up to rounding.
     void place(const ArmFrames& frames, const dvec3& origin, LeafCentres& out) const noexcept;
 
 private:
-    struct Run { // leaves one after the other that one frame carries
+    struct Run { // consecutive leaves that move with one frame
         size_t frame, first, count;
     };
     std::vector<Run> runs_;

@@ -45,7 +45,7 @@ ArmProxy::ArmProxy(const ArmModel& arm, const Pose& baseTarm, const ArmProxyOpti
     setPosture({start, 0.0});
 }
 
-// The fingers move first, by themselves, and are checked as exactly as any motion.
+// The fingers move first, alone, with the same exact check as any motion.
 void ArmProxy::moveGrasp(double grasp, ArmStep& out) noexcept {
     if (!std::isfinite(grasp) || !hasFingers_) {
         return;

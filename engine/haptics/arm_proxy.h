@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proxy of a tool that hangs on an arm: joint angles that follow the hand as well as the joints can, with
-// no leaf of any link inside a region.
+// The proxy of a tool on an arm: joint angles that follow the hand as closely as the joints allow, with no
+// leaf of any link inside a region.
 #pragma once
 
 #include "engine/haptics/arm_kinematics.h"
@@ -9,18 +9,17 @@ namespace fathom {
 
 extern template class ConstrainedProxy<ArmKinematics>;
 
-// The leaves of the whole arm where the frames put them, as a tool whose frame is the base frame: what the
-// contact query asks about, with an identity pose. Allocates: contact cadence. Throws Error beyond 4096
-// leaves.
+// The leaves of the whole arm at the given frames, as a tool whose frame is the base frame. The contact query
+// uses it with an identity pose. Allocates, so call it at contact cadence. Throws Error beyond 4096 leaves.
 Tool armTool(const ArmModel& arm, const ArmFrames& frames);
 
-// What a tick asks of the arm. The set is of armTool() at a recent posture.
+// Input of one tick. The contact set is that of armTool() at a recent posture.
 struct ArmInput : ProxyInput {
     double grasp = 0.0; // 0 open .. 1 closed; not finite = keep the present grasp
 };
 
-// Besides the promise of ConstrainedProxy: joints never leave [lower, upper] and never exceed their speed
-// over a tick. Lines and axes bind the tip, as far as the joints can.
+// In addition to the guarantee of ConstrainedProxy, joints never leave [lower, upper] and never exceed their
+// speed over a tick. Lines and axes constrain the tip, as far as the joints allow.
 class ArmProxy : public ConstrainedProxy<ArmKinematics> {
 public:
     // The start is clamped to the joint limits. `arm` must outlive this.
@@ -32,8 +31,8 @@ public:
         return step({{target, metricRadius, contacts, {}}, posture().grasp});
     }
 
-    // Sets the posture, clamped to the joint limits, whatever lies there; values that are not finite stay as
-    // they are. The active set may not cover it any more: ask covers().
+    // Sets the posture without a collision check, clamped to the joint limits. Joints whose value is not
+    // finite keep their position. The active set may no longer cover the posture: check with covers().
     void setPosture(const ArmPosture& posture) noexcept { kinematics_.setPosture(posture); }
 
     const JointVector& joints() const { return posture().q; }

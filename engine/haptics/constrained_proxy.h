@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The step that a free tool and an arm share: collect rows, solve, cut to the caps, check exactly, tighten
-// and solve again, bisect, move.
+// The step of the proxy, for a free tool and for an arm: collect rows, solve, cut to the caps, check exactly,
+// tighten and solve again, bisect, move.
 #pragma once
 
 #include "engine/haptics/leaf_contacts.h"
@@ -16,31 +16,31 @@ namespace fathom {
 
 // How a linearisation ended.
 enum class StepOutcome {
-    None, // the step is refused
+    None, // no step was taken
     Last, // taken, but too short to be worth another solve
-    More, // taken; another solve may come nearer
+    More, // taken; another solve may get nearer to the target
 };
 
 // One thread. Allocates in the constructor only; step() is noexcept, never locks, throws or waits. An exact
-// check of every listed pair before each move keeps this promise: no pair's gap ends below min(0, its gap
-// before), nor falls below it on the straight way there. So a leaf never enters a sphere, and a depth that
-// new data brought never grows; the same holds for shapes at the end of each move. Exempt are pairs that
-// would hold a leaf behind a surface (BehindTracker).
+// check of every listed pair before each move guarantees: no gap is below min(0, gap before) at the end of
+// the move or on the straight path to it. So a leaf never enters a sphere, and an overlap that new data
+// caused never grows. The same holds for shapes at the end of each move. Pairs that would hold a leaf behind
+// a surface are exempt (BehindTracker).
 //
-// Kinematics says what moves the leaves (ToolKinematics, ArmKinematics): the solver's unknowns and target,
-// the rows in these unknowns, how a solution becomes a tried pose and its leaf centres, how far rows may ask
-// for motion, and when a step is worth taking. All of it is called directly, without virtual functions.
+// The template parameter (ToolKinematics, ArmKinematics) defines how the leaves move: the solver's unknowns
+// and target, the rows in these unknowns, the tried pose and leaf centres of a solution, how much motion rows
+// may request, and when a step is worth taking. There are no virtual calls.
 template <class Kinematics>
 class ConstrainedProxy {
 public:
-    // May this set become the active one for the leaves where they are?
+    // True when this set may become the active one for the present leaf positions.
     bool covers(const ContactSet& contacts) noexcept {
         contacts_.leaves.origin = contacts.origin;
         kinematics_.place(contacts_.leaves);
         return TrustRegion::covers(contacts, contacts_.leaves.now);
     }
-    // Other shapes from the next tick on; as many as there were at first, or kSpareShapes if that is more. A
-    // shape that comes to lie over a leaf lets it out like new data.
+    // Replaces the shapes from the next tick on. At most as many as at construction, or kSpareShapes if that
+    // is more. A shape that now overlaps a leaf pushes it out gradually, like new data.
     void setShapes(std::span<const Shape> shapes) noexcept { contacts_.setShapes(shapes); }
     std::span<const Shape> shapes() const noexcept { return contacts_.shapes(); }
     static constexpr size_t kSpareShapes = LeafContacts::kSpareShapes;
@@ -56,11 +56,12 @@ protected:
         , contacts_(leaves, shapes, options.stepCap, options.rows)
         , rows_(kinematics_.unknowns(), options.rows) {}
 
-    // A tick: begin(), and finish() when that is true (the set is usable); then report().
+    // One tick: begin(), then finish() if begin() returned true (the set is usable), then report().
     bool begin(const ProxyInput& input) noexcept;
     void finish(const ProxyInput& input, Step& out) noexcept;
     void report(Step& out) noexcept;
-    // No leaf violates a pair, leaves the trust region or gets deeper into a shape at the tried place.
+    // True when at the tried pose no leaf violates a pair, leaves the trust region or gets deeper into a
+    // shape.
     bool allowed(bool insideTrustRegion) noexcept;
 
     ProxyOptions options_;
@@ -119,7 +120,7 @@ void ConstrainedProxy<Kinematics>::report(Step& out) noexcept {
     kinematics_.report(out);
 }
 
-// One linearisation. True when another one may come nearer to the target.
+// One linearisation. True when another one may get nearer to the target.
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     collectRows(first, out);
@@ -129,7 +130,8 @@ bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     ++out.solves;
     Answer answer;
     if (!kinematics_.solve(answer, false, rows_, out)) {
-        out.trapped = out.solves == 1; // later in a tick: what was gained stays, the next tick tries again
+        out.trapped =
+            out.solves == 1; // later solves of a tick keep their progress; the next tick tries again
         rows_.clearActive();
         return false;
     }
@@ -198,7 +200,8 @@ bool ConstrainedProxy<Kinematics>::shapesAllow() const noexcept {
     return true;
 }
 
-// Largest part of the step, to 1/2^14 of it, that passes the exact check and the trust region; 0 always does.
+// Largest part of the step, to 1/2^14 of it, that passes the exact check and the trust region. 0 always
+// passes.
 template <class Kinematics>
 double ConstrainedProxy<Kinematics>::bisect(const Answer& answer) noexcept {
     double good = 0.0, bad = kinematics_.wholePart(answer);

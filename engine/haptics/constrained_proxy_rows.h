@@ -6,7 +6,7 @@
 
 namespace fathom {
 
-// Separated: what keeps the leaf out, and the skin. Overlapping: out again, as fast as the tick allows.
+// Separated pairs: keep the leaf out, plus the skin. Overlapping pairs: move out as fast as the tick allows.
 template <class Kinematics>
 double ConstrainedProxy<Kinematics>::offsetFor(double gap) const noexcept {
     return gap >= 0.0 ? proxy::kSkin - gap : kinematics_.escapeOffset(-gap);
@@ -22,10 +22,11 @@ void ConstrainedProxy<Kinematics>::collectRows(bool first, Step& out) noexcept {
     const bool anyBehind = contacts_.anyBehind();
     for (ContactRow row : contacts_.pairRows()) {
         if (anyBehind && contacts_.holdsBehind(row)) {
-            continue; // its way out is added below
+            continue; // its escape row is added below
         }
-        // A tool with a leaf behind a surface has one way out, and other pairs need only not get deeper on
-        // it. So close to the sphere centres their own normals point to all sides and would squeeze the tool.
+        // While a leaf is behind a surface the tool moves only towards the camera, and other pairs need only
+        // not get deeper. Near the sphere centres their own normals point in all directions and would squeeze
+        // the tool.
         row.offset = anyBehind && row.gap < 0.0 ? proxy::kSkin : offsetFor(row.gap);
         addRow(row);
     }
@@ -68,8 +69,8 @@ void ConstrainedProxy<Kinematics>::addShapeRows(Step& out) noexcept {
     }
 }
 
-// Lines and axes bind the tool or tip: two opposite rows per equation, which bring it back no faster than new
-// data would push it out.
+// Lines and axes constrain the tool or tip by two opposite rows per equation. They pull it back no faster
+// than new data would push it out.
 template <class Kinematics>
 void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t index) noexcept {
     std::array<Equality, kMostEqualities> equalities;
@@ -84,7 +85,7 @@ void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t 
             row.normal = sign * e.linear;
             row.spin = sign * e.angular;
             row.gap = -std::abs(e.error);
-            // Less than wanted by a rounding error: two rows that meet exactly may seem to contradict.
+            // Relaxed by a rounding error, because two rows that meet exactly may appear contradictory.
             row.offset = sign * wanted - 1e-12;
             row.pair = index;
             row.key = rowKey(row.kind, index, 0, 2 * k + (sign > 0.0 ? 0 : 1));
@@ -93,17 +94,18 @@ void ConstrainedProxy<Kinematics>::addEqualityRows(const Shape& shape, uint32_t 
     }
 }
 
-// Every violated pair gets a row, or its row asks for more: for what the leaf's actual way, arcs of rotation
-// included, falls short of the pair's tangent plane. A way that stays on the free side of that plane cannot
-// enter the sphere, so one round is enough for a pair unless others push it back. Sides of shapes and
-// equations are treated alike. False when nothing could be asked for.
+// Adds a row for every violated pair or raises its offset, by as much as the leaf's actual path (rotation
+// arcs included) falls short of the pair's tangent plane. A path on the free side of that plane cannot enter
+// the sphere, so one round is enough for a pair unless others push it back. Sides of shapes and equations are
+// treated alike. False when no row could be tightened.
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::tighten(const Answer& answer) noexcept {
     const double share = kinematics_.share(answer);
     bool changed = false;
     for (const NarrowPhase::Violation& violation : contacts_.violations()) {
         ContactRow row = violation.row;
-        // Overlapping pairs without a row lie in the cone of one that has it: they need only not get deeper.
+        // Overlapping pairs without a row are in the cone of a pair that has one: they need only not get
+        // deeper.
         const double needed = proxy::kSkin - std::max(0.0, row.gap);
         if (ContactRow* known = rows_.ofPair(row.pair)) {
             const double amount = kinematics_.shortfall(violation, needed, contacts_.leaves);

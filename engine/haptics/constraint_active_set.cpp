@@ -22,8 +22,8 @@ bool ConstraintActiveSet::contains(size_t index) const noexcept {
 ConstraintActiveSet::Split ConstraintActiveSet::split(const ScaledVector& g) const noexcept {
     Split out;
     out.z = g;
-    // Twice is enough: the second pass takes out what cancellation left of the first, so that even a row that
-    // is parallel to 1e-9 leaves a z which is orthogonal to the last digit.
+    // Two passes are enough: the second removes the cancellation error of the first, so that even for a row
+    // parallel to 1e-9 z is orthogonal to the last digit.
     for (int pass = 0; pass < 2; ++pass) {
         for (int k = 0; k < count; ++k) {
             const double along = dot(q_[k], out.z);
@@ -62,7 +62,7 @@ void ConstraintActiveSet::drop(int position) noexcept {
         row[k] = row[k + 1];
         lambda[k] = lambda[k + 1];
     }
-    // R has one number below its diagonal in each column from `position` on: Givens rotations take it away.
+    // R has one number below its diagonal in each column from `position` on. Givens rotations remove it.
     for (int k = position; k < count; ++k) {
         const double a = upper_[k][k], b = upper_[k][k + 1];
         const double length = std::sqrt(a * a + b * b);
@@ -117,7 +117,7 @@ void ConstraintActiveSet::solve(const ScaledVector& s, ScaledVector& y) noexcept
     addAlong(w, y);
     const ScaledVector r = solveUpper(w);
     for (int k = 0; k < count; ++k) {
-        lambda[k] = std::max(0.0, r[k]); // a row that holds nothing may come out at -1e-17
+        lambda[k] = std::max(0.0, r[k]); // rounding may give an inactive row -1e-17
     }
 }
 

@@ -11,7 +11,7 @@ namespace fathom {
 using ScaledVector = std::array<double, kMaxUnknowns>; // numbers past the unknowns are zero
 
 inline double dot(const ScaledVector& a, const ScaledVector& b) noexcept {
-    // Pairwise, so that the chain of additions is short; fixed, so that the answer is.
+    // Pairwise to shorten the chain of additions, in a fixed order so that the result is reproducible.
     const double even = (a[0] * b[0] + a[2] * b[2]) + (a[4] * b[4] + a[6] * b[6]);
     const double odd = (a[1] * b[1] + a[3] * b[3]) + (a[5] * b[5] + a[7] * b[7]);
     return even + odd;
@@ -42,8 +42,8 @@ public:
 
     // y = nearest point to s on all active rows, and lambda with y - s = N lambda.
     void solve(const ScaledVector& s, ScaledVector& y) noexcept;
-    // One correction of y by what the active rows still lack: brings |row . y - bound| to rounding of |y|,
-    // not of |s|.
+    // One correction of y by the remaining violation of the active rows. Reduces |row . y - bound| to the
+    // rounding of |y|, not of |s|.
     void refine(ScaledVector& y) const noexcept;
 
 private:

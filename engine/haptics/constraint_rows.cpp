@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The two loops over all rows. They are compiled for several instruction sets and chosen at run time; every
-// lane does the same multiply, then subtract, in the same order, so that the choice never changes a bit of
-// the answer.
+// lane multiplies and subtracts in the same order, so results are identical to the bit.
 #include "engine/haptics/constraint_rows.h"
 
 #include "engine/contact/clones.h"
@@ -28,9 +27,10 @@ inline uint64_t tooShort(double squaredLength) noexcept {
     return (std::bit_cast<uint64_t>(squaredLength) - kShortest) >> 63;
 }
 
-// Forward substitution L g = n, then unit length, for eight rows at once. N is known to the compiler so that
-// it unrolls the columns and puts the eight rows side by side, which it can when the factor is diagonal (the
-// free tool's is). False when a lane needs fixLanes(). Layout of raw and scaled: see the class.
+// Forward substitution L g = n, then unit length, for eight rows at once. N is a compile-time constant so
+// that the compiler unrolls the columns and vectorises over the eight rows, which works when the factor is
+// diagonal (as for the free tool). False when a lane needs fixLanes(). Layout of raw and scaled: see the
+// class.
 template <size_t N, bool kDiagonal>
 [[gnu::always_inline]] inline bool scaleLanes(const double* __restrict raw, double* __restrict scaled,
                                               const MetricFactor& factor) noexcept {
@@ -64,7 +64,7 @@ template <size_t N, bool kDiagonal>
     return odd == 0;
 }
 
-// Lanes without a direction or with a number that is not finite. A row that nothing obeys must not be lost.
+// Lanes without a direction or with a number that is not finite. A row that no x satisfies must not be lost.
 void fixLanes(const double* raw, double* scaled, size_t n) noexcept {
     for (size_t l = 0; l < kLanes; ++l) {
         const double inverse = scaled[(n + 1) * kLanes + l];
@@ -79,14 +79,14 @@ void fixLanes(const double* raw, double* scaled, size_t n) noexcept {
     }
 }
 
-// Bits of doubles >= +0, which order as integers do: integer compares need no branch to keep the trap flags
-// right.
+// Bits of doubles >= +0, which sort like integers. Integer compares need no branch to keep the exception
+// flags right.
 struct LaneWorst {
     alignas(64) std::array<int64_t, kLanes> amount;
     alignas(64) std::array<int64_t, kLanes> block;
 };
 
-// Per lane the largest violation beyond what `worst` starts with, and the first block that has it.
+// Per lane, the largest violation above the initial `worst`, and the first block with it.
 template <size_t N>
 [[gnu::always_inline]] inline void scanLanes(const double* __restrict scaled, const double* __restrict point,
                                              size_t blocks, LaneWorst& worst) noexcept {
@@ -174,14 +174,14 @@ void ConstraintRows::clear() noexcept {
     scaledBlocks_ = 0;
 }
 
-// Not inlined: where the caller's row is an array of 7, GCC would warn of the case of 8 unknowns, which never
-// comes.
+// Not inlined: for a caller whose row is an array of 7, GCC would warn about 8 unknowns, which cannot occur
+// there.
 [[gnu::noinline]] bool ConstraintRows::add(std::span<const double> normal, double offset) noexcept {
     if (size_ == maxRows_) {
         return false;
     }
     double* raw = &raw_[rawAt(size_, 0)];
-    if (size_ % kLanes == 0) { // the lanes without a row must never be the worst
+    if (size_ % kLanes == 0) { // lanes without a row must never be the worst
         std::fill_n(raw, n_ * kLanes, 0.0);
         std::fill_n(raw + n_ * kLanes, kLanes, -1.0);
     }

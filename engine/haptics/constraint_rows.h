@@ -34,13 +34,13 @@ public:
     double offset(size_t row) const noexcept { return raw_[rawAt(row, n_)]; }
     size_t size() const noexcept { return size_; }
 
-    // The metric changed: every row is scaled anew by the next prepare().
+    // Call when the metric changed: the next prepare() scales every row again.
     void forgetScaling() noexcept { scaledBlocks_ = 0; }
-    // Scales the rows that were added since. A row of zero length gets the bound +inf when its offset is
-    // positive (no x obeys it) and -inf otherwise; a row that is not finite gets +inf.
+    // Scales the rows added since the last call. A row of zero length gets the bound +inf when its offset is
+    // positive (no x satisfies it) and -inf otherwise; a row that is not finite gets +inf.
     void prepare(const MetricFactor& factor) noexcept;
 
-    // Largest bound - row . y of all rows that is above tolerance (>= 0), and the smallest index that has it;
+    // Largest bound - row . y above tolerance (>= 0) over all rows, and the smallest index with that value;
     // row == size() when there is none. y has kMaxUnknowns finite numbers.
     struct Violation {
         double amount;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Goldfarb and Idnani, "A numerically stable dual method for solving strictly convex quadratic programs"
 // (1983), with the Hessian turned into the identity: y = L^T x. Every iterate is the optimum over its active
-// rows; each full step takes in a violated row and raises the cost, so that the method ends. The letters
-// follow the paper.
+// rows. Each full step adds a violated row and raises the cost, so the method terminates. Symbols follow the
+// paper.
 #include "engine/haptics/constraint_solver.h"
 
 #include "engine/types/error.h"
@@ -15,20 +15,20 @@ namespace fathom {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// A row counts as violated beyond this share of |s| + |y|: above rounding (some 1e-15), below what the answer
-// promises.
+// A row is violated beyond this share of |s| + |y|: above rounding (about 1e-15), below the accuracy of the
+// result.
 constexpr double kTolerance = 1e-13;
-// A unit row whose rest outside the span of the active rows is shorter is dependent on them. Rows parallel to
-// 1e-9 are still told apart.
+// A unit row depends on the active rows when its component outside their span is shorter than this. Rows
+// parallel to 1e-9 still count as independent.
 constexpr double kDependent = 1e-12;
-// Part of the largest |r| below which r is rounding and not a reason to drop a row.
+// Share of the largest |r| below which r is rounding and no row is dropped for it.
 constexpr double kBlocking = 1e-13;
 
 double norm(const ScaledVector& v) noexcept {
     return std::sqrt(dot(v, v));
 }
 
-// Largest t along which no multiplier turns negative, and whose it is; the smallest row on ties.
+// Largest t for which no multiplier becomes negative, and the limiting row; the smallest row on ties.
 struct DualStep {
     double t = kInfinity;
     int position = -1;
@@ -92,7 +92,7 @@ void ConstraintSolver::setMetric(std::span<const double> metric) {
                 factor.diagonal = factor.diagonal && sum == 0.0;
                 continue;
             }
-            // Rounding makes a singular matrix look definite by about n eps: demand a little more than that.
+            // Rounding makes a singular matrix look definite by about n eps, so require a little more.
             if (!(sum > 1e-15 * value) || !std::isfinite(value)) {
                 throw Error("constraint solver: metric is not positive definite");
             }
@@ -119,7 +119,7 @@ bool ConstraintSolver::addRow(std::span<const double> normal, double offset) noe
     return true;
 }
 
-// Rows that the last optimal solve held, found again by their key.
+// Active rows of the last optimal solve, found by their key.
 void ConstraintSolver::findWarmRows() noexcept {
     warmRows_ = 0;
     for (int k = 0; k < lastActive_; ++k) {
@@ -136,7 +136,7 @@ void ConstraintSolver::findWarmRows() noexcept {
     }
 }
 
-// The violated row to take in next: a warm one while there is one, else the worst of all. rows() = none.
+// The violated row to add next: a warm-start row if any is left, else the worst of all. rows() = none.
 size_t ConstraintSolver::pickRow(const ScaledVector& y, double tolerance, double& amount) noexcept {
     ConstraintRows::Violation worst{tolerance, rows_.size()};
     for (int k = 0; k < warmRows_; ++k) {
@@ -148,8 +148,7 @@ size_t ConstraintSolver::pickRow(const ScaledVector& y, double tolerance, double
     if (worst.row == rows_.size()) {
         worst = rows_.worst(y.data(), tolerance);
     }
-    if (worst.row < rows_.size() &&
-        active_.contains(worst.row)) { // rounding beyond the tolerance: look past it
+    if (worst.row < rows_.size() && active_.contains(worst.row)) { // rounding beyond the tolerance: skip it
         worst = {tolerance, rows_.size()};
         for (size_t row = 0; row < rows_.size(); ++row) {
             const double violation = violationOf(row, y);
@@ -168,8 +167,8 @@ double ConstraintSolver::violationOf(size_t row, const ScaledVector& y) const no
     return rows_.bound(row) - dot(g, y);
 }
 
-// Takes one violated row in, dropping rows that would have to pull. False: no point obeys it together with
-// those.
+// Adds one violated row and drops rows whose multiplier would become negative. False: no point satisfies it
+// together with the active rows.
 bool ConstraintSolver::enforce(size_t row, double violation, const ScaledVector& s, ScaledVector& y,
                                int& changes) noexcept {
     ScaledVector g;
@@ -233,7 +232,7 @@ SolveStatus ConstraintSolver::solve(std::span<const double> target, std::span<do
     SolveStatus status = SolveStatus::Optimal;
     for (;;) {
         const double tolerance = kTolerance * (sLength + norm(y));
-        if (!(tolerance < kInfinity)) { // overflow on the way: a target or row beyond all reason
+        if (!(tolerance < kInfinity)) { // overflow: absurdly large target or row
             status = SolveStatus::Infeasible;
             break;
         }
@@ -259,7 +258,7 @@ void ConstraintSolver::finish(SolveStatus status, ScaledVector& y, std::span<dou
     if (status != SolveStatus::Optimal) {
         active_.count = 0;
     }
-    if (active_.count > 0) { // otherwise x is the target to the last bit
+    if (active_.count > 0) { // otherwise x is exactly the target
         active_.refine(y);
         for (int i = n_ - 1; i >= 0; --i) {
             double sum = y[i];

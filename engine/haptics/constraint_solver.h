@@ -17,7 +17,7 @@ namespace fathom {
 // How a solve ended.
 enum class SolveStatus {
     Optimal,
-    Infeasible,     // no x obeys all rows: x is left at the last iterate, do not use it
+    Infeasible,     // no x satisfies all rows; x is the last iterate, do not use it
     IterationLimit, // cycling guard: treat as infeasible
 };
 
@@ -25,7 +25,7 @@ enum class SolveStatus {
 // rotation vector [rad] about the tool's centre.
 class ConstraintSolver {
 public:
-    // unknowns 1..8; rows beyond maxRows are refused by addRow.
+    // unknowns: 1..8. addRow() rejects rows beyond maxRows.
     ConstraintSolver(int unknowns, size_t maxRows);
 
     // n x n, row-major, symmetric positive definite: throws Error otherwise.
@@ -45,10 +45,10 @@ public:
 
     SolveStatus solve(std::span<const double> target, std::span<double> x) noexcept;
 
-    // Of the last optimal solve, one a row, >= 0, such that M (x - t) = sum lambda_i n_i.
+    // Multipliers of the last optimal solve, one per row, >= 0, such that M (x - t) = sum lambda_i n_i.
     std::span<const double> multipliers() const noexcept { return {multipliers_.data(), rows_.size()}; }
     int activeRows() const noexcept { return active_.count; }
-    // Rows taken in or dropped by the last solve, and where it would have given up (cycling guard).
+    // Rows added or dropped by the last solve, and the limit at which it gives up (cycling guard).
     int changes() const noexcept { return changes_; }
     int mostChanges() const noexcept { return 16 * n_ + 64 + static_cast<int>(rows_.size() / 4); }
 
@@ -67,7 +67,7 @@ private:
     std::vector<uint64_t> keys_;
     std::vector<double> multipliers_;
     ConstraintActiveSet active_;
-    // Active rows of the last optimal solve, and where they are now.
+    // Active rows of the last optimal solve, and their present indices.
     int lastActive_ = 0, warmRows_ = 0;
     std::array<uint64_t, kMaxUnknowns> lastKey_{};
     std::array<size_t, kMaxUnknowns> lastRow_{}, warmRow_{};

@@ -17,7 +17,7 @@ void demandPositive(double value, const char* name) {
     }
 }
 
-// Smaller of the known ones of the preset's figure and the passive bound, at the hand; empty when neither is
+// Smaller of the preset's figure and the passive bound, as far as known, at the hand. Empty when neither is
 // known.
 std::optional<double> handLimit(std::optional<double> figure, std::optional<double> deviceDamping,
                                 double damping, const CouplingOptions& options) {

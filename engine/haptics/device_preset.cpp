@@ -13,13 +13,13 @@ constexpr AxisMask kAll{true, true, true, true, true, true};
 constexpr AxisMask kTranslation{true, true, true, false, false, false};
 constexpr AxisMask kAllButRoll{true, true, true, true, true, false};
 
-// The table of CHAI3D gives what a program may render, not what the mechanism is: its damping is rendered
-// damping and says nothing of b, so that b stays unknown for all real devices.
+// CHAI3D's table lists what a program may render. Its damping is rendered damping, not the physical b, so b
+// stays unknown for all real devices.
 const char* const kChai =
     "Force, torque and stiffness limits from the device table of CHAI3D 3.3.0. Physical damping b is "
     "unknown: the preset's stiffness is used as it stands. ";
 
-// Torque limit of devices that actuate no rotation: the residual that the screen shows is kept within it.
+// Torque limit of devices without torque motors; it limits the residual shown on screen.
 constexpr double kShownTorque = 0.2;
 
 DevicePreset chai(const char* name, double force, double stiffness, std::optional<double> torque,
@@ -73,7 +73,7 @@ std::vector<DevicePreset> makePresets() {
     return presets;
 }
 
-// Built at first use, read only: the one table of constants that needs a constructor.
+// Built at first use, then read only.
 const std::vector<DevicePreset>& table() {
     static const std::vector<DevicePreset> kPresets = makePresets();
     return kPresets;

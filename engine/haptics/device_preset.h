@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Figures of haptic devices, each with its source.
+// Properties of haptic devices, each with its source.
 #pragma once
 
 #include <array>
@@ -13,21 +13,21 @@ namespace fathom {
 // (roll).
 using AxisMask = std::array<bool, 6>;
 
-// All values at the hand, device not scaled. An empty value is unknown, never zero.
+// All values at the hand, without the hand map's scale. Empty means unknown, not zero.
 struct DevicePreset {
     std::string name;
-    double stiffness = 0.0;        // [N/m] that the maker or the community renders at 1 kHz
-    std::optional<double> damping; // b [N s/m], physical, of the mechanism and hand grip's worst case
+    double stiffness = 0.0;        // [N/m] rendered at 1 kHz by the maker or the community
+    std::optional<double> damping; // b [N s/m], physical damping of mechanism and grip, worst case
     std::optional<double> rotationalStiffness; // [N m/rad]
     std::optional<double> rotationalDamping;   // b_r [N m s/rad]
     double forceLimit = 0.0;                   // [N]
-    double torqueLimit = 0.0; // [N m]; of devices without torque: what `replay` may still report
+    double torqueLimit = 0.0; // [N m]; without torque motors: the largest residual that `replay` reports
     AxisMask actuated{};
     AxisMask sensed{};
-    std::string source; // one or two sentences: origin of each figure, and what is an assumption
+    std::string source; // one or two sentences: origin of each figure and which are assumptions
 };
 
-// Throws BadInput that lists the names.
+// Throws BadInput with the list of names.
 const DevicePreset& devicePreset(const std::string& name);
 
 // All of them, in the order of the documentation.

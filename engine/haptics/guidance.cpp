@@ -15,7 +15,7 @@ dvec3 axisTurn(const dquat& from, const dquat& to) noexcept {
     if (sine > 1e-12) {
         return normal * (std::atan2(sine, cosine) / sine);
     }
-    // Opposite axes: all half rotations are equally short; take the one about the tool's own x.
+    // Opposite axes: all half rotations are equally short; use the one about the tool's x.
     return cosine < 0.0 ? from * dvec3(3.14159265358979323846, 0.0, 0.0) : normal;
 }
 
@@ -69,8 +69,8 @@ void Guidance::follow(std::span<const GuidancePose> poses, double dt) noexcept {
     }
     lost_ = 0.0;
     const GuidancePose& pose = poses[index];
-    rollFree_ = pose.rollFree && pose.planar; // without a plane the scene's orientation is meant in full
-    if (phase_ == 0.0) {                      // no pull yet: start at the target itself
+    rollFree_ = pose.rollFree && pose.planar; // without a plane the scene's full orientation applies
+    if (phase_ == 0.0) {                      // no force yet: start at the target itself
         target_ = pose.target;
         return;
     }

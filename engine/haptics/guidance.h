@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guidance: which target pulls the hand, how strongly, and in which of two modes. A button turns it on; it is
-// eased in and out.
+// Guidance pulls the hand towards a target, in one of two modes, while a button is held. It fades in and out.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -13,27 +12,26 @@
 
 namespace fathom {
 
-// How strong guidance may be, and how fast it may change.
+// Limits of the strength of guidance and of its rate of change.
 struct GuidanceLimits {
-    double force = 2.0;    // F_g [N]: most that the pull can be felt as
-    double torque = 0.1;   // tau_g [N m]
-    double easeTime = 0.5; // [s] w from 0 to 1 and back, smoothstep
-    double holdTime = 0.5; // [s] how long a target stays after its class fell under min_count
+    double force = 2.0;    // F_g [N]: largest force
+    double torque = 0.1;   // tau_g [N m] largest torque
+    double easeTime = 0.5; // [s] for w from 0 to 1 and back, smoothstep
+    double holdTime = 0.5; // [s] a target is kept after its class fell below min_count
     double slew = 0.1;     // [m/s] of the target, so that a new frame never jerks the hand
     double turnSlew = 0.5; // [rad/s]
 };
 
-// One thread, noexcept, no allocation. The mean that is reported is not touched: hold, slew and choice act on
-// the target.
+// One thread, noexcept, no allocation. Hold, slew and choice act on the target only; the reported mean stays
+// raw.
 class Guidance {
 public:
     explicit Guidance(const GuidanceLimits& limits = {})
         : limits_(limits) {}
 
-    // One tick. poses: one per guidance class, of the newest frame. When the button goes down the class
-    // nearest to the device is chosen among those present (if none is, the first moment one is) and kept
-    // until it is released, even while it is lost. cut = true (forces off) sets w to 0 at once; after it the
-    // button must be pressed again.
+    // One tick. poses: one per guidance class, of the newest frame. Pressing the button chooses the nearest
+    // present class (if none is present, the first that appears) and keeps it until release, even while it is
+    // lost. cut = true (forces off) sets w to 0 at once; the button must then be pressed again.
     void step(std::span<const GuidancePose> poses, const Pose& device, bool button, bool cut,
               double dt) noexcept;
 
@@ -44,8 +42,7 @@ public:
 
     // What is added to the solver's target x_u in mode `target`: [w clamp(p_g - p_dev, F_g/K_t);
     // w clamp(log(q_g q_dev^-1), tau_g/K_r)]. The pull at rest is then at most F_g and tau_g, and the proxy
-    // leads the hand by at most F_g/K_t. With the roll free only the axis rotates: no part about the
-    // target's z.
+    // leads the hand by at most F_g/K_t. With free roll only the axis rotates, not about the target's z.
     struct Lead {
         dvec3 translation{0.0}; // [m]
         dvec3 rotation{0.0};    // [rad] base axes
@@ -72,8 +69,8 @@ private:
     Pose target_;
 };
 
-// Shortest rotation that brings the z axis of `from` onto that of `to`, base axes [rad]: has no part about
-// either axis.
+// Shortest rotation that brings the z axis of `from` onto that of `to`, base axes [rad]. It has no component
+// about either z axis.
 dvec3 axisTurn(const dquat& from, const dquat& to) noexcept;
 
 } // namespace fathom

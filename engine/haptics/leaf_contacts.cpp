@@ -17,7 +17,7 @@ LeafContacts::LeafContacts(const Tool& tool, std::span<const Shape> shapes, doub
                            const RowReduction& reduction)
     : leaves{LeafCentres(tool.leafCount()), LeafCentres(tool.leafCount())}
     , shapes_(shapes.begin(), shapes.end())
-    // Beyond the cap only by rounding: the check must see every pair that one step can reach.
+    // Larger than the cap by rounding only: the check must include every pair that one step can reach.
     , checkLimit_(stepCap * (1.0 + 1e-6) + proxy::kSkin)
     , narrow_(tool, proxy::kMostPairRows, reduction.cone)
     , trust_(tool.leafCount())
@@ -52,7 +52,7 @@ void LeafContacts::gather(const dvec3& centre, bool anew) noexcept {
     }
 }
 
-// Flags that the query found, except of leaves that have been brought out since.
+// Flags found by the query, except for leaves that have been brought out since.
 void LeafContacts::flagBehind() noexcept {
     std::fill(exempt_.begin(), exempt_.end(), dvec3(0.0));
     for (const ContactSet::Behind& flag : set_->behind) {
@@ -125,7 +125,7 @@ bool equalityAllows(const Shape& shape, const Pose& from, const Pose& to) noexce
     std::array<Equality, kMostEqualities> before, after;
     const size_t count = equalitiesOf(shape, from, before);
     equalitiesOf(shape, to, after);
-    for (size_t k = 0; k < count; k += 2) { // the length across, then the angle
+    for (size_t k = 0; k < count; k += 2) { // first the distance, then the angle
         const double was = std::hypot(before[k].error, before[k + 1].error);
         if (!(std::hypot(after[k].error, after[k + 1].error) <= std::max(kEqualityRest, was))) {
             return false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the leaves of a tool or an arm may touch: the active contact set with its trust region, leaves behind
-// a surface, and authored shapes.
+// Everything that the leaves of a tool or an arm can touch: the active contact set with its trust region,
+// leaves behind a surface, and authored shapes.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -14,39 +14,40 @@
 
 namespace fathom {
 
-// Leaf centres where they are and where a tried step leads, about `origin`.
+// Leaf centres at present and after the tried step, about `origin`.
 struct LeafState {
     LeafCentres now, next;
-    dvec3 origin{0.0}; // [m] base frame: of the active set
+    dvec3 origin{0.0}; // [m] base frame: origin of the active set
 
-    double travel() const noexcept { return leafDisplacement(now, next); } // [m] largest of a leaf
+    double travel() const noexcept { return leafDisplacement(now, next); } // [m] largest leaf displacement
 };
 
 // One thread. Allocates in the constructor only; everything else is noexcept.
 class LeafContacts {
 public:
-    static constexpr size_t kSpareShapes = 16; // setShapes() takes as many, or as many as there were at first
+    static constexpr size_t kSpareShapes = 16; // setShapes() accepts this many, or as many as at construction
 
     LeafContacts(const Tool& tool, std::span<const Shape> shapes, double stepCap,
                  const RowReduction& reduction);
 
-    // The set to obey from now on, null = none; it sets the origin, without a set `origin` does. False when
-    // the set is of another tool: it is not used.
+    // Selects the active set, null = none. Its origin is used; without a set, `origin` is. False when the set
+    // belongs to another tool: it is then not used.
     bool use(const ContactSet* set, const dvec3& origin) noexcept;
     const ContactSet* set() const noexcept { return set_; }
     // Finds the pairs near the leaves at `now` and the leaves behind a surface. centre: the tool's [m], base
-    // frame. anew: false when the set is the one of the last call.
+    // frame. anew: false when the set is the same as in the last call.
     void gather(const dvec3& centre, bool anew) noexcept;
     std::span<const ContactRow> pairRows() const noexcept;
     bool anyBehind() const noexcept;
     // The pair would hold a leaf behind its surface.
     bool holdsBehind(const ContactRow& row) const noexcept;
-    // The rows that bring leaves back in front, offset left at 0. Returns how many; `out` has one per leaf.
+    // Writes the rows that bring leaves back in front, with offset 0. Returns their number; `out` has room
+    // for one per leaf.
     std::span<const ContactRow> behindRows(const dvec3& centre) noexcept;
     bool overlaps() const noexcept { return set_ != nullptr && narrow_.smallestGap() < -proxy::kNothing; }
 
-    // Exact check of every listed pair on the straight way to `next`. Returns the violations, worst of each
-    // leaf; `total` counts those that found no room, too.
+    // Exact check of every listed pair on the straight path to `next`. Returns the worst violation of each
+    // leaf; `total` also counts those that did not fit.
     size_t check() noexcept;
     std::span<const NarrowPhase::Violation> violations() const noexcept;
     bool insideTrustRegion() const noexcept;
@@ -65,22 +66,22 @@ private:
 
     std::vector<double> radius_; // [m] per leaf
     std::vector<Shape> shapes_;
-    double rowLimit_, checkLimit_; // [m] gaps of rows, and of pairs that one step can reach
+    double rowLimit_, checkLimit_; // [m] largest gap of rows, and of pairs that one step can reach
     NarrowPhase narrow_;
     TrustRegion trust_;
     const ContactSet* set_ = nullptr;
-    std::vector<dvec3> exempt_;     // per leaf: way to the camera while it is behind, else zero
-    std::vector<double> clearance_; // [m] per leaf: left along it
+    std::vector<dvec3> exempt_;     // per leaf: direction to the camera while it is behind, else zero
+    std::vector<double> clearance_; // [m] per leaf: distance left in that direction
     std::vector<ContactRow> behind_;
     std::vector<NarrowPhase::Violation> violations_;
     size_t violationCount_ = 0;
 };
 
-// Names a row that belongs to no sphere, the same in every tick. side: below 256; its low byte is read back.
+// Key of a row that belongs to no sphere, the same in every tick. side: below 256, stored in the low byte.
 uint64_t rowKey(ContactRow::Kind kind, uint32_t shape, uint32_t leaf, size_t side) noexcept;
 
-// True when a line or axis lets the tool move between the poses: no farther off it in length or angle, or at
-// rest on it.
+// True when a line or axis allows the move between the poses: the distance and angle to it do not grow, or
+// the tool stays on it.
 bool equalityAllows(const Shape& shape, const Pose& from, const Pose& to) noexcept;
 
 } // namespace fathom

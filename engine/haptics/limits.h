@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last stages of the wrench: pure functions from wrench to wrench. All noexcept; none allocates.
+// The last stages of the wrench, as pure functions. All are noexcept and do not allocate.
 #pragma once
 
 #include "engine/haptics/device_preset.h"
@@ -14,26 +14,26 @@ bool isFinite(const Wrench& wrench) noexcept;
 // Force and torque times the factor.
 Wrench scaled(const Wrench& wrench, double factor) noexcept;
 
-// v, shortened to length `limit`, direction unchanged. limit >= 0.
+// v shortened to length `limit`, same direction. limit >= 0.
 dvec3 clampLength(const dvec3& v, double limit) noexcept;
 
-// Force and torque each shortened to their limit as whole vectors: the direction stays. [N], [N m].
+// Force and torque each shortened to their limit [N], [N m], same direction.
 Wrench limitSize(const Wrench& wrench, double force, double torque) noexcept;
 
-// The wrench nearest to `wanted` on the straight line from `previous`, no farther than one step: [N], [N m]
-// per tick. It stays inside the size limits, because it lies between two wrenches that do.
+// The wrench nearest to `wanted` on the straight line from `previous`, at most one step [N], [N m] per tick
+// away. It stays within the size limits, because it lies between two wrenches that do.
 Wrench limitSlew(const Wrench& wanted, const Wrench& previous, double forceStep, double torqueStep) noexcept;
 
 // One-pole low-pass y += a (x - y), a = 1 - exp(-2 pi f T). Its delay in ticks is n = (1 - a)/a: with H =
 // a/(1 - r z^-1), r = 1 - a, Re{(1 - e^-jw) H}/(1 - cos w) = a (1 + r)/|1 - r e^-jw|^2, whose supremum at w =
-// 0 is (1 + r)/a = 1 + 2n. That is the term of the passivity bound in coupling.h. hz = 0 is off: a = 1,
-// n = 0.
+// 0 is (1 + r)/a = 1 + 2n. This is the delay term of the passivity bound in coupling.h. hz = 0 turns the
+// filter off: a = 1, n = 0.
 double lowPassGain(double hz, double period) noexcept;
 double lowPassDelayTicks(double gain) noexcept;
 Wrench lowPass(const Wrench& input, const Wrench& previous, double gain) noexcept;
 
-// What the device can render of a wrench, and what it cannot. Base axes; handle's axes by baseRhandle; torque
-// and force are masked one by one in the handle frame. delivered + residual = wrench.
+// Splits a wrench into what the device can render and what it cannot: delivered + residual = wrench, in base
+// axes. Each axis of force and torque is masked in the handle frame (baseRhandle).
 struct ProjectedWrench {
     Wrench delivered;
     Wrench residual;

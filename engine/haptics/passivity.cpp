@@ -33,7 +33,7 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
                                const CouplingOptions& coupling, double forceLimit, double torqueLimit) {
     PassivityOptions options;
     const double scale = coupling.handScale;
-    // The hand moves 1/s of what the tool does, and its energies count s times at the tool (hand_map.h).
+    // The hand moves 1/s of the tool's motion, and its energies count s times at the tool (hand_map.h).
     options.damping = preset.damping.value_or(preset.stiffness * kPresetPeriod / 2.0) / scale;
     options.rotationalDamping = preset.rotationalDamping ? *preset.rotationalDamping * scale
                                                          : springs.rotationalStiffness * coupling.period *
@@ -67,7 +67,7 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     const dvec3 endMoved = tick.end.position - end_.position, endTurned = turnBetween(end_, tick.end);
     moved_ = tick.device.position - device_.position;
     turned_ = turnBetween(device_, tick.device);
-    // The oldest of the ring: what reached the hand in the interval that ends now.
+    // The oldest entry of the ring: the wrench that acted on the hand in the interval that ends now.
     const Applied& held = applied_[writes_ % (options_.delayTicks + 1)];
     const double damped = -workOf(held.damper, moved_, turned_);
     const double stored = storedIn(tick);
@@ -82,7 +82,8 @@ void PassivityController::observe(const PassivityStep& tick) noexcept {
     double& slot = credit_[ticks_++ % kWindow];
     slot = credit;
     recent_ = 0.0;
-    for (const double c : credit_) { // summed anew: a running sum would keep the rounding of fast ticks
+    for (const double c :
+         credit_) { // summed again: a running sum would accumulate the rounding of fast ticks
         recent_ += c;
     }
     debt_ = std::max(debt_ + spring - damped, -recent_);

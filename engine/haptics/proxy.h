@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The proxy (virtual tool): the pose that follows the hand and never enters a region. Paper V.B.
+// The proxy (virtual tool): a pose that follows the hand and never enters a region. Paper V.B.
 #pragma once
 
 #include "engine/haptics/tool_kinematics.h"

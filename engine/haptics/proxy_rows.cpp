@@ -48,7 +48,7 @@ ContactRow* ProxyRows::ofPair(uint32_t pair) noexcept {
     return nullptr;
 }
 
-// What the row asks for now.
+// Present offset of the row.
 double ProxyRows::offsetOf(size_t index) const noexcept {
     const ContactRow& row = rows_[index].contact;
     const bool stays = relaxed_ && row.gap >= 0.0 && row.offset <= proxy::kEscapeThreshold;

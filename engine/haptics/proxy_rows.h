@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rows of one linearisation and the solver that obeys them.
+// The rows of one linearisation and their solver.
 #pragma once
 
 #include "engine/contact/contact_row.h"
@@ -13,20 +13,20 @@
 
 namespace fathom {
 
-// Which rows a solve gets. No choice lets a leaf enter a sphere: the exact check tests every listed pair
-// before a pose is taken, and a violated pair gets a row. A choice can only cost lag.
+// Which rows a solve gets. No choice lets a leaf enter a sphere, because the exact check tests every listed
+// pair before a pose is accepted and a violated pair gets a row. A reduction can only cost lag.
 struct RowReduction {
     double reach = 2.0; // pairs farther than this many step caps get no row; below 1 counts as 1
     // [rad] 0..pi/2: a leaf's row stands for its farther pairs within this angle.
     double cone = NarrowPhase::kCone;
     // The solver starts with this many of the rows that the target violates most; 0 = all rows. Free tool
-    // only. checked: rows that the answer violates join until there is none, which gives the optimum over all
+    // only. checked: add rows that the solution violates until none is left, which gives the optimum over all
     // rows.
     uint32_t first = 0;
     bool checked = true;
 };
 
-// A row that pushed in the last solve.
+// A row with a positive multiplier in the last solve.
 struct ActiveContact {
     ContactRow row;
     double multiplier = 0.0; // > 0, such that M (x - x_u) = sum of multiplier x row
@@ -34,10 +34,10 @@ struct ActiveContact {
 
 namespace proxy {
 
-// Rows ask for this much more than the gap, so that the solver's rounding (about 1e-13 of the step) never
-// reaches the exact check, which has no tolerance.
+// Rows keep this extra distance, so that the solver's rounding (about 1e-13 of the step) never fails the
+// exact check, which has no tolerance.
 inline constexpr double kSkin = 1e-9; // [m]
-// Rows that ask for more than this ask for motion: an escape. Well above the skin.
+// Rows with a larger offset request motion (an escape). Well above the skin.
 inline constexpr double kEscapeThreshold = 4e-9; // [m]
 inline constexpr double kNothing = 1e-9;         // [m], [rad] a shorter step is not worth another solve
 inline constexpr size_t kMostPairRows = 512;
@@ -55,24 +55,26 @@ public:
     bool add(const ContactRow& row, std::span<const double> normal) noexcept;
     size_t size() const noexcept { return count_; }
     ContactRow& operator[](size_t row) noexcept { return rows_[row].contact; }
-    ContactRow* ofPair(uint32_t pair) noexcept;                      // null = the pair has no row
-    bool escaping() const noexcept { return largestEscape_ > 0.0; }  // some row asks for motion
-    double largestEscape() const noexcept { return largestEscape_; } // [m] that a row asked for when added
+    ContactRow* ofPair(uint32_t pair) noexcept;                     // null = the pair has no row
+    bool escaping() const noexcept { return largestEscape_ > 0.0; } // some row requests motion
+    double largestEscape() const noexcept {
+        return largestEscape_;
+    } // [m] largest request of a row when added
 
     // n x n, as ConstraintSolver::setMetric(); must be positive definite.
     void setMetric(std::span<const double> metric) { solver_.setMetric(metric); }
-    // Gives the solver the rows with their present offsets, all or the first by RowReduction.
+    // Loads rows with their present offsets into the solver: all, or those that RowReduction selects.
     void load(std::span<const double> target) noexcept;
     // True when x is the optimum over the loaded rows.
     bool solve(std::span<const double> target, std::span<double> x) noexcept {
         return solver_.solve(target, x) == SolveStatus::Optimal;
     }
-    // Loads every other row that the answer violates. False when there is none.
+    // Loads every other row that the solution violates. False when there is none.
     bool loadViolated(std::span<const double> x) noexcept;
-    // For walls that leave no room for the skin: rows that neither overlap nor escape ask only to stay, until
-    // the next load(). False when that changes nothing.
+    // For walls that leave no room for the skin: rows that neither overlap nor escape only require the gap
+    // not to shrink, until the next load(). False when this changes nothing.
     bool relax() noexcept;
-    // For rows that contradict each other: every row asks for no worse than now, for good.
+    // For contradictory rows: every row only requires that its gap does not shrink, permanently.
     void relaxAll() noexcept;
 
     // Contacts of the last recorded solve; joint rows are only counted.

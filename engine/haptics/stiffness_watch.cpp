@@ -12,7 +12,7 @@ StiffnessWatch::StiffnessWatch(const DevicePreset& preset, const CouplingOptions
     , planned_(planned)
     , springs_(planned)
     , period_(options.period) {
-    // A hand map of scale s: the hand feels s K_t and K_r / s (hand_map.h), and the same of B.
+    // With hand map scale s the hand feels s K_t and K_r / s (hand_map.h), and B likewise.
     if (preset.damping && !options.stiffness) {
         damping_ = *preset.damping / options.handScale;
     }
@@ -40,7 +40,7 @@ void StiffnessWatch::step(double measuredPeriod) noexcept {
     springs_.stiffness = share_ * planned_.stiffness;
     springs_.guidanceStiffness = share_ * planned_.guidanceStiffness;
     if (!options_.rotationalStiffness) {
-        // K_r as planned, or k0^2 K_t, or its own bound: whichever is lowest. All of them move slowly.
+        // The smallest of the planned K_r, k0^2 K_t and the rotational bound. All change slowly.
         double turn = std::min(planned_.rotationalStiffness,
                                options_.toolRadius * options_.toolRadius * springs_.stiffness);
         if (rotationalDamping_) {

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Re-checks the automatic stiffness while running: ticks slower than planned lower the passive bound, and the
-// springs follow it.
+// Adapts the automatic stiffness while running: slower ticks lower the passive bound, and the springs follow
+// it.
 #pragma once
 
 #include "engine/haptics/coupling.h"
 
 namespace fathom {
 
-// One thread; noexcept, no allocation. Springs set by the user stay as they are, and so do those of a device
-// with unknown damping, which has no known bound.
+// One thread; noexcept, no allocation. Springs set by the user do not change, nor do those of a device with
+// unknown damping, whose bound is unknown.
 class StiffnessWatch {
 public:
-    // planned: what makeSprings() gave for these options, the most that is ever returned.
+    // planned: result of makeSprings() for these options, and the upper limit of springs().
     StiffnessWatch(const DevicePreset& preset, const CouplingOptions& options, const Springs& planned);
 
     // One tick: measured period [s], 0 = none (lockstep: nothing changes). The period is averaged over
-    // kAverage; K_t and K_r go down to their bounds within kDown (all of K_t), back up within kUp, never in a
-    // step.
+    // kAverage; K_t and K_r ramp down to their bounds (the whole of K_t in kDown) and back up (in kUp), never
+    // in a step.
     void step(double measuredPeriod) noexcept;
 
     const Springs& springs() const noexcept { return springs_; } // active; k = sqrt(K_r / K_t) follows
@@ -25,7 +25,7 @@ public:
     static constexpr double kAverage = 0.05;    // [s]
     static constexpr double kDown = 0.2;        // [s] for the whole of K
     static constexpr double kUp = 2.0;          // [s]
-    static constexpr double kLeastShare = 0.01; // of the planned stiffness: slower than 1/100 is no haptics
+    static constexpr double kLeastShare = 0.01; // of the planned stiffness: lower limit of the ramp
 
 private:
     double wantedShare() const noexcept;

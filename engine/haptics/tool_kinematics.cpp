@@ -41,7 +41,7 @@ void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
 }
 
 void ToolKinematics::setMetric(double radius, ProxyRows& rows) noexcept {
-    // Kept inside what float64 can factor, so that the solver's setMetric() cannot reject it.
+    // Kept within what float64 can factor, so that setMetric() cannot reject it.
     const double k = std::isfinite(radius) ? std::clamp(radius, 1e-4, 1e4) : 0.1;
     if (k == metricRadius_) {
         return;
@@ -89,7 +89,8 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
     return true;
 }
 
-// Largest share of `rest` after `first` with no leaf farther than the cap: exact travel, from below.
+// Largest share of `rest` after `first` that moves no leaf beyond the cap. Uses exact travel; errs on the
+// small side.
 double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, double firstBound,
                                   LeafState& leaves) const noexcept {
     const auto travel = [&](double s) {
@@ -100,7 +101,7 @@ double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, doubl
         return 1.0;
     }
     double s = std::clamp((stepCap_ - firstBound) / places_.travelBound(pose_, rest), 0.0, 1.0);
-    // The bound adds translation and rotation as if they always agreed: take what it gave away.
+    // The bound adds translation and rotation as if they were parallel; recover the difference.
     double reached = travel(s);
     for (int k = 0; k < 3 && reached > 0.0 && reached < 0.98 * stepCap_ && s > 0.0; ++k) {
         const double longer = std::min(1.0, s * stepCap_ / reached * (1.0 - 1e-9));
@@ -114,7 +115,7 @@ double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, doubl
     return s;
 }
 
-// Cuts the answer to the caps and the trust region, and tries what is left.
+// Cuts the solution to the caps and the trust region and tries the rest.
 bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept {
     LeafState& leaves = contacts.leaves;
     double escapeBound = 0.0;
@@ -137,7 +138,7 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
     }
     answer.whole = false;
     answer.share = contacts.trust().share(*contacts.set(), leaves.now, leaves.next);
-    for (int k = 0; k < 24; ++k) { // leaves move on arcs; the share was for straight paths
+    for (int k = 0; k < 24; ++k) { // leaves move on arcs, but the share is for straight paths
         tryPart(answer, 1.0, leaves);
         answer.stalled = answer.share < 1.0;
         if (contacts.insideTrustRegion()) {
@@ -165,11 +166,11 @@ void ToolKinematics::tryPart(const Answer& answer, double part, LeafState& leave
     places_.place(nextPose_, leaves.origin, leaves.next);
 }
 
-// True when the next pose lies nearer to the target by the metric: when the springs' energy falls. The
-// solver's answer does so by its linearisation; what arcs and raised offsets add can undo it where the rows
-// of several leaves meet, and then the tool would oscillate although the hand is still. Written so that a
-// target far away costs no digits. Steps of rounding size pass: they settle the tool, and their energy is
-// below what a position far from the base origin can resolve.
+// True when the next pose is nearer to the target in the metric, that is, when the springs' energy falls. It
+// falls for the linearised solution, but arcs and raised offsets can undo that where rows of several leaves
+// meet, and the tool would oscillate although the hand is still. The formula loses no digits for a far
+// target. Steps of rounding size pass: they settle the tool, and their energy is below the resolution of a
+// position far from the base origin.
 bool ToolKinematics::comesNearer(const Motion& taken) const noexcept {
     if (glm::length(taken.a) <= kSettling && glm::length(taken.alpha) * metricRadius_ <= kSettling) {
         return true;
@@ -182,7 +183,8 @@ bool ToolKinematics::comesNearer(const Motion& taken) const noexcept {
 StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafState&, ProxyRows& rows,
                                   ProxyStep& out) noexcept {
     const Motion taken = remaining(pose_, nextPose_);
-    if (isNothing(taken) && rows.escaping() && part < 1.0) { // only a motion far away would obey: no way out
+    if (isNothing(taken) && rows.escaping() &&
+        part < 1.0) { // only a far motion would satisfy the rows: no way out
         out.trapped = out.solves == 1;
         rows.clearActive();
     }
@@ -204,7 +206,7 @@ double ToolKinematics::shortfall(const NarrowPhase::Violation& violation, double
                     needed - glm::dot(row.normal, leaves.next[row.leaf] - leaves.now[row.leaf]));
 }
 
-// [m] by which the arc of the tried motion falls short of its linearisation along the row.
+// [m] shortfall of the tried motion's arc against its linearisation along the row.
 double ToolKinematics::arcOf(const Answer& answer, const ContactRow& row,
                              const LeafState& leaves) const noexcept {
     const Motion tried = motionOf(answer, 1.0);

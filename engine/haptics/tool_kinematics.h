@@ -11,14 +11,14 @@ namespace fathom {
 class ToolKinematics {
 public:
     using Step = ProxyStep;
-    static constexpr bool kSolvesLastRound = false; // bisect what was checked last
+    static constexpr bool kSolvesLastRound = false; // bisect the last checked motion
     struct Answer {
-        Motion escape;            // least motion that obeys every row (zero unless some row asks for one)
-        Motion full;              // nearest to the target
-        double escapeShare = 0.0; // of `escape` that the caps leave
+        Motion escape; // smallest motion that satisfies every row (zero unless some row requests motion)
+        Motion full;   // nearest to the target
+        double escapeShare = 0.0; // of `escape`, within the caps
         double towards = 0.0;     // share from there to `full`
-        double share = 0.0;       // of the result that the trust region leaves
-        bool whole = false;       // the target itself, with nothing cut
+        double share = 0.0;       // of the result, within the trust region
+        bool whole = false;       // the target itself, uncut
         bool stalled = false;     // cut by the trust region
     };
 
@@ -26,7 +26,7 @@ public:
 
     size_t unknowns() const noexcept { return 6; }
     const Pose& pose() const noexcept { return pose_; }
-    const dvec3& origin() const noexcept { return pose_.position; } // of the leaves when no set says one
+    const dvec3& origin() const noexcept { return pose_.position; } // of the leaves without an active set
     const Pose& nextPose() const noexcept { return nextPose_; }
     void setPose(const Pose& pose) noexcept;
     void place(LeafState& leaves) const noexcept { places_.place(pose_, leaves.origin, leaves.now); }
@@ -37,11 +37,12 @@ public:
     // Rows.
     void addLimits(ProxyRows&) const noexcept {}
     bool addRow(const ContactRow& row, const LeafState& leaves, ProxyRows& rows) const noexcept;
-    // [m] that a row of depth `depth` asks for, skin included.
+    // [m] motion requested by a row of this depth, with the skin.
     double escapeOffset(double depth) const noexcept {
         return std::max(proxy::kSkin, std::min(proxy::kSkin + depth, depthLeft()));
     }
-    // [m] or [rad] that an equation may correct in one solve: a rotation by what that is at the tool's rim.
+    // [m] or [rad] that an equation may correct in one solve: a rotation is limited by its arc at the tool's
+    // bounding radius.
     double equalityLimit(const Equality& e) const noexcept {
         return depthLeft() / (e.linear == dvec3(0.0) ? boundingRadius_ : 1.0);
     }
@@ -63,7 +64,7 @@ public:
                       ProxyStep& out) noexcept;
     void take() noexcept { pose_ = nextPose_; }
 
-    // Tightening. share: of every row's offset that the tried motion is sure of.
+    // Tightening. share: the part of every row's offset that the tried motion surely reaches.
     double share(const Answer& answer) const noexcept { return answer.share * answered(answer); }
     double shortfall(const NarrowPhase::Violation& violation, double needed,
                      const LeafState& leaves) const noexcept;
@@ -74,11 +75,11 @@ public:
     bool tightenEqualities(std::span<const Shape>, double, ProxyRows&) const noexcept { return false; }
 
 private:
-    struct Budget {          // of one tick, all solves together
-        double depth = 0.0;  // [m] by which rows may ask touching pairs to part
-        double travel = 0.0; // [m] of leaf travel for that
+    struct Budget {          // per tick, over all solves
+        double depth = 0.0;  // [m] separation that rows may request of touching pairs
+        double travel = 0.0; // [m] leaf travel allowed for it
     };
-    // A row speaks of the whole solution, of which only `share` was tried.
+    // Rows describe the whole solution, of which only `share` was tried.
     static double scaleOf(double share) noexcept { return 1.0 / std::max(share, 1e-9); }
     static double answered(const Answer& answer) noexcept {
         return answer.escapeShare * (1.0 - answer.towards) + answer.towards;
@@ -97,8 +98,8 @@ private:
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
     Budget budget_;
-    Motion wanted_;        // of this linearisation: what is left to the target
-    bool newData_ = false; // rows asked for motion before any was tightened
+    Motion wanted_;        // remaining motion to the target, per linearisation
+    bool newData_ = false; // rows requested motion before any was tightened
 };
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A motion of the tool, where it takes each leaf, and the share of it that the trust region leaves.
+// A motion of the tool, the resulting leaf centres, and the share of it within the trust region.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -16,14 +16,14 @@ struct Motion {
     dvec3 a{0.0}, alpha{0.0};
 };
 
-// Part by part.
+// Componentwise.
 inline Motion operator+(const Motion& m, const Motion& o) {
     return {m.a + o.a, m.alpha + o.alpha};
 }
 inline Motion operator-(const Motion& m, const Motion& o) {
     return {m.a - o.a, m.alpha - o.alpha};
 }
-// Part by part.
+// Componentwise.
 inline Motion operator*(double s, const Motion& m) {
     return {s * m.a, s * m.alpha};
 }
@@ -31,7 +31,7 @@ inline Motion operator*(double s, const Motion& m) {
 // The pose after the step; the quaternion is normalised.
 Pose moved(const Pose& pose, const Motion& motion) noexcept;
 
-// What is left from pose to target: [p_target - p; log(q_target q^-1)], shortest arc.
+// Remaining motion from pose to target: [p_target - p; log(q_target q^-1)], shortest arc.
 Motion remaining(const Pose& pose, const Pose& target) noexcept;
 
 // sqrt(|a|^2 + k^2 |alpha|^2) [m], never 0.
@@ -49,8 +49,8 @@ public:
     // Leaf centres about `origin` [m].
     void place(const Pose& pose, const dvec3& origin, LeafCentres& out) const noexcept;
 
-    // Bounds on how far any leaf centre travels [m]: max |a| + |alpha x r|, and a cruder one that looks at no
-    // leaf.
+    // Bounds on how far any leaf centre travels [m]: max |a| + |alpha x r|, and a coarser one that does not
+    // depend on single leaves.
     double travelBound(const Pose& pose, const Motion& motion) const noexcept;
     double crudeBound(const Motion& motion) const noexcept {
         return glm::length(motion.a) + glm::length(motion.alpha) * farthest_;
@@ -65,7 +65,7 @@ private:
 };
 
 // Trust region: no leaf may end farther from its position at the query than the certified reach less kMargin,
-// or than it already is. Inside it no unlisted pair can touch.
+// or than it already is. Within it no unlisted pair can touch.
 class TrustRegion {
 public:
     static constexpr double kMargin = 1e-5; // [m]
@@ -73,23 +73,23 @@ public:
     explicit TrustRegion(size_t leaves)
         : bound_(leaves, 0.0) {}
 
-    // Bounds for a step from where the leaves are. moved: their distances from the query positions, farthest:
-    // the largest of them [m].
+    // Sets the bounds for a step from the present leaf positions. moved: their distances from the query
+    // positions [m]; farthest: the largest of them [m].
     void set(const ContactSet& contacts, std::span<const double> moved, double farthest) noexcept;
 
     bool contains(const ContactSet& contacts, const LeafCentres& next) const noexcept;
-    // True only if contains() is sure to hold for any step whose leaves travel at most `travel` [m].
+    // True only if contains() holds for every step whose leaves travel at most `travel` [m].
     bool surelyContains(double travel) const noexcept { return travel <= room_; }
     // Largest share of the straight paths from -> next that stays inside, 0..1.
     double share(const ContactSet& contacts, const LeafCentres& from, const LeafCentres& next) const noexcept;
 
-    // True when a tool with its leaves there may obey this set at all: no leaf outside its certified reach.
+    // True when the set is usable with the leaves there: no leaf outside its certified reach.
     static bool covers(const ContactSet& contacts, const LeafCentres& leaves) noexcept;
 
 private:
-    std::vector<double> bound_; // [m] a leaf
-    double limit_ = 0.0;        // [m] the bound of every leaf that is not beyond it already
-    double room_ = 0.0;         // [m] that every leaf may travel whichever way; < 0: some leaf is beyond
+    std::vector<double> bound_; // [m] per leaf
+    double limit_ = 0.0;        // [m] bound of every leaf that is not beyond it already
+    double room_ = 0.0;         // [m] that every leaf may travel in any direction; < 0: some leaf is beyond
 };
 
 } // namespace fathom
