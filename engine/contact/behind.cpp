@@ -11,8 +11,8 @@ namespace fathom {
 namespace {
 
 constexpr double kSigmas = 3.0;
-constexpr double kDeep = 0.25;    // of R + r: only new data brings a leaf nearer to the surface
-constexpr double kNearest = 1e-6; // [m] before the camera; nearer points have no pixel
+constexpr double kDeep = 0.25;    // of R + r: only new data can bring a leaf nearer to the surface
+constexpr double kNearest = 1e-6; // [m] from the camera; nearer points have no pixel
 
 // Deepest overlap of the leaf with any listed sphere [m]; 0 when it is clear of all.
 double overlapOf(const ContactSet& set, uint32_t leaf, double radius) {
@@ -69,9 +69,9 @@ void BehindTracker::follow(Leaf& leaf, const DepthSample& sample, const LeafDist
     const double margin = kSigmas * sample.sigma;
     if (leaf.behind) {
         if (sample.known && sample.forbidden) {
-            leaf.range = sample.range; // the surface moves, and with it the distance left
+            leaf.range = sample.range; // the surface may have moved
         } else if (sample.known && sample.before > margin) {
-            leaf.behind = false; // seen in the open
+            leaf.behind = false; // the view to it is free
         }
         if (distance.range <= leaf.range - distance.resting && distance.overlap <= 0.0) {
             leaf.behind = false;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Finds tool leaves that a new frame put on the far side of a surface. Overlap alone cannot tell; the depth
-// image can.
+// Finds tool leaves that a new frame put on the far side of a surface. The overlap does not show the side;
+// the depth image does.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -10,47 +10,47 @@
 
 namespace fathom {
 
-// Runs on the contact cadence, once per query, after the set is filled (allocates at first use only).
+// Runs at contact cadence, once per query, after the set is filled. Allocates at first use only.
 //
 // A leaf is flagged when a NEW fixture set shows a forbidden surface in front of its centre, by more than
-// 3 sigma of depth, and the centre was in front of a forbidden surface at the last query on the previous set.
-// A leaf that gets behind a surface while the set stays the same, or was not seen in front of one before,
-// came through free space or is hidden: it is occluded, not behind.
+// 3 sigma of depth, and the centre was in front of a forbidden surface same, at the last query on the
+// previous set. A leaf that gets behind a surface while the set is unchanged, or that was not in front of one
+// before, moved through free space or is hidden. It is occluded, not behind.
 //
-// The flag stays until the view to the leaf is free, or until it is clear in front: R + r before the surface,
-// and no sphere overlaps it (noise puts some spheres before their pixel's depth). Where R + r is more than
-// 6 sigma, a centre within 3 sigma BEFORE the surface counts as behind, too: only new data can have put it
-// there. Normals point anywhere so close to the sphere centres and would squeeze the leaf or push it out
-// behind.
+// The flag stays until the view to the leaf is free, or until the leaf is clear in front: R + r before the
+// surface and not overlapping any sphere (noise puts some spheres before their pixel's depth). Where R + r is
+// more than 6 sigma, a centre within 3 sigma BEFORE the surface also counts as behind, because only new data
+// can have put it there. So close to the sphere centres normals are arbitrary and would squeeze the leaf or
+// push it out behind.
 class BehindTracker {
 public:
-    // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). The set's pairs are
-    // listed, or there are none. Fills set.behind.
+    // regionRadius: largest radius of the set's spheres [m] (RegionGrid::maxRadius()). The pairs of the set
+    // must be listed already (or be empty). Fills set.behind.
     void update(const Tool& tool, const Fixtures& fixtures, double regionRadius, ContactSet& set);
 
 private:
-    // The frame at one point.
+    // The depth frame sampled at one point.
     struct DepthSample {
         bool known = false;     // inside the image, with a depth
-        bool forbidden = false; // that pixel
+        bool forbidden = false; // the pixel has a forbidden class
         double before =
-            0.0; // [m] along the optical axis that the point is nearer than the surface; < 0 = deeper
-        double sigma = 0.0; // [m] of that depth
+            0.0; // [m] distance of the point before the surface along the optical axis; < 0 = deeper
+        double sigma = 0.0; // [m] of the depth there
         double range = 0.0; // [m] from the camera to the surface on the point's own ray
     };
     static DepthSample sampleAt(const Fixtures& fixtures, const Pose& cameraTbase, const dvec3& point);
 
     struct Leaf {
-        bool inFront = false;       // at the last query, of a forbidden surface
+        bool inFront = false;       // in front of a forbidden surface at the last query
         bool inFrontBefore = false; // at the last query on the previous set
         bool behind = false;
-        double range = 0.0; // [m] of the surface that it is behind
+        double range = 0.0; // [m] to the surface that it is behind
     };
     // A leaf at the query.
     struct LeafDistance {
-        double resting = 0.0; // [m] before the surface where it may rest: R + r
+        double resting = 0.0; // [m] distance before the surface at rest: R + r
         double range = 0.0;   // [m] from the camera to its centre
-        double overlap = 0.0; // [m] deepest in any listed sphere; 0 = clear
+        double overlap = 0.0; // [m] deepest overlap with a listed sphere; 0 = clear
     };
     static bool becameBehind(const DepthSample& sample, double resting);
     static void follow(Leaf& leaf, const DepthSample& sample, const LeafDistance& distance, bool newSet);

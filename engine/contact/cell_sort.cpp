@@ -10,14 +10,14 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kThingsPerBucket = 32; // about, where the cells allow it
-constexpr size_t kMostBuckets = 512;    // whose counts one thread sums up
-constexpr size_t kLeastBlocks = 8;      // whose places one thread works out
+constexpr size_t kThingsPerBucket = 32; // approximate
+constexpr size_t kMostBuckets = 512;    // one thread sums their counts
+constexpr size_t kLeastBlocks = 8;      // one thread computes their places
 
 } // namespace
 
-// Of each part, things in each cell and in each block of cells. Neighbours among things are neighbours among
-// cells, so that a part has things in few blocks: of the others no counts are cleared, and none are read.
+// Counts items per cell and per block of cells, for each part. Neighbouring items are mostly in neighbouring
+// cells, so a part has items in few blocks. Counts of other blocks are neither cleared nor read.
 void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t parts, ThreadPool& workers) {
     const size_t blocks = blocksOf(cells);
     if (next_.size() < parts * blocks * kBlock) {
@@ -31,7 +31,7 @@ void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t
         for (size_t i = from; i < to; ++i) {
             const uint32_t block = cell[i] / kBlock;
             if (inBlock[block] == 0) {
-                inBlock[block] = 1; // there are some: how many is summed up below
+                inBlock[block] = 1; // not empty; the number is summed below
                 std::fill_n(counts + block * kBlock, kBlock, 0);
             }
             ++counts[cell[i]];
@@ -43,8 +43,8 @@ void CellSort::countParts(std::span<const uint32_t> cell, size_t cells, uint32_t
     });
 }
 
-// From those counts each part knows where its first thing of each cell goes: behind those of all cells before
-// and of the parts before in this one.
+// Turns the counts into the place of each part's first item in each cell: after all earlier cells and after
+// the earlier parts in this cell.
 void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, ThreadPool& workers) {
     const size_t blocks = blocksOf(begins.size());
     first_.resize(blocks);
@@ -64,7 +64,7 @@ void CellSort::placesOfParts(std::span<uint32_t> begins, uint32_t parts, ThreadP
 
 void CellSort::placesInBlock(size_t block, std::span<uint32_t> begins, uint32_t parts) noexcept {
     const size_t blocks = blocksOf(begins.size()), cells = std::min(begins.size() - block * kBlock, kBlock);
-    std::array<uint32_t, kBlock> here{}; // things of each cell, of the parts so far
+    std::array<uint32_t, kBlock> here{}; // items per cell in the parts so far
     uint32_t* const next = &next_[block * kBlock];
     for (uint32_t part = 0; part < parts; ++part) {
         if (inBlock_[part * blocks + block] != 0) {
@@ -97,7 +97,7 @@ void CellSort::chooseBuckets(size_t things, uint32_t cells) {
     buckets_ = ((cells - 1) >> shift_) + 1;
 }
 
-// Each part counts its things, and knows from all counts where its first of each bucket goes.
+// Each part counts its items; all counts together give the place of its first item in each bucket.
 void CellSort::toBuckets(std::span<const uint32_t> cell, uint32_t parts, ThreadPool& workers) {
     next_.assign(size_t{parts} * buckets_, 0);
     placed_.resize(cell.size());

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Stable counting sort by cell: its caller moves each thing, whatever it is made of, to its place at once.
-// Shared by several threads each counts and moves a part of the things; or, when there are more cells than
-// things, they fall into buckets of neighbouring cells first, and each bucket is sorted by whoever is free.
+// Stable parallel counting sort by cell. It computes the place of each item, and the caller's function moves
+// the item there. Each thread counts and moves a part of the items. With more cells than items, the items
+// first go into buckets of neighbouring cells, and free threads take buckets to sort.
 #pragma once
 
 #include "engine/types/thread_pool.h"
@@ -16,25 +16,25 @@ namespace fathom {
 
 class CellSort {
 public:
-    // cell: of each thing, below `cells`. begins (cells + 1): place of each cell's first thing, then their
-    // number. put(thing, place), noexcept, is called once for each thing, by any thread and in any order;
-    // places are by cell, within one by number. crew: who shares the work; begins and places are the same
-    // whoever does; null: the caller alone. Allocates when there is more than ever before: up to 4 bytes a
-    // cell for each member of the crew, and 8 a thing.
+    // cell: cell of each item, below `cells`. begins (cells + 1): place of each cell's first item, then the
+    // number of items. put(item, place), noexcept, is called once per item, from any thread and in any order.
+    // Places are ordered by cell, then by index. Results do not depend on the thread pool; null = the calling
+    // thread only. Allocates only when sizes exceed all earlier ones: up to 4 bytes per cell and thread, and
+    // 8 per item.
     template <class Put>
     void sort(std::span<const uint32_t> cell, uint32_t cells, std::span<uint32_t> begins, const Put& put,
               ThreadPool* workers);
 
 private:
-    static constexpr size_t kLeastPart = 2048;  // things
-    static constexpr size_t kLeastBuckets = 16; // of a part
-    static constexpr size_t kBlock = 256;       // cells, whose counts are cleared and summed up together
+    static constexpr size_t kLeastPart = 2048;  // items
+    static constexpr size_t kLeastBuckets = 16; // per part
+    static constexpr size_t kBlock = 256;       // cells whose counts are cleared and summed together
 
     struct Placed {
         uint32_t cell, thing;
     };
-    // Things `begin` to `end`, at(i) the cell of the i-th, to begins of the cells from `from` up to `to`.
-    // Each is left at the place of its cell's end.
+    // Sorts items `begin` to `end`, at(i) = cell of item i, into the cells `from` up to `to`. Afterwards the
+    // cells' entries in begins hold the end of each cell.
     template <class Cell>
     static void countCells(uint32_t begin, uint32_t end, const Cell& at, uint32_t from, uint32_t to,
                            uint32_t* begins) noexcept;
@@ -53,11 +53,10 @@ private:
     void placesOfBuckets(uint32_t parts);
 
     uint32_t shift_ = 0, buckets_ = 0; // bucket = cell >> shift
-    std::vector<uint32_t>
-        next_; // of each part of the things, a cell or bucket each: where its next thing goes
-    std::vector<uint32_t> first_;   // buckets + 1, or blocks of cells: place of the first thing
-    std::vector<uint32_t> inBlock_; // of each part, things in each block
-    std::vector<Placed> placed_;    // by bucket
+    std::vector<uint32_t> next_;       // per part of the items and per cell or bucket: place of its next item
+    std::vector<uint32_t> first_;      // buckets + 1, or blocks of cells: place of the first item
+    std::vector<uint32_t> inBlock_;    // per part: items in each block
+    std::vector<Placed> placed_;       // by bucket
 };
 
 template <class Put>
@@ -70,7 +69,7 @@ void CellSort::sort(std::span<const uint32_t> cell, uint32_t cells, std::span<ui
     if (parts < 2) {
         countCells(
             0, things, [&](uint32_t i) { return cell[i]; }, 0, cells, begins.data());
-        for (uint32_t i = things; i-- > 0;) { // backwards: keeps the order within a cell
+        for (uint32_t i = things; i-- > 0;) { // backwards, which keeps the order within a cell
             put(i, --begins[cell[i]]);
         }
     } else if (cells <= things) {

@@ -12,12 +12,11 @@ namespace fathom {
 namespace {
 
 constexpr double kPairMargin = 1e-9;      // [m] outward
-constexpr double kTrustMargin = 8e-6;     // [m] of the 10 um that the trust region keeps back
+constexpr double kTrustMargin = 8e-6;     // [m] part of the 10 um margin of the trust region
 constexpr double kFloatHalfUlp = 0x1p-24; // relative rounding of one float32 operation
 
 void placePairs(size_t leaf, PairScratch& scratch, ContactSet& set) {
-    // Counting sort by band: stable, so the order inside a band is the grid's, which depends on the set
-    // alone.
+    // Stable counting sort by band: within a band the grid's order remains, which depends only on the set.
     std::array<uint32_t, ContactSet::kGapBands> end{};
     for (const double gap : scratch.gap) {
         ++end[set.bandOf(gap)];
@@ -75,8 +74,8 @@ double certifiedReach(const PosedLeaves& leaves, double reach, double maxRegionR
         farthest = std::max({farthest, std::abs(leaves.x[i]), std::abs(leaves.y[i]), std::abs(leaves.z[i])});
         largest = std::max(largest, leaves.radius[i]);
     }
-    // Position: half an ulp an axis. Distance: three roundings in the square count half each, and one of the
-    // difference. Limit: two sums, one product (half of it), three values.
+    // Position: half an ulp per axis. Distance: three roundings in the square count half each, plus one in
+    // the difference. Limit: two sums, one product (half of it), three values.
     const double position = std::sqrt(3.0) * kFloatHalfUlp * farthest;
     const double comparison = 8.0 * kFloatHalfUlp * (reach + largest + maxRegionRadius);
     return std::max(0.0, reach - std::max(0.0, position + comparison - kTrustMargin));
@@ -144,7 +143,7 @@ void fillContactSet(const Tool& tool, const Pose& baseTtool, double certified, c
 bool listPairs(const Tool& tool, size_t capacity, PairScratch& scratch, ContactSet& set) {
     const size_t count = set.size();
     scratch.x.resize(count), scratch.y.resize(count), scratch.z.resize(count), scratch.radius.resize(count);
-    for (size_t i = 0; i < count; ++i) { // exact: they were floats
+    for (size_t i = 0; i < count; ++i) { // exact: the values were floats
         scratch.x[i] = static_cast<float>(set.x[i]);
         scratch.y[i] = static_cast<float>(set.y[i]);
         scratch.z[i] = static_cast<float>(set.z[i]);

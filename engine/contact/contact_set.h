@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact set: every region sphere whose gap to some tool leaf is at most `reach`, with the set and pose it
-// was found at.
+// Contact set: every region sphere whose gap to some tool leaf is at most `reach`, with the fixture set and
+// pose of the query.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -14,13 +14,12 @@ namespace fathom {
 
 // Spheres are sorted by source. Listed pairs are grouped by leaf: pairs of leaf i are pairSphere[pairBegin[i]
 // .. pairBegin[i + 1]), each an index into the spheres; a pair is listed when its gap at the query pose is <=
-// reach. While every leaf centre stays within reach of its position at the query, no unlisted pair can touch:
-// that is the trust region. Axes of the base frame, about the origin; float64 copies of the fixture set's
+// reach. While every leaf centre stays within reach of its position at the query, no unlisted pair can touch.
+// That is the trust region. Axes of the base frame, about the origin; float64 copies of the fixture set's
 // floats.
 struct ContactSet {
-    // Pairs of a leaf are stored by bands of their gap at the query, so that the haptic step reads only the
-    // pairs that can matter near the query pose: gaps below reach / 16 first, then one band for each further
-    // 16th.
+    // Pairs of a leaf are stored in bands of their gap at the query: gaps below reach / 16 first, then one
+    // band per further 16th. Near the query pose the haptic step thus reads only the pairs that matter.
     static constexpr uint32_t kGapBands = 16;
 
     int64_t frame = -1;       // its fixture set; -1 = none yet
@@ -28,7 +27,7 @@ struct ContactSet {
     double captureTime = 0.0; // [s] of that fixture set
     uint64_t query = 0;       // counts answered queries
     double reach = 0.0;       // [m] certified
-    dvec3 origin{0.0};        // [m] base frame: what all positions here are relative to
+    dvec3 origin{0.0};        // [m] base frame: origin of all positions here
     dvec3 camera{0.0};        // [m] camera centre of that fixture set, about the origin
     Pose queryPose;           // base_T_tool of the query
 
@@ -37,23 +36,23 @@ struct ContactSet {
     std::vector<uint8_t> fixture;        // row of Scene::fixtures
     std::vector<uint32_t> pairBegin;     // leafCount + 1
     std::vector<uint32_t>
-        pairSphere; // by band within a leaf; inside a band the order depends on the set alone
+        pairSphere; // by band within a leaf; the order within a band depends only on the set
     std::vector<uint32_t> pairBandEnd; // leafCount x kGapBands: where the pairs of bands 0..b of a leaf end
     LeafCentres leafAtQuery;           // leaf centres at the query pose, about the origin [m]
-    // The spheres once more in pair order, so that a kernel reads them in one run. The same floats.
+    // The same sphere values again in pair order, so that kernels read them contiguously.
     std::vector<float> pairX, pairY, pairZ, pairRadius;
 
-    // Leaves that new data put on the far side of a surface (BehindTracker), and how to leave it.
+    // Leaves that new data put on the far side of a surface (BehindTracker), and the way out.
     struct Behind {
         uint32_t leaf;
         dvec3 towardsCamera; // unit, base axes
-        double clearance;    // [m] left along it until the leaf is clear in front of the surface
+        double clearance;    // [m] left in that direction until the leaf is clear in front of the surface
     };
     std::vector<Behind> behind; // by leaf
 
-    // Sizes every vector once so that the haptic side copies without allocating.
+    // Reserves every vector once, so that the haptic thread copies without allocating.
     void reserve(size_t leaves, size_t spheres, size_t pairs);
-    // Empties the spheres, pairs and flags; keeps the memory and the rest.
+    // Clears spheres, pairs and flags; keeps the memory and all other fields.
     void clear() noexcept;
     size_t size() const { return x.size(); }
     size_t leafCount() const { return leafAtQuery.size(); }
@@ -66,8 +65,8 @@ struct ContactSet {
         }
         return band >= kGapBands ? kGapBands - 1 : static_cast<uint32_t>(band);
     }
-    // End of the run of pairs of `leaf` that holds every pair whose gap at the query is <= g [m], and some
-    // more.
+    // End of the run of pairs of `leaf` that contains every pair whose gap at the query is <= g [m]. It may
+    // contain more.
     uint32_t pairsUpTo(size_t leaf, double g) const noexcept {
         return pairBandEnd[leaf * kGapBands + bandOf(g)];
     }

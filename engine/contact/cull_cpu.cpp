@@ -10,8 +10,8 @@ namespace fathom {
 
 namespace {
 
-constexpr uint32_t kBlock = 32; // slots that one step of the kernel takes, marks being bytes
-constexpr uint32_t kFew = 5;    // up to here one by one is faster than a step
+constexpr uint32_t kBlock = 32; // slots per kernel step (marks are bytes)
+constexpr uint32_t kFew = 5;    // up to this many slots a scalar loop is faster
 
 FATHOM_CLONES
 void markKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
@@ -26,8 +26,8 @@ void markKernel(const float* __restrict x, const float* __restrict y, const floa
     }
 }
 
-// Runs of a grid are short, and what a step leaves over is done one by one, six times slower. So slots beyond
-// the run are tested with it, as exactly as all: whether a slot is marked does not depend on the run.
+// Grid runs are short, and a scalar remainder loop is six times slower. So the last step also tests slots
+// beyond the run. This is exact, because a slot's mark does not depend on the run.
 uint32_t wholeSteps(uint32_t begin, uint32_t end, uint32_t slots) noexcept {
     const uint32_t count = end - begin;
     return count <= kFew ? count : std::min((count + kBlock - 1) / kBlock * kBlock, slots - begin);
@@ -41,7 +41,7 @@ void CullCpu::cull(const PosedLeaves& leaves, float reach, const RegionGrid& gri
     const auto slots = static_cast<uint32_t>(grid.size());
     for (size_t i = 0; i < leaves.x.size(); ++i) {
         const float limit = reach + leaves.radius[i];
-        // The grid answers in float64: its box is wider than all that float32 may round inward.
+        // The grid query is in float64, with a box wider than any float32 rounding.
         const double far = (static_cast<double>(limit) + grid.maxRadius()) * (1.0 + 1e-5) + 1e-9;
         const dvec3 centre(leaves.x[i], leaves.y[i], leaves.z[i]);
         grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {

@@ -17,13 +17,13 @@ public:
     explicit CullCpu(const QueryCapacity& capacity = {})
         : loop_(capacity) {}
 
-    // Fills `out` with every sphere that obeys d^2 <= (reach + r_t + R)^2 for some leaf, all in float32 on
-    // the values of poseLeaves(), d^2 = dx dx + dy dy + dz dz left to right without contraction, sorted by
-    // source; and all pairs. `grid` must have been built from `fixtures`. Overflow: see QueryLoop::run.
+    // Fills `out` with every sphere with d^2 <= (reach + r_t + R)^2 for some leaf, sorted by source, and with
+    // all pairs. Computed in float32 on the values of poseLeaves(), d^2 = dx dx + dy dy + dz dz left to right
+    // without contraction. `grid` must have been built from `fixtures`. Overflow: see QueryLoop::run.
     void query(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
                const RegionGrid& grid, ContactSet& out);
 
-    // The first step of query() alone: the index of every such sphere, each once, in the grid's order.
+    // Only the first step of query(): the index of every such sphere, once, in grid order.
     // leaves: poseLeaves() about the set's origin.
     void cull(const PosedLeaves& leaves, float reach, const RegionGrid& grid, std::vector<uint32_t>& found);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host copy of one fixture set: everything that one frame yields, in plain memory that outlives the device.
+// Host copy of one fixture set: all results of one frame, in plain memory that outlives the device.
 #pragma once
 
 #include "engine/types/camera_info.h"
@@ -10,9 +10,9 @@
 
 namespace fathom {
 
-// Region spheres in order of patch (16x16 pixels), then of layer (seen, then held), then of 4x4 sub-patch,
-// then of pixel: the same for equal frames. Positions are float32 about Fixtures::origin; these
-// floats define the region for the GPU, the CPU and every check.
+// Region spheres in order of patch (16x16 pixels), then layer (seen, then held), then 4x4 sub-patch, then
+// pixel, so equal frames give equal orders. Positions are float32 about Fixtures::origin. These floats define
+// the region for the GPU, the CPU and every check.
 struct RegionSpheres {
     std::vector<float> x, y, z;   // [m] base axes, about the origin
     std::vector<float> radius;    // [m]
@@ -33,20 +33,20 @@ struct GuidancePose {
     dvec3 position{0.0};  // [m] base frame: mean of the points
     dvec3 normal{0.0};    // unit, base frame, towards the camera; zero when not planar
     bool planar = false;
-    bool rollFree = true; // no long axis: the roll about the normal is not commanded
+    bool rollFree = true; // no long axis: the roll about the normal is free
     Pose target;          // base_T_tool: position + standoff, +z along -normal or the scene's orientation
 };
 
 struct Fixtures {
     int64_t frame = -1;       // Frame index; -1 = none
     double captureTime = 0.0; // [s]
-    uint64_t generation = 0;  // counts published sets; a reader that sees it change has a torn copy
-    dvec3 origin{0.0};        // [m] base frame: what positions are relative to
+    uint64_t generation = 0;  // number of published sets; if it changes while reading, the copy is torn
+    dvec3 origin{0.0};        // [m] base frame: origin of positions
 
     RegionSpheres spheres;
     std::vector<GuidancePose> guidance; // one per guidance class, in scene order
 
-    // The frame they came from, for the test whether a leaf is behind a surface (BehindTracker).
+    // The source frame, used to test whether a leaf is behind a surface (BehindTracker).
     CameraInfo camera;
     Pose baseTcamera;
     std::vector<uint16_t> depth;         // raw units, width x height

@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kDisplacementLanes = 8; // of the widest register; each keeps its own maximum
+constexpr size_t kDisplacementLanes = 8; // lanes of the widest register, each with its own maximum
 using DisplacementLanes = double __attribute__((vector_size(8 * kDisplacementLanes)));
 
 FATHOM_CLONES
@@ -37,7 +37,8 @@ int64_t withinKernel(const double* __restrict fx, const double* __restrict fy, c
     return within;
 }
 
-// Largest displacement, squared. No function passes registers: each clone has its own calling convention.
+// Largest squared displacement. No vector types in the signature, because each clone has its own calling
+// convention.
 FATHOM_CLONES
 double farthestKernel(const double* __restrict fx, const double* __restrict fy, const double* __restrict fz,
                       const double* __restrict tx, const double* __restrict ty, const double* __restrict tz,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Leaf centres of a tool, as columns that kernels read.
+// Leaf centres of a tool, in columns for vectorised kernels.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -27,8 +27,8 @@ struct LeafCentres {
     void clear() noexcept { x.clear(), y.clear(), z.clear(); }
 };
 
-// Displacement of each leaf [m] into `displacements`; returns the largest, 0 without leaves. Both have as
-// many leaves, about one origin. NaN is never the largest.
+// Displacement of each leaf [m] into `displacements`; returns the largest, 0 without leaves. Both have the
+// same number of leaves and the same origin. NaN is never the largest.
 double leafDisplacements(const LeafCentres& from, const LeafCentres& to,
                          std::span<double> displacements) noexcept;
 

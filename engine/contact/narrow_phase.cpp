@@ -12,11 +12,11 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostRowsOfLeaf = 8;
-constexpr size_t kMostListed = 65536; // pairs of a list
-constexpr size_t kLanes = 8;          // runs of a list are multiples of this
-constexpr float kNowhere = 1e18f;     // [m] where padding lies; its square is far from overflow
-// Nearer than this there is no direction [m]. Above it the difference of two centres is exact, however small,
-// and only a step along it makes no pair deeper on the way.
+constexpr size_t kMostListed = 65536; // pairs per list
+constexpr size_t kLanes = 8;          // run lengths are multiples of this
+constexpr float kNowhere = 1e18f;     // [m] position of padding; its square is far from overflow
+// [m] Closer centres have no direction. Above this the difference of two centres is exact, and only a step
+// along it makes no pair deeper on its path.
 constexpr double kCoincident = 1e-150;
 
 } // namespace
@@ -82,7 +82,7 @@ NarrowPhase::NarrowPhase(const Tool& tool, size_t maxRows, double cone)
 
 void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const dvec3& toolCentre,
                          double rowLimit, double checkLimit, bool anew) noexcept {
-    leaves_ = leaves; // of as many: no memory is taken
+    leaves_ = leaves; // same size: does not allocate
     farthest_ = leafDisplacements(set.leafAtQuery, leaves_, moved_);
     toolCentre_ = toolCentre;
     checkLimit_ = checkLimit;
@@ -110,14 +110,14 @@ void NarrowPhase::gather(const ContactSet& set, const LeafCentres& leaves, const
     }
 }
 
-// A gap shrinks by no more than the leaf's displacement: while that is within the slack, no pair within
-// checkLimit is missing.
+// A gap shrinks by at most the leaf's displacement. While that is within the slack, no pair within checkLimit
+// is missing.
 bool NarrowPhase::wideStillServes(double slack) const noexcept {
     const double most = slack - kPairRounding;
     return wide_.complete && most > 0.0 && leavesWithin(wideLeaves_, leaves_, most);
 }
 
-// The leaf's listed pairs that may have a gap up to `limit` where it is now, and some more.
+// A superset of the leaf's listed pairs that can have a gap up to `limit` at its present position.
 PairArrays NarrowPhase::listedUpTo(const ContactSet& set, uint32_t leaf, double limit) const noexcept {
     return pairsOf(set, set.pairBegin[leaf], set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding));
 }
@@ -127,7 +127,7 @@ void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
     wideLeaves_ = leaves_;
     for (uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
         if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {
-            continue; // as for most leaves: their bands need not be read
+            continue; // most leaves: no band is read
         }
         const uint32_t end = set.pairsUpTo(leaf, limit + moved_[leaf] + kPairRounding);
         for (uint32_t begin = set.pairBegin[leaf]; begin < end; begin += kPairChunk) {
@@ -142,14 +142,15 @@ void NarrowPhase::findWide(const ContactSet& set, double limit) noexcept {
 
 size_t NarrowPhase::choose(size_t count, double limit) noexcept {
     size_t chosen = 0;
-    for (size_t k = 0; k < count; ++k) { // without a branch: hits come in no order
+    for (size_t k = 0; k < count; ++k) { // branch-free, because hits are unpredictable
         chosen_[chosen] = static_cast<uint32_t>(k);
         chosen += gaps_[k] <= limit ? 1 : 0;
     }
     return chosen;
 }
 
-// all: the leaf's pairs that may be within rowLimit; pairs: which they are, null: the first of the leaf's.
+// all: the leaf's pairs that can be within rowLimit. pairs: their indices; null = consecutive from the leaf's
+// first pair.
 void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all,
                              const uint32_t* pairs, double rowLimit, double checkLimit) noexcept {
     const dvec3 centre = leaves_[leaf];
@@ -177,8 +178,8 @@ void NarrowPhase::gatherLeaf(const ContactSet& set, uint32_t leaf, const PairArr
     smallestGap_ = std::min(smallestGap_, deepest.gap);
 }
 
-// Where a sphere's centre coincides with the leaf's, every direction leads out and rowOf() had to pick one.
-// Takes the normal of the leaf's deepest other row, so that the two do not contradict each other.
+// When a sphere's centre coincides with the leaf's, every direction leads out and rowOf() picked an arbitrary
+// one. Use the normal of the leaf's deepest other row instead, so that the two rows do not contradict.
 void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t firstRow) noexcept {
     const auto anyDirection = [&](const ContactRow& row) {
         return row.gap <= -(radius_[leaf] + static_cast<double>(set.pairRadius[row.pair]));
@@ -194,7 +195,7 @@ void NarrowPhase::agreeOnNormal(const ContactSet& set, uint32_t leaf, size_t fir
     }
 }
 
-// Greedy over one run, whose gaps_ it uses up: the nearest, then the nearest outside its cone, and so on.
+// Greedy over one run (overwrites gaps_): the nearest pair, then the nearest outside its cone, and so on.
 void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArrays& run, uint32_t firstPair,
                              const uint32_t* pairs, size_t firstRow, double limit) noexcept {
     const dvec3 centre = leaves_[leaf];
@@ -210,7 +211,7 @@ void NarrowPhase::chooseRows(const ContactSet& set, uint32_t leaf, const PairArr
         const dvec3 delta = centre - dvec3(run.x[best], run.y[best], run.z[best]);
         const uint32_t pair = pairs != nullptr ? pairs[best] : firstPair + static_cast<uint32_t>(best);
         const ContactRow& row = rows_[rowCount_++] = rowOf(set, leaf, delta, gaps_[best], pair);
-        gaps_[best] = std::numeric_limits<double>::infinity(); // even if it has no direction
+        gaps_[best] = std::numeric_limits<double>::infinity(); // also when it has no direction
         left = dropCone(run, centre, row.normal, cosCone_, row.gap, limit, gaps_.data());
     }
 }

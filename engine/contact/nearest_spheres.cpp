@@ -10,15 +10,15 @@ namespace fathom {
 
 namespace {
 
-constexpr uint32_t kMinima = 16; // of the widest register: each keeps a minimum of its own
+constexpr uint32_t kMinima = 16; // lanes of the widest register, each with its own minimum
 
 struct Minima {
     alignas(64) std::array<float, kMinima> gap;
     alignas(64) std::array<uint32_t, kMinima> slot;
 };
 
-// Whether some centre of a run is within `far` [m]: less work than mayReach(), and most runs have none within
-// what the largest sphere reaches.
+// True if a centre of the run is within `far` [m]. Cheaper than mayReach(), and most runs have no centre
+// within the largest sphere's reach.
 FATHOM_CLONES
 uint32_t anyWithin(const float* __restrict x, const float* __restrict y, const float* __restrict z,
                    uint32_t count, float cx, float cy, float cz, float far) noexcept {
@@ -30,15 +30,15 @@ uint32_t anyWithin(const float* __restrict x, const float* __restrict y, const f
     return any;
 }
 
-// How far from a leaf of radius r a sphere of that radius may lie that has a gap up to `limit`; the slack is
-// more than all that the exact gap rounds.
+// Largest distance between a leaf of radius r and a sphere of the given radius with a gap up to `limit`. The
+// slack exceeds the rounding of the exact gap.
 inline float reachOf(float limit, float r, float radius) noexcept {
     const float wide = (limit + (r + radius)) * 1.00001f + 1e-6f;
     return wide > 0.0f ? wide : 0.0f;
 }
 
-// Whether some sphere of a run may have a gap up to `limit`: no root is taken for runs that have none, which
-// are most. Never misses one.
+// True if a sphere of the run can have a gap up to `limit`; never misses one. Most runs have none and need no
+// square root.
 FATHOM_CLONES
 uint32_t mayReach(const float* __restrict x, const float* __restrict y, const float* __restrict z,
                   const float* __restrict radius, uint32_t count, float cx, float cy, float cz, float r,
@@ -52,7 +52,7 @@ uint32_t mayReach(const float* __restrict x, const float* __restrict y, const fl
     return any;
 }
 
-// slot: of the run's first sphere.
+// slot: slot of the run's first sphere.
 FATHOM_CLONES
 void nearestKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
                    const float* __restrict radius, uint32_t slot, uint32_t count, float cx, float cy,
@@ -68,7 +68,7 @@ void nearestKernel(const float* __restrict x, const float* __restrict y, const f
     }
 }
 
-// What the kernel does, one by one: the slots at the end of the arrays.
+// Scalar version of the kernel, for the slots at the end of the arrays.
 void nearestOfFew(const RegionGrid& grid, uint32_t begin, uint32_t end, const dvec3& centre, float r,
                   Minima& minima) noexcept {
     const auto cx = static_cast<float>(centre.x), cy = static_cast<float>(centre.y),
@@ -102,14 +102,14 @@ void nearestSpheres(const PosedLeaves& leaves, float limit, const RegionGrid& gr
     Minima minima;
     for (size_t i = 0; i < leaves.x.size(); ++i) {
         const float r = leaves.radius[i];
-        // The grid answers in float64: its box is wider than all that float32 may round inward.
+        // The grid query is in float64, with a box wider than any float32 rounding.
         const double far =
             (static_cast<double>(limit) + static_cast<double>(r) + grid.maxRadius()) * (1.0 + 1e-5) + 1e-9;
         const dvec3 centre(leaves.x[i], leaves.y[i], leaves.z[i]);
         bool any = false;
-        float least = limit; // [m] what is farther need not be looked at
+        float least = limit; // [m] farther spheres are skipped
         grid.forEachRun(centre, far, [&](uint32_t begin, uint32_t end) {
-            // Slots beyond the run fill its last step: they are spheres of the set like any other.
+            // The last step also tests slots beyond the run, which are valid spheres of the set.
             const uint32_t steps = std::min((end - begin + kMinima - 1) / kMinima, (slots - begin) / kMinima);
             const uint32_t whole = steps * kMinima;
             const float *x = grid.x().data() + begin, *y = grid.y().data() + begin,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The exact check of the narrow phase: every listed pair, the whole way, no tolerance.
+// The exact check of the narrow phase: every listed pair, along the whole path, without tolerance.
 #include "engine/contact/narrow_phase.h"
 
 #include <algorithm>
@@ -23,7 +23,8 @@ size_t NarrowPhase::check(const ContactSet& set, const LeafCentres& next, std::s
     return count;
 }
 
-// all: the leaf's pairs that may come near; pairs: which they are, null: the first of the leaf's.
+// all: the leaf's pairs that can come near. pairs: their indices; null = consecutive from the leaf's first
+// pair.
 bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const PairArrays& all,
                             const uint32_t* pairs, const dvec3& next, const dvec3& exempt,
                             Violation* worst) noexcept {
@@ -60,7 +61,7 @@ bool NarrowPhase::checkLeaf(const ContactSet& set, uint32_t leaf, const PairArra
 
 double NarrowPhase::smallestGapAt(const ContactSet& set, const LeafCentres& leaves) noexcept {
     double smallest = set.reach;
-    // Band 0 of every leaf first: it usually lowers the bound so far that little else need be read.
+    // Band 0 of every leaf first: it usually lowers the bound so much that few other pairs are read.
     for (const bool first : {true, false}) {
         for (uint32_t leaf = 0; leaf < leaves.size(); ++leaf) {
             if (set.pairBegin[leaf] == set.pairBegin[leaf + 1]) {

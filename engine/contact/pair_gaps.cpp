@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// Everything by value: the compiler then knows that writing gaps changes none of it.
+// All by value, so that the compiler knows that writing gaps does not change them.
 FATHOM_CLONES
 int64_t gapsKernel(const float* __restrict x, const float* __restrict y, const float* __restrict z,
                    const float* __restrict radius, size_t count, double cx, double cy, double cz, double r,
@@ -44,14 +44,13 @@ int64_t sweptKernel(const float* __restrict x, const float* __restrict y, const 
         const double wx = bx - sx, wy = by - sy, wz = bz - sz;
         const double start = ux * ux + uy * uy + uz * uz;
         const double end = wx * wx + wy * wy + wz * wz;
-        // Nearest point of the whole line; outside the segment an end is nearer, so clamping t costs nothing
-        // but care.
+        // Nearest point of the infinite line. Outside the segment an end is nearer, so t is clamped.
         double t = -(ux * vx + uy * vy + uz * vz) * inverseLength2;
         t = t > 0.0 ? t : 0.0;
         t = t < 1.0 ? t : 1.0;
         const double mx = ux + t * vx, my = uy + t * vy, mz = uz + t * vz;
         double nearest = mx * mx + my * my + mz * mz;
-        nearest = t < 1.0 ? nearest : end; // at t = 1 rounding would differ from the end's own distance
+        nearest = t < 1.0 ? nearest : end; // at t = 1 rounding would differ from the distance at the end
         nearest = nearest < end ? nearest : end;
         nearest = nearest < start ? nearest : start;
         const double gap = std::sqrt(nearest) - (r + static_cast<double>(radius[k]));
@@ -83,7 +82,7 @@ int64_t coneKernel(const float* __restrict x, const float* __restrict y, const f
 
 FATHOM_CLONES
 double smallestKernel(const double* __restrict gaps, size_t count) noexcept {
-    // Eight running minima: the compiler may not reorder one, and eight fill its widest register.
+    // Eight running minima fill the widest register; the compiler may not reorder a single one.
     double least[8];
     for (double& l : least) {
         l = kInfinity;

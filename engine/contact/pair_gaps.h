@@ -11,8 +11,7 @@
 
 namespace fathom {
 
-// A run of region spheres, about one origin [m]. The arrays hold float32, the arithmetic is float64: exact
-// values.
+// A run of region spheres about one origin [m]. float32 values, float64 arithmetic.
 struct PairArrays {
     const float* x;
     const float* y;
@@ -21,8 +20,8 @@ struct PairArrays {
     size_t count;
 };
 
-inline constexpr size_t kPairChunk = 2048;    // pairs a kernel call: the gaps stay in the first cache
-inline constexpr double kPairRounding = 1e-9; // [m] widens searches that go by an earlier gap
+inline constexpr size_t kPairChunk = 2048;    // pairs per kernel call: the gaps stay in the L1 cache
+inline constexpr double kPairRounding = 1e-9; // [m] margin of searches that start from an earlier gap
 
 // Listed pairs [begin, end) of a set.
 inline PairArrays pairsOf(const ContactSet& set, uint32_t begin, uint32_t end) {
@@ -37,20 +36,20 @@ inline PairArrays part(const PairArrays& run, size_t begin) {
 }
 
 // gap = |centre - sphere| - (leafRadius + R) [m], written to gaps[0 .. count). Returns how many are <= limit.
-// The same bits on every instruction set, and the same as gapOf().
+// Identical bits on every instruction set, and identical to gapOf().
 size_t pairGaps(const PairArrays& run, const dvec3& centre, double leafRadius, double limit,
                 double* gaps) noexcept;
 
 // Index of the smallest gap, the first of equals; count when every gap is infinite or there is none.
 size_t smallestOf(const double* gaps, size_t count) noexcept;
 
-// Sets the gap to infinity of every pair whose normal lies within the cone about `axis` (unit; cosine of its
-// half angle) and whose gap is not below `keepBelow`. Returns how many are still <= limit.
+// Sets the gap to infinity for every pair with a normal within the cone about `axis` (unit; cosine of its
+// half angle) and a gap not below `keepBelow`. Returns how many are still <= limit.
 size_t dropCone(const PairArrays& run, const dvec3& centre, const dvec3& axis, double cosine,
                 double keepBelow, double limit, double* gaps) noexcept;
 
-// Smallest gap along the straight way of the leaf centre from `from` to `to`, both ends' own gaps included
-// bit by bit. Returns how many are < 0. A step of 2 mm cannot jump over a sphere, however small.
+// Smallest gap of each pair along the straight path of the leaf centre from `from` to `to`, including the
+// exact gaps at both ends. Returns how many are < 0. So a step cannot jump over a sphere, however small.
 size_t sweptGaps(const PairArrays& run, const dvec3& from, const dvec3& to, double leafRadius,
                  double* gaps) noexcept;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs a cull, on the CPU or on the GPU, until its answer fits, so that every contact set is complete within
-// its certified reach.
+// Repeats a cull, on the CPU or the GPU, with a smaller reach until its result fits. So every contact set is
+// complete within its certified reach.
 #pragma once
 
 #include "engine/contact/contact_fill.h"
@@ -16,27 +16,26 @@ namespace fathom {
 struct QueryStatistics {
     uint64_t queries = 0;
     uint64_t overflows = 0;  // queries that had to shrink their reach
-    uint64_t spheresMax = 0; // most spheres of an answer
+    uint64_t spheresMax = 0; // most spheres in one result
     uint64_t pairsMax = 0;
 };
 
-// How much an answer may hold; a query that overflows doubles both for the next one.
+// Capacity of a result. A query that overflows doubles both for the next one.
 struct QueryCapacity {
     size_t spheres = 65536;
     size_t pairs = 262144;
 };
 
-// Runs culls until one fits. One thread, contact cadence: allocates.
+// One thread, contact cadence: allocates.
 class QueryLoop {
 public:
     explicit QueryLoop(const QueryCapacity& capacity = {})
         : capacity_(capacity) {}
 
-    // cull(leaves, reach, found) writes into `found` the indices of all spheres that obey d^2 <= (reach + r_t
-    // + R)^2 for some leaf, in any order, and returns false when they were too many for it. When the answer
-    // does not fit, the reach is halved until it does, and that reach is certified (out.reach). When even the
-    // touching spheres do not fit, the capacity is raised at once: no sphere is ever dropped.
-    // ContactSet::behind stays empty.
+    // cull(leaves, reach, found) writes into `found` the indices of all spheres with d^2 <= (reach + r_t +
+    // R)^2 for some leaf, in any order, and returns false when they do not fit. Then the reach is halved
+    // until they do, and that reach is certified (out.reach). When even the touching spheres do not fit, the
+    // capacity is raised at once, so no sphere is ever dropped. ContactSet::behind stays empty.
     template <class Cull>
     void run(const Tool& tool, const Pose& baseTtool, double reach, const Fixtures& fixtures,
              double maxRegionRadius, Cull&& cull, ContactSet& out) {
@@ -73,7 +72,7 @@ public:
 
 private:
     static constexpr double kSmallestReach =
-        2e-5; // [m] below this halving frees nothing: the trust region is all margin
+        2e-5; // [m] below this the trust region is only margin, so halving gains nothing
 
     void finish(bool overflowed, ContactSet& out) {
         statistics_.overflows += overflowed ? 1 : 0;

@@ -17,11 +17,11 @@ namespace {
 
 constexpr double kSmallestCell = 0.005;   // [m]
 constexpr uint64_t kMostCells = 4u << 20; // 16 MiB of cell starts
-constexpr uint64_t kFewestCells = 4096;   // below this clearing costs nothing
-constexpr uint64_t kCellsPerSphere = 8;   // clearing and summing stay cheaper than sorting the spheres
-constexpr size_t kRun = 4096;             // spheres that are handled in one go: 16 KiB a column
-constexpr size_t kBoundLanes = 8;         // of running bounds and sums
-constexpr size_t kBoundRows = 4;          // of lanes: a comparison need not wait for the one before
+constexpr uint64_t kFewestCells = 4096;   // below this the cost of clearing is negligible
+constexpr uint64_t kCellsPerSphere = 8;   // keeps clearing and summing cheaper than sorting the spheres
+constexpr size_t kRun = 4096;             // spheres per batch: 16 KiB per column
+constexpr size_t kBoundLanes = 8;         // lanes of running bounds and sums
+constexpr size_t kBoundRows = 4; // rows of lanes, so that a comparison need not wait for the previous one
 using Lanes = float __attribute__((vector_size(4 * kBoundLanes)));
 
 int64_t cellsAlong(double extent, double size) {
@@ -32,7 +32,7 @@ uint32_t isPlaceless(float v) { // infinite or not a number
     return (std::bit_cast<uint32_t>(v) & 0x7f800000u) == 0x7f800000u ? 1u : 0u;
 }
 
-// How many of n spheres have a number that is not finite.
+// Number of the n spheres that have a value that is not finite.
 FATHOM_CLONES uint32_t countPlaceless(const float* x, const float* y, const float* z, const float* radius,
                                       size_t n) noexcept {
     uint32_t count = 0;
@@ -79,8 +79,8 @@ FATHOM_CLONES double sumOf(const float* v, size_t n) noexcept {
     return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-// RegionGrid::cellOf for one axis of a column: cell[i] = cell[i] * count + its cell. NaN falls into the
-// first.
+// RegionGrid::cellOf for one axis of a column: cell[i] = cell[i] * count + its cell. NaN goes into the first
+// cell.
 FATHOM_CLONES void addAxis(const float* v, size_t n, double lo, double perMetre, int32_t count,
                            uint32_t* cell) noexcept {
     const double last = count - 1;
@@ -123,7 +123,7 @@ void RegionGrid::build(std::span<const float> x, std::span<const float> y, std::
     }
 }
 
-// By runs of a fixed length, so that sums are the same whoever takes which.
+// In runs of fixed length, so that sums do not depend on the threads.
 void RegionGrid::measure(const Columns& columns, ThreadPool* workers) {
     const size_t n = columns[0].size();
     extents_.resize((n + kRun - 1) / kRun);
@@ -173,7 +173,7 @@ void RegionGrid::chooseCells(double meanRadius) {
     const double most = static_cast<double>(
         std::min(kMostCells, std::max<uint64_t>(kFewestCells, kCellsPerSphere * x_.size())));
     size_ = std::max(kSmallestCell, 0.5 * meanRadius);
-    // Coarser until it fits; counted in double because the extent may be anything.
+    // Coarsen until the cell count fits. Counted in double because the extent can be arbitrarily large.
     while ((extent.x / size_ + 1.0) * (extent.y / size_ + 1.0) * (extent.z / size_ + 1.0) > most) {
         size_ *= 1.1;
     }
@@ -190,7 +190,8 @@ void RegionGrid::layOut(const Columns& columns, ThreadPool* workers) {
     cell_.resize(n);
     uint32_t* const cell = cell_.data();
     inParts(workers, n, kRun, [&](size_t first, size_t end) {
-        for (size_t at = first; at < end; at += kRun) { // what one axis wrote is near when the next one comes
+        for (size_t at = first; at < end;
+             at += kRun) { // per batch, so that the cells written by one axis are still cached for the next
             const size_t count = std::min(kRun, end - at);
             std::fill_n(cell + at, count, 0);
             addAxis(columns[2].data() + at, count, lo_.z, perMetre_, static_cast<int32_t>(nz_), cell + at);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uniform grid over the whole set's spheres by counting sort: x-contiguous cells, so a row of cells is one
-// run.
+// Uniform grid over all spheres of a set, built by counting sort. Cells are contiguous in x, so a row of
+// cells is one run.
 #pragma once
 
 #include "engine/contact/cell_sort.h"
@@ -15,13 +15,13 @@
 
 namespace fathom {
 
-// Built once a frame on the contact or frame cadence (allocates); queries are const, noexcept and allocate
-// nothing. Cells are about half a mean sphere radius, at least 5 mm, and coarser where the extent would ask
-// for more cells than a bound of 8 a sphere (4 Mi at most): outliers cost speed, never memory or answers.
-// Spheres that are not finite are left out: they have no place.
+// Built once per frame at contact or frame cadence (allocates). Queries are const, noexcept and do not
+// allocate. Cells are about half a mean sphere radius, at least 5 mm, and coarser when the extent would need
+// more than 8 cells per sphere (4 Mi at most). So outliers cost speed, never memory or results. Spheres that
+// are not finite are skipped.
 class RegionGrid {
 public:
-    // crew: who shares the work; the grid is the same whoever does. Null: the caller alone.
+    // The grid does not depend on the thread pool. Null = the calling thread only.
     void build(const RegionSpheres& spheres, ThreadPool* workers = nullptr);
     // The same over plain arrays of equal length.
     void build(std::span<const float> x, std::span<const float> y, std::span<const float> z,
@@ -41,7 +41,7 @@ public:
         });
     }
 
-    // The same superset as runs of slots [begin, end) in cell order, for kernels over the arrays below.
+    // The same superset as runs of slots [begin, end) in cell order, for kernels that read the arrays below.
     template <class Visit>
     void forEachRun(const dvec3& point, double distance, Visit&& visit) const;
 
@@ -50,10 +50,10 @@ public:
     std::span<const float> y() const { return y_; }
     std::span<const float> z() const { return z_; }
     std::span<const float> radius() const { return radius_; }
-    std::span<const uint32_t> order() const { return order_; } // slot -> index into what build() was given
+    std::span<const uint32_t> order() const { return order_; } // slot -> index into the input of build()
 
 private:
-    // Monotone in v, and the same function for spheres and query boxes: rounding cannot lose a sphere.
+    // Monotone in v, and the same function for spheres and query boxes, so rounding cannot lose a sphere.
     static int64_t cellOf(double v, double lo, double perMetre, int64_t count) noexcept {
         const double cell = (v - lo) * perMetre;
         if (!(cell > 0.0)) {
@@ -64,14 +64,15 @@ private:
     // Distance from v to the cell's interval, rounded towards zero [m].
     double outside(double v, double lo, int64_t cell, int64_t count) const noexcept {
         const double slack = 1e-3 * size_;
-        // The first and the last cell also hold what rounding pushed over the edge: they count as open.
+        // The first and the last cell also hold spheres that rounding moved over the edge, so they count as
+        // unbounded.
         const double below = cell == 0 ? 0.0 : lo + static_cast<double>(cell) * size_ - slack - v;
         const double above =
             cell + 1 == count ? 0.0 : v - (lo + static_cast<double>(cell + 1) * size_ + slack);
         return std::max({0.0, below, above});
     }
     using Columns = std::array<std::span<const float>, 4>; // x, y, z, radius; all finite but in measure()
-    // Of a run of spheres.
+    // Extent of a run of spheres.
     struct Extent {
         std::array<float, 4> lo, hi; // x, y, z, radius
         double radii;                // their sum
@@ -86,7 +87,7 @@ private:
     std::vector<uint32_t> order_;
     std::vector<uint32_t> cellBegin_; // cells + 1
     std::vector<uint32_t> cell_;      // build scratch: cell of each sphere
-    std::vector<Extent> extents_;     // build scratch: of each run of spheres
+    std::vector<Extent> extents_;     // build scratch: extent of each run of spheres
     CellSort sort_;                   // build scratch
     double maxRadius_ = 0.0;
     dvec3 lo_{0.0}, hi_{0.0};

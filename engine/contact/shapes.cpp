@@ -77,7 +77,7 @@ SideGap cap(double halfLength, double sign, const dvec3& p, double radius) {
     return {halfLength - sign * p.z - radius, dvec3(0.0, 0.0, -sign)};
 }
 
-// Rotation vector that turns `from` onto `to` by the shortest way, unit vectors.
+// Rotation vector of the shortest rotation from `from` to `to` (unit vectors).
 dvec3 turnOnto(const dvec3& from, const dvec3& to) {
     const dvec3 cross = glm::cross(from, to);
     const double sine = glm::length(cross);
@@ -86,7 +86,8 @@ dvec3 turnOnto(const dvec3& from, const dvec3& to) {
         return cross * (angle / sine);
     }
     const dvec3 other = std::abs(to.x) < 0.5 ? dvec3(1.0, 0.0, 0.0) : dvec3(0.0, 1.0, 0.0);
-    return angle * glm::normalize(glm::cross(to, other)); // opposite: any way round; else the angle is nil
+    return angle *
+           glm::normalize(glm::cross(to, other)); // opposite vectors: any axis; equal vectors: angle 0
 }
 
 } // namespace

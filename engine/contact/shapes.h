@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Authored analytic fixtures: exact signed distance of a tool leaf to each shape, and the ways that lines and
-// axes prescribe.
+// Authored analytic fixtures: exact signed distance of a tool leaf to each shape, and the constraints of
+// lines and axes.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -12,9 +12,8 @@ namespace fathom {
 
 // In the shape's own frame: sphere about the origin, size.x = radius. Box about the origin, size = edge
 // lengths. Plane: the half-space z <= 0. Cylinder about the origin along z, size.x = radius, size.y = length.
-// These are solid: forbidden keeps the tool's leaves outside, keep_in inside. Line: the tool's centre stays
-// on the endless line through the origin along z. Axis: the same, and the tool's +z stays along the line's
-// +z.
+// These are solids: forbidden keeps the tool's leaves outside, keep_in inside. Line: the tool's centre stays
+// on the infinite line through the origin along z. Axis: also keeps the tool's +z along the line's +z.
 struct Shape {
     ShapeKind kind = ShapeKind::None;
     bool keepIn = false;
@@ -28,10 +27,10 @@ struct Shape {
 // Every authored shape of a scene, in file order.
 std::vector<Shape> shapesOf(const Scene& scene);
 
-// One side of a shape as a tool leaf meets it.
+// One side of a shape relative to a tool leaf.
 struct SideGap {
-    double gap = 0.0;            // [m] of the leaf's surface; negative = depth
-    dvec3 normal{0.0, 0.0, 1.0}; // unit, base axes, the way that the gap grows
+    double gap = 0.0;            // [m] to the leaf's surface; negative = depth
+    dvec3 normal{0.0, 0.0, 1.0}; // unit, base axes, in the direction of growing gap
 };
 
 // Half-spaces of one shape: the faces of a box that keeps the tool inside.
@@ -40,12 +39,12 @@ inline constexpr size_t kMostSides = 6;
 // Exact gap of a leaf (centre in the base frame [m], radius [m]) to the whole shape. Not for equalities.
 SideGap gapTo(const Shape& shape, const dvec3& centre, double radius) noexcept;
 
-// The half-spaces that keep the leaf on the allowed side: one for a forbidden shape (they are convex: the
-// nearest point's tangent plane is safe), one a face for keep_in. Returns how many were written.
+// Writes the half-spaces that keep the leaf on the allowed side and returns their number: one for a forbidden
+// shape (convex, so the tangent plane at the nearest point is safe), one per face for keep_in.
 size_t sidesOf(const Shape& shape, const dvec3& centre, double radius,
                std::array<SideGap, kMostSides>& sides) noexcept;
 
-// linear . a + angular . alpha = -error is wanted of the tool's next motion [a; alpha].
+// The tool's next motion [a; alpha] should satisfy linear . a + angular . alpha = -error.
 struct Equality {
     dvec3 linear{0.0}, angular{0.0}; // base axes, unit or zero
     double error = 0.0;              // [m] or [rad]
@@ -54,7 +53,7 @@ struct Equality {
 // Rows of one line or axis.
 inline constexpr size_t kMostEqualities = 4;
 
-// Two rows of a line; two more, of rotation, of an axis. Returns how many were written.
+// Writes two rows for a line, plus two of rotation for an axis. Returns their number.
 size_t equalitiesOf(const Shape& shape, const Pose& baseTtool,
                     std::array<Equality, kMostEqualities>& equalities) noexcept;
 

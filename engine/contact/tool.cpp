@@ -53,7 +53,7 @@ void poseLeaves(const Tool& tool, const Pose& baseTtool, const dvec3& origin, Po
     out.y.resize(count);
     out.z.resize(count);
     out.radius.resize(count);
-    // The two large numbers first: kilometres away from the base frame's origin they cancel exactly.
+    // Subtract the two large numbers first: kilometres from the base frame's origin they cancel exactly.
     const dvec3 centre = baseTtool.position - origin;
     for (size_t i = 0; i < count; ++i) {
         const Sphere& leaf = tool.leaves()[i];

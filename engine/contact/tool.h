@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tool that the pilot moves: a sphere tree whose origin is the tool frame's.
+// The tool that the pilot moves: a sphere tree in the tool frame.
 #pragma once
 
 #include "engine/types/sphere_tree.h"
@@ -10,7 +10,7 @@ namespace fathom {
 
 class Tool {
 public:
-    // Throws Error when the tree is unsound. Leaves are the used slots of the last level, in that
+    // Throws Error when the tree is invalid. Leaves are the used slots of the last level, in that
     // order; 1..4096.
     explicit Tool(SphereTree tree);
 
@@ -29,8 +29,8 @@ private:
     double gyrationRadius_ = 0.0;
 };
 
-// Leaf centres at a pose, about an origin, rounded to float32 once: the values that the CPU and the GPU cull
-// both use.
+// Leaf centres at a pose, about an origin, rounded to float32 once. The CPU and the GPU cull use the same
+// values.
 struct PosedLeaves {
     std::vector<float> x, y, z, radius; // [m]
 };

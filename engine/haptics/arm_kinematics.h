@@ -22,10 +22,9 @@ struct ArmProxyOptions : ProxyOptions {
 
 // The result of a tick; `pose` is base_T_tip.
 struct ArmStep : ProxyStep {
-    JointVector q{};    // after the tick
-    double grasp = 0.0; // after the tick
-    double residual =
-        0.0; // [m] distance to the target in the metric M; the pilot feels it as the arm's limit
+    JointVector q{};           // after the tick
+    double grasp = 0.0;        // after the tick
+    double residual = 0.0;     // [m] distance to the target in the metric M
     double manipulability = 0; // [m/rad] smallest singular value of M^1/2 J at the start
     uint32_t contacts = 0;     // leaf rows with a positive multiplier in the last solve
     uint32_t atLimits = 0;     // joint limit and speed rows with a positive multiplier in the last solve
@@ -62,8 +61,7 @@ public:
     // Rows.
     void addLimits(ProxyRows& rows) const noexcept;
     bool addRow(ContactRow row, const LeafState& leaves, ProxyRows& rows) const noexcept;
-    double
-    escapeOffset(double depth) const noexcept { // [m] motion requested by a row of this depth, with the skin
+    double escapeOffset(double depth) const noexcept { // [m] with the skin
         return std::min(depth, escapeLeft_) + proxy::kSkin;
     }
     double equalityLimit(const Equality&) const noexcept { return escapeLeft_; }
