@@ -25,7 +25,7 @@ struct Watch {
 
 } // namespace
 
-TEST_CASE("A leaf that new data puts behind the surface it was in front of is flagged, with the way out") {
+TEST_CASE("A leaf that new data puts behind its surface is flagged, with the direction out") {
     Watch watch;
     CHECK(watch(wallImage(0.6, 1), dvec3(0, 0, 0.5)).empty());
     const auto& flags = watch(wallImage(0.47, 2), dvec3(0, 0, 0.5));
@@ -35,8 +35,8 @@ TEST_CASE("A leaf that new data puts behind the surface it was in front of is fl
     CHECK(flags[0].clearance == doctest::Approx(0.03 + 0.05).epsilon(1e-6));
 }
 
-TEST_CASE(
-    "The flag stays while the leaf is under the surface or near it, and goes once it is clear in front") {
+TEST_CASE("The flag stays while the leaf is under or near the surface and is cleared once the leaf is clear "
+          "in front") {
     Watch watch;
     watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
     const Fixtures near = wallImage(0.47, 2);
@@ -45,10 +45,10 @@ TEST_CASE(
     CHECK(watch(wallImage(0.47, 3), dvec3(0, 0, 0.48)).size() == 1); // the next frame shows the same
     CHECK(watch(near, dvec3(0, 0, 0.43)).size() == 1);
     CHECK(watch(near, dvec3(0, 0, 0.4199)).empty());
-    CHECK(watch(near, dvec3(0, 0, 0.43)).empty()); // back to the surface by itself: in contact, not behind
+    CHECK(watch(near, dvec3(0, 0, 0.43)).empty()); // back at the surface: in contact, not behind
 }
 
-TEST_CASE("A leaf that moves behind a surface while the set stays the same is occluded, not behind") {
+TEST_CASE("A leaf that moves behind a surface of the same set is occluded, not behind") {
     Watch watch;
     const Fixtures wall = wallImage(0.5, 1);
     CHECK(watch(wall, dvec3(0, 0, 0.4)).empty());
@@ -56,8 +56,7 @@ TEST_CASE("A leaf that moves behind a surface while the set stays the same is oc
     CHECK(watch(wallImage(0.5, 2), dvec3(0, 0, 0.6)).empty());
 }
 
-TEST_CASE("Nothing is behind at the first set, behind what is not forbidden, without depth or outside the "
-          "picture") {
+TEST_CASE("No leaf is flagged at the first set, behind allowed points, without depth or outside the image") {
     Watch watch;
     CHECK(watch(wallImage(0.4, 1), dvec3(0, 0, 0.5)).empty());
     for (const int what : {0, 1, 2, 3}) {
@@ -75,7 +74,8 @@ TEST_CASE("Nothing is behind at the first set, behind what is not forbidden, wit
     }
 }
 
-TEST_CASE("What was in front of something allowed and is now hidden by a region is occluded, not behind") {
+TEST_CASE(
+    "A leaf that was in front of allowed points and is now hidden by a region is occluded, not behind") {
     Watch watch;
     Fixtures open = wallImage(0.6, 1);
     std::fill(open.forbiddenBits.begin(), open.forbiddenBits.end(), 0u);
@@ -83,7 +83,7 @@ TEST_CASE("What was in front of something allowed and is now hidden by a region 
     CHECK(watch(wallImage(0.4, 2), dvec3(0, 0, 0.5)).empty());
 }
 
-TEST_CASE("A flagged leaf keeps its flag while its pixel has no depth, and loses it in a free view") {
+TEST_CASE("A flagged leaf keeps its flag while its pixel has no depth and loses it in a free view") {
     Watch watch;
     watch(wallImage(0.6, 1), dvec3(0, 0, 0.5));
     REQUIRE(watch(wallImage(0.47, 2), dvec3(0, 0, 0.5)).size() == 1);
@@ -95,7 +95,7 @@ TEST_CASE("A flagged leaf keeps its flag while its pixel has no depth, and loses
     CHECK(watch(open, dvec3(0, 0, 0.5)).empty());
 }
 
-TEST_CASE("Noise of the depth does not flag a small tool that rests on a small region") {
+TEST_CASE("Depth noise does not flag a small tool that rests on a small region") {
     Watch watch;
     watch.tool = ballTool(0.001);
     uint64_t generation = 0;

@@ -15,7 +15,7 @@ namespace {
 std::vector<uint32_t> cellsOf(size_t things, uint32_t cells, std::mt19937& random) {
     std::vector<uint32_t> cell(things);
     uint32_t at = 0;
-    for (uint32_t& c : cell) { // neighbours near each other, as patches give them, with jumps
+    for (uint32_t& c : cell) { // mostly neighbouring cells, as from patches, with jumps
         const auto drawn = static_cast<uint32_t>(random());
         at = drawn % 50 == 0 ? drawn / 50 % cells : (at + drawn % 3) % cells;
         c = at;
@@ -40,10 +40,10 @@ void check(CellSort& sort, const std::vector<uint32_t>& cell, uint32_t cells, Th
 
 } // namespace
 
-TEST_CASE("Things are sorted by cell and stay in order within one, alone or by a crew, few cells or many") {
+TEST_CASE("Items are sorted stably by cell, with one thread or several, with few cells or many") {
     std::mt19937 random(5);
     ThreadPool workers(3);
-    CellSort sort; // the same one: what was there before is forgotten
+    CellSort sort; // reused: earlier contents do not matter
     for (const size_t things : {0, 1, 31, 4095, 8192, 12289, 60'000}) {
         for (const uint32_t cells : {1u, 2u, 511u, 513u, 40'000u, 1u << 20}) {
             CAPTURE(things);
@@ -55,10 +55,10 @@ TEST_CASE("Things are sorted by cell and stay in order within one, alone or by a
     }
 }
 
-TEST_CASE("Things that are all in one cell, the first or the last, keep their order") {
+TEST_CASE("Items that are all in the first or the last cell keep their order") {
     ThreadPool workers(2);
     CellSort sort;
-    for (const uint32_t cells : {10'000u, 40'000u}) { // fewer than things, and more: in parts, and in buckets
+    for (const uint32_t cells : {10'000u, 40'000u}) { // fewer than items (parts) and more (buckets)
         for (const uint32_t cell : {0u, cells - 1}) {
             CAPTURE(cells);
             check(sort, std::vector<uint32_t>(20'000, cell), cells, &workers);

@@ -38,7 +38,7 @@ inline void addSphere(Fixtures& fixtures, const dvec3& aboutOrigin, double radiu
     s.fixture.push_back(0);
 }
 
-// Sources in an order that has nothing to do with the place, as patches give them.
+// Sources in an order unrelated to position, as from patches.
 inline void shuffleSources(Fixtures& fixtures, std::mt19937_64& random) {
     std::shuffle(fixtures.spheres.source.begin(), fixtures.spheres.source.end(), random);
 }

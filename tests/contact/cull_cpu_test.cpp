@@ -28,7 +28,7 @@ struct Query {
     }
 };
 
-// Structure of a set: bands in order, the same floats in both forms, gaps inside their band.
+// Structure of a set: bands in order, equal values in both layouts, gaps inside their band.
 void checkShape(const Tool& tool, const ContactSet& set) {
     REQUIRE(set.pairBegin.size() == tool.leafCount() + 1);
     CHECK(std::is_sorted(set.source.begin(), set.source.end()));
@@ -74,7 +74,7 @@ void checkPairs(const Tool& tool, const Pose& pose, const Fixtures& fixtures, co
 
 } // namespace
 
-TEST_CASE("The cull returns exactly the spheres of brute force, for tools of 1 to 4096 leaves") {
+TEST_CASE("The cull returns the same spheres as brute force for tools of 1 to 4096 leaves") {
     std::mt19937_64 random(11);
     size_t total = 0;
     for (const size_t leaves : {1, 2, 3, 37, 256, 1023, 4096}) {
@@ -131,7 +131,7 @@ TEST_CASE(
     checkPairs(tool, pose, fixtures, set);
 }
 
-TEST_CASE("No spheres, or none in reach, give an empty set that certifies its reach") {
+TEST_CASE("No spheres, or none within reach, give an empty set that certifies its reach") {
     std::mt19937_64 random(14);
     const Tool tool = randomTool(random, 9, 0.1, 0.01);
     Query query;
@@ -161,8 +161,7 @@ TEST_CASE("Radii of 0.1 mm to 10 m in one cloud are all found") {
     }
 }
 
-TEST_CASE("An overflow halves the reach until the answer fits, certifies that, and doubles the capacity for "
-          "the next") {
+TEST_CASE("An overflow halves the reach until the result fits, certifies it, and doubles the next capacity") {
     std::mt19937_64 random(16);
     Fixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.1, 0.002, 0.01);
@@ -188,7 +187,7 @@ TEST_CASE("An overflow halves the reach until the answer fits, certifies that, a
         checkPairs(tool, pose, fixtures, set);
         CHECK(query.cull.capacity().pairs == 80);
     }
-    SUBCASE("until it fits without") {
+    SUBCASE("until it fits without overflow") {
         Query query({40, 1000000});
         double last = 0.0;
         for (int k = 0; k < 12; ++k) {
@@ -197,7 +196,7 @@ TEST_CASE("An overflow halves the reach until the answer fits, certifies that, a
         CHECK(last == 0.016);
         CHECK(query.cull.statistics().overflows < 8);
     }
-    SUBCASE("touching spheres alone that do not fit raise the capacity at once") {
+    SUBCASE("touching spheres that do not fit raise the capacity at once") {
         Query query({8, 8});
         const Pose deep{dvec3(0, 0, 0.012), kUpright};
         const ContactSet& set = query(tool, deep, 0.016, fixtures);

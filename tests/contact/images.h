@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fixture set with its picture: a wall across the view of a camera at the origin that looks along +z.
+// A fixture set with its depth image: a wall across the view of a camera at the origin that looks along +z.
 #pragma once
 
 #include "tests/contact/clouds.h"
@@ -9,8 +9,7 @@
 namespace fathom::testing {
 
 // Every pixel sees the wall at depth z [m] (to the unit of the depth image, 0.1 mm) and is forbidden.
-// spheres: one a pixel on the middle part of the wall, with +-noise [m] along the ray, if spacing is wanted;
-// none when radius is 0.
+// spheres: one per pixel in the middle of the wall, with +-noise [m] along the ray; none when radius is 0.
 inline Fixtures wallImage(double z, uint64_t generation, double radius = 0.0, double noise = 0.0) {
     Fixtures set = emptySet(generation);
     Intrinsics& lens = set.camera.depth;

@@ -23,7 +23,7 @@ LeafCentres scattered(size_t count, uint32_t seed) {
 
 } // namespace
 
-TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest among them and all within it") {
+TEST_CASE("Displacements, their maximum and the limit test are exact for any number of leaves") {
     for (const size_t count : {1, 2, 7, 8, 9, 15, 16, 17, 100, 479}) {
         CAPTURE(count);
         const LeafCentres from = scattered(count, 1), to = scattered(count, 2);
@@ -32,7 +32,7 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
         for (size_t i = 0; i < count; ++i) {
             own[i] = glm::distance(from[i], to[i]);
         }
-        CHECK(ways == own); // to the last bit
+        CHECK(ways == own); // bit by bit
         const double most = *std::max_element(own.begin(), own.end());
         CHECK(farthest == most);
         CHECK(leafDisplacement(from, to) == most);
@@ -42,14 +42,14 @@ TEST_CASE("The ways of any number of leaves are each leaf's own, the farthest am
     }
 }
 
-TEST_CASE("Of no leaf the farthest way is none and every limit holds") {
+TEST_CASE("Without leaves the largest displacement is 0 and every limit holds") {
     const LeafCentres none;
     CHECK(leafDisplacements(none, none, {}) == 0.0);
     CHECK(leafDisplacement(none, none) == 0.0);
     CHECK(leavesWithin(none, none, -1.0));
 }
 
-TEST_CASE("A way that is no number is within no limit, wherever it is, and not the farthest") {
+TEST_CASE("A NaN displacement is within no limit and is never the largest") {
     const size_t count = 19;
     for (size_t bad = 0; bad < count; ++bad) {
         CAPTURE(bad);

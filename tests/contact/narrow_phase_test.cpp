@@ -54,8 +54,8 @@ size_t checkAgainst(Bench& bench, const LeafCentres& next) {
     return bench.narrow.check(bench.set, next, exempt, violations);
 }
 
-// How many leaves the motion takes deeper than allowed into any sphere of the whole set, by dense samples of
-// the way.
+// Number of leaves that the motion moves deeper than allowed into any sphere of the set, by dense samples of
+// the path.
 size_t sampledViolations(const Bench& bench, const LeafCentres& next) {
     size_t count = 0;
     const RegionSpheres& all = bench.fixtures.spheres;
@@ -77,8 +77,8 @@ size_t sampledViolations(const Bench& bench, const LeafCentres& next) {
 
 } // namespace
 
-TEST_CASE("Every leaf gets a row for its nearest sphere, and every near sphere lies in a cone that has a "
-          "nearer row") {
+TEST_CASE(
+    "Every leaf gets a row for its nearest sphere, and every near sphere is in the cone of a nearer row") {
     std::mt19937_64 random(51);
     for (int k = 0; k < 20; ++k) {
         const Pose pose{randomIn(random, 0.1), randomRotation(random)};
@@ -111,7 +111,7 @@ TEST_CASE("Every leaf gets a row for its nearest sphere, and every near sphere l
     }
 }
 
-TEST_CASE("The exact check finds what dense samples of the way find in the whole set, and nothing else") {
+TEST_CASE("The exact check finds the same violations as dense samples of the path in the whole set") {
     std::mt19937_64 random(52);
     size_t violating = 0, clear = 0;
     for (int k = 0; k < 300; ++k) {
@@ -129,7 +129,7 @@ TEST_CASE("The exact check finds what dense samples of the way find in the whole
         const size_t sampled = sampledViolations(bench, next);
         const size_t found = checkAgainst(bench, next);
         CHECK(found >= sampled);
-        CHECK(found <= sampled + 1); // grazes shorter than a sample
+        CHECK(found <= sampled + 1); // contacts shorter than a sample
         violating += found;
         clear += found == 0 ? 1 : 0;
     }
@@ -138,13 +138,13 @@ TEST_CASE("The exact check finds what dense samples of the way find in the whole
     CHECK(clear > 20);
 }
 
-TEST_CASE("Looking again at pairs found before gives the rows and the check of a fresh look") {
+TEST_CASE("Searching the pairs found before gives the same rows and check as a new search") {
     std::mt19937_64 random(53);
     for (int k = 0; k < 50; ++k) {
         const Pose pose{randomIn(random, 0.1), randomRotation(random)};
         Bench bench(randomTool(random, 20, 0.06, 0.01), randomCloud(random, 1500, 0.2, 0.002, 0.03), pose);
         bench.narrow.gather(bench.set, bench.leaves, pose.position, 0.004, 0.002, true);
-        const double far = k % 2 == 0 ? 0.001 : 0.004; // within what the first look serves, and beyond
+        const double far = k % 2 == 0 ? 0.001 : 0.004; // within the slack of the first search, and beyond
         bench.place({pose.position + far * glm::normalize(randomIn(random, 1.0)), pose.rotation});
         NarrowPhase fresh(bench.tool, 512);
         fresh.gather(bench.set, bench.leaves, pose.position, 0.002, 0.002, true);
@@ -168,7 +168,7 @@ TEST_CASE("Looking again at pairs found before gives the rows and the check of a
     }
 }
 
-TEST_CASE("More touching pairs than the lists hold are still all checked") {
+TEST_CASE("All touching pairs are checked, also when they exceed the lists") {
     Fixtures fixtures = emptySet();
     addWall(fixtures, dvec3(0.0), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.05, 0.0005, 0.04);
     std::mt19937_64 random(54);
@@ -184,7 +184,7 @@ TEST_CASE("More touching pairs than the lists hold are still all checked") {
     CHECK(checkAgainst(bench, bench.leaves) == 0);
 }
 
-TEST_CASE("Where the centres coincide the normal is the leaf's last one, or the way to the camera") {
+TEST_CASE("For coinciding centres the normal is the leaf's last one or the direction to the camera") {
     Fixtures fixtures = emptySet();
     fixtures.baseTcamera.position = dvec3(0, -2, 0);
     addSphere(fixtures, dvec3(0.0), 0.04);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nearest sphere of each leaf against a look at all of them.
+// The nearest sphere of each leaf against brute force.
 #include "engine/contact/nearest_spheres.h"
 #include "tests/contact/clouds.h"
 
@@ -16,7 +16,7 @@ float gapOf(const PosedLeaves& leaves, size_t leaf, const RegionSpheres& s, size
     return std::sqrt(dx * dx + dy * dy + dz * dz) - (leaves.radius[leaf] + s.radius[sphere]);
 }
 
-// Of all spheres; infinity when none has a gap up to the limit.
+// Smallest gap over all spheres; infinity when none is up to the limit.
 float smallestGap(const PosedLeaves& leaves, size_t leaf, const RegionSpheres& s, float limit) {
     float least = std::numeric_limits<float>::infinity();
     for (size_t i = 0; i < s.size(); ++i) {
@@ -26,7 +26,7 @@ float smallestGap(const PosedLeaves& leaves, size_t leaf, const RegionSpheres& s
     return least;
 }
 
-// How many leaves have one.
+// Number of leaves that have one.
 size_t check(const Fixtures& fixtures, const Tool& tool, const Pose& pose, float limit) {
     RegionGrid grid;
     grid.build(fixtures.spheres);
@@ -50,7 +50,7 @@ size_t check(const Fixtures& fixtures, const Tool& tool, const Pose& pose, float
 
 } // namespace
 
-TEST_CASE("The nearest sphere of every leaf has the smallest gap of all spheres, in sets of any size") {
+TEST_CASE("The nearest sphere of every leaf has the smallest gap in sets of any size") {
     std::mt19937_64 random(31);
     size_t near = 0;
     for (const size_t count : {size_t{1}, size_t{15}, size_t{16}, size_t{17}, size_t{333}, size_t{5000}}) {

@@ -15,7 +15,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Every sphere whose centre is within distance must be visited, and none twice. Returns how many were.
+// Every sphere whose centre is within distance must be visited, and none twice. Returns their number.
 size_t checkAgainstBruteForce(const RegionSpheres& spheres, const RegionGrid& grid, const dvec3& point,
                               double distance) {
     std::vector<int> visits(spheres.size(), 0);
@@ -34,7 +34,7 @@ size_t checkAgainstBruteForce(const RegionSpheres& spheres, const RegionGrid& gr
 
 } // namespace
 
-TEST_CASE("The grid of nothing visits nothing") {
+TEST_CASE("An empty grid visits nothing") {
     RegionGrid grid;
     grid.build(RegionSpheres{});
     CHECK(grid.size() == 0);
@@ -42,7 +42,7 @@ TEST_CASE("The grid of nothing visits nothing") {
     grid.forEachNear(dvec3(0.0), 1e9, [](uint32_t) { FAIL("visited"); });
 }
 
-TEST_CASE("The grid finds one sphere, and as many equal ones as there are") {
+TEST_CASE("The grid finds a single sphere, and all of several equal ones") {
     for (const size_t count : {size_t{1}, size_t{1000}}) {
         Fixtures set = emptySet();
         for (size_t i = 0; i < count; ++i) {
@@ -56,7 +56,7 @@ TEST_CASE("The grid finds one sphere, and as many equal ones as there are") {
     }
 }
 
-TEST_CASE("The grid misses no sphere of random clouds, whatever the radii and the extent") {
+TEST_CASE("The grid misses no sphere of random clouds of any radii and extent") {
     std::mt19937_64 random(7);
     const double halves[] = {0.001, 0.3, 5.0, 20000.0};
     for (const double half : halves) {
@@ -76,7 +76,7 @@ TEST_CASE("The grid misses no sphere of random clouds, whatever the radii and th
     }
 }
 
-TEST_CASE("One far outlier costs neither memory nor an answer") {
+TEST_CASE("One far outlier costs no memory and no result") {
     std::mt19937_64 random(8);
     Fixtures set = randomCloud(random, 2000, 0.5, 0.01, 0.04);
     addSphere(set, dvec3(1e6, -2e6, 3e7), 0.04);
@@ -86,7 +86,7 @@ TEST_CASE("One far outlier costs neither memory nor an answer") {
     checkAgainstBruteForce(set.spheres, grid, dvec3(0.1, 0.2, 0.3), 0.2);
 }
 
-TEST_CASE("Spheres that are not finite are left out and the others are found") {
+TEST_CASE("Spheres that are not finite are skipped and the others are found") {
     Fixtures set = emptySet();
     addSphere(set, dvec3(0.0), 0.04);
     addSphere(set, dvec3(std::numeric_limits<double>::quiet_NaN()), 0.04);
@@ -101,7 +101,7 @@ TEST_CASE("Spheres that are not finite are left out and the others are found") {
     CHECK(seen == std::vector<uint32_t>{0, 3});
 }
 
-// One of them, in the middle, is not finite the second time.
+// The second time, one in the middle is not finite.
 void checkSharedGrid(size_t count, double leastRadius, ThreadPool& workers) {
     Fixtures set = emptySet();
     for (size_t i = 0; i < count; ++i) {
@@ -125,8 +125,7 @@ void checkSharedGrid(size_t count, double leastRadius, ThreadPool& workers) {
     }
 }
 
-TEST_CASE(
-    "A grid is the same whether one thread builds it or a crew, also with spheres that are not finite") {
+TEST_CASE("A grid does not depend on the number of threads, also with spheres that are not finite") {
     ThreadPool workers(3);
     for (const size_t count : {size_t{1}, size_t{4097}, size_t{50'000}}) {
         for (const double radius : {0.01, 0.1}) { // more cells than spheres, and fewer
@@ -137,7 +136,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Building again forgets what was there before") {
+TEST_CASE("Building again discards the earlier contents") {
     std::mt19937_64 random(9);
     RegionGrid grid;
     grid.build(randomCloud(random, 500, 1.0, 0.01, 0.04).spheres);

@@ -39,7 +39,7 @@ const ShapeKind kSolids[] = {ShapeKind::Sphere, ShapeKind::Box, ShapeKind::Plane
 
 } // namespace
 
-TEST_CASE("The gap of every solid is a true signed distance: right sign, slope one along its normal, never "
+TEST_CASE("The gap of every solid is a true signed distance: correct sign, slope one along its normal, never "
           "steeper") {
     std::mt19937_64 random(41);
     for (const ShapeKind kind : kSolids) {
@@ -52,7 +52,7 @@ TEST_CASE("The gap of every solid is a true signed distance: right sign, slope o
                 const SideGap side = gapTo(shape, p, 0.0);
                 REQUIRE(glm::length(side.normal) == doctest::Approx(1.0).epsilon(1e-9));
                 REQUIRE((side.gap < 0.0) == (isInside(shape, local) != keepIn));
-                // Walking the gap back along the normal ends on the surface.
+                // Moving back by the gap along the normal ends on the surface.
                 REQUIRE(std::abs(gapTo(shape, p - side.gap * side.normal, 0.0).gap) < 1e-9);
                 REQUIRE(std::abs(side.gap - gapTo(shape, q, 0.0).gap) <= glm::distance(p, q) + 1e-12);
                 REQUIRE(gapTo(shape, p, 0.02).gap == doctest::Approx(side.gap - 0.02).epsilon(1e-9));
@@ -61,7 +61,7 @@ TEST_CASE("The gap of every solid is a true signed distance: right sign, slope o
     }
 }
 
-TEST_CASE("The sides of a keep-in solid together say what its gap says") {
+TEST_CASE("The smallest gap of the sides of a keep-in solid equals its own gap") {
     std::mt19937_64 random(42);
     for (const ShapeKind kind : kSolids) {
         const Shape shape =
@@ -84,7 +84,7 @@ TEST_CASE("The sides of a keep-in solid together say what its gap says") {
     }
 }
 
-TEST_CASE("At the very centre of a sphere and on the axis of a cylinder there is still a normal") {
+TEST_CASE("The centre of a sphere and the axis of a cylinder have a normal") {
     for (const ShapeKind kind : kSolids) {
         const SideGap side = gapTo(shapeOf(kind, dvec3(0.2, 0.2, 0.2), false, Pose{}), dvec3(0.0), 0.01);
         CHECK(glm::length(side.normal) == doctest::Approx(1.0));
@@ -93,7 +93,7 @@ TEST_CASE("At the very centre of a sphere and on the axis of a cylinder there is
 }
 
 TEST_CASE(
-    "A line asks for the way across, an axis also for the turn onto it, and both for nothing when there") {
+    "A line requests the motion across, an axis also the rotation onto it, and neither any when satisfied") {
     std::mt19937_64 random(43);
     const Pose pose{randomIn(random, 1.0), randomRotation(random)};
     const Shape line = shapeOf(ShapeKind::Line, dvec3(0.0), false, pose);

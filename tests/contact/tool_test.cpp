@@ -9,7 +9,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("A tool knows its leaves, its bounding radius and its gyration radius") {
+TEST_CASE("A tool has its leaves, its bounding radius and its gyration radius") {
     const Tool tool = makeTool({{dvec3(0.1, 0, 0), 0.01}, {dvec3(-0.1, 0, 0), 0.03}});
     CHECK(tool.leafCount() == 2);
     CHECK(tool.boundingRadius() == doctest::Approx(0.13).epsilon(1e-12));
@@ -17,13 +17,13 @@ TEST_CASE("A tool knows its leaves, its bounding radius and its gyration radius"
     CHECK(ballTool(0.02).gyrationRadius() == doctest::Approx(0.02).epsilon(1e-12));
 }
 
-TEST_CASE("Unused slots of the last level are no leaves") {
+TEST_CASE("Unused slots of the last level are not leaves") {
     std::mt19937_64 random(1);
     CHECK(randomTool(random, 5, 0.1, 0.01).leafCount() == 5);
     CHECK(randomTool(random, 4096, 0.1, 0.01).leafCount() == 4096);
 }
 
-TEST_CASE("A tool with no leaf, too many leaves, an unsound tree or a leaf that is not finite is refused") {
+TEST_CASE("A tool with no leaf, too many leaves, an invalid tree or a leaf that is not finite is rejected") {
     std::mt19937_64 random(2);
     CHECK_THROWS_AS(randomTool(random, 4097, 0.1, 0.01), Error);
     SphereTree empty{1, 2, {Sphere{}}};
@@ -35,7 +35,7 @@ TEST_CASE("A tool with no leaf, too many leaves, an unsound tree or a leaf that 
     CHECK_THROWS_AS(Tool{infinite}, Error);
 }
 
-TEST_CASE("Posed leaves keep micrometres even when the base frame's origin is kilometres away") {
+TEST_CASE("Posed leaves stay accurate to micrometres when the base frame's origin is kilometres away") {
     std::mt19937_64 random(3);
     const Tool tool = randomTool(random, 37, 0.1, 0.01);
     const dvec3 origin(51234.5, -8765.25, 333.0);

@@ -31,7 +31,7 @@ uint64_t threadAllocationCount() noexcept {
 }
 } // namespace fathom
 
-// Not inlined: else the compiler sees memory of `new` go to free() and warns.
+// Not inlined, or the compiler warns because it sees memory from `new` passed to free().
 [[gnu::noinline]] void* operator new(std::size_t size) {
     return counted(size, alignof(std::max_align_t));
 }

@@ -13,7 +13,7 @@ namespace {
 
 using Vectors = std::vector<std::vector<double>>;
 
-// `count` unit vectors of that length, at right angles to each other.
+// `count` orthonormal vectors of the given dimension.
 Vectors orthogonal(size_t count, std::mt19937& random) {
     std::normal_distribution<double> any;
     Vectors all;
@@ -43,7 +43,7 @@ Vectors orthogonal(size_t count, std::mt19937& random) {
     return all;
 }
 
-// Columns whose singular values are those, and joints without one more have none.
+// Columns with the given singular values; further joints have zero columns.
 ArmNormal withSingulars(size_t joints, const std::vector<double>& values, std::mt19937& random) {
     const Vectors left = orthogonal(6, random), right = orthogonal(joints, random);
     ArmNormal normal(joints);
@@ -61,8 +61,7 @@ ArmNormal withSingulars(size_t joints, const std::vector<double>& values, std::m
 
 } // namespace
 
-TEST_CASE("The smallest singular value is the one that the columns were made with, of 1 to 8 joints, down to "
-          "1e-6 of the largest") {
+TEST_CASE("The smallest singular value is exact for 1 to 8 joints, down to 1e-6 of the largest") {
     std::mt19937 random(7);
     for (size_t joints = 1; joints <= kMostJoints; ++joints) {
         for (const double ratio : {1.0, 0.3, 1e-2, 1e-4, 1e-6}) {
@@ -77,7 +76,7 @@ TEST_CASE("The smallest singular value is the one that the columns were made wit
                 CAPTURE(joints);
                 CAPTURE(ratio);
                 CAPTURE(found - values.back());
-                // The Gram matrix rounds squares: of the largest value's.
+                // The Gram matrix has the rounding of the largest value's square.
                 CHECK(std::abs(found * found - values.back() * values.back()) <=
                       2e-15 * values[0] * values[0]);
             }
@@ -85,8 +84,7 @@ TEST_CASE("The smallest singular value is the one that the columns were made wit
     }
 }
 
-TEST_CASE(
-    "Columns of no length have the smallest singular value 0, and so has an arm without a joint to go") {
+TEST_CASE("The smallest singular value is 0 for zero columns and for an arm whose joints are all locked") {
     ArmNormal still(3);
     CHECK(still.smallestSingular() == 0.0);
     ArmNormal locked(1);

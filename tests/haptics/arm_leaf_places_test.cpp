@@ -8,14 +8,14 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("Leaves are placed where the model says, whichever frames carry them in whatever order") {
+TEST_CASE("Leaf centres match the arm model for any order of frames") {
     ArmModel arm = makeArm(5, 7);
     ArmFinger finger;
     finger.joint = 5;
     finger.before.position = {0.01, 0.02, 0.1};
     finger.closed = 0.6;
     arm.fingers.push_back(finger);
-    for (size_t i = 0; i < arm.leaves.size(); i += 3) { // carriers change from leaf to leaf
+    for (size_t i = 0; i < arm.leaves.size(); i += 3) { // frames change from leaf to leaf
         arm.leaves[i].joint = 0;
     }
     arm.leaves[1].joint = 5, arm.leaves[1].finger = 1;

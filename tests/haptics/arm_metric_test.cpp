@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an arm's step minimises, how far it may go, and which joints count, against the formulas themselves.
+// Compares an arm's step with the formulas: what it minimises, its largest travel, and which joints count.
 #include "engine/haptics/arm_proxy.h"
 #include "engine/reference/nearest_point.h"
 #include "tests/haptics/arm_rig.h"
@@ -26,7 +26,7 @@ std::array<double, 6> stacked(const dvec3& upper, const dvec3& lower) {
     return {upper.x, upper.y, upper.z, lower.x, lower.y, lower.z};
 }
 
-// M^1/2 J of the tip, of these joints.
+// M^1/2 J of the tip for these joints.
 Columns tipColumns(const ArmModel& arm, const ArmFrames& frames, double k,
                    const std::vector<size_t>& joints) {
     Columns columns;
@@ -48,7 +48,7 @@ std::vector<double> squares(const Columns& columns, double damping) {
     return out;
 }
 
-// x of a x = b; a is symmetric and positive definite, so no pivot is looked for.
+// Solves a x = b. a is symmetric and positive definite, so no pivoting is needed.
 std::vector<double> solve(std::vector<double> a, std::vector<double> b) {
     const size_t n = b.size();
     for (size_t p = 0; p < n; ++p) {
@@ -66,7 +66,7 @@ std::vector<double> solve(std::vector<double> a, std::vector<double> b) {
     return b;
 }
 
-// By inverse iteration; the start has a part in every direction.
+// By inverse iteration from a start with a component in every direction.
 double smallestSingularValue(const Columns& columns) {
     std::vector<double> direction;
     for (size_t i = 0; i < columns.size(); ++i) {
@@ -94,7 +94,7 @@ std::vector<size_t> movingJoints(const ArmModel& arm) {
     return moving;
 }
 
-// The increments that |J dq - x|_M^2 + lambda^2 |dq|^2 asks for, with one row n^T J_leaf dq >= -gap.
+// The increments that minimise |J dq - x|_M^2 + lambda^2 |dq|^2 subject to one row n^T J_leaf dq >= -gap.
 std::vector<double> nearestIncrements(const ArmModel& arm, const ArmFrames& frames, double k, const dvec3& a,
                                       const dvec3& alpha, size_t leaf, const dvec3& normal, double gap) {
     const size_t n = arm.count();
@@ -112,16 +112,17 @@ std::vector<double> nearestIncrements(const ArmModel& arm, const ArmFrames& fram
     const std::array<double, 1> offset{-gap};
     const auto nearest = nearestPoint({n, metric, free, row, offset});
     REQUIRE(nearest.feasible);
-    REQUIRE(nearest.multipliers[0] > 0.0); // the row pushes
+    REQUIRE(nearest.multipliers[0] > 0.0); // the row is active
     return nearest.x;
 }
 
 } // namespace
 
-TEST_CASE("A step against a region is the nearest one in the arm's metric, directions weighed as asked") {
+TEST_CASE(
+    "A step against a region is the nearest one in the arm's metric with the given weight of rotation") {
     ArmModel arm = makeArm(4, 1);
     for (ArmJoint& joint : arm.joints) {
-        joint.speed = 50.0; // no limit of this step
+        joint.speed = 50.0; // does not limit this step
     }
     const JointVector start{0.2, 0.5, -0.4, 0.6};
     ArmFrames frames;
@@ -152,17 +153,16 @@ TEST_CASE("A step against a region is the nearest one in the arm's metric, direc
             CHECK(out.q[j] - start[j] == doctest::Approx(truth[j]).epsilon(2e-3).scale(1e-4));
             apart = std::max(apart, other.empty() ? 0.0 : std::abs(other[j] - truth[j]));
         }
-        CHECK((other.empty() || apart > 1e-5)); // another metric is another step
+        CHECK((other.empty() || apart > 1e-5)); // another metric gives another step
         other = truth;
     }
 }
 
-TEST_CASE(
-    "However fast its joints, no leaf of an arm goes farther in a turn than its solves may, or inside") {
+TEST_CASE("No leaf of a fast arm exceeds the step caps of a tick or enters a region") {
     std::mt19937_64 random(17);
     ArmModel arm = makeArm(4, 8);
     for (ArmJoint& joint : arm.joints) {
-        joint.speed = 50.0; // 50 mm a turn at the end of the arm, and regions of 30 mm radius
+        joint.speed = 50.0; // 50 mm per tick at the end of the arm; regions have 30 mm radius
     }
     const ArmProxyOptions options;
     ArmProxy proxy(arm, Pose{}, options, JointVector{});
@@ -185,14 +185,14 @@ TEST_CASE(
     }
     MESSAGE("farthest " << farthest * 1e3 << " mm a turn, deepest " << deepest * 1e6 << " um");
     CHECK(farthest <= options.solves * options.stepCap * (1.0 + 1e-9));
-    CHECK(farthest > options.stepCap); // it did hurry
+    CHECK(farthest > options.stepCap); // the arm was fast
     CHECK(deepest <= 1e-9);
 }
 
-TEST_CASE("Six and seven joints bring the tip to a place and a direction that they can reach") {
+TEST_CASE("Arms with six and seven joints reach a reachable position and direction of the tip") {
     for (size_t joints : {6u, 7u}) {
         ArmModel arm = makeArm(joints, 1);
-        arm.joints[3].axis = {1, 0, 0}; // a roll in the middle, as such arms have
+        arm.joints[3].axis = {1, 0, 0}; // a roll joint in the middle, as real arms have
         ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
         ArmFrames there;
         arm.place(JointVector{-0.1, 0.6, 0.1, 0.6, 0.4, -0.5, 0.1}, Pose{}, there);
@@ -208,7 +208,7 @@ TEST_CASE("Six and seven joints bring the tip to a place and a direction that th
     }
 }
 
-TEST_CASE("Joints that have no way to go do not count among an arm's singular values, as of a real one") {
+TEST_CASE("Locked joints are excluded from an arm's singular values, also in a real arm's URDF") {
     std::vector<ArmModel> arms{makeArm(4, 1), makeArm(7, 1)};
     for (ArmModel& arm : arms) {
         arm.joints[1].lower = arm.joints[1].upper = 0.3;
@@ -238,6 +238,6 @@ TEST_CASE("Joints that have no way to go do not count among an arm's singular va
             const bool locked = std::find(moving.begin(), moving.end(), k) == moving.end();
             CHECK((!locked || tick.q[k] == before[k]));
         }
-        CHECK(tick.residual < 0.0024); // it did move
+        CHECK(tick.residual < 0.0024); // it moved
     }
 }

@@ -15,7 +15,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Of this thread, so that other work on the machine does not count [us].
+// CPU time of this thread [us], so that other load on the machine does not count.
 double cpuMicros() {
     timespec t{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
@@ -32,7 +32,7 @@ double worstLimit(const ArmModel& arm, const JointVector& q) {
 
 } // namespace
 
-TEST_CASE("the way that a joint moves a point is the derivative of where the point is") {
+TEST_CASE("A joint's motion of a point is the derivative of the point's position") {
     ArmModel arm = makeArm(5, 1);
     arm.joints[2].slides = true;
     const JointVector q{0.3, -0.5, 0.1, 0.7, -0.2};
@@ -49,7 +49,7 @@ TEST_CASE("the way that a joint moves a point is the derivative of where the poi
     }
 }
 
-TEST_CASE("an arm of four to seven joints brings its tip to a place it can reach") {
+TEST_CASE("An arm with four to seven joints moves its tip to a reachable position") {
     for (size_t joints : {4u, 5u, 6u, 7u}) {
         const ArmModel arm = makeArm(joints, 3);
         ArmProxy proxy(arm, Pose{}, {}, JointVector{0.2, 0.3, -0.2, 0.4, 0.1, -0.3, 0.2});
@@ -65,7 +65,7 @@ TEST_CASE("an arm of four to seven joints brings its tip to a place it can reach
     }
 }
 
-TEST_CASE("whatever the hand asks for, no joint leaves its limits or goes faster than it can") {
+TEST_CASE("No joint exceeds its position or speed limits for any hand motion") {
     std::mt19937_64 random(5);
     for (size_t joints : {1u, 4u, 7u}) {
         const ArmModel arm = makeArm(joints, 2, 0.4);
@@ -91,7 +91,7 @@ TEST_CASE("whatever the hand asks for, no joint leaves its limits or goes faster
     }
 }
 
-TEST_CASE("no leaf of any link enters a sphere, among hundreds of them, with a wild hand") {
+TEST_CASE("No leaf of any link enters any of hundreds of spheres under a wild hand") {
     std::mt19937_64 random(11);
     for (size_t joints : {4u, 5u, 6u, 7u}) {
         if (kSanitized && joints != 6) {
@@ -109,7 +109,7 @@ TEST_CASE("no leaf of any link enters a sphere, among hundreds of them, with a w
                 target = {randomIn(random, 1.0), randomRotation(random)};
             }
             if (i % 3 == 0) {
-                world.query(arm, proxy); // answers come late, too
+                world.query(arm, proxy); // answers also come late
             }
             REQUIRE(proxy.covers(world.set));
             const ArmStep tick = proxy.step(target, 0.05, &world.set);
@@ -127,11 +127,11 @@ TEST_CASE("no leaf of any link enters a sphere, among hundreds of them, with a w
     }
 }
 
-TEST_CASE("an elbow that would hit stops the tip although the tip itself is free") {
+TEST_CASE("A blocked elbow stops the tip although the tip itself is free") {
     const ArmModel arm = makeArm(4, 8);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{});
     World world;
-    addSphere(world.fixtures, {0.12, 0.2, 0.0}, 0.05); // beside the first link
+    addSphere(world.fixtures, {0.12, 0.2, 0.0}, 0.05); // next to the first link
     world.grid.build(world.fixtures.spheres);
     const Pose target{{0.1, 0.95, 0.0}, kUpright};
     ArmStep tick;
@@ -147,7 +147,7 @@ TEST_CASE("an elbow that would hit stops the tip although the tip itself is free
     CHECK(proxy.joints()[0] < 1.0);
 }
 
-TEST_CASE("new data over a link lets it out by a millimetre a turn and never deeper") {
+TEST_CASE("New data over a link pushes it out by 1 mm per tick and never deeper") {
     const ArmModel arm = makeArm(4, 8);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{});
     World world;
@@ -161,7 +161,7 @@ TEST_CASE("new data over a link lets it out by a millimetre a turn and never dee
         world.query(arm, proxy);
         const ArmStep tick = proxy.step(still, 0.0, &world.set);
         const double now = world.depth(arm, proxy.frames());
-        CHECK(now <= std::max(before, 0.0) + 1e-12); // once out, a nanometre of the gap is no depth
+        CHECK(now <= std::max(before, 0.0) + 1e-12); // once outside, a gap below a nanometre is not a depth
         trapped += tick.trapped ? 1 : 0;
         before = now;
     }
@@ -169,7 +169,7 @@ TEST_CASE("new data over a link lets it out by a millimetre a turn and never dee
     CHECK(before <= 1e-6);
 }
 
-TEST_CASE("a stretched arm is reported as singular, damped, and comes back") {
+TEST_CASE("A stretched arm is reported as singular, is damped, and comes back") {
     const ArmModel arm = makeArm(4, 2);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{0.1, 0.3, -0.4, 0.5});
     ArmFrames bent;
@@ -188,7 +188,7 @@ TEST_CASE("a stretched arm is reported as singular, damped, and comes back") {
         }
     }
     CHECK(singular > 100);
-    CHECK(largest < 1e-5); // at rest, not dancing
+    CHECK(largest < 1e-5); // at rest, no oscillation
     CHECK(tick.pose.position.x > 0.99);
     for (int i = 0; i < 3000; ++i) {
         tick = proxy.step(arm.tip(bent), 0.0, nullptr);
@@ -196,7 +196,7 @@ TEST_CASE("a stretched arm is reported as singular, damped, and comes back") {
     CHECK(tick.residual < 1e-4);
 }
 
-TEST_CASE("a target that is not finite holds the arm, and a start outside the limits is brought inside") {
+TEST_CASE("A target that is not finite holds the arm, and a start outside the limits is clamped") {
     const ArmModel arm = makeArm(4, 2, 0.5);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{3.0, -3.0, std::numeric_limits<double>::quiet_NaN(), 0.1});
     CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
@@ -204,11 +204,11 @@ TEST_CASE("a target that is not finite holds the arm, and a start outside the li
         proxy.step({dvec3(std::numeric_limits<double>::quiet_NaN()), kUpright}, 0.1, nullptr);
     CHECK(tick.q == proxy.joints());
     CHECK(proxy.joints() == JointVector{0.5, -0.5, 0.0, 0.1});
-    ContactSet other; // of some other tool
+    ContactSet other; // of another tool
     CHECK_FALSE(proxy.covers(other));
 }
 
-TEST_CASE("the smallest singular value and the damping are those of the textbook") {
+TEST_CASE("The smallest singular value and the damping match the textbook formulas") {
     ArmNormal normal(3);
     normal.setColumn(0, {3, 0, 0}, dvec3(0.0));
     normal.setColumn(1, {0, 0.5, 0}, dvec3(0.0));
@@ -225,7 +225,7 @@ TEST_CASE("the smallest singular value and the damping are those of the textbook
     CHECK(dampingFor(0.05, 0.1, 0.001, 0.05) == doctest::Approx(0.025));
 }
 
-TEST_CASE("a turn of a whole arm allocates nothing; what it costs, by leaf count") {
+TEST_CASE("A tick of a whole arm does not allocate; its time by leaf count is printed") {
     std::mt19937_64 random(3);
     for (size_t leaves : {500u, 1000u, 2000u}) {
         const ArmModel arm = makeArm(5, leaves / 5);

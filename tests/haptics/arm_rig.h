@@ -8,7 +8,7 @@
 
 namespace fathom::testing {
 
-// Links of 0.25 m along x, joints about z and y by turns, `spheres` leaves of 4 cm along each link.
+// Links of 0.25 m along x, joints alternately about z and y, `spheres` leaves of 4 cm along each link.
 inline ArmModel makeArm(size_t joints, size_t spheres, double limit = 1.2) {
     ArmModel arm;
     for (size_t k = 0; k < joints; ++k) {
@@ -40,7 +40,7 @@ struct World {
     void query(const ArmModel& arm, const ArmProxy& proxy) {
         cull.query(armTool(arm, proxy.frames()), Pose{}, 0.01, fixtures, grid, set);
     }
-    // Deepest overlap of any leaf with any sphere, by looking at all of them [m].
+    // Deepest overlap of any leaf with any sphere [m], by brute force.
     double depth(const ArmModel& arm, const ArmFrames& frames) const {
         double deepest = -1.0;
         const RegionSpheres& s = fixtures.spheres;
@@ -56,7 +56,7 @@ struct World {
     }
 };
 
-// Spheres about the arm, none touching it where it starts.
+// Spheres around the arm; none touches it at the start.
 inline void scatter(World& world, const ArmModel& arm, const ArmFrames& frames, std::mt19937_64& random,
                     size_t count) {
     while (world.fixtures.spheres.size() < count) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a free tool obeys besides region spheres, an arm obeys with every link: authored shapes, lines, leaves
-// behind a surface. And its grasp.
+// Constraints of an arm besides region spheres, for every link: authored shapes, lines, leaves behind a
+// surface. Also its grasp.
 #include "tests/haptics/arm_rig.h"
 
 #include <doctest/doctest.h>
@@ -54,7 +54,7 @@ ArmInput still(const ArmProxy& proxy, const ContactSet* set, double grasp) {
 
 } // namespace
 
-TEST_CASE("No leaf of any link enters an authored shape or leaves one that keeps it in, with a wild hand") {
+TEST_CASE("No leaf of any link enters a forbidden shape or leaves a keep-in shape under a wild hand") {
     std::mt19937_64 random(21);
     const ArmModel arm = makeArm(5, 8);
     const std::vector<Shape> shapes{shapeOf(ShapeKind::Box, {0.5, 0.35, 0.0}, {0.3, 0.2, 0.4}),
@@ -85,7 +85,7 @@ TEST_CASE("No leaf of any link enters an authored shape or leaves one that keeps
     CHECK(trapped == 0);
 }
 
-TEST_CASE("A shape that comes to lie over a link lets it out by a millimetre a turn and never deeper") {
+TEST_CASE("A shape that appears over a link pushes it out by 1 mm per tick and never deeper") {
     const ArmModel arm = makeArm(4, 8);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{});
     const std::vector<Shape> shapes{shapeOf(ShapeKind::Sphere, {0.6, 0.075, 0.0}, {0.05, 0.0, 0.0})};
@@ -102,7 +102,7 @@ TEST_CASE("A shape that comes to lie over a link lets it out by a millimetre a t
     CHECK(before <= 1e-6);
 }
 
-TEST_CASE("A line binds the tip of an arm: it comes to it and then slides along it only") {
+TEST_CASE("A line constrains the tip of an arm: the tip moves to it and then slides only along it") {
     const ArmModel arm = makeArm(5, 2);
     std::vector<Shape> shapes{shapeOf(ShapeKind::Line, {0.0, 0.0, 0.0}, dvec3(0.0))};
     const JointVector bent{0.3, 0.5, -0.4, 0.6, 0.2};
@@ -127,7 +127,7 @@ TEST_CASE("A line binds the tip of an arm: it comes to it and then slides along 
     CHECK(proxy.tip().position.z - tip.z > 0.03); // it slid
 }
 
-TEST_CASE("A leaf that new data put behind a surface is not held there, and comes out towards the camera") {
+TEST_CASE("A leaf that new data put behind a surface is not held there and moves out towards the camera") {
     const ArmModel arm = makeArm(4, 8);
     ArmProxy proxy(arm, Pose{}, {}, JointVector{});
     World world;
@@ -153,7 +153,7 @@ TEST_CASE("A leaf that new data put behind a surface is not held there, and come
     CHECK(arm.centre(proxy.frames(), arm.leaves.size() - 1).y > rest - 1e-3); // in front, not through
 }
 
-TEST_CASE("The grasp goes from open to closed at its own speed, and the finger's spheres follow") {
+TEST_CASE("The grasp moves from open to closed at its own speed, and the finger's spheres follow") {
     const ArmModel arm = armWithFinger();
     ArmProxyOptions options;
     options.graspPerTick = 0.01;
@@ -170,20 +170,20 @@ TEST_CASE("The grasp goes from open to closed at its own speed, and the finger's
     }
     CHECK(proxy.posture().grasp == doctest::Approx(1.0));
     proxy.step(still(proxy, nullptr, std::numeric_limits<double>::quiet_NaN()));
-    CHECK(proxy.posture().grasp == doctest::Approx(1.0)); // as it is
+    CHECK(proxy.posture().grasp == doctest::Approx(1.0)); // unchanged
     for (int i = 0; i < 110; ++i) {
         proxy.step(still(proxy, nullptr, -3.0));
     }
     CHECK(proxy.posture().grasp == doctest::Approx(0.0));
 }
 
-TEST_CASE("A finger stops at a region and goes on when it has gone") {
+TEST_CASE("A finger stops at a region and resumes when the region is gone") {
     const ArmModel arm = armWithFinger();
     ArmProxyOptions options;
     options.graspPerTick = 0.01;
     ArmProxy proxy(arm, Pose{}, options, JointVector{});
     World world;
-    addSphere(world.fixtures, {0.55, 0.05, 0.0}, 0.025); // in the finger's way only
+    addSphere(world.fixtures, {0.55, 0.05, 0.0}, 0.025); // blocks only the finger
     world.grid.build(world.fixtures.spheres);
     double deepest = -1.0;
     size_t held = 0;

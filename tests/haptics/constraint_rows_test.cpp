@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The row store: the dispatched scan against a plain loop, odd rows, offsets, and the solver's edges.
+// The row store: the dispatched scan against a plain loop, degenerate rows, offsets, and edge cases of the
+// solver.
 #include "tests/haptics/allocation_count.h"
 #include "tests/haptics/constraint_sets.h"
 
@@ -39,7 +40,7 @@ ConstraintSolver identitySolver(int n, size_t maxRows) {
 
 } // namespace
 
-TEST_CASE("The scan finds the same row and the same bits as a plain loop, whatever instructions it runs on") {
+TEST_CASE("The scan finds the same row and the same bits as a plain loop on every instruction set") {
     Random random(3);
     for (const int n : {1, 2, 3, 4, 5, 6, 7, 8}) {
         for (const size_t count : {1, 7, 8, 9, 63, 64, 513}) {
@@ -78,7 +79,7 @@ TEST_CASE("The scan finds the same row and the same bits as a plain loop, whatev
     }
 }
 
-TEST_CASE("Of equally violated rows the scan takes the one with the smallest index") {
+TEST_CASE("Among equally violated rows the scan returns the one with the smallest index") {
     ConstraintRows rows(2, 40);
     const std::array<double, 2> row{0.0, 3.0};
     for (int i = 0; i < 37; ++i) {
@@ -91,7 +92,7 @@ TEST_CASE("Of equally violated rows the scan takes the one with the smallest ind
     CHECK(rows.worst(y.data(), 2.0).row == 37);
 }
 
-TEST_CASE("Without rows, or with none violated, the answer is the target to the last bit") {
+TEST_CASE("Without rows, or with none violated, the solution is exactly the target") {
     auto solver = identitySolver(6, 10);
     const std::array<double, 6> target{0.1, -0.2, 0.3, 1e-17, 5.0, -6.0};
     std::array<double, 6> x{};
@@ -122,7 +123,7 @@ TEST_CASE("One violated row moves the target along the metric's inverse by the c
     CHECK(solver.activeRows() == 1);
 }
 
-TEST_CASE("A row without length is infeasible when its offset is positive and void otherwise") {
+TEST_CASE("A row of zero length is infeasible when its offset is positive and inactive otherwise") {
     for (const double offset : {-1.0, 0.0, 1e-9}) {
         auto solver = identitySolver(3, 4);
         solver.addRow(std::array<double, 3>{0, 0, 0}, offset);
@@ -136,7 +137,7 @@ TEST_CASE("A row without length is infeasible when its offset is positive and vo
     }
 }
 
-TEST_CASE("A number that is not finite never passes for an answer") {
+TEST_CASE("A number that is not finite is never returned as a solution") {
     const std::array<double, 3> good{1, 0, 0}, start{0, 0, 0};
     std::array<double, 3> x{};
     for (const double bad : {kNaN, kInf, -kInf}) {
@@ -158,7 +159,7 @@ TEST_CASE("A number that is not finite never passes for an answer") {
     CHECK(x[0] == 0.25);
 }
 
-TEST_CASE("Changing an offset or the metric gives the answer of a solver that was built so") {
+TEST_CASE("Changing an offset or the metric gives the solution of a newly built solver") {
     Random random(11);
     for (int i = 0; i < 200; ++i) {
         auto set = makeSet(SetKind::Feasible, 6, 1 + random.below(40), 0.05, random);
@@ -182,7 +183,7 @@ TEST_CASE("Changing an offset or the metric gives the answer of a solver that wa
 }
 
 TEST_CASE(
-    "A metric that is not symmetric, positive definite and finite is refused, and so are 0 or 9 unknowns") {
+    "A metric that is not symmetric, positive definite and finite is rejected, and so are 0 or 9 unknowns") {
     ConstraintSolver solver(2, 4);
     CHECK_THROWS_AS(solver.setMetric(std::array<double, 4>{1, 0.5, 0.4, 1}), Error);
     CHECK_THROWS_AS(solver.setMetric(std::array<double, 4>{1, 1, 1, 1}), Error);
@@ -195,7 +196,7 @@ TEST_CASE(
     CHECK_THROWS_AS(ConstraintSolver(9, 4), Error);
 }
 
-TEST_CASE("Loading and solving allocates nothing") {
+TEST_CASE("Loading and solving do not allocate") {
     Random random(5);
     std::vector<ConstraintSet> sets;
     for (int i = 0; i < 50; ++i) {
@@ -210,5 +211,5 @@ TEST_CASE("Loading and solving allocates nothing") {
         solver.solve(set.target, x);
     }
     CHECK(allocationCount() == before);
-    CHECK(before > 0); // the counter is alive
+    CHECK(before > 0); // the counter works
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random row sets for the solver: shapes that a sphere tool meets, and shapes that break solvers.
+// Random row sets for the solver: typical ones of a sphere tool, and degenerate ones that break solvers.
 #pragma once
 
 #include "engine/haptics/constraint_solver.h"
@@ -57,7 +57,7 @@ struct ConstraintSet {
         normals.insert(normals.end(), row.begin(), row.end());
         offsets.push_back(offset);
     }
-    // [normal; arm x normal] for 6 unknowns, the first n numbers of it for fewer, zeros behind for more.
+    // [normal; arm x normal] for 6 unknowns, truncated for fewer, padded with zeros for more.
     void addContact(const dvec3& normalOut, const dvec3& arm, double offset) {
         const dvec3 moment = glm::cross(arm, normalOut);
         std::vector<double> row{normalOut.x, normalOut.y, normalOut.z, moment.x,
@@ -97,7 +97,7 @@ inline dvec3 randomArm(Random& random) {
     return {random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)};
 }
 
-// Offsets are below 2 mm, or what a point of 1 mm length obeys when the set must be feasible.
+// Offsets are below 2 mm. When the set must be feasible, a point of 1 mm length satisfies them.
 inline void addRow(ConstraintSet& set, SetKind kind, size_t index, Random& random) {
     const dvec3 noise = random.direction();
     const dvec3 arm = randomArm(random);
@@ -106,7 +106,7 @@ inline void addRow(ConstraintSet& set, SetKind kind, size_t index, Random& rando
     case SetKind::FlatWall:
         set.addContact(glm::normalize(dvec3(0, 0, 1) + 1e-3 * noise), arm, gap);
         break;
-    case SetKind::Groove: { // opening of 0.1 degree: the walls are opposed but for 0.05 degree each
+    case SetKind::Groove: { // opening of 0.1 degree: each wall is 0.05 degree from opposing the other
         const double lean = 8.7266e-4, side = index % 2 == 0 ? 1.0 : -1.0;
         set.addContact({side * std::cos(lean), 0.0, std::sin(lean)}, {0.0, arm.y, 0.0}, gap);
         break;
@@ -136,7 +136,7 @@ inline void addRow(ConstraintSet& set, SetKind kind, size_t index, Random& rando
     }
 }
 
-// Moves the offset of the newest row to what its kind promises.
+// Sets the offset of the newest row as its kind requires.
 inline void settleOffset(ConstraintSet& set, SetKind kind, const std::vector<double>& inside,
                          Random& random) {
     const size_t index = set.rows() - 1, up = set.n > 2 ? 2 : 0;

@@ -70,7 +70,8 @@ std::string nameOf(SetKind kind) {
 
 } // namespace
 
-TEST_CASE("Every answer on random sets obeys the KKT conditions and agrees with least-distance programming") {
+TEST_CASE(
+    "Every solution on random sets satisfies the KKT conditions and agrees with least-distance programming") {
     Random random(20240601);
     ConstraintSolver solver6(6, 512), solver3(3, 512), solver1(1, 512), solver8(8, 512);
     for (int kind = 0; kind < kSetKinds; ++kind) {
@@ -103,8 +104,7 @@ TEST_CASE("Every answer on random sets obeys the KKT conditions and agrees with 
     }
 }
 
-TEST_CASE(
-    "A warm start changes the answer by no more than rounding, with rows that come, go and change places") {
+TEST_CASE("A warm start changes the solution only by rounding while rows are added, removed and reordered") {
     Random random(99);
     double worst = 0.0;
     int compared = 0;
@@ -148,7 +148,7 @@ TEST_CASE(
     CHECK(worst <= 1e-9);
 }
 
-TEST_CASE("Walls that just touch leave a way along them, and walls that overlap by a nanometre do not") {
+TEST_CASE("Walls that just touch allow motion along them, and walls that overlap by a nanometre do not") {
     for (const double overlap : {-1e-9, 0.0, 1e-9}) {
         ConstraintSolver solver(6, 2);
         solver.setMetric(freeToolMetric(6, 0.03));
@@ -165,7 +165,7 @@ TEST_CASE("Walls that just touch leave a way along them, and walls that overlap 
     }
 }
 
-TEST_CASE("The corner of two planes that lean by only 1e-9 is found where it is") {
+TEST_CASE("The corner of two planes at an angle of only 1e-9 is found exactly") {
     Random random(17);
     double primal = 0.0, stationarity = 0.0;
     int corners = 0;
@@ -174,7 +174,7 @@ TEST_CASE("The corner of two planes that lean by only 1e-9 is found where it is"
         set.metric = freeToolMetric(6, 1.0);
         const dvec3 out = random.direction();
         const dvec3 side = glm::normalize(glm::cross(out, random.direction()));
-        const double sign = i % 2 == 0 ? 1.0 : -1.0; // leaning the same way, or facing each other
+        const double sign = i % 2 == 0 ? 1.0 : -1.0; // tilted the same way, or facing each other
         const dvec3 leaning = glm::normalize(sign * out + 1e-9 * side);
         const dvec3 corner = 1e-3 * random.direction();
         set.addContact(out, dvec3(0), glm::dot(out, corner));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Timings of the solver, printed and never asserted; the answers are checked first.
+// Timings of the solver, printed and never asserted. The solutions are checked first.
 #include "tests/haptics/constraint_sets.h"
 
 #include <doctest/doctest.h>

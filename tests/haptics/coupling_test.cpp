@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Coupling and presets: the springs' law, the bounds against a numerical supremum, the margins.
+// Coupling and presets: the spring law, the bounds against a numerical supremum, the margins.
 #include "engine/haptics/coupling.h"
 #include "engine/haptics/limits.h"
 #include "engine/types/error.h"
@@ -48,7 +48,7 @@ TEST_CASE("The passive bound equals the numerical supremum with damping and no d
     }
 }
 
-TEST_CASE("The low-pass counts with the delay it reports") {
+TEST_CASE("The low-pass counts as the delay that it reports") {
     const double T = 0.001, K = 500.0;
     for (const double hz : {5.0, 30.0, 150.0}) {
         const double a = lowPassGain(hz, T), n = lowPassDelayTicks(a);
@@ -60,8 +60,7 @@ TEST_CASE("The low-pass counts with the delay it reports") {
     CHECK(lowPassDelayTicks(1.0) == 0.0);
 }
 
-TEST_CASE(
-    "The figures of the stability rule are 200, 1000, 4000 N/m without delay and a third with one tick") {
+TEST_CASE("The stability rule gives 200, 1000 and 4000 N/m without delay and a third with one tick") {
     CHECK(passiveStiffness(0.1, 0.0, 0.001, 0.0) == doctest::Approx(200.0));
     CHECK(passiveStiffness(0.5, 0.0, 0.001, 0.0) == doctest::Approx(1000.0));
     CHECK(passiveStiffness(2.0, 0.0, 0.001, 0.0) == doctest::Approx(4000.0));
@@ -76,7 +75,7 @@ TEST_CASE("A sampled spring on a free device is stable below the uncoupled bound
     for (const double B : {0.0, 0.2}) {
         for (const double factor : {0.93, 1.07}) {
             const double K = factor * (b + B) / (T / 2.0);
-            // Exact step of m v' = -b v + f over one period with the force held.
+            // Exact step of m v' = -b v + f over one period with constant force.
             const double decay = std::exp(-b * T / m);
             double x = 1e-3, v = 0.0, before = x, largest = 0.0;
             for (int i = 0; i < 200000; ++i) {
@@ -92,7 +91,7 @@ TEST_CASE("A sampled spring on a free device is stable below the uncoupled bound
 }
 
 TEST_CASE(
-    "Auto takes the smaller of the preset and the bound, over the hand's scale, and k follows the springs") {
+    "Auto uses the smaller of preset and bound, divided by the hand's scale, and k follows the springs") {
     CouplingOptions options;
     options.toolRadius = 0.02;
     auto springs = makeSprings(devicePreset("ideal"), options);
@@ -117,7 +116,7 @@ TEST_CASE(
                     .passive);
 }
 
-TEST_CASE("When its own bound lowers the rotational stiffness, k follows it") {
+TEST_CASE("When its bound lowers the rotational stiffness, k follows") {
     CouplingOptions options;
     options.toolRadius = 0.2; // k0^2 K_t = 40 N m/rad, above 2 b_r / T = 20
     const auto springs = makeSprings(devicePreset("ideal"), options);
@@ -134,7 +133,7 @@ TEST_CASE("When its own bound lowers the rotational stiffness, k follows it") {
           doctest::Approx(std::sqrt(1.0 / 250.0)));
 }
 
-TEST_CASE("Paper guidance shares the bound: both springs together do not exceed it, whoever chose K_t") {
+TEST_CASE("With paper guidance both springs together stay within the bound, for automatic and given K_t") {
     CouplingOptions options;
     options.paperGuidance = true;
     const DevicePreset ideal = devicePreset("ideal");
@@ -150,7 +149,7 @@ TEST_CASE("Paper guidance shares the bound: both springs together do not exceed 
     CHECK(makeSprings(ideal, options).guidanceStiffness == 0.0);
 }
 
-TEST_CASE("Both margins are the formulas, and a rig without damping to spare is refused") {
+TEST_CASE("Both margins match the formulas, and a setup without spare damping is rejected") {
     CouplingOptions options;
     options.stiffness = 600.0;
     options.damping = 0.1;
@@ -202,7 +201,8 @@ TEST_CASE("The wrench is the negative gradient of the springs' energy over the d
     CHECK(damped.torque.y - wrench.torque.y == doctest::Approx(0.1));
 }
 
-TEST_CASE("Every preset is whole and says its source; an unknown name is refused with the list of names") {
+TEST_CASE(
+    "Every preset is complete and states its source; an unknown name is rejected with the list of names") {
     for (const auto& preset : devicePresets()) {
         CAPTURE(preset.name);
         CHECK(&devicePreset(preset.name) == &preset);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guidance: easing, saturation, choice, hold, slew, free roll, and both modes at rest.
+// Guidance: fading, saturation, choice, hold, slew, free roll, and both modes at rest.
 #include "engine/haptics/guidance.h"
 #include "engine/haptics/limits.h"
 #include "tests/haptics/constraint_sets.h"
@@ -45,7 +45,7 @@ void run(Guidance& guidance, const std::vector<GuidancePose>& poses, const Pose&
 } // namespace
 
 TEST_CASE(
-    "The weight eases over half a second by smoothstep, both ways, and without a jump when reversed midway") {
+    "The weight fades over half a second by smoothstep, both ways, without a jump when reversed midway") {
     const std::vector<GuidancePose> poses{poseAt({0.1, 0, 0})};
     Guidance guidance;
     double before = 0.0;
@@ -86,18 +86,17 @@ TEST_CASE("The lead is clamped as a whole vector to F_g / K_t and tau_g / K_r") 
     }
 }
 
-TEST_CASE(
-    "The class nearest to the device when the button goes down is chosen and kept until it is released") {
+TEST_CASE("The class nearest to the device at the button press is chosen and kept until release") {
     std::vector<GuidancePose> poses{poseAt({0.3, 0, 0}), poseAt({0.1, 0, 0}), poseAt({-0.2, 0, 0})};
     Guidance guidance;
     run(guidance, poses, {}, true, 1);
     CHECK(guidance.chosen() == 1);
-    run(guidance, poses, {{-0.2, 0, 0}, {1, 0, 0, 0}}, true, 100); // another is nearer now
+    run(guidance, poses, {{-0.2, 0, 0}, {1, 0, 0, 0}}, true, 100); // another class is nearer now
     CHECK(guidance.chosen() == 1);
     run(guidance, poses, {{-0.2, 0, 0}, {1, 0, 0, 0}}, false, 1);
     run(guidance, poses, {{-0.2, 0, 0}, {1, 0, 0, 0}}, true, 1);
     CHECK(guidance.chosen() == 2);
-    // The nearest does not count while it is not present; with none the choice waits for the first.
+    // A class that is not present is ignored; without any, the choice waits for the first.
     poses[0].present = poses[1].present = poses[2].present = false;
     Guidance waiting;
     run(waiting, poses, {}, true, 50);
@@ -110,12 +109,12 @@ TEST_CASE(
     CHECK(waiting.weight() == 0.0);
 }
 
-TEST_CASE("A lost target is held for half a second, then eased out, and eases in again when it is back") {
+TEST_CASE("A lost target is held for half a second, then fades out, and fades in again when it returns") {
     std::vector<GuidancePose> poses{poseAt({0.1, 0, 0})};
     Guidance guidance;
     run(guidance, poses, {}, true, 600);
     poses[0].present = false;
-    poses[0].target.position = {5, 5, 5}; // what a class of too few points says is not used
+    poses[0].target.position = {5, 5, 5}; // the pose of a class with too few points is ignored
     run(guidance, poses, {}, true, 499);
     CHECK(guidance.weight() == 1.0);
     CHECK(guidance.target().position.x == doctest::Approx(0.1));
@@ -125,7 +124,7 @@ TEST_CASE("A lost target is held for half a second, then eased out, and eases in
     CHECK(guidance.weight() == 0.0);
     poses[0] = poseAt({0.15, 0, 0});
     run(guidance, poses, {}, true, 1);
-    CHECK(guidance.target().position.x == 0.15); // nothing was felt: no slew from the old place
+    CHECK(guidance.target().position.x == 0.15); // no force yet, so no slew from the old position
     run(guidance, poses, {}, true, 500);
     CHECK(guidance.weight() == 1.0);
 }
@@ -152,7 +151,7 @@ TEST_CASE("A target that jumps is followed at 0.1 m/s and 0.5 rad/s and reached 
     CHECK(glm::distance(guidance.target().position, {0.03, 0.04, 0}) <= 1e-15);
 }
 
-TEST_CASE("With the roll free there is no torque about the axis, but the axis itself is aligned") {
+TEST_CASE("With free roll there is no torque about the axis, but the axis itself is aligned") {
     Random random(9);
     const auto springs = springs1000();
     for (int i = 0; i < 300; ++i) {
@@ -170,20 +169,20 @@ TEST_CASE("With the roll free there is no torque about the axis, but the axis it
         const dvec3 whole = axisTurn(device.rotation, poses[0].target.rotation);
         CHECK(glm::distance(rotationExp(whole) * axis, normal) <= 1e-12);
         CHECK(glm::length(glm::cross(turn, whole)) <= 1e-12);
-        // A device that differs by roll alone is not turned at all.
+        // A device that differs only by roll gets no torque.
         const Pose rolled{{0, 0, 0}, poses[0].target.rotation * rotationExp({0, 0, 2.0})};
         CHECK(glm::length(guidance.lead(rolled, springs).rotation) <= 1e-12);
-        poses[0].planar = false; // the scene's fixed orientation means its roll
+        poses[0].planar = false; // the scene's fixed orientation includes its roll
         run(guidance, poses, rolled, true, 1);
         CHECK(glm::length(guidance.lead(rolled, springs).rotation) == doctest::Approx(0.25));
     }
-    // Opposite axes: half a turn about an axis across both.
+    // Opposite axes: half a turn about a perpendicular axis.
     const dvec3 half = axisTurn({1, 0, 0, 0}, rotationExp({3.14159265358979323846, 0, 0}));
     CHECK(glm::length(half) == doctest::Approx(3.14159265358979));
     CHECK(std::abs(half.z) <= 1e-12);
 }
 
-TEST_CASE("A cut sets the weight to zero in that turn and asks for a fresh press of the button") {
+TEST_CASE("A cut sets the weight to zero in the same tick and requires a new press of the button") {
     const std::vector<GuidancePose> poses{poseAt({0.1, 0, 0})};
     Guidance guidance;
     run(guidance, poses, {}, true, 500);
@@ -197,7 +196,7 @@ TEST_CASE("A cut sets the weight to zero in that turn and asks for a fresh press
     CHECK(guidance.weight() == 1.0);
 }
 
-TEST_CASE("At rest the hand feels F_g at most, and the pull ends where the target is") {
+TEST_CASE("At rest the hand feels at most F_g, and the pull ends at the target") {
     const auto springs = springs1000();
     const std::vector<GuidancePose> poses{poseAt({0.1, 0, 0})};
     Guidance guidance;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hand map: formula, clutch, and that no closed path of the hand draws energy at any scale.
+// The hand map: formula, clutch, and no energy from closed paths of the hand at any scale.
 #include "engine/haptics/coupling.h"
 #include "engine/haptics/hand_map.h"
 #include "engine/types/error.h"
@@ -45,7 +45,7 @@ TEST_CASE(
     Pose raw = randomPose(random);
     map.map(raw, false);
     map.map(raw, true);
-    raw = randomPose(random); // the hand went elsewhere with the clutch down
+    raw = randomPose(random); // the hand moved while the clutch was down
     const Pose before = map.map(raw, false);
     const dvec3 turn = 0.3 * random.direction();
     raw.rotation = glm::conjugate(kTurned) * (rotationExp(turn) * (kTurned * raw.rotation));
@@ -53,7 +53,7 @@ TEST_CASE(
     CHECK(glm::distance(rotationLog(after.rotation * glm::conjugate(before.rotation)), turn) <= 1e-12);
 }
 
-TEST_CASE("The clutch holds the device pose and lets go of it without a jump") {
+TEST_CASE("The clutch holds the device pose and releases it without a jump") {
     Random random(6);
     HandMap map(kTurned, 3.0);
     Pose raw = randomPose(random);
@@ -84,7 +84,7 @@ TEST_CASE("A clutch that is down from the start holds the first pose") {
     CHECK(map.map({{9, 9, 9}, {1, 0, 0, 0}}, true).position == first.position);
 }
 
-TEST_CASE("The wrench on the hand is R^T f and R^T tau / s, and a closed path of the hand draws no energy") {
+TEST_CASE("The wrench on the hand is R^T f and R^T tau / s, and a closed path of the hand gains no energy") {
     Springs springs;
     springs.stiffness = 500.0;
     springs.rotationalStiffness = 0.3;
@@ -94,7 +94,7 @@ TEST_CASE("The wrench on the hand is R^T f and R^T tau / s, and a closed path of
         const Wrench unit = map.toDevice({kTurned * dvec3(1, 0, 0), kTurned * dvec3(0, 2, 0)});
         CHECK(glm::distance(unit.force, {1, 0, 0}) <= 1e-15);
         CHECK(glm::distance(unit.torque, {0, 2.0 / scale, 0}) <= 1e-14);
-        // A loop of the hand that mixes translation and rotation; work by the midpoint rule.
+        // A closed path with translation and rotation; work by the midpoint rule.
         const auto hand = [&](double s) {
             return Pose{dvec3(0.02 * std::sin(s), 0.03 * std::cos(s), 0.01 * std::sin(2.0 * s)) / scale,
                         rotationExp(dvec3(0.2 * std::cos(s), 0.0, 0.0)) *
@@ -117,7 +117,7 @@ TEST_CASE("The wrench on the hand is R^T f and R^T tau / s, and a closed path of
     }
 }
 
-TEST_CASE("A scale that is not positive or a map that is no rotation is refused") {
+TEST_CASE("A scale that is not positive or a map that is not a rotation is rejected") {
     CHECK_THROWS_AS(HandMap({1, 0, 0, 0}, 0.0), Error);
     CHECK_THROWS_AS(HandMap({1, 0, 0, 0}, -1.0), Error);
     CHECK_THROWS_AS(HandMap({1, 0, 0, 0}, std::nan("")), Error);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The checkers themselves: a right answer passes, each kind of wrong answer is caught by its own figure, and
-// the reference solves cases that are known by hand.
+// Tests of the checkers: a correct solution passes, each kind of error raises its own figure, and the
+// reference solves cases known by hand.
 #include "engine/reference/kkt.h"
 #include "engine/reference/nearest_point.h"
 #include "engine/types/error.h"
@@ -23,7 +23,7 @@ const NearestPointProblem kCorner{2, kMetric, kTarget, kNormals, kOffsets};
 
 } // namespace
 
-TEST_CASE("The KKT check passes the right answer and names what is wrong with a wrong one") {
+TEST_CASE("The KKT check passes a correct solution and reports the kind of error of a wrong one") {
     CHECK(checkKkt(kCorner, std::array<double, 2>{1, 2}, std::array<double, 3>{1, 8, 0}).worst() <= 1e-17);
     const auto inside = checkKkt(kCorner, std::array<double, 2>{0.9, 2}, std::array<double, 3>{0.9, 8, 0});
     CHECK(inside.primal > 0.01);
@@ -32,7 +32,7 @@ TEST_CASE("The KKT check passes the right answer and names what is wrong with a 
     const auto unbalanced = checkKkt(kCorner, std::array<double, 2>{1, 2}, std::array<double, 3>{1, 7, 0});
     CHECK(unbalanced.stationarity > 0.01);
     CHECK(unbalanced.primal <= 1e-17);
-    // Feasible and balanced, but held by a row that it does not touch: not the nearest point.
+    // Feasible and balanced, but with a multiplier on an inactive row: not the nearest point.
     const auto slack = checkKkt(kCorner, std::array<double, 2>{1.5, 2}, std::array<double, 3>{1.5, 8, 0});
     CHECK(slack.stationarity <= 1e-17);
     CHECK(slack.primal == 0.0);
@@ -41,7 +41,7 @@ TEST_CASE("The KKT check passes the right answer and names what is wrong with a 
     CHECK_THROWS_AS(checkKkt({2, bad, kTarget, kNormals, kOffsets}, kTarget, std::array<double, 3>{}), Error);
 }
 
-TEST_CASE("The reference finds the corner, leaves a free target alone and sees that walls overlap") {
+TEST_CASE("The reference finds the corner, keeps a free target and detects overlapping walls") {
     const auto corner = nearestPoint(kCorner);
     REQUIRE(corner.feasible);
     CHECK(corner.x[0] == doctest::Approx(1.0).epsilon(1e-15));
@@ -59,7 +59,7 @@ TEST_CASE("The reference finds the corner, leaves a free target alone and sees t
     CHECK_FALSE(nearestPoint({2, kMetric, kTarget, zero, std::array<double, 1>{0.1}}).feasible);
 }
 
-TEST_CASE("Every answer of the reference on random sets obeys the KKT conditions") {
+TEST_CASE("Every solution of the reference on random sets satisfies the KKT conditions") {
     Random random(12);
     int feasible = 0;
     for (int i = 0; i < 1000; ++i) {

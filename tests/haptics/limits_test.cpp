@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits as pure functions, over random wrenches and at their edges.
+// The limit functions, for random wrenches and edge cases.
 #include "engine/haptics/limits.h"
 #include "tests/haptics/constraint_sets.h"
 
@@ -10,7 +10,7 @@
 
 using namespace fathom;
 
-TEST_CASE("Force and torque are shortened as whole vectors and never turned") {
+TEST_CASE("Force and torque are shortened as whole vectors and keep their direction") {
     Random random(1);
     for (int i = 0; i < 5000; ++i) {
         const Wrench wrench{random.uniform(0.0, 50.0) * random.direction(),
@@ -21,7 +21,7 @@ TEST_CASE("Force and torque are shortened as whole vectors and never turned") {
         CHECK(glm::length(glm::cross(out.force, wrench.force)) <= 1e-12 * 2500.0);
         CHECK(glm::dot(out.force, wrench.force) >= 0.0);
         if (glm::length(wrench.force) <= 20.0) {
-            CHECK(out.force == wrench.force); // the force alone: the torque's excess does not touch it
+            CHECK(out.force == wrench.force); // excess torque does not affect the force
         }
         if (glm::length(wrench.torque) <= 2.0) {
             CHECK(out.torque == wrench.torque);
@@ -43,11 +43,11 @@ TEST_CASE("A slewed wrench moves by at most a step, arrives exactly, and stays i
             CHECK(glm::length(next.force) <= 20.0 * (1.0 + 1e-12));
             now = next;
         }
-        CHECK(glm::distance(now.force, wanted.force) <= 1e-12); // 40 N at most, 2 N a turn, 25 turns
+        CHECK(glm::distance(now.force, wanted.force) <= 1e-12); // 40 N at most, 2 N per tick, 25 ticks
     }
 }
 
-TEST_CASE("The low-pass reaches 63.2 percent after 1 / (2 pi f), and off it passes every bit") {
+TEST_CASE("The low-pass reaches 63.2 percent after 1 / (2 pi f), and passes exact values when off") {
     const double period = 0.001, hz = 10.0;
     const double gain = lowPassGain(hz, period);
     Wrench out;
@@ -71,7 +71,7 @@ TEST_CASE("The low-pass reaches 63.2 percent after 1 / (2 pi f), and off it pass
     CHECK(lag == doctest::Approx(lowPassDelayTicks(gain)).epsilon(1e-9));
 }
 
-TEST_CASE("Projection keeps what the handle's motors can do, and the residual is all the rest") {
+TEST_CASE("Projection keeps the wrench that the handle's motors can render, and the residual is the rest") {
     Random random(3);
     const AxisMask noRoll{true, true, true, true, true, false},
         forceOnly{true, true, true, false, false, false};
@@ -93,7 +93,7 @@ TEST_CASE("Projection keeps what the handle's motors can do, and the residual is
     }
 }
 
-TEST_CASE("The finite check sees each of the six numbers") {
+TEST_CASE("The finite check covers each of the six numbers") {
     CHECK(isFinite(Wrench{}));
     for (const double bad :
          {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {

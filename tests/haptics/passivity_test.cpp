@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passivity observer counts what a fixture generates and nothing else, and the controller takes it back
-// by damping.
+// The passivity observer counts only energy that a fixture generates, and the controller dissipates it by
+// damping.
 #include "engine/haptics/passivity.h"
 
 #include "tests/haptics/allocation_count.h"
@@ -23,8 +23,8 @@ namespace {
 
 constexpr double kPeriod = 0.001;
 
-// A hand on a spring: K = 1000 N/m, K_r = 0.4 N m/rad (k = 20 mm), and a device whose damping makes that just
-// passive.
+// A hand on a spring: K = 1000 N/m, K_r = 0.4 N m/rad (k = 20 mm), and a device with just enough damping for
+// passivity.
 struct Loop {
     double stiffness = 1000.0, radius = 0.02;
     PassivityOptions options;
@@ -46,7 +46,7 @@ struct Loop {
         s.metricRadius = radius;
         return s;
     }
-    // One turn: observe, then deliver spring (up to the force limit) and damper.
+    // One tick: observe, then deliver spring (up to the force limit) and damper.
     Wrench step(double share = 1.0) {
         PassivityStep t;
         t.device = t.end = hand;
@@ -75,8 +75,7 @@ void rest(Loop& loop) {
 
 } // namespace
 
-TEST_CASE("On a wall that stands still the controller stays out of it, whatever the hand does, up to the "
-          "passive bound") {
+TEST_CASE("On a static wall the controller stays inactive for any hand motion, up to the passive bound") {
     std::mt19937_64 random(1);
     std::normal_distribution<double> normal;
     for (const double step : {1e-7, 1e-5, 1e-3, 2e-2}) {
@@ -94,7 +93,7 @@ TEST_CASE("On a wall that stands still the controller stays out of it, whatever 
     }
 }
 
-TEST_CASE("Rotations of any size against a tool that is held generate nothing either") {
+TEST_CASE("Rotations of any size against a fixed tool generate nothing either") {
     std::mt19937_64 random(2);
     std::normal_distribution<double> normal;
     Loop loop;
@@ -106,9 +105,9 @@ TEST_CASE("Rotations of any size against a tool that is held generate nothing ei
     CHECK(loop.controller.debt() <= 1e-12);
 }
 
-TEST_CASE("A spring at its force limit stores less, and that is not taken for generation") {
+TEST_CASE("A spring at its force limit stores less, and the difference does not count as generation") {
     Loop loop;
-    for (int i = 0; i < 2000; ++i) { // to 60 mm: three times the limit, and out again
+    for (int i = 0; i < 2000; ++i) { // to 60 mm, three times the limit, and back
         loop.hand.position.z = -0.06 * std::sin(3.14159265358979 * i / 2000.0);
         rest(loop);
         REQUIRE(isZero(loop.step()));
@@ -116,8 +115,8 @@ TEST_CASE("A spring at its force limit stores less, and that is not taken for ge
     CHECK(loop.controller.generated() <= 1e-12);
 }
 
-TEST_CASE("A wall that jumps by delta at penetration p is counted as K p delta + K delta^2 / 2, in that very "
-          "turn") {
+TEST_CASE(
+    "A wall that jumps by delta at penetration p is counted as K p delta + K delta^2 / 2 in the same tick") {
     for (const double jump : {0.0005, 0.002, 0.005}) {
         Loop loop;
         loop.hand.position.z = -0.003;
@@ -129,13 +128,13 @@ TEST_CASE("A wall that jumps by delta at penetration p is counted as K p delta +
         CHECK(loop.controller.debt() ==
               doctest::Approx(loop.controller.generated()).epsilon(0.003)); // forgetting starts
         const double before = loop.controller.debt();
-        loop.tool.position.z = 0.0; // back before the hand could take any of it: nothing is owed
+        loop.tool.position.z = 0.0; // back before the hand received any of it: no debt
         loop.step();
         CHECK(loop.controller.debt() <= 0.01 * before);
     }
 }
 
-TEST_CASE("The damper works against the hand, is capped, and stops when the debt is paid") {
+TEST_CASE("The damper opposes the hand, is capped, and stops when the debt is dissipated") {
     Loop loop;
     loop.hand.position.z = -0.003;
     loop.step();
@@ -156,12 +155,12 @@ TEST_CASE("The damper works against the hand, is capped, and stops when the debt
     }
     CHECK(stopped);
     CHECK(paid <= 0.008);
-    CHECK(paid >= 0.004); // the rest went into the device's own damping and was forgotten
+    CHECK(paid >= 0.004); // the device's own damping and the time constant took the rest
     CHECK(loop.controller.taken() == doctest::Approx(paid).epsilon(1e-9));
 }
 
 TEST_CASE(
-    "Slower than 0.1 mm/s and 1 mrad/s nothing is damped; a turn of the hand is damped by a torque alone") {
+    "Below 0.1 mm/s and 1 mrad/s nothing is damped; a rotation of the hand is damped only by a torque") {
     Loop loop;
     loop.hand.position.z = -0.003;
     loop.step();
@@ -179,8 +178,8 @@ TEST_CASE(
     CHECK(std::abs(damper.torque.x) + std::abs(damper.torque.z) <= 1e-12);
 }
 
-TEST_CASE("Beyond the bound every turn generates (K/2 - b/T) of the square of its step") {
-    Loop loop(0.25); // half of what 1000 N/m needs
+TEST_CASE("Beyond the bound every tick generates (K/2 - b/T) times its squared step") {
+    Loop loop(0.25); // half the damping that 1000 N/m needs
     loop.hand.position.z = -0.001;
     rest(loop);
     loop.step();
@@ -196,13 +195,14 @@ TEST_CASE("Beyond the bound every turn generates (K/2 - b/T) of the square of it
     CHECK(expected > 0.0);
 }
 
-TEST_CASE("With a delay the wrench is paired with the motion that it meets, n turns later") {
+TEST_CASE("With a delay of n ticks the wrench is paired with the motion n ticks later") {
     Loop early(2.0, 0), late(2.0, 3);
     for (Loop* loop : {&early, &late}) {
         loop->hand.position.z = -0.004;
         loop->step();
     }
-    // The first three wrenches have not reached the hand: a hand that leaves in the meantime got nothing.
+    // The first three wrenches have not reached the hand, so a hand that leaves in the meantime receives
+    // nothing.
     for (Loop* loop : {&early, &late}) {
         loop->hand.position.z = 0.001;
         rest(*loop);
@@ -223,7 +223,7 @@ TEST_CASE("With a delay the wrench is paired with the motion that it meets, n tu
     CHECK(late.controller.debt() > early.controller.debt());
 }
 
-TEST_CASE("Ramped out, or fed with numbers that are not, it forgets everything and asks for nothing") {
+TEST_CASE("Faded out, or given NaN, the controller resets and requests no damping") {
     for (const bool bad : {false, true}) {
         Loop loop;
         loop.hand.position.z = -0.003;
@@ -246,8 +246,8 @@ TEST_CASE("Ramped out, or fed with numbers that are not, it forgets everything a
     }
 }
 
-TEST_CASE("b comes from the preset, over the hand map's scale; unknown, it is what the preset's stiffness "
-          "needs at 1 kHz") {
+TEST_CASE("b is the preset's, divided by the hand map's scale; if unknown, the value that the preset's "
+          "stiffness needs at 1 kHz") {
     CouplingOptions coupling;
     coupling.handScale = 2.0;
     const PassivityOptions known = makePassivity(
@@ -261,7 +261,7 @@ TEST_CASE("b comes from the preset, over the hand map's scale; unknown, it is wh
     CHECK(unknown.rotationalDamping == doctest::Approx(springs.rotationalStiffness * 0.0005));
 }
 
-TEST_CASE("No turn of the controller allocates") {
+TEST_CASE("The controller does not allocate") {
     Loop loop;
     const uint64_t before = allocationCount();
     for (int i = 0; i < 500; ++i) {

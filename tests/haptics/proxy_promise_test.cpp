@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The promise of the proxy under violent hands: nothing is entered, however late the contact answers come.
+// The proxy's guarantee under violent hands: no region is entered, however late the contact answers come.
 #include "tests/haptics/proxy_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -28,7 +28,7 @@ struct World {
     Fixtures fixtures;
     Tool tool;
     Pose start;
-    dvec3 focus{0.0};    // where the hand is drawn to, base frame
+    dvec3 focus{0.0};    // attracts the hand, base frame
     double arena = 0.15; // [m]
 };
 
@@ -46,7 +46,7 @@ World corner() {
     return w;
 }
 
-World slot() { // 1 mm of room on each side
+World slot() { // 1 mm of clearance on each side
     World w{"slot", emptySet(), ballTool(0.01), {dvec3(0, 0, 0), kUpright}};
     addWall(w.fixtures, dvec3(0, 0, 0.031), kX, kY, 0.12, 0.005, 0.02);
     addWall(w.fixtures, dvec3(0, 0, -0.031), kX, kY, 0.12, 0.005, 0.02);
@@ -63,7 +63,7 @@ World groove() { // 20 degrees between the walls
     return w;
 }
 
-World needle() { // thin spikes and a thin tool: steps are longer than both
+World needle() { // thin spikes and a thin tool; steps are longer than both
     World w{"needle",
             emptySet(),
             makeTool({{dvec3(0.0), 0.0005}, {dvec3(0, 0, 0.02), 0.0005}}),
@@ -88,7 +88,7 @@ World rubble() {
     return w;
 }
 
-// A hand that is drawn to the arena at up to `speed`, leaps up to 10 m and spins.
+// A hand that is attracted to the arena at up to `speed`, jumps up to 10 m and spins.
 class Hand {
 public:
     Hand(const World& world, double speed, uint64_t seed)
@@ -101,7 +101,7 @@ public:
     Pose next() {
         std::uniform_real_distribution<double> u(0.0, 1.0);
         const double dice = u(random_);
-        if (dice < 0.02) { // off to some place in the arena
+        if (dice < 0.02) { // to a random position in the arena
             const dvec3 way = focus_ + randomIn(random_, arena_) - pose_.position;
             velocity_ = way * (speed_ * u(random_) / std::max(1e-6, glm::length(way)));
             spin_ = randomIn(random_, 20.0);
@@ -161,7 +161,7 @@ Figures run(ProxyRig& rig, Hand& hand, int ticks, uint32_t slowest, double loss,
 
 } // namespace
 
-TEST_CASE("No hand, however violent, and no lateness of the contact answers makes a leaf enter a region") {
+TEST_CASE("No leaf enters a region, however violent the hand and however late the contact answers") {
     World worlds[] = {wall(), corner(), slot(), groove(), needle(), rubble()};
     for (World& world : worlds) {
         for (const double speed : {0.05, 0.5, 5.0}) {

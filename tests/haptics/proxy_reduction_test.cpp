@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fewer rows for the solver: the same optimum where the rest is looked at, and never a leaf in a region.
+// Row reduction: the same optimum when the remaining rows are checked, and never a leaf in a region.
 #include "tests/haptics/proxy_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -18,8 +18,8 @@ struct Walls {
     std::string name;
     Fixtures fixtures;
     dvec3 start;
-    double spread; // [m] of the hand about the start
-    double into;   // [m] downwards from there to the middle of the hand's way
+    double spread; // [m] hand motion about the start
+    double into;   // [m] down from there to the middle of the hand's path
 };
 
 Walls wallCorner() {
@@ -53,11 +53,11 @@ Tool manyLeaves() {
 ProxyOptions optionsOf(const RowReduction& rows) {
     ProxyOptions options;
     options.rows = rows;
-    options.solves = 1; // further ones hang on decisions that rounding takes where a motion gains nothing
+    options.solves = 1; // where a motion gains nothing, later solves depend on rounding
     return options;
 }
 
-// A hand that leans into the regions, wanders and turns.
+// A hand that presses into the regions, wanders and rotates.
 Pose handAt(const Walls& w, int tick) {
     const double t = 0.001 * tick;
     const dvec3 about(std::sin(5.1 * t), std::sin(6.7 * t + 1.0), std::sin(4.3 * t + 2.0));
@@ -66,13 +66,13 @@ Pose handAt(const Walls& w, int tick) {
 }
 
 struct Against {
-    double apart = 0.0;    // [m], a radian as 50 mm: largest difference of one turn from the same pose
+    double apart = 0.0;    // [m], 1 rad = 50 mm: largest difference after one tick from the same pose
     double deepest = -1.0; // [m] of a leaf in a sphere
-    uint32_t contact = 0, several = 0; // turns; several: with more than one active row
-    uint32_t otherRounds = 0;          // turns whose exact check was passed after another number of rounds
+    uint32_t contact = 0, several = 0; // ticks; several: with more than one active row
+    uint32_t otherRounds = 0;          // ticks that passed the exact check after a different number of rounds
 };
 
-// Every turn of each from the pose of the proxy that solves on all rows.
+// Every tick of each proxy starts at the pose of the proxy with all rows.
 std::vector<Against> compare(const Walls& w, const std::vector<RowReduction>& reductions) {
     const Pose start{w.fixtures.origin + w.start, dquat(1, 0, 0, 0)};
     ProxyRig all(manyLeaves(), w.fixtures, start, optionsOf({}));
@@ -107,7 +107,7 @@ std::vector<Against> compare(const Walls& w, const std::vector<RowReduction>& re
 
 } // namespace
 
-TEST_CASE("Solving on few rows with a look at the rest gives the optimum over all rows, turn by turn") {
+TEST_CASE("Solving on few rows and checking the rest gives the optimum over all rows in every tick") {
     std::vector<RowReduction> reductions;
     for (const uint32_t first : {1u, 3u, 8u, 33u}) {
         if (!kSanitized || first == 3) {
@@ -125,7 +125,7 @@ TEST_CASE("Solving on few rows with a look at the rest gives the optimum over al
             const Against& found = all[i];
             CAPTURE(reductions[i].first);
             CHECK(found.apart < 1e-9);
-            CHECK(found.otherRounds < 12); // of 1200: a gap that is 0 but for rounding
+            CHECK(found.otherRounds < 12); // of 1200: gaps that are 0 up to rounding
             CHECK(found.deepest <= 0.0);
             CHECK(found.contact > 300);
             CHECK(found.several > 100);
@@ -133,8 +133,7 @@ TEST_CASE("Solving on few rows with a look at the rest gives the optimum over al
     }
 }
 
-TEST_CASE(
-    "No choice of rows lets a leaf enter a region, and rows left out unseen are told by where they lead") {
+TEST_CASE("No choice of rows lets a leaf enter a region, and skipping rows unchecked changes the path") {
     std::vector<RowReduction> reductions{{2.0, NarrowPhase::kCone, 1, false}};
     if (!kSanitized) {
         reductions.insert(
@@ -155,11 +154,11 @@ TEST_CASE(
             farthest = std::max(farthest, reductions[i].first > 0 ? found[i].apart : 0.0);
         }
     }
-    CHECK(farthest > 1e-6); // else the test above would prove nothing
+    CHECK(farthest > 1e-6); // or the test above would prove nothing
 }
 
-TEST_CASE("Rows up to one step cap alone let nothing in either, and lead elsewhere between walls: why there "
-          "are rows up to two") {
+TEST_CASE(
+    "Rows up to one step cap are safe too but change the path between walls, hence the default of two") {
     for (const Walls& world : {wallCorner(), wallGroove(), wallRubble()}) {
         if (kSanitized && world.name != "rubble") {
             continue;
@@ -167,7 +166,7 @@ TEST_CASE("Rows up to one step cap alone let nothing in either, and lead elsewhe
         CAPTURE(world.name);
         const Against found = compare(world, {{1.0, NarrowPhase::kCone}}).front();
         CHECK(found.deepest <= 0.0);
-        CHECK(found.apart > 1e-4); // [m] in one turn, of a step cap of 2 mm
+        CHECK(found.apart > 1e-4); // [m] in one tick with a step cap of 2 mm
         MESSAGE(world.name << ": up to " << found.apart * 1e3 << " mm a turn elsewhere");
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A tool, a fixture set and a proxy run turn by turn as the haptic cadence would, with contact answers that
-// come late or get lost, and every pose judged by brute force over the whole set.
+// Runs a tool, a fixture set and a proxy tick by tick like the haptic cadence, with late or lost contact
+// answers, and checks every pose by brute force over the whole set.
 #pragma once
 
 #include "engine/contact/behind.h"
@@ -28,15 +28,15 @@ public:
         answer(inForce_);
     }
 
-    // New data; what touches now is allowed, and may only shrink.
+    // New data. Present overlaps are allowed and may only shrink.
     void replace(Fixtures fixtures) {
         fixtures_ = std::move(fixtures);
         grid_.build(fixtures_.spheres);
         pending_.clear();
     }
 
-    // One turn with an answer of a query asked `delay` turns ago (none yet: the old one stays); lost = no
-    // query.
+    // One tick with the answer of the query from `delay` ticks ago (the previous answer if there is none);
+    // lost = no query.
     ProxyStep step(const Pose& target, uint32_t delay = 0, bool lost = false) {
         if (!lost) {
             pending_.push_back({now_ + delay, std::make_unique<ContactSet>()});
@@ -54,11 +54,11 @@ public:
         return proxy_.step({target, metricRadius, &inForce_, {}});
     }
 
-    // The two halves of a turn without delay.
+    // The two halves of a tick without delay.
     void query() { answer(inForce_); }
     ProxyStep turnOnly(const Pose& target) { return proxy_.step({target, metricRadius, &inForce_, {}}); }
 
-    // [m] deeper than any sphere of the set allows; < 0 when clear.
+    // [m] largest depth beyond the allowed one in any sphere; < 0 when clear.
     double depth() const { return -oracleSmallestGap(tool_, proxy_.pose(), fixtures_); }
 
     Proxy& proxy() { return proxy_; }

@@ -66,7 +66,7 @@ TEST_CASE("No hand pushes the tool into a forbidden shape or out of a keep-in sh
     }
 }
 
-TEST_CASE("A shape that already holds the tool lets it out at a millimetre a turn, and never deeper in") {
+TEST_CASE("A shape that already contains the tool pushes it out by 1 mm per tick and never deeper") {
     Shape box;
     box.kind = ShapeKind::Box;
     box.size = dvec3(0.2);
@@ -84,7 +84,7 @@ TEST_CASE("A shape that already holds the tool lets it out at a millimetre a tur
     CHECK(proxy.pose().position.y == doctest::Approx(0.05));
 }
 
-TEST_CASE("On a line the tool's centre stays on it and follows the hand along it, free to turn") {
+TEST_CASE("The tool's centre stays on a line, follows the hand along it and rotates freely") {
     std::mt19937_64 random(62);
     Shape line;
     line.kind = ShapeKind::Line;
@@ -108,7 +108,7 @@ TEST_CASE("On a line the tool's centre stays on it and follows the hand along it
     CHECK(glm::length(rotationLog(proxy.pose().rotation)) < 1e-6);
 }
 
-TEST_CASE("A tool off the line or tilted off the axis is drawn back at most a millimetre a turn") {
+TEST_CASE("A tool off the line or tilted off the axis is pulled back by at most 1 mm per tick") {
     Shape axis;
     axis.kind = ShapeKind::Axis;
     const Tool tool = rod();
@@ -126,7 +126,7 @@ TEST_CASE("A tool off the line or tilted off the axis is drawn back at most a mi
     CHECK(glm::distance(proxy.pose().rotation * dvec3(0, 0, 1), dvec3(0, 0, 1)) < 1e-8);
 }
 
-TEST_CASE("A frame that jumps past the tool brings it out on the camera's side, not through the surface") {
+TEST_CASE("A surface that jumps past the tool moves it out on the camera's side, not through the surface") {
     for (const double noise : {0.0, 0.0005}) {
         for (const double jump : {0.03, 0.045, 0.05, 0.052, 0.054, 0.056, 0.0575, 0.06, 0.08, 0.12}) {
             ProxyRig rig(ballTool(0.01), wallImage(0.5, 1, 0.04, noise), at(dvec3(0.002, 0.001, 0.445)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a haptic turn takes at the size that the budget names: printed, never asserted.
+// Time of a haptic step at the size of the budget: printed, never asserted.
 #include "tests/haptics/proxy_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -10,7 +10,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("The time of a turn of 256 leaves in contact with 60 k spheres is printed") {
+TEST_CASE("The step time of 256 leaves in contact with 60 k spheres is printed") {
     std::mt19937_64 random(21);
     Fixtures fixtures = emptySet();
     std::normal_distribution<double> noise(0.0, 0.0003);
@@ -27,7 +27,7 @@ TEST_CASE("The time of a turn of 256 leaves in contact with 60 k spheres is prin
         uint64_t solves = 0, rounds = 0, bisected = 0, contact = 0;
         Pose hand = rig.proxy().pose();
         for (int k = 0; k < (kSanitized ? 400 : 3000); ++k) {
-            // Presses the tool 2 mm in and drags it round.
+            // Presses the tool 2 mm in and drags it around.
             const double a = speed / 0.08 * 0.001 * k;
             hand.position = dvec3(0.08 * std::cos(a), 0.08 * std::sin(a), k < 200 ? 0.16 - 0.001 * k : 0.0);
             hand.position.z = std::max(hand.position.z, rig.proxy().pose().position.z - 0.002);

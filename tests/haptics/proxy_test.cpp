@@ -23,8 +23,8 @@ Pose at(double x, double y, double z) {
     return {dvec3(x, y, z), kUpright};
 }
 
-// Turns until nothing overlaps; checks that no pair's depth ever grows and that a turn gives back at most 1
-// mm of the deepest. Returns the turns, or limit.
+// Steps until nothing overlaps. Checks that no depth grows and that a tick reduces the deepest by at most 1
+// mm. Returns the number of ticks, or limit.
 int turnsToLeave(ProxyRig& rig, const Pose& target, int limit) {
     double depth = rig.depth();
     for (int k = 1; k <= limit; ++k) {
@@ -60,19 +60,19 @@ TEST_CASE("In free space the tool reaches the hand's pose exactly, rotation incl
     CHECK(rest.pose.position == target.position);
 }
 
-TEST_CASE("A scene without regions of points needs no contact set") {
+TEST_CASE("A scene without regions from points needs no contact set") {
     Proxy proxy(ballTool(0.01), {}, {}, at(1000, 0, 0));
     ProxyStep tick = proxy.step({at(1000, 0.001, 0), 0.1, nullptr, {}});
     CHECK(tick.pose.position == dvec3(1000, 0.001, 0));
     CHECK(!tick.stalled);
 }
 
-TEST_CASE("Along a flat keep-out plane no tangential motion is lost, and the tool rests on it to the skin") {
+TEST_CASE("Along a forbidden plane no tangential motion is lost, and the tool rests on it within the skin") {
     Shape plane;
     plane.kind = ShapeKind::Plane;
     Proxy proxy(ballTool(0.01), std::span(&plane, 1), {}, at(0, 0, 0.0101));
     for (int k = 1; k <= 500; ++k) {
-        const double x = 0.003 * k; // 3 m/s, and 10 m under the surface: the pull down must not slow it
+        const double x = 0.003 * k; // 3 m/s, with the hand 10 m below the surface, which must not slow it
         const ProxyStep tick = proxy.step({at(x, 0, -10.0), 0.1, nullptr, {}});
         CHECK(tick.contact);
         CHECK(tick.pose.position.x == doctest::Approx(x).epsilon(1e-9));
@@ -91,10 +91,10 @@ TEST_CASE("Along a wall of region spheres the tool keeps up with the hand") {
         REQUIRE(rig.depth() <= 0.0);
     }
     MESSAGE("worst lag along the wall [m]: " << worstLag);
-    CHECK(worstLag < 5e-4); // the wall's dimples pull towards their middle
+    CHECK(worstLag < 5e-4); // the dimples of the wall pull towards their centre
 }
 
-TEST_CASE("No leaf travels farther than the step cap in a solve, whatever the hand asks") {
+TEST_CASE("No leaf travels farther than the step cap in a solve, for any target") {
     std::mt19937_64 random(33);
     for (const uint32_t solves : {1u, 2u, 4u}) {
         ProxyOptions options;
@@ -115,8 +115,7 @@ TEST_CASE("No leaf travels farther than the step cap in a solve, whatever the ha
     }
 }
 
-TEST_CASE(
-    "New data over the tool lets it go within the turns that 1 mm a turn allows, and no depth ever grows") {
+TEST_CASE("New data over the tool pushes it out by 1 mm per tick, and no depth ever grows") {
     for (const double over : {0.005, 0.012, 0.02, 0.03, 0.045}) {
         ProxyRig rig(ballTool(0.01), flatWall(-0.001), at(0.001, 0.0013, 0.0501));
         rig.replace(flatWall(over, 2));
@@ -124,13 +123,13 @@ TEST_CASE(
         REQUIRE(depth > over - 0.002);
         const int ticks = turnsToLeave(rig, rig.proxy().pose(), 200);
         MESSAGE((over * 1e3) << " mm: " << ticks << " turns");
-        CHECK(ticks >= static_cast<int>(depth / 0.002)); // 2 mm of travel a turn at most
+        CHECK(ticks >= static_cast<int>(depth / 0.002)); // at most 2 mm of travel per tick
         CHECK(ticks <= static_cast<int>(std::ceil(depth / 0.001)) + 3);
         CHECK(rig.proxy().pose().position.z > over);
     }
 }
 
-TEST_CASE("A many-leaved tool under new data leaves too, pressed or not") {
+TEST_CASE("A tool with many leaves also leaves new data, pressed or not") {
     std::mt19937_64 random(34);
     const Tool tool = randomTool(random, 60, 0.03, 0.008);
     for (const double press : {0.0, 0.01, 10.0}) {
@@ -147,7 +146,8 @@ TEST_CASE("A many-leaved tool under new data leaves too, pressed or not") {
     }
 }
 
-TEST_CASE("Between two walls that leave no room the tool is trapped and held, and leaves when one goes") {
+TEST_CASE(
+    "Between two walls without clearance the tool is trapped and held, and leaves when one is removed") {
     Fixtures squeeze = flatWall(0.0, 2);
     addWall(squeeze, dvec3(0, 0, 0.095), kX, kY, 0.12, 0.004, 0.04);
     ProxyRig rig(ballTool(0.01), flatWall(-0.003), at(0.002, 0.002, 0.0475));
@@ -168,7 +168,7 @@ TEST_CASE("Between two walls that leave no room the tool is trapped and held, an
 }
 
 TEST_CASE(
-    "Without answers the tool stops at the edge of the trust region, is let back, and says that it stalled") {
+    "Without answers the tool stops at the edge of the trust region, can move back, and reports the stall") {
     ProxyRig rig(ballTool(0.01), flatWall(-1.0), at(0, 0, 0));
     uint64_t stalled = 0;
     for (int k = 0; k < 20; ++k) {
@@ -183,8 +183,7 @@ TEST_CASE(
     CHECK(rig.step(at(0.001, 0, 0), 0, true).pose.position == dvec3(0.001, 0, 0));
 }
 
-TEST_CASE(
-    "A set found too far from where the tool is now is not covered, and using it all the same is reported") {
+TEST_CASE("A set from too far away does not cover the tool, and using it anyway is reported") {
     ProxyRig rig(ballTool(0.01), flatWall(0.0), at(0, 0, 0.06));
     ContactSet far = rig.inForce();
     rig.proxy().setPose(at(0, 0.0, 0.0705));
@@ -195,7 +194,7 @@ TEST_CASE(
     CHECK(!rig.step(at(0, 0, 0.065), 0, true).uncovered);
 }
 
-TEST_CASE("The turn ends on its deadline, after one solve at least") {
+TEST_CASE("The step ends at its deadline, after at least one solve") {
     ProxyRig rig(ballTool(0.01), emptySet(), at(0, 0, 0));
     const auto always = [](const void*) { return true; };
     const ProxyStep tick = rig.proxy().step({at(0.1, 0, 0), 0.1, &rig.inForce(), {always, nullptr}});
@@ -219,7 +218,7 @@ TEST_CASE("A target that is not finite, or a set of another tool, holds the tool
               .solves > 0);
 }
 
-TEST_CASE("The rows that push balance the way that is left: multipliers times rows are M (x - x_u)") {
+TEST_CASE("Multipliers times active rows equal M (x - x_u)") {
     ProxyRig rig(ballTool(0.01), flatWall(0.0), at(0.001, 0.0005, 0.0503));
     ProxyStep tick;
     for (int k = 0; k < 20; ++k) {
@@ -237,7 +236,7 @@ TEST_CASE("The rows that push balance the way that is left: multipliers times ro
     CHECK(tick.minGap < 1e-6);
 }
 
-TEST_CASE("Tools of 1000 leaves flat on a wall obey it although there are more contacts than rows") {
+TEST_CASE("Tools of 1000 leaves flat on a wall do not enter it although there are more contacts than rows") {
     std::vector<Sphere> leaves;
     for (int i = 0; i < 32; ++i) {
         for (int j = 0; j < 32; ++j) {

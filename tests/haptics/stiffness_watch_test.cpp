@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The automatic stiffness follows the bound of turns that come slower than planned, smoothly, and nothing
-// else changes it.
+// The automatic stiffness follows the bound of slower ticks smoothly, and nothing else changes it.
 #include "engine/haptics/stiffness_watch.h"
 
 #include <doctest/doctest.h>
@@ -25,7 +24,7 @@ void run(StiffnessWatch& watch, double period, double seconds) {
 
 } // namespace
 
-TEST_CASE("As planned, or with nothing measured, the springs stay what they are to the last bit") {
+TEST_CASE("At the planned rate, or without a measurement, the springs do not change by a bit") {
     CouplingOptions options;
     options.toolRadius = 0.05;
     StiffnessWatch watch = watchOf(options);
@@ -41,7 +40,7 @@ TEST_CASE("As planned, or with nothing measured, the springs stay what they are 
     }
 }
 
-TEST_CASE("Turns of 2 ms halve the stiffness within its time, never in a step, and it comes back") {
+TEST_CASE("Ticks of 2 ms halve the stiffness in a ramp, and it recovers afterwards") {
     CouplingOptions options;
     options.toolRadius = 0.05;
     StiffnessWatch watch = watchOf(options);
@@ -62,7 +61,7 @@ TEST_CASE("Turns of 2 ms halve the stiffness within its time, never in a step, a
     CHECK(watch.springs().stiffness == doctest::Approx(1000.0).epsilon(1e-9));
 }
 
-TEST_CASE("K_r has a bound of its own, and k follows the two") {
+TEST_CASE("K_r has its own bound, and k follows both springs") {
     CouplingOptions options;
     options.toolRadius = 0.2; // k0^2 K_t = 40: cut to 20 by b_r
     StiffnessWatch watch = watchOf(options);
@@ -73,7 +72,7 @@ TEST_CASE("K_r has a bound of its own, and k follows the two") {
     CHECK(watch.springs().metricRadius == doctest::Approx(std::sqrt(10.0 / 500.0)));
 }
 
-TEST_CASE("One turn that comes late takes little, and half of an hour-long stall leaves something") {
+TEST_CASE("One late tick lowers the stiffness only slightly, and an hour-long stall leaves some of it") {
     CouplingOptions options;
     StiffnessWatch watch = watchOf(options);
     run(watch, 0.001, 0.5);
@@ -88,7 +87,7 @@ TEST_CASE("One turn that comes late takes little, and half of an hour-long stall
     CHECK(std::isfinite(watch.springs().metricRadius));
 }
 
-TEST_CASE("A stiffness that the user gave, and a device whose b nobody knows, are left alone") {
+TEST_CASE("A user-given stiffness and a device with unknown b are not adapted") {
     CouplingOptions options;
     options.stiffness = 900.0;
     StiffnessWatch given = watchOf(options);
@@ -99,7 +98,7 @@ TEST_CASE("A stiffness that the user gave, and a device whose b nobody knows, ar
     CHECK(unknown.springs().stiffness == 400.0);
 }
 
-TEST_CASE("The bound counts delay and the share of guidance") {
+TEST_CASE("The bound includes delay and the share of guidance") {
     CouplingOptions options;
     options.delayTicks = 1.0;
     options.paperGuidance = true;
@@ -111,8 +110,8 @@ TEST_CASE("The bound counts delay and the share of guidance") {
     CHECK(watch.springs().guidanceStiffness == doctest::Approx(0.5 * planned.guidanceStiffness));
 }
 
-TEST_CASE("The automatic stiffness is one that the slew limits can follow at 0.25 m/s and 2.5 rad/s; a given "
-          "one is not cut") {
+TEST_CASE("The slew limits can follow the automatic stiffness at 0.25 m/s and 2.5 rad/s; a given one is not "
+          "reduced") {
     CouplingOptions options;
     options.toolRadius = 1.0;
     options.slewForce = 100.0, options.slewTorque = 5.0;
