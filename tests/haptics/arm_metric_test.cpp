@@ -183,7 +183,7 @@ TEST_CASE("No leaf of a fast arm exceeds the step caps of a tick or enters a reg
         }
         deepest = std::max(deepest, world.depth(arm, proxy.frames()));
     }
-    MESSAGE("farthest " << farthest * 1e3 << " mm a turn, deepest " << deepest * 1e6 << " um");
+    MESSAGE("farthest " << farthest * 1e3 << " mm per tick, deepest " << deepest * 1e6 << " um");
     CHECK(farthest <= options.solves * options.stepCap * (1.0 + 1e-9));
     CHECK(farthest > options.stepCap); // the arm was fast
     CHECK(deepest <= 1e-9);

@@ -119,7 +119,7 @@ TEST_CASE("No leaf of any link enters any of hundreds of spheres under a wild ha
             trapped += tick.trapped ? 1 : 0;
         }
         MESSAGE(joints << " joints: deepest " << 1e6 * deepest << " um, in contact " << touching
-                       << " of 2500 turns");
+                       << " of 2500 ticks");
         CHECK(deepest <= 1e-9);
         CHECK(worst == 0.0);
         CHECK(touching > 200);
@@ -248,7 +248,7 @@ TEST_CASE("A tick of a whole arm does not allocate; its time by leaf count is pr
             allocated += allocationCount() - held;
         }
         std::sort(micros.begin(), micros.end());
-        MESSAGE(leaves << " leaves: turn p50 " << micros[150] << " us, p99 " << micros[297] << " us");
+        MESSAGE(leaves << " leaves: step p50 " << micros[150] << " us, p99 " << micros[297] << " us");
         CHECK(world.depth(arm, proxy.frames()) <= 1e-9);
         CHECK(allocated == 0);
     }

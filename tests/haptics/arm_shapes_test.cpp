@@ -79,7 +79,7 @@ TEST_CASE("No leaf of any link enters a forbidden shape or leaves a keep-in shap
             CHECK(active.multiplier > 0.0);
         }
     }
-    MESSAGE("deepest " << 1e6 * deepest << " um, in contact " << touching << " of 3000 turns");
+    MESSAGE("deepest " << 1e6 * deepest << " um, in contact " << touching << " of 3000 ticks");
     CHECK(deepest <= 1e-9);
     CHECK(touching > 300);
     CHECK(trapped == 0);

@@ -167,6 +167,6 @@ TEST_CASE(
         const Against found = compare(world, {{1.0, NarrowPhase::kCone}}).front();
         CHECK(found.deepest <= 0.0);
         CHECK(found.apart > 1e-4); // [m] in one tick with a step cap of 2 mm
-        MESSAGE(world.name << ": up to " << found.apart * 1e3 << " mm a turn elsewhere");
+        MESSAGE(world.name << ": up to " << found.apart * 1e3 << " mm per tick difference");
     }
 }

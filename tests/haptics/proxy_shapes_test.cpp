@@ -141,7 +141,7 @@ TEST_CASE("A surface that jumps past the tool moves it out on the camera's side,
                 flagged = flagged || !rig.inForce().behind.empty();
                 ++ticks;
             }
-            MESSAGE("noise " << noise << " jump " << (jump * 1e3) << " mm: " << ticks << " turns, flagged "
+            MESSAGE("noise " << noise << " jump " << (jump * 1e3) << " mm: " << ticks << " ticks, flagged "
                              << flagged << ", ends " << (front - rig.proxy().pose().position.z) * 1e3
                              << " mm in front");
             CHECK(ticks < 400);

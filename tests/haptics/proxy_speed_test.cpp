@@ -44,7 +44,7 @@ TEST_CASE("The step time of 256 leaves in contact with 60 k spheres is printed")
             REQUIRE(tick.minGap >= 0.0);
         }
         std::sort(times.begin(), times.end());
-        MESSAGE(speed << " m/s, " << rig.inForce().pairSphere.size() << " pairs: turn p50 "
+        MESSAGE(speed << " m/s, " << rig.inForce().pairSphere.size() << " pairs: step p50 "
                       << times[times.size() / 2] << " p99 " << times[times.size() * 99 / 100]
                       << " us; solves " << solves << " rounds " << rounds << " bisected " << bisected
                       << " in contact " << contact << " of " << times.size());

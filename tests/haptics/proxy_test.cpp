@@ -122,7 +122,7 @@ TEST_CASE("New data over the tool pushes it out by 1 mm per tick, and no depth e
         const double depth = rig.depth();
         REQUIRE(depth > over - 0.002);
         const int ticks = turnsToLeave(rig, rig.proxy().pose(), 200);
-        MESSAGE((over * 1e3) << " mm: " << ticks << " turns");
+        MESSAGE((over * 1e3) << " mm: " << ticks << " ticks");
         CHECK(ticks >= static_cast<int>(depth / 0.002)); // at most 2 mm of travel per tick
         CHECK(ticks <= static_cast<int>(std::ceil(depth / 0.001)) + 3);
         CHECK(rig.proxy().pose().position.z > over);
@@ -141,7 +141,7 @@ TEST_CASE("A tool with many leaves also leaves new data, pressed or not") {
         Pose target = rig.proxy().pose();
         target.position.z -= press;
         const int ticks = turnsToLeave(rig, target, 200);
-        MESSAGE("depth " << depth * 1e3 << " mm, pressed " << press << " m: " << ticks << " turns");
+        MESSAGE("depth " << depth * 1e3 << " mm, pressed " << press << " m: " << ticks << " ticks");
         CHECK(ticks <= static_cast<int>(std::ceil(depth / 0.001)) + 8);
     }
 }
