@@ -67,11 +67,11 @@ int run(int argc, char** argv) {
     app.require_subcommand(1);
     fathom::GlobalOptions global;
     app.add_option("--device", global.device, "Vulkan device: part of its name, or its index");
-    app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and turns");
+    app.add_option("--trace", global.trace, "write a Chrome trace (JSON) of passes, queries and ticks");
     app.add_flag("--validate", global.validate,
-                 "Vulkan validation, synchronisation included; a message ends in exit code 1");
+                 "enable Vulkan validation with synchronisation; any message gives exit code 1");
     app.add_flag("--hold-clock", global.holdClock,
-                 "keep an NVIDIA GPU at its full clock while it waits for pictures; takes power");
+                 "keep an NVIDIA GPU at full clock while it waits for frames; uses more power");
     app.add_flag("-v,--verbose", global.verbose, "log more");
     app.set_version_flag("--version", std::string("fathom ") + fathom::version(), "print the version");
     app.fallthrough();
@@ -110,7 +110,7 @@ int judged(int result) {
     if (messages == 0) {
         return result;
     }
-    std::cerr << "fathom: " << messages << " messages of Vulkan validation\n";
+    std::cerr << "fathom: " << messages << " Vulkan validation messages\n";
     return result == 0 ? 1 : result;
 }
 

@@ -89,7 +89,7 @@ public:
         }
         if (fault) {
             throw BadInput("arm-simulator", "--link", link_.string() + ": " + fault.message(),
-                           "a name that is free, in a folder that can be written");
+                           "an unused name in a writable folder");
         }
     }
     Link(const Link&) = delete;
@@ -139,12 +139,14 @@ void runSimulator(const SimulatorOptions& options) {
 void addArmSimulatorCommand(CLI::App& app) {
     auto options = std::make_shared<SimulatorOptions>();
     CLI::App* command =
-        app.add_subcommand("arm-simulator", "an arm that is not there, on a pseudo-terminal, for --arm");
-    command->add_option("PROTOCOL", options->protocol, "as the scene's arm.driver: reach_alpha5 or eca_5e")
+        app.add_subcommand("arm-simulator", "simulate an arm on a pseudo-terminal, for use with --arm");
+    command
+        ->add_option("PROTOCOL", options->protocol,
+                     "protocol, as in the scene's arm.driver: reach_alpha5 or eca_5e")
         ->required()
         ->check(CLI::IsMember({"reach_alpha5", "eca_5e"}));
-    command->add_option("--link", options->link, "a symbolic link that leads to it while it runs");
-    command->add_option("--seconds", options->seconds, "end after so long (0: until Ctrl-C)")
+    command->add_option("--link", options->link, "symbolic link to the terminal while the command runs");
+    command->add_option("--seconds", options->seconds, "end after this time [s] (0: until Ctrl-C)")
         ->check(CLI::Range(0.0, 86400.0));
     command->callback([options] { runSimulator(*options); });
 }

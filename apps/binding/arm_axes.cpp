@@ -86,7 +86,8 @@ double ArmAxes::lag(const ArmPosture& wanted, const ArmPosture& measured) const 
 
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig) {
     if (!scene.arm || !scene.arm->driver) {
-        throw BadInput(scene.file.string(), "arm.driver", "missing", "a driver, where --arm names a line");
+        throw BadInput(scene.file.string(), "arm.driver", "missing",
+                       "a driver, because --arm names a serial port");
     }
     const Driver& driver = *scene.arm->driver;
     ArmAxes axes;
@@ -101,7 +102,7 @@ ArmAxes armAxes(const Scene& scene, const ArmRig& rig) {
     for (size_t k = 0; k < found.size(); ++k) {
         if (!found[k]) {
             throw BadInput(scene.file.string(), "arm.driver.axes",
-                           "joint '" + rig.model.joints[k].name + "' has none", "an axis for every joint");
+                           "joint '" + rig.model.joints[k].name + "' has none", "one axis per joint");
         }
     }
     if (driver.jaws) {

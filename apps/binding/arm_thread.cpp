@@ -46,7 +46,7 @@ std::unique_ptr<ArmDevice> deviceFor(const SceneArm::Driver& driver, SerialPort&
 std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port) {
     if (rig == nullptr) {
         throw BadInput(scene.file.string(), "arm", "missing",
-                       "an arm with a driver, where --arm names a line");
+                       "an arm with a driver, because --arm names a serial port");
     }
     return std::make_unique<ArmThread>(scene, *rig, port);
 }
@@ -101,7 +101,7 @@ void ArmThread::awaitWatchdog(const std::atomic<bool>& stop) {
     const auto until = Clock::now() + kWatchdogStart;
     while (!line_->watchdog->stands()) {
         if (stop.load() || line_->watchdog->ended() || Clock::now() > until) {
-            throw Error(description() + ": its guardian does not start");
+            throw Error(description() + ": its watchdog process does not start");
         }
         std::this_thread::sleep_for(kPause);
     }
@@ -114,7 +114,7 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
     bool told = false;
     for (double now = began;; now = secondsAt(Clock::now())) {
         if (!guarded(now)) {
-            throw Error(description() + ": its guardian was ended");
+            throw Error(description() + ": its watchdog process ended");
         }
         const bool ready = follower_->home(now);
         const ArmFeedback& feedback = line_->device->feedback();
@@ -125,19 +125,19 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
             return posture;
         }
         if (!told && !feedback.stale) {
-            log::warn("{}: homing, each joint goes to its stop; nothing looks at what is in its way",
-                      description());
+            log::warn("{}: homing: each joint moves to its stop without collision checks", description());
             told = true;
         }
         if (stop.load()) {
             throw Error(description() + ": stopped before it was ready");
         }
         if (line_->port.gone() || now - heard > kNoAnswer) {
-            throw DeviceLost(description() + (line_->port.gone() ? ": the line is gone" : ": no answer"));
+            throw DeviceLost(description() +
+                             (line_->port.gone() ? ": the serial port is gone" : ": no answer"));
         }
         if (feedback.overloaded || now - began > kHomingTime) {
-            throw DeviceLost(description() +
-                             (feedback.overloaded ? ": a motor draws too much" : ": no stop was found"));
+            throw DeviceLost(description() + (feedback.overloaded ? ": a motor draws too much current"
+                                                                  : ": no end stop was found"));
         }
         std::this_thread::sleep_for(kPause);
     }
@@ -170,7 +170,7 @@ bool ArmThread::guarded(double now) noexcept {
     }
     nextWatchdog_ = now + kRetry;
     try {
-        log::warn("{}: its guardian was ended; the arm is held until there is another", description());
+        log::warn("{}: its watchdog process ended; the arm is held until a new one runs", description());
         watchdog = std::make_unique<ArmWatchdog>(line_->port, driver_.protocol);
     } catch (const std::exception&) { // no process to be had now
         watchdog.reset();
@@ -203,11 +203,11 @@ void ArmThread::note(const ArmStatus& told, double now) {
         return;
     }
     if (isFault(told.state)) {
-        log::warn("{}: {}: it is held, the tool stands still, forces go", description(),
+        log::warn("{}: {}: the arm and the tool are held, forces fade out", description(),
                   armStateName(told.state));
         quietUntil_ = now + kQuiet;
     } else if (isFault(noted_)) {
-        log::warn("{}: can follow again", description());
+        log::warn("{}: follows again", description());
     }
     noted_ = told.state;
 }

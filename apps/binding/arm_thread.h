@@ -16,7 +16,7 @@ namespace fathom {
 
 // What --arm takes.
 inline constexpr const char* kArmHelp =
-    "the serial line of the real arm that the scene's arm.driver describes: it moves";
+    "serial port of the real arm in the scene's arm.driver; the arm moves";
 
 class ArmThread;
 
@@ -41,7 +41,7 @@ public:
 
     ArmLink& link() { return link_; }
     std::string description() const; // protocol and line
-    // Any thread: the line is gone and has not come back.
+    // Any thread: the serial port is gone and has not come back.
     bool gone() const { return gone_.load(std::memory_order_relaxed); }
 
 private:

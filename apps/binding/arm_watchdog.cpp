@@ -42,7 +42,7 @@ ArmWatchdog::ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol prot
     }
     if (fault != 0) {
         ::close(socket_);
-        throw Error(std::string("no guardian for the arm: ") + std::strerror(fault));
+        throw Error(std::string("no watchdog process for the arm: ") + std::strerror(fault));
     }
 }
 

@@ -13,7 +13,7 @@ namespace fathom {
 
 // What --hand-device takes.
 inline constexpr const char* kHandHelp =
-    "a live hand: falcon, haply, spacemouse[:/dev/hidrawN], or the socket of a bridge's door";
+    "a live hand: falcon, haply, spacemouse[:/dev/hidrawN], or the socket of a bridge";
 
 // name: "falcon" or "haply" (the default door of `fathom guard` of it), "spacemouse",
 // "spacemouse:/dev/hidrawN", or the path of a hand door. The device's own preset takes the place of the

@@ -23,7 +23,7 @@ namespace fathom {
 namespace {
 
 void warnOutside(const std::filesystem::path& scene, const std::string& path) {
-    log::warn("{}: '{}' leads out of the scene file's folder", scene.string(), path);
+    log::warn("{}: '{}' is outside the scene file's folder", scene.string(), path);
 }
 
 std::unique_ptr<Camera> openSimulated(const Scene& scene) {

@@ -13,7 +13,7 @@ namespace fathom {
 
 // What --source takes.
 inline constexpr const char* kSourceHelp =
-    "in place of the scene's camera: a recording folder, a ROS bag, "
+    "instead of the scene's camera: a recording folder, a ROS bag, "
     "an organised PCD, an .oni file, or a live camera as v4l2:auto or openni2";
 
 // Of a live camera: the newest at each call, or every one in order (for recordings).

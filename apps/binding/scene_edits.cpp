@@ -25,7 +25,7 @@ constexpr const char* kSpareName = "(spare "; // in a recording's scene files; w
 Scene sceneNamed(const std::filesystem::path& file, const TextLine& line, std::string_view name) {
     const std::filesystem::path path(name);
     if (path.empty() || path != path.filename()) {
-        refuse(file, line, "scene", name, "the name of a scene file beside it");
+        refuse(file, line, "scene", name, "the name of a scene file in the same folder");
     }
     return openScene(file.parent_path() / path);
 }
@@ -34,7 +34,7 @@ void hold(Scene& scene, const std::filesystem::path& file, const TextLine& line,
     for (const std::string_view word : splitWords(rows)) {
         uint32_t row = 0;
         if (!parseNumber(word, row) || row >= scene.fixtures.size() || !scene.fixtures[row].isPoints()) {
-            refuse(file, line, "held", word, "rows of classes of points in the scene, from 0");
+            refuse(file, line, "held", word, "row of a point class in the scene, from 0");
         }
         scene.fixtures[row].frozen = true;
     }
@@ -87,11 +87,11 @@ SceneEdits::SceneEdits(const std::filesystem::path& folder) {
         SceneEdit edit = readEdit(file, lines[i]);
         if (i == 1 ? edit.image != 0 : edit.image < edits_.back().image) {
             refuse(file, lines[i], "picture", std::to_string(edit.image),
-                   i == 1 ? "0: the scene of the start" : "none before the row above");
+                   i == 1 ? "0: the scene at the start" : "no earlier than the previous row");
         }
         if (i > 1 && cloud::classRows(edit.scene) != cloud::classRows(edits_.front().scene)) {
             refuse(file, lines[i], "scene", edit.scene.file.filename().string(),
-                   "classes of points in the rows that they have in the first scene");
+                   "the point classes in the same rows as in the first scene");
         }
         edits_.push_back(std::move(edit));
     }

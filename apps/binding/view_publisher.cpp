@@ -47,7 +47,7 @@ uint32_t kindOf(ShapeKind kind) {
     case ShapeKind::None:
         break;
     }
-    throw Error("a fixture of points is no shape");
+    throw Error("a point class is not a shape");
 }
 
 fathom_door_fixture rowOf(const Shape& shape) {

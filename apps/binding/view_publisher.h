@@ -13,7 +13,7 @@
 namespace fathom {
 
 inline constexpr const char* kViewEndpointHelp =
-    "a socket where observers get every turn and fixture set (devices/bridge)";
+    "socket that sends every tick and fixture set to observers (devices/bridge)";
 
 // One thread, the writer's, but for setShapes() and forget().
 class ViewPublisher {

@@ -31,8 +31,8 @@ public:
             return "";
         }
         told_ = there;
-        return name_ + (there ? ": back; the tool goes on from where it is"
-                              : ": gone or silent: forces go, the tool stays; it is looked for");
+        return name_ + (there ? ": back; the tool resumes from its position"
+                              : ": gone or silent: forces fade out, the tool stays; reconnecting");
     }
 
 private:

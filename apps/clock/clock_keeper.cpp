@@ -52,7 +52,7 @@ ClockKeeper::ClockKeeper(const GlobalOptions& options, const DeviceFacts& device
     life_ = life[1], answer_ = answer[0];
     if (fault != 0) {
         process_ = -1;
-        log::warn("--hold-clock: the clock of '{}' is not held: {}", device.name, std::strerror(fault));
+        log::warn("--hold-clock: cannot lock the clock of '{}': {}", device.name, std::strerror(fault));
     }
 }
 

@@ -44,7 +44,7 @@ public:
                 return;
             }
         }
-        throw Error("no CUDA device has its id " + id);
+        throw Error("no CUDA device has the id " + id);
     }
 
 private:
@@ -75,7 +75,7 @@ void keepClock(const std::string& id, const std::string& name) {
     try {
         CudaDriver().occupy(id);
     } catch (const Error& e) {
-        log::warn("--hold-clock: the clock of '{}' is not held: {}", name, e.what());
+        log::warn("--hold-clock: cannot lock the clock of '{}': {}", name, e.what());
         return;
     }
     char byte = kClockHeld;
@@ -92,10 +92,10 @@ void addKeepClockCommand(CLI::App& app) {
         std::string id, name;
     };
     auto request = std::make_shared<Request>();
-    CLI::App* command = app.add_subcommand(kKeepClockCommand, "holds a GPU's clock");
+    CLI::App* command = app.add_subcommand(kKeepClockCommand, "lock a GPU's clock");
     command->group(""); // not in the help
     command->add_option("ID", request->id, "Vulkan's deviceUUID, 32 hexadecimal digits")->required();
-    command->add_option("NAME", request->name, "of the device, for messages")->required();
+    command->add_option("NAME", request->name, "device name, for messages")->required();
     command->callback([request] { keepClock(request->id, request->name); });
 }
 

@@ -20,7 +20,7 @@ void printComputeDevices(std::ostream& out, const GlobalOptions& global) {
         for (const std::string& line : gpu::Device::list(instance)) {
             out << "compute " << line << "\n";
             if (line.find(", refused: ") == std::string::npos) {
-                out << "          --device " << index << ", or a part of its name\n";
+                out << "          --device " << index << ", or part of its name\n";
             }
             ++index;
         }
@@ -33,7 +33,7 @@ void printComputeDevices(std::ostream& out, const GlobalOptions& global) {
 
 void addDevicesCommand(CLI::App& app, const GlobalOptions& global) {
     CLI::App* command = app.add_subcommand(
-        "devices", "list cameras, haptic devices and compute devices, with what stops them");
+        "devices", "list cameras, haptic devices and compute devices, and why any cannot be used");
     command->callback([&global] {
         const char* folder = std::getenv("XDG_RUNTIME_DIR");
         printHandDevices(std::cout, "/", folder != nullptr ? folder : "");

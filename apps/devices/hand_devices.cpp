@@ -56,7 +56,7 @@ std::string cameraCapability(const std::filesystem::path& file) {
         if (!depth.empty()) {
             return "depth " + depth + "; --source v4l2:" + file.string();
         }
-        return colour.empty() ? "REFUSED: no format that is read as depth or colour; it has " + node.offer()
+        return colour.empty() ? "REFUSED: no supported depth or colour format; it has " + node.offer()
                               : "colour only: " + colour + "; --source v4l2:DEPTH,colour=" + file.string();
     } catch (const BadInput& e) {
         return std::string("REFUSED: ") + e.what();
@@ -78,7 +78,7 @@ std::string capabilityOf(const DeviceFile& file) {
     case DeviceFile::Kind::SpaceMouse:
         return axesOf("none") + "; --hand-device spacemouse:" + file.node.string();
     case DeviceFile::Kind::SerialPort:
-        return "may be opened; a manipulator could be there: which one, no port can tell; --arm " +
+        return "can be opened; may connect a manipulator (a port cannot identify it); --arm " +
                file.node.string();
     case DeviceFile::Kind::OpenNi:
         return openNiCapability(file);
@@ -114,7 +114,7 @@ int printEndpoints(std::ostream& out, const std::filesystem::path& folder) {
         const int refused = DeviceSocket::tryConnect(path, endpoint);
         out << "door    " << path.string() << "\n          "
             << (refused == 0              ? "a bridge listens; --hand-device " + path.string()
-                : refused == ECONNREFUSED ? std::string("REFUSED: the bridge that made it is gone")
+                : refused == ECONNREFUSED ? std::string("REFUSED: its bridge has ended")
                                           : std::string("REFUSED: ") + std::strerror(refused))
             << "\n";
     }
@@ -133,7 +133,7 @@ void printHandDevices(std::ostream& out, const std::filesystem::path& root,
         print(out, file);
     }
     if (files.empty() && printEndpoints(out, endpoints) == 0) {
-        out << "no camera, haptic device or door found\n";
+        out << "no camera, haptic device or bridge socket found\n";
     } else if (!files.empty()) {
         printEndpoints(out, endpoints);
     }

@@ -26,13 +26,12 @@ void guardArm(const std::string& protocol) {
     socklen_t size = sizeof kind;
     if (::getsockopt(kWatchdogEngine, SOL_SOCKET, SO_TYPE, &kind, &size) != 0 ||
         ::isatty(kWatchdogLine) == 0) {
-        throw BadInput(kArmWatchdogCommand, "who starts it", "a person", "this program, for a real arm");
+        throw BadInput(kArmWatchdogCommand, "started by", "a user", "this program, for a real arm");
     }
     const bool reach = protocol == protocolName(Protocol::ReachAlpha5);
     const int found = guardLine(kWatchdogEngine, kWatchdogLine, reach ? reachStandStill() : ecaStandStill());
     if (found > 0) {
-        log::warn("arm's guardian: the engine ended or was silent for {} s, {} times: the arm was told to "
-                  "stand still",
+        log::warn("arm watchdog: the engine ended or was silent for {} s, {} times: the arm was stopped",
                   LineGuard::kSilence, found);
     }
 }
@@ -41,7 +40,7 @@ void guardArm(const std::string& protocol) {
 
 void addArmWatchdogCommand(CLI::App& app) {
     auto protocol = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand(kArmWatchdogCommand, "holds a real arm when the engine is killed");
+    CLI::App* command = app.add_subcommand(kArmWatchdogCommand, "stop a real arm when the engine ends");
     command->group(""); // not in the help
     command->add_option("PROTOCOL", *protocol)
         ->required()

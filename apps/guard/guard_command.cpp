@@ -31,7 +31,7 @@ void hurry() {
     placement.haptic = placement.all;
     const std::string refused = makeHapticThread(placement);
     if (!refused.empty()) {
-        log::warn("guard: refused {}; the exchange will be slower at times", refused);
+        log::warn("guard: no permission for {}; the exchange may be slower at times", refused);
     }
 }
 
@@ -44,7 +44,7 @@ void runGuard(Guard& guard, const GuardOptions& options, const StopSignals& sign
     const auto& f = guard.figures();
     std::cout << "ended with zero force after " << f.replies << " exchanges; " << f.late << " answers late, "
               << f.faults << " packets broken, " << guard.losses() << " times unplugged, "
-              << guard.endpoint().gate().silences() << " silences of the engine" << std::endl;
+              << guard.endpoint().gate().silences() << " engine timeouts" << std::endl;
 }
 
 HaplyGuard::Options haplyOptions(const GuardOptions& options, const std::filesystem::path& endpoint) {
@@ -76,16 +76,16 @@ void guardDevice(const GuardOptions& options) {
 
 void addGuardCommand(CLI::App& app) {
     auto options = std::make_shared<GuardOptions>();
-    CLI::App* command = app.add_subcommand("guard", "own a haptic device and open a door to it");
-    command->add_option("DEVICE", options->kind, "what to guard")
+    CLI::App* command = app.add_subcommand("guard", "drive a haptic device and share it through a socket");
+    command->add_option("DEVICE", options->kind, "device to drive")
         ->required()
         ->check(CLI::IsMember({"falcon", "haply"}));
     command->add_option("--door", options->endpoint,
                         "socket to listen at (default $XDG_RUNTIME_DIR/fathom-DEVICE.door)");
     command->add_option("--firmware", options->firmware,
-                        "the Falcon's firmware, for after power-on; none is shipped");
+                        "Falcon firmware file, needed after power-on; not included");
     command->add_option("--service", options->service, "HOST:PORT of Haply's Inverse Service");
-    command->add_option("--device", options->device, "id of the Inverse3; else the first");
+    command->add_option("--device", options->device, "id of the Inverse3 (default: the first)");
     command->callback([options] { guardDevice(*options); });
 }
 

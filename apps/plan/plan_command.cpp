@@ -40,7 +40,7 @@ void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     }
     std::cout << "\n";
     printPlan(std::cout, plan);
-    std::cout << "\n" << plan.dispatchesPerFrame() << " dispatches a frame\n";
+    std::cout << "\n" << plan.dispatchesPerFrame() << " dispatches per frame\n";
 }
 
 } // namespace
@@ -63,7 +63,7 @@ void printPlan(std::ostream& out, const Plan& plan) {
 void addPlanCommand(CLI::App& app, const GlobalOptions& global) {
     auto options = std::make_shared<PlanOptions>();
     CLI::App* command =
-        app.add_subcommand("plan", "print which passes, buffers and threads a scene gets, and why");
+        app.add_subcommand("plan", "print the passes, buffers and threads of a scene, with reasons");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
     command->add_option("--source", options->source, kSourceHelp);
     command->callback([options, &global] { runPlan(*options, global); });

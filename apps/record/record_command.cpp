@@ -52,7 +52,8 @@ std::unique_ptr<HandLog> openHandLog(const RecordOptions& options, Scene scene, 
         return nullptr;
     }
     if (!camera.live()) {
-        throw BadInput("record", "--hand-device", camera.description(), "a live camera beside a live hand");
+        throw BadInput("record", "--hand-device", camera.description(),
+                       "a live camera, because the hand is live");
     }
     auto hand = openLiveHand(options.handDevice, scene);
     return std::make_unique<HandLog>(std::move(hand), std::filesystem::path(options.out) / "hand.csv");
@@ -89,7 +90,7 @@ int runRecord(const RecordOptions& options) {
         throw BadInput(camera->description(), "frames", "none usable", "at least one usable frame");
     }
     if (camera->lost() > 0) {
-        std::cerr << "fathom: record: " << camera->lost() << " pictures lost: disk or processor too slow\n";
+        std::cerr << "fathom: record: " << camera->lost() << " frames lost: disk or processor too slow\n";
         return 1;
     }
     return 0;
@@ -99,18 +100,16 @@ int runRecord(const RecordOptions& options) {
 
 void addRecordCommand(CLI::App& app, const GlobalOptions&, int& result) {
     auto options = std::make_shared<RecordOptions>();
-    CLI::App* command =
-        app.add_subcommand("record", "write what the scene's camera sees as a recording for replay");
+    CLI::App* command = app.add_subcommand("record", "record the frames of the scene's camera for replay");
     command->add_option("SCENE", options->scene, "scene file (YAML)")->required();
     command->add_option("--source", options->source, kSourceHelp);
-    command->add_option(
-        "--hand-device", options->handDevice,
-        "record a live hand beside the pictures as hand.csv, for replay --operator; it feels no force");
+    command->add_option("--hand-device", options->handDevice,
+                        "also record a live hand as hand.csv, for replay --operator; it gets no forces");
     command
         ->add_option("--seconds", options->seconds,
-                     "end after so long; default: until the source ends or Ctrl-C")
+                     "end after this time [s]; default: until the source ends or Ctrl-C")
         ->check(CLI::PositiveNumber);
-    command->add_option("--out", options->out, "folder of the recording; it must not have one yet")
+    command->add_option("--out", options->out, "folder of the recording; must not contain one yet")
         ->required();
     command->callback([options, &result] { result = runRecord(*options); });
 }

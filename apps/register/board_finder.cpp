@@ -14,7 +14,7 @@ namespace fathom {
 
 BoardPlace readBoardPlace(const std::filesystem::path& file) {
     constexpr const char* kAllowed = "one row columns,rows,square_m,x,y,z,qx,qy,qz,qw: 3 to 40 inner corners "
-                                     "each way, their sum odd, a positive size, a quaternion";
+                                     "per side, odd sum, positive size, valid quaternion";
     BoardPlace place;
     for (const TextLine& line : readDataLines(file)) {
         if (line.text[0] == 'c') { // the header

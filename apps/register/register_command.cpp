@@ -86,15 +86,15 @@ void runRegister(const RegisterOptions& options) {
     const std::vector<PointPair> pairs = fromPoints ? readPointPairs(options.points) : seenTargets(options);
     const RigidFit fit = fitRigid(pairs, *from);
     const std::string yaml = asYaml(fit);
-    std::cout << "# " << pairs.size() << " pairs of points; root of the mean square distance "
-              << 1e3 * fit.sigma << " mm, largest " << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n"
-              << "# for the section camera of the scene; every region grows by 3 registration_sigma\n"
+    std::cout << "# " << pairs.size() << " pairs of points; RMS distance " << 1e3 * fit.sigma
+              << " mm, largest " << 1e3 * fit.worst << " mm (" << fit.worstName << ")\n"
+              << "# for the camera section of the scene; every region grows by 3 registration_sigma\n"
               << yaml;
     if (!options.out.empty()) {
         std::ofstream file(options.out);
         file << yaml << std::flush;
         if (!file) {
-            throw BadInput("register", "--out", options.out, "a file that can be written");
+            throw BadInput("register", "--out", options.out, "a writable file");
         }
     }
 }
@@ -114,9 +114,8 @@ void addRegisterCommand(CLI::App& app, const GlobalOptions&) {
     command->add_option(
         "--points", options->points,
         "the same points in both frames: CSV camera_x,camera_y,camera_z,base_x,base_y,base_z [m]");
-    command->add_option("--frames", options->frames, "how many pictures to look at")
-        ->check(CLI::Range(1, 10000));
-    command->add_option("--out", options->out, "file for the two lines of YAML");
+    command->add_option("--frames", options->frames, "number of frames to use")->check(CLI::Range(1, 10000));
+    command->add_option("--out", options->out, "output file for the two lines of YAML");
     command->callback([options] { runRegister(*options); });
 }
 

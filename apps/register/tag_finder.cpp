@@ -48,7 +48,7 @@ std::map<int, TagPlace> readTagPlaces(const std::filesystem::path& file) {
         if (!read || words >> more || id < 0 || !(place.size > 0.0) || !(glm::length(q) > 1e-6) ||
             places.count(id) != 0) {
             throw BadInput(file.string(), "line " + std::to_string(line.number), line.text.substr(0, 160),
-                           "id,size_m,x,y,z,qx,qy,qz,qw: each id once, a positive size, a quaternion");
+                           "id,size_m,x,y,z,qx,qy,qz,qw: unique ids, positive size, valid quaternion");
         }
         q = glm::normalize(q);
         places[id] = place;

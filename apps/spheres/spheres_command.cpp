@@ -98,7 +98,7 @@ bool isSet(const std::filesystem::path& file) {
 void convert(const SpheresOptions& options) {
     if (!options.given.empty()) {
         throw BadInput(options.mesh.string(), options.given[0], "given with spheres",
-                       "a mesh; spheres are taken as they are, but for --scale");
+                       "a mesh; of the options only --scale applies to spheres");
     }
     const double scale = options.file.scale.value_or(1.0);
     if (!(scale > 0.0) || !std::isfinite(scale)) {
@@ -113,7 +113,7 @@ void convert(const SpheresOptions& options) {
     const auto used =
         std::count_if(leaves.begin(), leaves.end(), [](const Sphere& s) { return s.radius >= 0.0; });
     writeSph(tree, options.out);
-    std::cout << used << " leaf spheres, parents recomputed; written to " << options.out.string()
+    std::cout << used << " leaf spheres with recomputed parents written to " << options.out.string()
               << std::endl;
 }
 
@@ -130,7 +130,7 @@ void runSpheres(SpheresOptions options) {
     const LoadedMesh loaded = loadMesh(options.mesh, options.file);
     printMesh(std::cout, loaded);
     if (!loaded.doubt.empty()) {
-        log::warn("{}: {}; --scale says what is meant", options.mesh.string(), loaded.doubt);
+        log::warn("{}: {}; set the unit with --scale", options.mesh.string(), loaded.doubt);
     }
     Maker maker(loaded);
     Cover cover;
@@ -154,7 +154,7 @@ void runSpheres(SpheresOptions options) {
         maker.takeRows();
         drawErrors(options, maker, cover.spheres.size());
     }
-    std::cout << (contains ? "every surface sample lies in a sphere; written to "
+    std::cout << (contains ? "every surface sample is inside a sphere; written to "
                            : "NOT contained; written to ")
               << options.out.string() << std::endl;
     if (!contains) {
@@ -169,20 +169,21 @@ void addSpheresCommand(CLI::App& app) {
     CLI::App* command = app.add_subcommand("spheres", "make a sphere tree that contains a mesh, for a tool");
     command
         ->add_option("MESH", options->mesh,
-                     "STL, OBJ or COLLADA file; or spheres: .urdf, .yaml (cuRobo), .sph")
+                     "STL, OBJ or COLLADA mesh; or spheres: .urdf, .yaml (cuRobo), .sph")
         ->required();
     command->add_option("--out", options->out, "sphere tree (.sph), in the mesh's frame [m]")->required();
-    command->add_option("--leaves", options->cover.leaves, "leaf spheres at most (128)");
+    command->add_option("--leaves", options->cover.leaves, "most leaf spheres (128)");
     command->add_option("--protrusion", options->cover.protrusion,
-                        "[m] how far spheres may stand out; as few leaves as that takes");
-    command->add_option("--scale", options->file.scale, "metres a unit of the file (1); of spheres, too");
-    command->add_option("--up", options->up, "the file's axis that becomes +z (none)")
+                        "[m] largest protrusion; uses as few leaves as possible");
+    command->add_option("--scale", options->file.scale, "metres per unit of the file (1), also for spheres");
+    command->add_option("--up", options->up, "axis of the file that becomes +z (default: unchanged)")
         ->check(CLI::IsMember({"x", "y", "z"}));
-    command->add_flag("--drop-stray", options->file.dropStray, "leave out pieces far from the rest");
-    command->add_option("--link", options->link, "which link of a .urdf or .yaml");
-    command->add_flag("--compare", options->compare, "octree and grid spheres of the same number beside it");
-    command->add_option("--plot", options->plot, "picture (PNG): protrusion against number of leaves");
-    command->add_option("--json", options->json, "the report as JSON");
+    command->add_flag("--drop-stray", options->file.dropStray, "drop pieces far from the rest");
+    command->add_option("--link", options->link, "link of a .urdf or .yaml");
+    command->add_flag("--compare", options->compare,
+                      "compare with the same number of octree and grid spheres");
+    command->add_option("--plot", options->plot, "plot (PNG) of protrusion against number of leaves");
+    command->add_option("--json", options->json, "write the report as JSON");
     command->callback([options, command] {
         for (const std::string& name : kOfMeshes) {
             if (command->count(name) > 0) {

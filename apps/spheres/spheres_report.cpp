@@ -41,13 +41,13 @@ void printMesh(std::ostream& out, const LoadedMesh& loaded) {
     const dvec3 size = loaded.mesh.high() - loaded.mesh.low();
     out << "mesh    " << loaded.mesh.triangles.size() << " faces, " << f.parts << " pieces, "
         << std::setprecision(4) << 1e3 * size.x << " x " << 1e3 * size.y << " x " << 1e3 * size.z << " mm, "
-        << (f.closed() ? "closed" : "not closed: no inside, both sides of its surface count") << "\n";
-    note(out, f.doubled, "doubled faces left out");
-    note(out, f.noArea, "faces without area left out");
+        << (f.closed() ? "closed" : "not closed: no inside, both sides of the surface count") << "\n";
+    note(out, f.doubled, "duplicate faces dropped");
+    note(out, f.noArea, "faces without area dropped");
     note(out, f.turned, "faces turned outwards");
     note(out, f.openEdges, "open edges");
     note(out, f.crowdedEdges, "edges of three faces or more");
-    note(out, f.strayParts, "stray pieces left out");
+    note(out, f.strayParts, "stray pieces dropped");
 }
 
 void printRows(std::ostream& out, const std::vector<CoverRow>& rows) {
@@ -85,7 +85,7 @@ void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
     for (auto& [name, curve] : curves) {
         drawn.push_back(std::move(curve));
     }
-    writeCurvePlot(file, title, "how far the spheres stand out of the mesh", drawn);
+    writeCurvePlot(file, title, "protrusion of the spheres from the mesh", drawn);
 }
 
 void writeReportJson(const std::filesystem::path& file, const LoadedMesh& loaded,

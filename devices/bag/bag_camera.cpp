@@ -178,7 +178,7 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double& stamp) {
     const ros::Image depth = ros::image(bag_.read(depth_.topic->messages[index]));
     stamp = depth.stamp;
     if (!sized(depth, info_.depth) || depth.encoding != depth_.encoding) {
-        return "another size or encoding than the first picture's";
+        return "size or encoding differs from the first frame";
     }
     std::string fault = ros::depthRows(depth, slot.depth());
     if (!fault.empty() || !colour_) {
@@ -186,17 +186,17 @@ std::string BagCamera::read(size_t index, FrameSlot& slot, double& stamp) {
     }
     const auto pair = colourFor(depth_.stamps[index]);
     if (!pair) {
-        return "no colour picture within " + std::to_string(tolerance_) + " s";
+        return "no colour frame within " + std::to_string(tolerance_) + " s";
     }
     const ros::Image colour = ros::image(bag_.read(colour_->topic->messages[*pair]));
     return sized(colour, info_.colour) ? ros::colourRows(colour, slot.colour())
-                                       : "another colour size than its camera_info's";
+                                       : "colour size differs from its camera_info";
 }
 
 std::optional<Frame> BagCamera::next() {
     FrameSlot* slot = slots_->acquire();
     if (slot == nullptr) {
-        throw Error(description() + ": more frames are leased than the camera has memory for");
+        throw Error(description() + ": all frame buffers are leased");
     }
     while (cursor_ < depth_.topic->messages.size()) {
         const uint32_t index = cursor_++;
@@ -224,7 +224,7 @@ std::optional<Frame> BagCamera::next() {
     slot->release();
     if (!delivered_) {
         throw BadInput(bag_.file().string(), "frames", "none is usable; first: " + firstFault_,
-                       "one good picture");
+                       "one usable frame");
     }
     return std::nullopt;
 }

@@ -67,14 +67,14 @@ BagFile::BagFile(const std::filesystem::path& file)
         }
         const auto indexAt = number<uint64_t>(header.fields, "index_pos");
         if (indexAt == 0 || indexAt >= size_) {
-            throw BadInput(file.string(), "index", "missing: the bag was not closed",
+            throw BadInput(file.string(), "index", "no index: the bag was not closed",
                            "an indexed bag (rosbag reindex)");
         }
         readIndex(indexAt);
     } catch (const BadInput&) {
         throw;
     } catch (const Error& e) {
-        throw BadInput(file.string(), "content", e.what(), "a whole ROS 1 bag of version 2.0");
+        throw BadInput(file.string(), "content", e.what(), "a complete ROS 1 bag of version 2.0");
     }
 }
 
@@ -135,7 +135,7 @@ void BagFile::readIndex(uint64_t indexAt) {
 void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topicOf) {
     in_.seekg(static_cast<std::streamoff>(chunkAt));
     if (number<uint8_t>(readRecord().fields, "op") != kChunk) {
-        throw Error("the index points at no chunk");
+        throw Error("the index does not point to a chunk");
     }
     while (static_cast<uint64_t>(in_.tellg()) < size_) {
         const Record record = readRecord();
@@ -144,7 +144,7 @@ void BagFile::readChunkIndex(uint64_t chunkAt, std::map<uint32_t, size_t>& topic
         }
         const auto topic = topicOf.find(number<uint32_t>(record.fields, "conn"));
         if (topic == topicOf.end()) {
-            throw Error("the index names a connection that is not there");
+            throw Error("the index names a missing connection");
         }
         for (ByteCursor cursor(record.data); !cursor.empty();) {
             const uint32_t seconds = cursor.word(), nanos = cursor.word(), offset = cursor.word();
@@ -190,7 +190,7 @@ std::span<const uint8_t> BagFile::read(const BagEntry& entry) {
     ByteCursor cursor(chunk.bytes);
     cursor.take(entry.offset);
     if (number<uint8_t>(parseFields(cursor.block()), "op") != kMessage) {
-        throw Error("the index points at no message");
+        throw Error("the index does not point to a message");
     }
     return cursor.block();
 }

@@ -98,7 +98,7 @@ Pose transform(std::span<const uint8_t> message) {
     const dquat q(qw, qx, qy, qz);
     const double length = glm::length(q);
     if (!(length > 1e-6) || !std::isfinite(length + x + y + z)) {
-        throw Error("a transform that is none");
+        throw Error("an invalid transform");
     }
     return {{x, y, z}, q / length};
 }

@@ -238,7 +238,7 @@ std::optional<Frame> OpenNi2Camera::next() {
 Frame OpenNi2Camera::deliver() {
     FrameSlot* slot = slots_->acquire();
     if (slot == nullptr) {
-        throw Error(name_ + ": more frames are leased than the camera has memory for");
+        throw Error(name_ + ": all frame buffers are leased");
     }
     const uint32_t width = info_.depth.width;
     for (uint32_t v = 0; v < info_.depth.height; ++v) {

@@ -178,7 +178,7 @@ std::optional<Frame> RecordedCamera::next() {
     }
     FrameSlot* slot = slots_.acquire();
     if (slot == nullptr) {
-        throw Error(description() + ": more frames are leased than the camera has memory for");
+        throw Error(description() + ": all frame buffers are leased");
     }
     while (cursor_ < index_.size()) {
         const uint32_t index = cursor_++;

@@ -44,7 +44,7 @@ std::optional<Frame> WaterCamera::next() {
     }
     FrameSlot* slot = slots_.acquire();
     if (slot == nullptr) {
-        throw Error(description() + ": more frames are leased than the camera has memory for");
+        throw Error(description() + ": all frame buffers are leased");
     }
     const std::span<const uint16_t> in = (*frame)->depth;
     const std::span<uint16_t> out = slot->depth();

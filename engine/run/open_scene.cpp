@@ -13,7 +13,7 @@ namespace {
 Scene checked(Scene scene) {
     const std::filesystem::path& file = scene.file;
     for (const std::string& path : scene.outside) {
-        log::warn("{}: '{}' leads out of the scene file's folder", file.string(), path);
+        log::warn("{}: '{}' is outside the scene file's folder", file.string(), path);
     }
     std::string names;
     for (const DevicePreset& preset : devicePresets()) {

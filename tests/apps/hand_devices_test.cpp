@@ -54,16 +54,16 @@ void usbDevice(const fs::path& root, const std::string& vendor, const std::strin
 TEST_CASE(
     "An endpoint with a running bridge is listed, a stale endpoint is rejected, and a file is no endpoint") {
     const testing::ScratchFolder root, endpoints;
-    CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or door found\n");
-    CHECK(printed(root.path(), "") == "no camera, haptic device or door found\n");
+    CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or bridge socket found\n");
+    CHECK(printed(root.path(), "") == "no camera, haptic device or bridge socket found\n");
     testing::put(endpoints.path() / "file.door", "no socket");
-    CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or door found\n");
+    CHECK(printed(root.path(), endpoints.path()) == "no camera, haptic device or bridge socket found\n");
     const SocketServer server({endpoints.path() / "live.door", "falcon", "test device", 8.0, 0.2});
     leaveSocket(endpoints.path() / "gone.door");
     const std::string gone = (endpoints.path() / "gone.door").string(),
                       live = (endpoints.path() / "live.door").string();
     CHECK(printed(root.path(), endpoints.path()) ==
-          "door    " + gone + "\n          REFUSED: the bridge that made it is gone\n" + "door    " + live +
+          "door    " + gone + "\n          REFUSED: its bridge has ended\n" + "door    " + live +
               "\n          a bridge listens; --hand-device " + live + "\n");
 }
 

@@ -171,15 +171,16 @@ TEST_CASE("Damaged edits are refused with file, line, column and what is allowed
         {"", "header picture,scene,held,still"},
         {"picture,scene\n", "header picture,scene,held,still"},
         {head + "0,scene-0.yaml,\n", "picture,scene,held,still"},
-        {head + "1,scene-0.yaml,,0\n", "0: the scene of the start"},
+        {head + "1,scene-0.yaml,,0\n", "0: the scene at the start"},
         {head + "0,scene-0.yaml,,0\n-1,scene-1.yaml,,0\n", "a whole number from 0"},
-        {head + "0,scene-0.yaml,,0\n7,scene-1.yaml,,0\n6,scene-1.yaml,,0\n", "none before the row above"},
-        {head + "0,../rec/scene-0.yaml,,0\n", "the name of a scene file beside it"},
+        {head + "0,scene-0.yaml,,0\n7,scene-1.yaml,,0\n6,scene-1.yaml,,0\n",
+         "no earlier than the previous row"},
+        {head + "0,../rec/scene-0.yaml,,0\n", "the name of a scene file in the same folder"},
         {head + "0,nothing.yaml,,0\n", "nothing.yaml"},
-        {head + "0,scene-0.yaml,4,0\n", "rows of classes of points"},
-        {head + "0,scene-0.yaml,x,0\n", "rows of classes of points"},
+        {head + "0,scene-0.yaml,4,0\n", "row of a point class"},
+        {head + "0,scene-0.yaml,x,0\n", "row of a point class"},
         {head + "0,scene-0.yaml,,2\n", "0 or 1"},
-        {head + "0,scene.yaml,,0\n1,scene-0.yaml,,0\n", "classes of points in the rows"},
+        {head + "0,scene.yaml,,0\n1,scene-0.yaml,,0\n", "the point classes in the same rows"},
     };
     for (const auto& [rows, words] : cases) {
         const std::string text = rows;

@@ -180,6 +180,6 @@ TEST_CASE("A guardian that is killed gets a successor, and the arm goes on") {
     CHECK(bench.wait([&] { return std::abs(shoulder - then) > 0.001; }));
     engine.signal(SIGINT);
     CHECK(engine.wait() == 0);
-    CHECK(stage.read("said").find("its guardian was ended; the arm is held until there is another") !=
+    CHECK(stage.read("said").find("its watchdog process ended; the arm is held until a new one runs") !=
           std::string::npos);
 }

@@ -232,9 +232,9 @@ TEST_CASE("A device that goes away during a run is told of when it goes and when
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     device.reset();
-    CHECK(says("gone or silent: forces go, the tool stays"));
+    CHECK(says("gone or silent: forces fade out, the tool stays"));
     device.emplace(stage / "hand.door");
-    CHECK(says("back; the tool goes on from where it is"));
+    CHECK(says("back; the tool resumes from its position"));
     ::kill(engine, SIGINT);
     int status = 0;
     ::waitpid(engine, &status, 0);

@@ -113,7 +113,7 @@ TEST_CASE("An ECA is homed against its stops first and then driven, its encoders
     const Driven driven = drive(stage, [] {});
     REQUIRE_MESSAGE(driven.run.exitCode == 0, driven.run.err);
     checkHeld(driven);
-    CHECK(driven.run.err.find("homing, each joint goes to its stop") != std::string::npos);
+    CHECK(driven.run.err.find("homing: each joint moves to its stop") != std::string::npos);
     CHECK(driven.turns("follows") > 1000);
     const auto q = bench.with([&] {
         return std::array{-0.9 - arm.angle[1], 0.8 + arm.angle[0], 0.4 + arm.angle[2]};
@@ -152,7 +152,7 @@ TEST_CASE("A line that falls silent holds tool and arm, and both go on when it s
         spokeAgain += silent && state == "follows" ? 1 : 0;
     }
     CHECK(spokeAgain > 100);
-    CHECK(driven.run.err.find("silent: it is held, the tool stands still, forces go") != std::string::npos);
+    CHECK(driven.run.err.find("silent: the arm and the tool are held, forces fade out") != std::string::npos);
     for (size_t k = 0; k < 3; ++k) {
         CHECK(std::abs(after[k] - atCut[k]) < 0.06); // at most the setpoint that it had, 0.05 rad ahead
     }

@@ -70,7 +70,7 @@ struct Short : Stage {
 std::string idOfDevice(const Short& stage) {
     const Environment library(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA}});
     const std::string said = runFathom(stage.holding()).err;
-    const size_t at = said.find("no CUDA device has its id ");
+    const size_t at = said.find("no CUDA device has the id ");
     REQUIRE_MESSAGE(at != std::string::npos, said);
     return said.substr(at + 26, 32);
 }
@@ -139,7 +139,7 @@ TEST_CASE("Where the clock cannot be held one line says why, and the run is as w
     }
     SUBCASE("a driver that does not know the device") {
         const Environment library(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA}});
-        check("no CUDA device has its id");
+        check("no CUDA device has the id");
     }
     SUBCASE("a driver that refuses") {
         const Environment library(

@@ -24,7 +24,7 @@ TEST_CASE("A path that leads out of the scene's folder is used and told of in on
         CHECK(run.exitCode == 0);
         REQUIRE(run.errorLines().size() == (path == "hand.csv" ? 0 : 1));
         if (path != "hand.csv") {
-            CHECK(run.err.find(file + ": '../hand.csv' leads out of the scene file's folder") !=
+            CHECK(run.err.find(file + ": '../hand.csv' is outside the scene file's folder") !=
                   std::string::npos);
         }
     }
@@ -40,7 +40,7 @@ TEST_CASE("The intrinsics that a scene names for a live camera are told of, too,
         CAPTURE(run.err);
         CHECK(run.exitCode != 0);
         const bool told =
-            run.err.find("'" + path + "' leads out of the scene file's folder") != std::string::npos;
+            run.err.find("'" + path + "' is outside the scene file's folder") != std::string::npos;
         CHECK(told == (path != "lens.json"));
     }
 }

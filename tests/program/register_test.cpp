@@ -83,7 +83,7 @@ TEST_CASE("register prints the camera's pose and sigma, writes the same lines, a
     CHECK(wide < 1e-5);
 }
 
-TEST_CASE("register wants exactly one of points, tags and a board, and a file that can be written") {
+TEST_CASE("register wants exactly one of points, tags and a board, and a writable file") {
     const Stage stage;
     stage.recording({bumpImage()});
     stage.scene({});

@@ -33,7 +33,7 @@ TEST_CASE(
         {"spheres", mesh.path().string(), "--out", out, "--leaves", "12", "--compare", "--json", json});
     CHECK(run.exitCode == 0);
     CHECK(run.err == "");
-    CHECK(run.out.find("every surface sample lies in a sphere") != std::string::npos);
+    CHECK(run.out.find("every surface sample is inside a sphere") != std::string::npos);
     std::ifstream in(json);
     const nlohmann::json report = nlohmann::json::parse(in);
     CHECK(report["mesh"]["closed"] == true);
@@ -55,7 +55,7 @@ TEST_CASE("spheres scales a set of spheres as it scales a mesh, and doubts a mes
     CHECK(run.exitCode == 0);
     REQUIRE(run.errorLines().size() == 1);
     CHECK(run.err.find("3 m large if its unit is the metre") != std::string::npos);
-    CHECK(run.err.find("--scale says what is meant") != std::string::npos);
+    CHECK(run.err.find("set the unit with --scale") != std::string::npos);
     CHECK(runFathom({"spheres", whole, "--out", half, "--scale", "0.5"}).exitCode == 0);
     std::ifstream before(whole), after(half);
     std::string head, sameHead, line;

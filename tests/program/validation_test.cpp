@@ -48,7 +48,7 @@ TEST_CASE("A message of the Vulkan layers is told and fails a run that is done o
     CHECK(run.errorLines().size() > 1);
     CHECK(run.err.rfind("error: Vulkan validation: ", 0) == 0);
     CHECK(run.errorLines().back() ==
-          "fathom: " + std::to_string(run.errorLines().size() - 1) + " messages of Vulkan validation");
+          "fathom: " + std::to_string(run.errorLines().size() - 1) + " Vulkan validation messages");
     CHECK(std::filesystem::exists(stage / "out" / "summary.json"));
 }
 
