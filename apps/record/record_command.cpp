@@ -80,7 +80,7 @@ int runRecord(const RecordOptions& options) {
         std::cout << "hand         " << hand->samples() << " readings of " << hand->hand().description()
                   << " in hand.csv\n";
     }
-    std::cout << std::setprecision(4) << "recorded     " << writer.frames() << " pictures in " << length
+    std::cout << std::setprecision(4) << "recorded     " << writer.frames() << " frames in " << length
               << " s, " << camera->skipped() << " skipped, " << camera->lost() << " lost\n"
               << "from         " << camera->description() << "\nwritten to   " << options.out << "\n";
     if (!gone.empty()) {

@@ -61,7 +61,7 @@ std::vector<uint8_t> unpackChunk(const std::string& compression, std::span<const
     const uint64_t most = (packed.size() + 64) * (compression == "lz4" ? kMostLz4 : kMostBz2);
     if (size > most) { // check before allocating
         throw Error("a chunk of " + std::to_string(packed.size()) + " bytes cannot hold the " +
-                    std::to_string(size) + " that are told");
+                    std::to_string(size) + " that it declares");
     }
     std::vector<uint8_t> out(size);
     size_t got = 0;

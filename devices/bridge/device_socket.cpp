@@ -55,13 +55,13 @@ void clearStale(const std::filesystem::path& path) {
         return;
     }
     if (!S_ISSOCK(status.st_mode)) {
-        refuse(path, "exists and is no socket", "a path that is free");
+        refuse(path, "exists and is not a socket", "an unused path");
     }
     DeviceSocket probe;
     const int error = DeviceSocket::tryConnect(path, probe);
     if (error != ECONNREFUSED) {
-        refuse(path, error == EACCES ? "a socket of somebody else" : "another program listens here",
-               "a path that is free");
+        refuse(path, error == EACCES ? "a socket of another user" : "another program listens here",
+               "an unused path");
     }
     ::unlink(path.c_str());
 }
@@ -79,7 +79,7 @@ std::string socketFault(const fathom_door_header& header, size_t got, uint16_t k
         return std::to_string(got) + " bytes (allowed: " + std::to_string(size) + ")";
     }
     if (header.magic != FATHOM_DOOR_MAGIC) {
-        return "not a packet of a door";
+        return "not a valid packet";
     }
     if (header.version != FATHOM_DOOR_VERSION) {
         return "version " + std::to_string(header.version) +
@@ -140,7 +140,7 @@ DeviceSocket DeviceSocket::connect(const std::filesystem::path& path) {
     case ENAMETOOLONG:
         refuse(path, std::to_string(path.native().size()) + " characters", kPathAllowed);
     case EACCES:
-        refuse(path, "no permission", "a door whose owner lets you write to it (chmod)");
+        refuse(path, "no permission", "a socket that you may write to (chmod)");
     case ENOENT:
     case ECONNREFUSED:
         refuse(path, "nobody listens", "the socket of a running bridge, such as `fathom guard falcon`");

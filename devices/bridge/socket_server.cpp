@@ -47,7 +47,7 @@ void SocketServer::poll() {
 void SocketServer::takeNewcomers() {
     for (DeviceSocket newcomer = endpoint_.accept(); newcomer.open(); newcomer = endpoint_.accept()) {
         if (engine_.open()) {
-            log::warn("{}: a second engine is turned away", path_.string());
+            log::warn("{}: rejected a second engine", path_.string());
             continue; // closes it
         }
         engine_ = std::move(newcomer);

@@ -35,7 +35,7 @@ void HaplyGuard::connect() {
     auto service = std::make_unique<WebSocket>(options_.host, options_.port, kConnect);
     const auto inventory = service->receive(kConnect);
     if (!inventory) {
-        throw Error(service->place() + ": says nothing");
+        throw Error(service->place() + ": no message");
     }
     const auto state = readHaplyState(*inventory, device_);
     if (!state) {
@@ -144,7 +144,7 @@ void HaplyGuard::run(const std::atomic<bool>& stop) {
             exchange();
         } catch (const DeviceLost& e) {
             ++figures_.losses;
-            log::warn("{}: the engine is told, looking for it again", e.what());
+            log::warn("{}: reported to the engine, reconnecting", e.what());
             close();
         }
     }

@@ -18,7 +18,7 @@ double numberAt(const Json& object, const char* key) {
     const auto found = object.find(key);
     const double value = found != object.end() && found->is_number() ? found->get<double>() : NAN;
     if (!std::isfinite(value)) {
-        throw Error(std::string("the service's state has no number '") + key + "'");
+        throw Error(std::string("the service's state lacks the number '") + key + "'");
     }
     return value;
 }
@@ -49,7 +49,7 @@ void takeGrip(const Json& state, HaplyState& out) {
     const dquat q(numberAt(*turned, "w"), numberAt(*turned, "x"), numberAt(*turned, "y"),
                   numberAt(*turned, "z"));
     if (!(glm::dot(q, q) > 1e-6)) {
-        throw Error("the service's state has an orientation of no length");
+        throw Error("the service's state has a zero orientation");
     }
     out.grip = true;
     out.sample.deviceThandle.rotation = glm::normalize(q);
@@ -67,7 +67,7 @@ void takeGrip(const Json& state, HaplyState& out) {
 std::optional<HaplyState> readHaplyState(std::string_view message, const std::string& device) {
     const Json all = Json::parse(message, nullptr, false);
     if (!all.is_object()) {
-        throw Error("the service's message is no JSON object");
+        throw Error("the service's message is not a JSON object");
     }
     HaplyState out;
     const Json* state = stateOf(all, "inverse3", device, out.device);

@@ -188,14 +188,14 @@ void WebSocket::greet(std::chrono::milliseconds most) {
     size_t end = std::string::npos;
     while (end == std::string::npos) {
         if (Clock::now() > until || said.size() > kMostGreeting) {
-            throw Error(place_ + ": no answer to the greeting");
+            throw Error(place_ + ": no answer to the handshake");
         }
         readSome(most, said);
         end = said.find("\r\n\r\n");
     }
     const std::string answer = said.substr(0, end);
     if (answer.find(" 101 ") == std::string::npos || answer.find(kAccept) == std::string::npos) {
-        throw Error(place_ + ": no WebSocket there: " + answer.substr(0, answer.find('\r')).substr(0, 80));
+        throw Error(place_ + ": not a WebSocket: " + answer.substr(0, answer.find('\r')).substr(0, 80));
     }
     frames_.add(std::string_view(said).substr(end + 4));
 }
@@ -252,7 +252,7 @@ std::optional<std::string> WebSocket::receive(std::chrono::microseconds most) {
         case WebSocketFrames::Event::Closed:
             lost("closed by the service");
         case WebSocketFrames::Event::Fault:
-            lost("breaks the WebSocket protocol");
+            lost("violates the WebSocket protocol");
         case WebSocketFrames::Event::None:
             break;
         }

@@ -8,12 +8,12 @@ namespace fathom {
 
 std::unique_ptr<Camera> openOpenNi2(const std::string& source) {
     throw BadInput("--source", "openni2", source,
-                   "nothing: this program was built without OpenNI2 (install libopenni2-dev, build again)");
+                   "none: this program was built without OpenNI2 (install libopenni2-dev and rebuild)");
 }
 
 std::string openNi2Offer(uint16_t, uint16_t) {
     throw BadInput("openni2", "driver", "not built in",
-                   "a program that was built with OpenNI2 (install libopenni2-dev, build again)");
+                   "a program built with OpenNI2 (install libopenni2-dev and rebuild)");
 }
 
 } // namespace fathom

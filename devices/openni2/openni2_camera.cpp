@@ -94,8 +94,7 @@ OpenNi2Camera::~OpenNi2Camera() {
 
 void OpenNi2Camera::open(const std::string& uri) {
     if (device_.open(uri.empty() ? openni::ANY_DEVICE : uri.c_str()) != openni::STATUS_OK) {
-        refuseOpenNi2(uri, "device",
-                      "a device of OpenNI2 that is plugged in and may be opened, or an .oni file");
+        refuseOpenNi2(uri, "device", "an OpenNI2 device that is plugged in and accessible, or an .oni file");
     }
     file_ = device_.isFile();
     name_ = file_ ? "recorded " + uri
@@ -147,7 +146,7 @@ void OpenNi2Camera::openColour(bool registered) {
         device_.setDepthColorSyncEnabled(true);
     }
     if (!registered || !fits(colour_.stream.getVideoMode())) {
-        log::warn("{}: colour is left out: {}", name_,
+        log::warn("{}: colour is not used: {}", name_,
                   registered ? "not RGB of the depth's size" : "not known to be registered to depth");
         colour_.stream.destroy();
         return;
@@ -171,7 +170,7 @@ void OpenNi2Camera::readLens(const std::filesystem::path& intrinsics) {
     const double across = static_cast<double>(depth_.stream.getHorizontalFieldOfView()),
                  down = static_cast<double>(depth_.stream.getVerticalFieldOfView());
     if (!(across > 0.01 && across < 3.0 && down > 0.01 && down < 3.0)) {
-        throw BadInput(name_, "field of view", "unknown", "a device that tells it, or intrinsics=FILE");
+        throw BadInput(name_, "field of view", "unknown", "a device that reports it, or intrinsics=FILE");
     }
     Intrinsics& lens = info_.depth;
     lens.fx = 0.5 * lens.width / std::tan(0.5 * across);
@@ -229,7 +228,7 @@ std::optional<Frame> OpenNi2Camera::next() {
             if (file_) {
                 return std::nullopt;
             }
-            throw DeviceLost(name_ + ": no picture for two seconds");
+            throw DeviceLost(name_ + ": no frame for two seconds");
         }
     }
     return deliver();

@@ -39,16 +39,15 @@ std::string openNi2Offer(uint16_t vendor, uint16_t product) {
         }
         openni::Device device;
         if (device.open(all[i].getUri()) != openni::STATUS_OK) {
-            refuseOpenNi2(all[i].getUri(), "device", "a device that may be opened and that nobody else uses");
+            refuseOpenNi2(all[i].getUri(), "device", "an accessible device that no other program uses");
         }
         const std::string depth = sizesOf(device, openni::SENSOR_DEPTH, "depth"),
                           colour = sizesOf(device, openni::SENSOR_COLOR, ", colour");
         device.close();
         return (depth.empty() ? "no depth" : depth) + colour + "; --source openni2:" + all[i].getUri();
     }
-    throw BadInput(
-        "openni2", "driver", "none knows this camera",
-        "a driver for it where OpenNI2 looks (OpenNI2/Drivers; Debian's libopenni2-0 has PrimeSense's)");
+    throw BadInput("openni2", "driver", "no driver knows this camera",
+                   "a driver for it in OpenNI2/Drivers (Debian's libopenni2-0 contains PrimeSense's)");
 }
 
 } // namespace fathom

@@ -118,14 +118,14 @@ PcdCamera::PcdCamera(const std::filesystem::path& file)
     try {
         fit = fitLens(cloud_);
     } catch (const Error& e) {
-        throw BadInput(file.string(), "points", e.what(), "at least 16, spread over the picture");
+        throw BadInput(file.string(), "points", e.what(), "at least 16, spread over the image");
     }
     if (fit.residual > kMostResidual) {
-        throw BadInput(
-            file.string(), "points",
-            "off a pinhole's rays, and off a fan's, by " + std::to_string(fit.residual) + " pixels",
-            "a cloud that a depth camera or a scan of equal angles saw: x right and y down, y up and z "
-            "backward, or x forward and z up");
+        throw BadInput(file.string(), "points",
+                       "deviates from the rays of a pinhole and of a fan by " + std::to_string(fit.residual) +
+                           " pixels",
+                       "a cloud from a depth camera or a scan with equal angles: x right and y down, y up "
+                       "and z backward, or x forward and z up");
     }
     double farthest = 0.0;
     for (dvec3& p : cloud_.points) {

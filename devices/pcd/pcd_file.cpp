@@ -74,7 +74,7 @@ size_t wholeNumber(const Source& source, const std::string& field, const std::st
 void checkCount(const Source& source, const std::vector<std::string>& words, const Header& header) {
     if (words.size() != header.fields.size() + 1 || header.fields.empty()) {
         source.refuse(words.front(), std::to_string(words.size() - 1) + " values",
-                      "as many as FIELDS has: " + std::to_string(header.fields.size()));
+                      "as many as FIELDS: " + std::to_string(header.fields.size()));
     }
 }
 

@@ -87,7 +87,7 @@ std::vector<HandWaypoint> readHandCsv(const std::filesystem::path& file) {
         const HandWaypoint point = readRow(row, columns);
         if (!path.empty() && !(point.t > path.back().t)) {
             row.refuse("t_s", splitFields(line.text, ',')[0],
-                       "later than the row before (" + std::to_string(path.back().t) + ")");
+                       "later than the previous row (" + std::to_string(path.back().t) + ")");
         }
         if (path.size() == kMostRows) {
             row.refuse("", "one more row", std::to_string(kMostRows) + " at most");

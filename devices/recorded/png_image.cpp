@@ -46,7 +46,7 @@ public:
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &message_, onError, onWarning);
         info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
         if (info_ == nullptr) {
-            say("libpng has no memory");
+            say("libpng: out of memory");
             return;
         }
         readHead();
@@ -144,7 +144,7 @@ std::string readDepthPng(const std::filesystem::path& file, PngSize size, std::s
         return fault;
     }
     if (png.bits() != 16 || png.kind() != PNG_COLOR_TYPE_GRAY) {
-        return std::to_string(png.bits()) + "-bit picture of PNG colour type " + std::to_string(png.kind()) +
+        return std::to_string(png.bits()) + "-bit image of PNG colour type " + std::to_string(png.kind()) +
                ", not 16-bit grey";
     }
     std::vector<png_bytep> rows = rowPointers(size, target);

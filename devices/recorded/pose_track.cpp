@@ -31,7 +31,7 @@ PoseTrack::PoseTrack(const std::filesystem::path& file) {
             refuse("a quaternion qx qy qz qw of non-zero length");
         }
         if (!poses_.empty() && !(v[0] > poses_.back().t)) {
-            refuse("a time later than the line before");
+            refuse("a time later than in the previous line");
         }
         poses_.push_back({v[0], {{v[1], v[2], v[3]}, q / length}});
     }

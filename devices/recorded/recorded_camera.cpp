@@ -81,7 +81,7 @@ void RecordedCamera::checkColourSize() const {
     }
     if (other) {
         throw BadInput((folder_ / "intrinsics.json").string(), "color.width, color.height",
-                       "colour pictures of " + words(*other) + " where " + words(wanted) + " is told",
+                       "colour images of " + words(*other) + " where " + words(wanted) + " is told",
                        "colour of the depth's size, or blocks depth and color with extrinsics_topic_tf");
     }
 }
@@ -156,7 +156,7 @@ bool RecordedCamera::seek(uint32_t index) {
 void RecordedCamera::tellOfLinks(const IndexLine& line) {
     for (const fs::path& image : {line.depth, line.colour}) {
         if (!toldOfLinks_ && !image.empty() && leadsOut(image)) {
-            log::warn("{}: a link leads out of the recording's folder", image.string());
+            log::warn("{}: a link points outside the recording's folder", image.string());
             toldOfLinks_ = true;
         }
     }
@@ -198,7 +198,7 @@ std::optional<Frame> RecordedCamera::next() {
     } else {
         throw BadInput(folder_.string(), "frames",
                        "none of " + std::to_string(index_.size()) + " is usable; first: " + firstFault_,
-                       "at least one good pair of pictures");
+                       "at least one usable pair of images");
     }
     return std::nullopt;
 }

@@ -37,9 +37,9 @@ std::vector<IndexLine> readAssociations(const fs::path& folder) {
             entry.fault =
                 "line " + std::to_string(line.number) + " is not 't_rgb rgb/x.png t_depth depth/x.png'";
         } else if (!parseStamp(words[0], entry.colourStamp) || !parseStamp(words[2], entry.depthStamp)) {
-            entry.fault = "line " + std::to_string(line.number) + " has a stamp that is no finite number";
+            entry.fault = "line " + std::to_string(line.number) + " has a stamp that is not a finite number";
         } else if (!staysInside(words[1]) || !staysInside(words[3])) {
-            entry.fault = "line " + std::to_string(line.number) + " leads out of the recording's folder";
+            entry.fault = "line " + std::to_string(line.number) + " points outside the recording's folder";
         } else {
             entry.colour = folder / words[1];
             entry.depth = folder / words[3];
@@ -55,11 +55,11 @@ std::vector<StampedFile> readStampedFiles(const fs::path& folder, const char* na
         const std::vector<std::string_view> words = splitWords(line.text);
         StampedFile entry;
         if (words.size() != 2 || !parseStamp(words[0], entry.stamp)) {
-            log::warn("{}: line {} is not 't path': left out", (folder / name).string(), line.number);
+            log::warn("{}: line {} is not 't path': skipped", (folder / name).string(), line.number);
             continue;
         }
         if (!staysInside(words[1])) {
-            log::warn("{}: line {} leads out of the recording's folder: left out", (folder / name).string(),
+            log::warn("{}: line {} points outside the recording's folder: skipped", (folder / name).string(),
                       line.number);
             continue;
         }
@@ -141,8 +141,8 @@ std::vector<IndexLine> associate(const std::vector<StampedFile>& depth, std::vec
         }
     }
     if (index.size() < depth.size()) {
-        log::info("{} of {} depth pictures have no colour picture of their own within {} s",
-                  depth.size() - index.size(), depth.size(), within);
+        log::info("{} of {} depth images have no colour image within {} s", depth.size() - index.size(),
+                  depth.size(), within);
     }
     return index;
 }
@@ -173,7 +173,7 @@ std::vector<IndexLine> readIndex(const fs::path& folder, const RecordingIntrinsi
                        "associations.txt, or rgb.txt and depth.txt, or stamps in intrinsics.json");
     }
     if (index.empty()) {
-        throw BadInput(folder.string(), source, "no pair of pictures", "at least one");
+        throw BadInput(folder.string(), source, "no pair of images", "at least one");
     }
     return index;
 }

@@ -56,7 +56,7 @@ Intrinsics readLens(const JsonField& block) {
     lens.cy = block.at("cy").finite();
     lens.distortion = readDistortion(block);
     if (!invertible(lens)) {
-        block.at("distortion").refuse("coefficients that can be inverted over the whole picture");
+        block.at("distortion").refuse("coefficients that can be inverted over the whole image");
     }
     return lens;
 }

@@ -56,8 +56,7 @@ SerialPort::SerialPort(const std::filesystem::path& device, uint32_t baud, bool 
     const speed_t speed = speedOf(device, baud);
     file_ = ::open(device.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
     if (file_ < 0) {
-        throw BadInput(device.string(), "serial line", std::strerror(errno),
-                       "a serial device that may be opened");
+        throw BadInput(device.string(), "serial line", std::strerror(errno), "an accessible serial device");
     }
     if (!makeRaw(file_, speed)) {
         const std::string why = std::strerror(errno);
@@ -68,7 +67,7 @@ SerialPort::SerialPort(const std::filesystem::path& device, uint32_t baud, bool 
         serial_rs485 direction{};
         direction.flags = SER_RS485_ENABLED | SER_RS485_RTS_ON_SEND;
         if (ioctl(file_, TIOCSRS485, &direction) != 0) {
-            log::info("{}: no RS-485 direction control ({}): the adapter must switch by itself",
+            log::info("{}: no RS-485 direction control ({}); the adapter must switch by itself",
                       device.string(), std::strerror(errno));
         }
     }

@@ -10,8 +10,7 @@ namespace fathom {
 namespace {
 
 constexpr const char* kEndpoint =
-    "its protocol is closed; a program on the maker's own library can be a bridge to the "
-    "door (devices/bridge/README.md)";
+    "its protocol is closed; a bridge program can use the maker's library (devices/bridge/README.md)";
 constexpr const char* kOpenNi = "";
 
 constexpr std::array kClosed{
@@ -26,7 +25,7 @@ constexpr std::array kClosed{
     ClosedDevice{0x045e, 0x02d9, 0xffff, "Kinect v2",
                  "the kernel has no driver: record it with libfreenect2"},
     ClosedDevice{0x045e, 0x097c, 0xffff, "Azure Kinect depth camera",
-                 "its depth is computed by a closed library: record it with that"},
+                 "a closed library computes its depth: record it with that library"},
 };
 
 } // namespace

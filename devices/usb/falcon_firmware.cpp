@@ -36,7 +36,7 @@ void sendAll(FtdiPort& port, std::span<const uint8_t> bytes, const std::string& 
     const auto until = std::chrono::steady_clock::now() + kPatience;
     while (!port.send(bytes)) {
         if (std::chrono::steady_clock::now() >= until) {
-            throw Error("falcon firmware: " + step + ": the device takes no bytes");
+            throw Error("falcon firmware: " + step + ": the device does not accept data");
         }
         port.wait(milliseconds(5));
     }
@@ -74,7 +74,7 @@ void greet(FtdiPort& port) {
         got.insert(got.end(), rest.begin(), rest.end());
     }
     if (!std::equal(got.begin(), got.end(), answer.begin(), answer.end())) {
-        throw Error("falcon firmware: greeting: answer " + hex(got) + " (allowed: " + hex(answer) +
+        throw Error("falcon firmware: handshake: answer " + hex(got) + " (allowed: " + hex(answer) +
                     "); switch the device off and on");
     }
 }

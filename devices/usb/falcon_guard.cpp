@@ -99,7 +99,7 @@ void FalconGuard::run(const std::atomic<bool>& stop) {
             exchange();
         } catch (const DeviceLost& e) {
             ++losses_;
-            log::warn("falcon: {}: the engine is told, looking for it again", e.what());
+            log::warn("falcon: {}: reported to the engine, reconnecting", e.what());
             close();
         }
     }

@@ -32,11 +32,11 @@ void FalconLink::start(std::span<const uint8_t> firmware) {
         return;
     }
     if (firmware.empty()) {
-        throw Error("falcon: no answer; after power-on it needs its firmware: --firmware FILE");
+        throw Error("falcon: no answer; after power-on it needs firmware: --firmware FILE");
     }
     loadFalconFirmware(port_, firmware);
     if (!answers()) {
-        throw Error("falcon: no answer after its firmware was loaded; switch it off and on");
+        throw Error("falcon: no answer after loading the firmware; switch it off and on");
     }
 }
 

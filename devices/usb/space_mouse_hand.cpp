@@ -30,7 +30,7 @@ DeviceFile choose(const std::filesystem::path& node) {
         }
     }
     throw BadInput("spacemouse", node.empty() ? "/dev/hidraw*" : node.string(), "no SpaceMouse",
-                   "one that is plugged in, see `fathom devices`");
+                   "a device that is plugged in, see `fathom devices`");
 }
 
 int openNode(const DeviceFile& file) {

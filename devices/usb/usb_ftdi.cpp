@@ -40,7 +40,7 @@ std::string placeOf(libusb_device* device) {
 
 UsbFtdi::UsbFtdi(uint16_t vendor, uint16_t product) {
     if (libusb_init(&context_) != 0) {
-        throw Error("libusb cannot be started");
+        throw Error("libusb cannot be initialised");
     }
     try {
         open(vendor, product);
@@ -82,7 +82,7 @@ void UsbFtdi::open(uint16_t vendor, uint16_t product) {
         throw BadInput(idText(vendor, product), place_, "no permission", kUdevRuleHint);
     }
     if (error == LIBUSB_ERROR_BUSY) {
-        throw BadInput(idText(vendor, product), place_, "another program uses it", "a device that is free");
+        throw BadInput(idText(vendor, product), place_, "another program uses it", "an unused device");
     }
     if (error != 0) {
         throw BadInput(idText(vendor, product), place_.empty() ? "usb" : place_,

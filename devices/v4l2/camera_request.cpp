@@ -49,7 +49,7 @@ uint32_t parseFourcc(const std::string& all, const std::string& name, const std:
 double parseRate(const std::string& all, const std::string& name, const std::string& value) {
     double rate = 0.0;
     if (!parse(std::string_view(value), rate) || !(rate >= 1.0 && rate <= 300.0)) {
-        refuse(all, name, value, "1 to 300 pictures a second");
+        refuse(all, name, value, "1 to 300 frames per second");
     }
     return rate;
 }

@@ -52,8 +52,8 @@ void CaptureStream::fail(const char* what) const {
         throw DeviceLost(node_.file().string() + ": " + what + ": " + std::strerror(errno));
     }
     throw BadInput(node_.file().string(), what, std::strerror(errno),
-                   errno == EBUSY ? "a camera that no other program uses"
-                                  : "a camera that streams what it offers: " + node_.offer());
+                   errno == EBUSY ? "a camera not in use by another program"
+                                  : "a camera that streams its offered formats: " + node_.offer());
 }
 
 void CaptureStream::negotiate() {

@@ -11,7 +11,7 @@ namespace fathom {
 namespace {
 
 constexpr const char* kNeedsName =
-    "a format that is depth by itself (Z16, INZI), or format=Y16, Y12, Y10 or Y10B where these are depth";
+    "a depth format (Z16, INZI), or format=Y16, Y12, Y10 or Y10B if these carry depth";
 
 uint32_t depthFormatOf(const VideoNode& node, uint32_t asked) {
     if (asked != 0) {
@@ -45,7 +45,7 @@ VideoNode openDepth(const CameraRequest& request, const std::optional<KnownCamer
     const auto found = std::find_if(nodes.begin(), nodes.end(), fits);
     if (found == nodes.end()) {
         std::string seen = nodes.empty()
-                               ? "no video device"
+                               ? "not a video device"
                                : "no depth among " + std::to_string(nodes.size()) + " video devices";
         for (const std::string& line : refused) {
             seen += "; " + line;
@@ -109,7 +109,7 @@ ChosenNodes chooseNodes(const CameraRequest& request, const std::optional<KnownC
         if (!known->colourIdentity.empty()) {
             chooseColour(request, known->colourIdentity, nodes, chosen);
             if (!chosen.colour) {
-                throw BadInput(request.text, "colour", "gone", "the colour camera that was there before");
+                throw BadInput(request.text, "colour", "gone", "the same colour camera as before");
             }
         }
     } else if (request.colour == "auto") {

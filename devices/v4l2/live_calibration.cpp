@@ -53,8 +53,8 @@ void addColour(const realsense::Mailbox& mailbox, const CameraRequest& request, 
         if (request.colour != "auto" || request.colourFormat != 0 || request.colourSize) {
             throw;
         }
-        log::warn("{}: colour is left out: it has no calibration ({}); intrinsics=FILE gives it one",
-                  nodes.depth.card(), e.what());
+        log::warn("{}: colour is not used: no calibration ({}); set intrinsics=FILE", nodes.depth.card(),
+                  e.what());
         nodes.colour.reset();
     }
 }
@@ -80,7 +80,7 @@ std::optional<LiveCalibration> fromRealSense(const CameraRequest& request, Chose
 
 LiveCalibration calibrationFor(const CameraRequest& request, ChosenNodes& nodes) {
     std::optional<LiveCalibration> calibration;
-    std::string why = "missing: this camera does not tell its own";
+    std::string why = "missing: this camera does not report its calibration";
     if (!request.intrinsics.empty()) {
         calibration = fromFile(request, nodes);
     } else {
@@ -89,11 +89,12 @@ LiveCalibration calibrationFor(const CameraRequest& request, ChosenNodes& nodes)
         } catch (const BadInput&) {
             throw;
         } catch (const Error& e) {
-            why = std::string("not told by the camera: ") + e.what();
+            why = std::string("not reported by the camera: ") + e.what();
         }
     }
     if (!calibration) {
-        throw BadInput(request.text, "intrinsics", why, "intrinsics=FILE, as intrinsics.json of a recording");
+        throw BadInput(request.text, "intrinsics", why,
+                       "intrinsics=FILE, like intrinsics.json of a recording");
     }
     if (!nodes.colour) {
         calibration->info.hasColour = false;

@@ -128,10 +128,10 @@ namespace {
 std::string shortColour(uint32_t fourcc, VideoSize size, uint32_t stride, std::span<const std::byte> bytes) {
     const size_t wanted = imageBytes(fourcc, size, stride);
     if (wanted == 0 || depthLayout(fourcc)) {
-        return "no colour format: " + fourccName(fourcc);
+        return "not a colour format: " + fourccName(fourcc);
     }
     return bytes.size() >= wanted ? ""
-                                  : "a colour picture of " + std::to_string(bytes.size()) + " bytes, " +
+                                  : "a colour image of " + std::to_string(bytes.size()) + " bytes, " +
                                         std::to_string(wanted) + " make one";
 }
 

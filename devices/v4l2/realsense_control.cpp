@@ -70,7 +70,7 @@ double Mailbox::depthUnit() const {
             return unit;
         }
     } catch (const Error& e) {
-        log::info("{}: {} m is taken for the depth unit", e.what(), kDefault);
+        log::info("{}: using {} m as the depth unit", e.what(), kDefault);
     }
     return kDefault;
 }

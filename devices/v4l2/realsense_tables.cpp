@@ -36,7 +36,7 @@ std::span<const uint8_t> body(std::span<const uint8_t> table, uint32_t number, s
     }
     const uint32_t size = tableWord(table, 4);
     if ((tableWord(table, 0) >> 16) != number || size < least || size > table.size() - kHeader) {
-        throw Error(name + ": its header tells of table " + std::to_string(tableWord(table, 0) >> 16) +
+        throw Error(name + ": its header names table " + std::to_string(tableWord(table, 0) >> 16) +
                     " with " + std::to_string(size) + " bytes");
     }
     if (crc32(table.subspan(kHeader, size)) != tableWord(table, 12)) {
@@ -188,7 +188,7 @@ ColourTable colourLens(std::span<const uint8_t> table, VideoSize size, ColourSen
     if (!isFinite(colour.colourTdepth) ||
         !std::all_of(bend.begin(), bend.end(), [](double one) { return std::isfinite(one); })) {
         throw Error("calibration table " + std::to_string(kColourTable) +
-                    ": distortion or pose that are no finite numbers");
+                    ": distortion or pose is not finite");
     }
     return colour;
 }

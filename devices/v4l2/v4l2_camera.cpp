@@ -83,7 +83,7 @@ uint64_t V4l2Camera::lost() const {
 }
 
 std::string V4l2Camera::description() const {
-    return description_ + (exposuresTold_ > 0 ? ", which tells when exposure begins" : "");
+    return description_ + (exposuresTold_ > 0 ? ", which reports the start of exposure" : "");
 }
 
 uint64_t V4l2Camera::lostColour() const {
@@ -151,10 +151,10 @@ void V4l2Camera::giveUpStale() {
 void V4l2Camera::watch(bool depth, CaptureStream& stream, Watch& watch) {
     const double silent = secondsSince(watch.last);
     if (silent > 2.0 * request_.silence) {
-        throw DeviceLost(stream.node().file().string() + ": no picture for " + std::to_string(silent) + " s");
+        throw DeviceLost(stream.node().file().string() + ": no frame for " + std::to_string(silent) + " s");
     }
     if (silent > request_.silence && !watch.restarted) {
-        log::warn("{}: no {} picture for {:.1f} s: started anew", stream.node().file().string(),
+        log::warn("{}: no {} frame for {:.1f} s: restarted", stream.node().file().string(),
                   depth ? "depth" : "colour", silent);
         watch.restarted = true;
         ++restarts_;
@@ -208,7 +208,7 @@ std::optional<Frame> V4l2Camera::settle() {
 
 void V4l2Camera::recycle() {
     for (const CapturedBuffer& depth : pairing_.unpairedDepth()) {
-        skip(depth.sequence, "no colour picture near it in time");
+        skip(depth.sequence, "no colour frame close in time");
         streams_->depth.giveBack(depth.index);
     }
     for (const CapturedBuffer& colour : pairing_.usedColour()) {
@@ -218,7 +218,7 @@ void V4l2Camera::recycle() {
 
 void V4l2Camera::skip(uint32_t sequence, const std::string& fault) {
     ++skipped_;
-    log::warn("{}: picture {} skipped: {}", description_, sequence, fault);
+    log::warn("{}: frame {} skipped: {}", description_, sequence, fault);
 }
 
 std::optional<Frame> V4l2Camera::lease(const FramePairing::Pair& pair) {

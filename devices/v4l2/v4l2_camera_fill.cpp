@@ -24,7 +24,7 @@ std::string V4l2Camera::fill(const FramePairing::Pair& pair, FrameSlot& slot, Fr
     }
     if (pair.colour && info_.hasColour) {
         if (pair.colour->damaged) {
-            return "the driver marks its colour picture as damaged";
+            return "the driver marks its colour frame as damaged";
         }
         return fillColour(*pair.colour, slot, content);
     }

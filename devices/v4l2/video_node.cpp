@@ -57,14 +57,15 @@ VideoNode::VideoNode(const fs::path& file)
     descriptor_ = ::open(file.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
     if (descriptor_ < 0) {
         throw BadInput(file.string(), "device", std::strerror(errno),
-                       "a video device that may be opened for reading and writing (group video)");
+                       "a video device with read and write access (group video)");
     }
     v4l2_capability capability{};
     const bool known = control(VIDIOC_QUERYCAP, &capability) == 0;
     const uint32_t wanted = V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
     if (!known || (capability.device_caps & wanted) != wanted) {
         ::close(std::exchange(descriptor_, -1));
-        throw BadInput(file.string(), "device", known ? "no streaming capture" : "no video device",
+        throw BadInput(file.string(), "device",
+                       known ? "does not support streaming capture" : "not a video device",
                        "a V4L2 device that captures and streams");
     }
     card_ = text(capability.card);

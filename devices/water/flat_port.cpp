@@ -80,7 +80,7 @@ WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, dou
         }
     }
     if (!(most > 0.0) || most > kSteepest) {
-        throw Error("a field of view that a flat port cannot serve");
+        throw Error("the field of view is too wide for a flat port");
     }
     WaterLens water;
     water.lens = air;

@@ -14,7 +14,7 @@ WaterCamera::WaterCamera(std::unique_ptr<Camera> source, const FlatPort& port, d
     , slots_(info_.depth.pixels(), false, kFramesInFlight + 1) {
     if (!info_.depth.pinhole() || (info_.hasColour && !info_.colour.pinhole())) {
         throw BadInput(source_->description(), "camera.port", "a lens with distortion",
-                       "pictures without lens distortion, or intrinsics calibrated in water and no port");
+                       "images without lens distortion, or intrinsics calibrated in water and no port");
     }
     try {
         WaterLens depth = inWater(info_.depth, port, nearZ, farZ);

@@ -52,13 +52,13 @@ LoadedMesh readMesh(const urdf::Mesh& mesh, const ShapeSource& source, ShapeSphe
     options.stretch = {mesh.scale.x, mesh.scale.y, mesh.scale.z};
     options.dropStray = true; // the parts of an arm are close together; anything else is stray
     if (!isFinite(options.stretch) || options.stretch.x * options.stretch.y * options.stretch.z == 0.0) {
-        throw ShapeRefused{"a mesh scale of 0 or no number", "three finite numbers, none 0"};
+        throw ShapeRefused{"a mesh scale that is 0 or not finite", "three finite numbers, none 0"};
     }
     const std::filesystem::path file = pathOf(mesh.filename, source);
     LoadedMesh loaded = loadMesh(file, options);
     made.outside = liesOutside(file, source) ? file : "";
     if (loaded.facts.strayParts > 0) {
-        made.notes.push_back(file.string() + ": stray geometry is left out: " + strayText(loaded.facts));
+        made.notes.push_back(file.string() + ": stray geometry is dropped: " + strayText(loaded.facts));
     }
     if (!loaded.doubt.empty()) {
         made.notes.push_back(file.string() + ": " + loaded.doubt);
@@ -79,7 +79,7 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeS
     }
     loaded.facts = tidy(loaded.mesh, 0.0);
     if (loaded.mesh.triangles.empty()) {
-        throw ShapeRefused{"a shape without size", "positive sizes"};
+        throw ShapeRefused{"a shape of size 0", "positive sizes"};
     }
     return loaded;
 }
@@ -107,7 +107,7 @@ ShapeSpheres linkSpheres(LinkShape shape, uint32_t leaves) {
     }
     for (const Sphere& s : made.spheres) {
         if (!isFinite(s.centre) || !(s.radius > 0.0)) {
-            throw ShapeRefused{"a sphere without radius", "radii above 0"};
+            throw ShapeRefused{"a sphere of radius 0", "radii above 0"};
         }
     }
     return made;

@@ -144,8 +144,7 @@ private:
         if (!link->collision_array.empty()) {
             model_.links.push_back(link->name);
         } else if (!link->visual_array.empty() || link->inertial) { // else it is only a frame
-            model_.notes.push_back("link " + link->name +
-                                   " has no collision shape: nothing keeps it off regions");
+            model_.notes.push_back("link " + link->name + " has no collision shape and can enter regions");
         }
         for (const auto& below : link->child_joints) {
             const LinkPtr child = urdf_->getLink(below->child_link_name);
@@ -189,8 +188,9 @@ private:
         for (const auto& wanted : options_.fingers) {
             const auto same = [&](const ArmFinger& finger) { return finger.name == wanted.joint; };
             if (std::none_of(model_.fingers.begin(), model_.fingers.end(), same)) {
-                refuse("finger", "'" + wanted.joint + "'",
-                       "a joint beside the chain from base to tip that no other finger carries, named once");
+                refuse(
+                    "finger", "'" + wanted.joint + "'",
+                    "a joint outside the chain from base to tip, not carried by another finger, listed once");
             }
         }
         refuse("finger", "named twice", "each finger once");
@@ -214,8 +214,8 @@ private:
             addSpheres(shapes_[i], made[i]);
         }
         if (!outside_.empty()) {
-            model_.notes.push_back("meshes outside of the folder that they are looked for in: " +
-                                   std::to_string(outside_.size()) + ", the first " + *outside_.begin());
+            model_.notes.push_back("meshes outside their search folder: " + std::to_string(outside_.size()) +
+                                   ", the first " + *outside_.begin());
         }
     }
 

@@ -77,7 +77,7 @@ std::string doubtOf(const std::filesystem::path& file, const MeshOptions& option
         file.extension() == ".dae" || file.extension() == ".DAE") {
         return "";
     }
-    return metres(extent) + " large if its unit is the metre, which the file does not say (inches?)";
+    return metres(extent) + " large if its unit is the metre, which the file does not state (inches?)";
 }
 
 } // namespace

@@ -132,10 +132,10 @@ ReaderEnd runReader(const std::filesystem::path& file, const ReaderProcess& read
     while (process > 0 && ::waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
     if (process < 0) {
-        throw Error(file.string() + ": no process to read it in");
+        throw Error(file.string() + ": cannot start a reader process");
     }
     if (WIFEXITED(status) && WEXITSTATUS(status) == kReported) {
-        throw std::logic_error(file.string() + ": a sanitizer ended its reader in code that is ours");
+        throw std::logic_error(file.string() + ": a sanitizer ended its reader in Fathom's own code");
     }
     end.signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     return end;

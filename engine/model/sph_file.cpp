@@ -110,7 +110,7 @@ SphereTree readHeader(Lines& lines) {
     const uint64_t count = slotCount(tree.levels, tree.degree, most);
     if (count > most) {
         lines.refuseLine("levels and degree of at most " + std::to_string(most) +
-                         " nodes, as many as the file holds");
+                         " nodes, as many as in the file");
     }
     tree.nodes.resize(count);
     return tree;

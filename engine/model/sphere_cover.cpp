@@ -210,7 +210,7 @@ Cover coverMesh(const TriangleMesh& mesh, const MeshDistance& distance, const Co
     if (options.protrusion > 0.0) {
         cover.spheres = greedyCover(f.groups, f.seats, options.protrusion, kMostCoverSpheres);
         if (cover.spheres.empty()) {
-            throw Error("a protrusion of " + std::to_string(options.protrusion) + " m takes more than " +
+            throw Error("a protrusion of " + std::to_string(options.protrusion) + " m requires more than " +
                         std::to_string(kMostCoverSpheres) + " spheres: allow more");
         }
         cover.spheres = fitAll(f, cover.spheres);

@@ -39,13 +39,13 @@ CameraSource loadSource(const YamlNode& node, Scene& scene) {
         return simulatedSource(node, *simulated);
     }
     if (const auto arm = node.find("arm")) {
-        arm->refuse("nothing: only a simulated camera draws an arm");
+        arm->refuse("none: only a simulated camera draws an arm");
     }
     if (const auto images = node.find("pictures")) {
-        images->refuse("nothing: only a simulated camera has as many as one likes");
+        images->refuse("none: only a simulated camera has a selectable number");
     }
     if (const auto colour = node.find("colour")) {
-        colour->refuse("nothing: only a simulated camera is told how to send it");
+        colour->refuse("none: only a simulated camera has a selectable format");
     }
     if (recorded) {
         return {CameraSource::Kind::Recorded, besideScene(scene, recorded->text()).string()};

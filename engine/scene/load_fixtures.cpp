@@ -51,7 +51,7 @@ void loadPoints(const YamlNode& row, FixtureClass& fixture) {
     fixture.range = loadBand(row, "range", Range::notNegative(), false);
     if (const auto intensity = row.find("intensity")) { // sensors without colour deliver intensity as grey
         if (fixture.lightness) {
-            intensity->refuse("in place of lightness, not beside it");
+            intensity->refuse("instead of lightness, not with it");
         }
         fixture.lightness = loadBand(row, "intensity", share, false);
     }
@@ -172,7 +172,7 @@ void loadFixtures(const YamlNode& fixtures, Scene& scene) {
         FixtureClass fixture = loadRow(row);
         const auto sameName = [&](const FixtureClass& other) { return other.name == fixture.name; };
         if (std::any_of(scene.fixtures.begin(), scene.fixtures.end(), sameName)) {
-            row.at("name").refuse("a name that no earlier row has");
+            row.at("name").refuse("a name not used by an earlier row");
         }
         pointClasses += fixture.isPoints() ? 1 : 0;
         scene.fixtures.push_back(std::move(fixture));

@@ -15,7 +15,7 @@ Scene::Pilot loadPilot(const YamlNode& row, const Scene& scene) {
     Scene::Pilot pilot{row.at("name").text(), scene.haptics, scene.hand.scale};
     const auto sameName = [&](const Scene::Pilot& other) { return other.name == pilot.name; };
     if (std::any_of(scene.pilots.begin(), scene.pilots.end(), sameName)) {
-        row.at("name").refuse("a name that no earlier pilot has");
+        row.at("name").refuse("a name not used by an earlier pilot");
     }
     loadFeel(row, pilot.haptics);
     if (const auto scale = row.find("scale")) {

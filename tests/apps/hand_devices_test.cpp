@@ -77,7 +77,7 @@ TEST_CASE("A camera that cannot be queried shows the reason, and endpoints are l
     const std::string text = printed(root.path(), endpoints.path());
     CHECK(
         holds(text, "camera  " + (root.path() / "dev/video3").string() + "  a camera\n          REFUSED: "));
-    CHECK(holds(text, "no video device"));
+    CHECK(holds(text, "not a video device"));
     CHECK(text.find("door    ") > text.find("camera  "));
 }
 

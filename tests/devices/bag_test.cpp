@@ -215,7 +215,7 @@ TEST_CASE("A bag that claims more data than its bytes can hold is rejected befor
         const std::string few(100, 'x');
         const std::span<const uint8_t> packed(reinterpret_cast<const uint8_t*>(few.data()), few.size());
         CHECK_THROWS_WITH_AS(unpackChunk(compression, packed, 1u << 30),
-                             "a chunk of 100 bytes cannot hold the 1073741824 that are told", Error);
+                             "a chunk of 100 bytes cannot hold the 1073741824 that it declares", Error);
     }
     std::string twice = smallBag().bag("none");
     const size_t last = twice.rfind(Out().text("op=\x06").bytes) - 4;

@@ -67,7 +67,7 @@ TEST_CASE("A wrong answer during the firmware load stops it and reports the step
     std::vector<uint8_t> firmware = blob(200);
     SUBCASE("no firmware named") {
         firmware.clear();
-        expected = "after power-on it needs its firmware: --firmware FILE";
+        expected = "after power-on it needs firmware: --firmware FILE";
     }
     SUBCASE("no greeting") {
         device.greeting.clear();
@@ -88,7 +88,7 @@ TEST_CASE("A wrong answer during the firmware load stops it and reports the step
     SUBCASE("firmware that does not run") {
         device.runsAfter = SIZE_MAX;
         device.diesAfter = 200;
-        expected = "no answer after its firmware was loaded";
+        expected = "no answer after loading the firmware";
     }
     const std::string fault = startFault(device, firmware);
     CHECK_MESSAGE(fault.find(expected) != std::string::npos, fault);

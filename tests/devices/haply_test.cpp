@@ -160,7 +160,7 @@ TEST_CASE("A missing service, WebSocket or Inverse3, or another Inverse3, is rep
         port = service.port();
         CHECK(said(port, "0123").find("has no Inverse3 '0123'") != std::string::npos);
         service.strange = true;
-        CHECK(said(port).find("no WebSocket there") != std::string::npos);
+        CHECK(said(port).find("not a WebSocket") != std::string::npos);
         service.strange = false;
         service.device = false;
         CHECK(said(port).find("has no Inverse3") != std::string::npos);

@@ -228,7 +228,7 @@ TEST_CASE("No line of an index can leave the recording's folder") {
     REQUIRE(index.size() == 5);
     for (size_t i = 0; i < 5; ++i) {
         CAPTURE(lines[i]);
-        const bool leads = index[i].fault.find("leads out of the recording's folder") != std::string::npos;
+        const bool leads = index[i].fault.find("points outside the recording's folder") != std::string::npos;
         CHECK(leads == (i >= 1 && i <= 3));
         CHECK(index[i].depth.empty() == leads);
     }

@@ -61,9 +61,9 @@ TEST_CASE("a missing folder, an empty folder and a folder without an index are r
     folder.write("depth.txt", "0 depth/0.png\n");
     CHECK(holds(recordingRefusal(folder.path()), "associations.txt: missing"));
     folder.write("rgb.txt", "5 rgb/0.png\n");
-    CHECK(holds(recordingRefusal(folder.path()), "rgb.txt and depth.txt: no pair of pictures"));
+    CHECK(holds(recordingRefusal(folder.path()), "rgb.txt and depth.txt: no pair of images"));
     folder.write("associations.txt", "# nothing\n\n");
-    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: no pair of pictures"));
+    CHECK(holds(recordingRefusal(folder.path()), "associations.txt: no pair of images"));
     std::filesystem::remove(folder.path() / "intrinsics.json");
     CHECK(holds(recordingRefusal(folder.path()), "intrinsics.json: file: cannot be read"));
 }
@@ -89,7 +89,7 @@ TEST_CASE("Colour of another size than depth is rejected when the registration i
     writeColour(folder.path() / "rgb/1.png", 14, 10, 1, 2, 3);
     const std::string message = recordingRefusal(folder.path());
     CHECK(holds(message,
-                "intrinsics.json: color.width, color.height: colour pictures of 14x10 where 7x5 is told"));
+                "intrinsics.json: color.width, color.height: colour images of 14x10 where 7x5 is told"));
     const std::string wide = R"({"width": 14, "height": 10, "fx": 13, "fy": 12.5, "cx": 6, "cy": 4})";
     folder.write(
         "intrinsics.json",
@@ -257,5 +257,5 @@ TEST_CASE("broken poses are refused with file and line") {
     CHECK(holds(message("0 0 0 0 0 0 0 1\n\n1 0 0 0 0 0 1\n"), "poses.txt: line 3: 1 0 0 0 0 0 1"));
     CHECK(holds(message("0 0 0 nan 0 0 0 1\n"), "poses.txt: line 1: "));
     CHECK(holds(message("0 0 0 0 0 0 0 0\n"), "non-zero length"));
-    CHECK(holds(message("0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n"), "later than the line before"));
+    CHECK(holds(message("0 0 0 0 0 0 0 1\n0 0 0 0 0 0 0 1\n"), "later than in the previous line"));
 }

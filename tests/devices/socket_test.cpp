@@ -239,7 +239,7 @@ TEST_CASE(
     const auto attempt = [&] { SocketHand(folder.endpoint(), 4, 0.2); };
     CHECK(has(refusalOf(attempt), "nobody listens"));
     std::ofstream(folder.endpoint()) << "text";
-    CHECK(has(refusalOf([&] { SocketServer(serverAt(folder.endpoint())); }), "exists and is no socket"));
+    CHECK(has(refusalOf([&] { SocketServer(serverAt(folder.endpoint())); }), "exists and is not a socket"));
     std::filesystem::remove(folder.endpoint());
 
     DeviceSocket endpoint = DeviceSocket::listen(folder.endpoint(), 1);

@@ -99,7 +99,7 @@ TEST_CASE("YUYV and UYVY are copied as words without the gaps between rows, and 
     CHECK(isYuyv(fourccOf("UYVY")));
     CHECK_FALSE(isYuyv(fourccOf("RGB3")));
     CHECK(copyYuyv(fourccOf("YUYV"), kSize, 10, bytesOf({16, 128, 235, 129}), words) ==
-          "a colour picture of 4 bytes, 18 make one");
+          "a colour image of 4 bytes, 18 make one");
 }
 
 TEST_CASE("RGB and BGR differ only in order, and incomplete colour is reported") {

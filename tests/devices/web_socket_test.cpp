@@ -96,8 +96,8 @@ TEST_CASE("A state of Haply's service is parsed, and an invalid one is rejected 
         }
         return std::string();
     };
-    CHECK(fault("nonsense").find("no JSON object") != std::string::npos);
-    CHECK(fault("[1]").find("no JSON object") != std::string::npos);
+    CHECK(fault("nonsense").find("not a JSON object") != std::string::npos);
+    CHECK(fault("[1]").find("not a JSON object") != std::string::npos);
     CHECK(fault(R"({"inverse3": [{"device_id": "1", "state": {}}]})").find("no cursor_position") !=
           std::string::npos);
     CHECK(
@@ -106,5 +106,5 @@ TEST_CASE("A state of Haply's service is parsed, and an invalid one is rejected 
             .find("no number 'y'") != std::string::npos);
     CHECK(fault(R"({"inverse3": [{"device_id": "1", "state": {"cursor_position": {"x": 1, "y": 2, "z": 3}}}],
                     "verse_grip": [{"device_id": "3", "state": {"orientation": {"w": 0, "x": 0, "y": 0, "z": 0}}}]})")
-              .find("no length") != std::string::npos);
+              .find("zero orientation") != std::string::npos);
 }

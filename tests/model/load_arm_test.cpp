@@ -218,9 +218,9 @@ TEST_CASE("What an arm's files have and its leaves have not is told in a line ea
              "</link><link name='frame'/>" + jointOf("ab", "revolute", "a", "b") +
              jointOf("bc", "revolute", "b", "c") + jointOf("cf", "fixed", "c", "frame", "") + "</robot>");
     REQUIRE(arm.notes.size() == 3);
-    CHECK(arm.notes[0] == "link c has no collision shape: nothing keeps it off regions");
+    CHECK(arm.notes[0] == "link c has no collision shape and can enter regions");
     CHECK(arm.notes[1].find("link a: " + stray.path().string() +
-                            ": stray geometry is left out: 1 pieces up to") == 0);
+                            ": stray geometry is dropped: 1 pieces up to") == 0);
     CHECK(arm.notes[2].find("link b: " + large.path().string() + ": 2.5 m large") == 0);
     CHECK(load(kArm + "</robot>").notes.empty());
 }
@@ -246,8 +246,7 @@ TEST_CASE("Meshes from outside of the URDF's folder are told of once, however ma
     CHECK(notes(shape("link.obj")).size() == 1);
     const auto told = notes(shape("two.obj") + shape("one.obj") + shape("beside.obj") + shape("one.obj"));
     REQUIRE(told.size() == 1);
-    CHECK(told[0] == "meshes outside of the folder that they are looked for in: 2, the first " +
-                         (folder / "one.obj").string());
+    CHECK(told[0] == "meshes outside their search folder: 2, the first " + (folder / "one.obj").string());
     std::filesystem::remove_all(folder);
 }
 
@@ -269,7 +268,7 @@ TEST_CASE("A finger beside the chain is moved by the grasp from its open to its 
     CHECK(limits.fingers[0].open == -1.0);
     CHECK(limits.fingers[0].closed == 2.0);
     options.fingers = {{"turn", {}, {}}}; // of the chain
-    CHECK(refusalOf(kArm + "</robot>", options).find("beside the chain") != std::string::npos);
+    CHECK(refusalOf(kArm + "</robot>", options).find("outside the chain") != std::string::npos);
     options.fingers = {{"jaw", {}, {}}, {"jaw", {}, {}}};
     CHECK(refusalOf(kArm + "</robot>", options).find("each finger once") != std::string::npos);
 }

@@ -210,10 +210,10 @@ TEST_CASE(
             return std::string(e.what());
         }
     };
-    CHECK(refusalFor(0x1d27, 0x0601).find("driver: none knows this camera") != std::string::npos);
+    CHECK(refusalFor(0x1d27, 0x0601).find("driver: no driver knows this camera") != std::string::npos);
     ::setenv("FATHOM_TEST_PLUGGED", "1", 1);
     CHECK(openNi2Offer(0x1d27, 0x0601) == "depth 32x24, colour 32x24; --source openni2:fathom-test");
-    CHECK(refusalFor(0x1d27, 0x0609).find("none knows") != std::string::npos); // another one
+    CHECK(refusalFor(0x1d27, 0x0609).find("no driver knows") != std::string::npos); // another one
     ::unsetenv("FATHOM_TEST_PLUGGED");
 }
 

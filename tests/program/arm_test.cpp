@@ -214,7 +214,7 @@ TEST_CASE("A link that is drawn and has no collision shape is told of by plan, a
     urdf.replace(urdf.find("<link name='jaw'/>"), 18,
                  "<link name='jaw'><visual><geometry><sphere radius='0.1'/></geometry></visual></link>");
     stage.write("arm41.urdf", urdf);
-    const std::string note = "link jaw has no collision shape: nothing keeps it off regions";
+    const std::string note = "link jaw has no collision shape and can enter regions";
     const ProgramRun plan =
         runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
     CHECK(plan.exitCode == 0);
@@ -238,7 +238,7 @@ TEST_CASE("A wrong arm section is one line that names the field, the value and w
     refused(urdf + "joints: [{name: elbow, speed: 0}]", {"arm.joints[0].speed", "above 0"});
     refused(urdf + "self_filter: -1", {"arm.self_filter", "-1", "from 0 to 0.5"});
     refused(urdf + "direction: any", {"arm.direction", "any", "free"});
-    refused(urdf + "grasp: {fingers: [{joint: thumb}]}", {"'thumb'", "beside the chain"});
+    refused(urdf + "grasp: {fingers: [{joint: thumb}]}", {"'thumb'", "outside the chain"});
     refused(urdf + "grasp: {fingers: [], button: 4}", {"arm.grasp", "button 4", "hand.map.clutch"});
     refused(urdf + "grasp: {fingers: [{joint: pinch, open: 0.6, closed: 0}]}",
             {"arm.grasp.fingers[0].open", "0.6", "0 to 0.5"});

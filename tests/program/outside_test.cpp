@@ -62,7 +62,7 @@ TEST_CASE("Pictures behind links that lead out of a recording's folder are used 
         CHECK(run.exitCode == 0);
         const bool out = to.is_absolute();
         REQUIRE(run.errorLines().size() == (out ? 1 : 0));
-        CHECK((!out || run.errorLines().front().find("a link leads out of the recording's folder") !=
+        CHECK((!out || run.errorLines().front().find("a link points outside the recording's folder") !=
                            std::string::npos));
         CHECK(nlohmann::json::parse(stage.read("out/summary.json"))["frames"]["count"] == 3);
     }

@@ -28,7 +28,7 @@ TEST_CASE("A recording that is ended by SIGINT is whole: each picture that its i
     const auto lines = std::count(index.begin(), index.end(), '\n');
     CHECK(lines >= 3);
     CHECK(lines < 60); // it was ended: the simulated camera has more
-    const std::string said = "recorded     " + std::to_string(lines) + " pictures";
+    const std::string said = "recorded     " + std::to_string(lines) + " frames";
     CHECK_MESSAGE(stage.read("said").find(said) != std::string::npos, stage.read("said"));
     const ProgramRun run =
         runFathom({"replay", scene, "--source", folder, "--out", (stage / "out").string()});

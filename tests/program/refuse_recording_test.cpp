@@ -40,7 +40,7 @@ TEST_CASE("a recording folder that is missing, empty, a file or without an index
     fs::remove(stage / "rec/associations.txt");
     checkRefused(stage, {folder, "associations.txt", "missing"});
     stage.write("rec/associations.txt", "# nothing\n");
-    checkRefused(stage, {folder, "associations.txt", "no pair of pictures", "at least one"});
+    checkRefused(stage, {folder, "associations.txt", "no pair of images", "at least one"});
     fs::remove(stage / "rec/intrinsics.json");
     checkRefused(stage, {"intrinsics.json", "cannot be read"});
 }
@@ -53,7 +53,7 @@ TEST_CASE("a recording of which no frame is usable is refused in one line that n
         stage.write(name, whole.substr(0, whole.size() / 2));
     }
     checkRefused(stage, {(stage / "rec").string(), "frames", "none of 3", "depth/000000.png",
-                         "at least one good pair"});
+                         "at least one usable pair"});
     fs::remove_all(stage / "rec/depth");
     checkRefused(stage, {"frames", "none of 3", "depth/000000.png", "cannot be read"});
     stage.write("rec/associations.txt", "this is no index\n");

@@ -89,7 +89,7 @@ TEST_CASE("colour gates outside their range, reversed or of another form are ref
         fixture("lightness: [-0.1, 1]", "lightness[0]: -0.1", "from 0 to 1"),
         fixture("lightness: [0.5, 0.4]", "lightness: [0.5, 0.4]", "lo <= hi"),
         fixture("intensity: [-0.1, 1]", "intensity[0]: -0.1", "from 0 to 1"),
-        fixture("lightness: [0, 1], intensity: [0, 1]", "intensity: [0, 1]", "in place of lightness"),
+        fixture("lightness: [0, 1], intensity: [0, 1]", "intensity: [0, 1]", "instead of lightness"),
     });
 }
 
@@ -126,7 +126,7 @@ TEST_CASE("rows without a name, role or sense are refused") {
         {"fixtures: [{name: a, role: forbiden}]\n" + kTool,
          "fixtures[0].role: forbiden, did you mean 'forbidden'?", "keep_in"},
         {"fixtures: [{name: a, role: forbidden}, {name: a, role: guidance}]\n" + kTool, "fixtures[1].name: a",
-         "no earlier row"},
+         "by an earlier row"},
         {"fixtures: [{name: a, role: keep_in}]\n" + kTool, "fixtures[0].role: keep_in", "needs a shape"},
         {"fixtures: [{name: a, role: guidance, shape: box, size: [1,1,1]}]\n" + kTool,
          "fixtures[0].role: guidance", "keep_in"},

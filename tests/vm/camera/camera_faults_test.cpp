@@ -165,7 +165,7 @@ TEST_CASE("A colour stream that falls silent beside running depth is started ane
     while (loss.empty()) {
         loss = lossOf(camera);
     }
-    CHECK(loss.find("no picture for") != std::string::npos);
+    CHECK(loss.find("no frame for") != std::string::npos);
     CHECK(camera.restarts() == 1);
     CHECK(camera.skipped() > 5); // depth came all the time, and found no colour
     device.colour().faults.silent = false;

@@ -65,7 +65,7 @@ TEST_CASE(
             CHECK(came <= now());
         }
         CHECK(camera->exposuresTold() == (latency > 0 ? 10 : 0));
-        CHECK((camera->description().find("which tells when exposure begins") != std::string::npos) ==
+        CHECK((camera->description().find("which reports the start of exposure") != std::string::npos) ==
               (latency > 0));
     }
 }

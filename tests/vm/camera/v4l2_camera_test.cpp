@@ -174,7 +174,7 @@ TEST_CASE("What a camera does not have is refused with what it has") {
     REQUIRE(waitForCamera());
     const IntrinsicsFile lens(320, 240);
     const std::string file = ",intrinsics=" + lens.path().string();
-    CHECK(refusalOf("v4l2:auto").find("intrinsics: missing: this camera does not tell its own") !=
+    CHECK(refusalOf("v4l2:auto").find("intrinsics: missing: this camera does not report its calibration") !=
           std::string::npos);
     CHECK(refusalOf("v4l2:auto,size=640x480" + file).find("320x240, the size that") != std::string::npos);
     const IntrinsicsFile large(640, 480);
@@ -182,9 +182,9 @@ TEST_CASE("What a camera does not have is refused with what it has") {
           std::string::npos);
     CHECK(refusalOf("v4l2:/dev/video77" + file).find("/dev/video77: device: No such file") !=
           std::string::npos);
-    CHECK(refusalOf("v4l2:/dev/null" + file).find("no video device") != std::string::npos);
+    CHECK(refusalOf("v4l2:/dev/null" + file).find("not a video device") != std::string::npos);
     CHECK(refusalOf("v4l2:auto,format=Y16" + file).find("no depth among") != std::string::npos);
     CHECK(refusalOf("v4l2:auto,colour_format=RGB3" + file).find("colour_format: RGB3") != std::string::npos);
     const auto camera = openLive(file);
-    CHECK(refusalOf("v4l2:auto" + file).find("a camera that no other program uses") != std::string::npos);
+    CHECK(refusalOf("v4l2:auto" + file).find("a camera not in use by another program") != std::string::npos);
 }

@@ -241,7 +241,7 @@ TEST_CASE(
         CHECK_MESSAGE(fault.find(part) != std::string::npos, fault);
     };
     SUBCASE("no file") {
-        says(faultOf({folder.endpoint(), {}}), "after power-on it needs its firmware: --firmware");
+        says(faultOf({folder.endpoint(), {}}), "after power-on it needs firmware: --firmware");
     }
     SUBCASE("a wrong echo") {
         device.wrongEchoAt = 200;
