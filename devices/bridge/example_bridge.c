@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0 */
-/* A whole bridge in C, for a device that everybody has: none. Its handle hangs on a soft spring, goes round
- * slowly and gives way to the force. To write your own: replace readHandle() and drive(), keep the rest.
- *   cc -O2 -o example_bridge example_bridge.c && ./example_bridge /run/user/1000/example.door */
+/* A complete bridge in C for a simulated device, so no hardware is needed. Its handle moves slowly on a
+ * circle and yields to the force like a soft spring. To write your own bridge, replace readHandle() and
+ * drive() and keep the rest. cc -O2 -o example_bridge example_bridge.c && ./example_bridge
+ * /run/user/1000/example.door */
 #define _GNU_SOURCE
 #include "fathom_door.h"
 
@@ -16,7 +17,7 @@
 #include <unistd.h>
 
 static volatile sig_atomic_t stopped = 0;
-static double give[3]; /* [m] how far the pretended handle has given way */
+static double give[3]; /* [m] displacement of the simulated handle by the force */
 
 static void onSignal(int number) {
     (void)number;
@@ -55,9 +56,9 @@ static void exchange(int engine) {
         "example bridge"};
     struct fathom_door_wrench wrench;
     double force[3] = {0, 0, 0};
-    uint64_t heard = 0, since = 0; /* newest wrench; first one after the last silence */
+    uint64_t heard = 0, since = 0; /* [ns] newest wrench; first wrench after the last silence */
     for (;;) {
-        ssize_t got; /* one more byte than a packet has shows one that is too long */
+        ssize_t got; /* the extra byte in `bytes` detects packets that are too long */
         char bytes[sizeof wrench + 1];
         while ((got = recv(engine, bytes, sizeof bytes, MSG_DONTWAIT)) > 0) {
             memcpy(&wrench, bytes, sizeof wrench);
@@ -67,17 +68,17 @@ static void exchange(int engine) {
                 !isfinite(wrench.force[0] + wrench.force[1] + wrench.force[2])) {
                 return;
             }
-            const uint64_t stamp = wrench.header.time_ns; /* what waited for us may be old */
+            const uint64_t stamp = wrench.header.time_ns; /* a queued packet may be old */
             since = stamp - heard > FATHOM_DOOR_SILENCE_NS ? stamp : since;
             heard = stamp;
             hand.wrench_sequence = wrench.header.sequence;
             memcpy(force, wrench.force, sizeof force);
         }
-        const double back = (double)(now() - since) / 1e8; /* forces come back over 0.1 s */
+        const double back = (double)(now() - since) / 1e8; /* forces fade in over 0.1 s */
         const int silent = heard == 0 || now() - heard > FATHOM_DOOR_SILENCE_NS;
         drive(force, silent ? 0.0 : back < 1.0 ? back : 1.0);
         if (got == 0 || stopped) {
-            return; /* the engine's end is closed */
+            return; /* the engine closed its end */
         }
         readHandle(hand.position);
         hand.header.sequence++;
@@ -94,15 +95,15 @@ int main(int argc, char** argv) {
         return 2;
     }
     struct sigaction action = {0};
-    action.sa_handler = onSignal;                              /* no SA_RESTART: accept() ends */
-    const int stopping[] = {SIGINT, SIGTERM, SIGQUIT, SIGHUP}; /* the last: the terminal was closed */
+    action.sa_handler = onSignal;                              /* no SA_RESTART: accept() returns */
+    const int stopping[] = {SIGINT, SIGTERM, SIGQUIT, SIGHUP}; /* SIGHUP: terminal closed */
     for (size_t i = 0; i < sizeof stopping / sizeof *stopping; ++i) {
         sigaction(stopping[i], &action, NULL);
     }
-    signal(SIGPIPE, SIG_IGN); /* nobody reads what it prints: no reason to leave a force on */
+    signal(SIGPIPE, SIG_IGN); /* a closed output must not end the program with a force on */
     strcpy(address.sun_path, argv[1]);
     const int endpoint = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-    unlink(argv[1]); /* the permission is set before anybody can connect */
+    unlink(argv[1]); /* no client can connect before listen(), so chmod comes first */
     if (bind(endpoint, (struct sockaddr*)&address, sizeof address) != 0 || chmod(argv[1], 0600) != 0 ||
         listen(endpoint, 1) != 0) {
         perror(argv[1]);
