@@ -128,7 +128,7 @@ TEST_CASE("Where the clock cannot be held one line says why, and the run is as w
         const ProgramRun run = runFathom(stage.holding());
         CHECK(run.exitCode == 0);
         REQUIRE(run.errorLines().size() == 1);
-        CHECK(run.err.find("warning: --hold-clock: the clock of '") == 0);
+        CHECK(run.err.find("warning: --hold-clock: cannot lock the clock of '") == 0);
         CHECK_MESSAGE(run.err.find(why) != std::string::npos, run.err);
         CHECK(run.out.find(digest) != std::string::npos);
     };
