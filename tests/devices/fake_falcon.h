@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Falcon behind a port without USB: boot loader, firmware, and what can go wrong with each.
+// A simulated Falcon behind a port without USB: boot loader, firmware, and faults of each.
 #pragma once
 
 #include "devices/usb/falcon_packet.h"
@@ -16,8 +16,8 @@ public:
     explicit FakeFalcon(bool booted)
         : running(booted) {}
 
-    bool running;                               // the firmware
-    std::vector<uint8_t> firmware;              // that the boot loader got
+    bool running;                               // firmware runs
+    std::vector<uint8_t> firmware;              // received by the boot loader
     std::vector<std::string> requests;          // "3=21" and so on
     std::vector<std::array<int16_t, 3>> motors; // of every command that came
     FalconState state{{10, 20, 30}, 0, 7};
@@ -27,8 +27,8 @@ public:
     size_t runsAfter = SIZE_MAX;   // bytes of firmware
     size_t diesAfter = SIZE_MAX;   // bytes of firmware
     bool mute = false, unplugged = false, deaf = false;
-    int copies = 1;         // answers a command
-    size_t most = SIZE_MAX; // bytes that one take() gives
+    int copies = 1;         // answers per command
+    size_t most = SIZE_MAX; // most bytes per take()
 
     void control(FtdiRequest request, uint16_t value) override {
         check();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Haply's Inverse Service as its documentation has it, on a port of this machine: an inventory on connection,
-// then one state for each message.
+// A simulated Haply Inverse Service on a local port, as documented: an inventory on connection, then one
+// state per message.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@ public:
 
     uint16_t port() const { return port_; }
     std::array<double, 3> force() const; // of the newest command; zero before the first
-    nlohmann::json first() const;        // message of the newest connection
+    nlohmann::json first() const;        // first message of the newest connection
 
     std::atomic<double> z{0.1};                   // [m] of the handle
     std::atomic<bool> grip{false}, button{false}; // button: a
     std::atomic<bool> device{true};               // plugged into the service
-    std::atomic<bool> other{false};               // another Inverse3 is too, and is told first
-    std::atomic<bool> strange{false};             // greets as no WebSocket does
-    std::atomic<bool> mute{false};                // answers nothing
+    std::atomic<bool> other{false};               // another Inverse3 is plugged in and listed first
+    std::atomic<bool> strange{false};             // handshake is not a WebSocket's
+    std::atomic<bool> mute{false};                // does not answer
     std::atomic<bool> fragments{false};           // answers in two frames with a ping between
-    std::atomic<int> garbage{0};                  // so many answers are none
-    std::atomic<int> hangUps{0};                  // so many connections end at their next message
+    std::atomic<int> garbage{0};                  // number of invalid answers
+    std::atomic<int> hangUps{0};                  // number of connections that end at their next message
     std::atomic<uint64_t> messages{0}, pongs{0};
 
 private:

@@ -17,16 +17,16 @@
 namespace fathom::testing {
 
 struct LineFaults {
-    double noise = 0.0;   // share of bytes that arrive as another
-    double loss = 0.0;    // share of bytes that do not arrive
-    bool echo = false;    // the host hears itself
-    double latency = 0.0; // [s] of answers
-    bool cut = false;     // nothing gets through
-    bool deaf = false;    // the arm hears nothing; the host still hears its echo
+    double noise = 0.0;   // share of bytes that are changed
+    double loss = 0.0;    // share of bytes that are lost
+    bool echo = false;    // the host receives its own bytes
+    double latency = 0.0; // [s] delay of answers
+    bool cut = false;     // no bytes pass
+    bool deaf = false;    // the arm receives nothing; the host still receives its echo
 };
 
-// Time is the test's; only the terminal is real, and what is written to it is waited for unless `live`:
-// somebody else reads there.
+// Time is simulated; only the terminal is real. Writes to it are awaited, unless `live`: then another process
+// reads there.
 class PtyLine {
 public:
     explicit PtyLine(ArmSimulator& arm, bool live = false)
@@ -53,7 +53,7 @@ public:
     LineFaults faults;
     const std::string& name() const { return name_; }
 
-    // What the host has sent goes to the arm, what the arm has answered by now goes to the host.
+    // Passes the host's bytes to the arm, and the arm's due answers to the host.
     void exchange(double now) {
         std::vector<uint8_t> answers;
         uint8_t bytes[256];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recording folders made for a test, and the real ones beside the repository.
+// Recording folders made for a test, and the real ones next to the repository.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +12,10 @@ namespace fathom {
 // Where the real recordings are, seen from the repository root.
 inline const std::filesystem::path kRecordings = "../shared/data";
 
-// False, and said aloud, when the recording is not there.
+// False, with a message, when the recording is missing.
 bool haveRecording(const std::string& name);
 
-// A folder under the system's temporary one that goes when the test ends.
+// A temporary folder, removed at the end of the test.
 class TemporaryFolder {
 public:
     TemporaryFolder();
@@ -42,13 +42,12 @@ void writeDepth(const std::filesystem::path& file, uint32_t width, uint32_t heig
 void writeColour(const std::filesystem::path& file, uint32_t width, uint32_t height, uint8_t r, uint8_t g,
                  uint8_t b);
 
-// A sound recording of `frames` pairs of 7 x 5 pictures: depth 1000 + i, colour (i, 20, 30), stamps i / 10 s.
+// A valid recording of `frames` pairs of 7 x 5 images: depth 1000 + i, colour (i, 20, 30), stamps i / 10 s.
 inline constexpr uint32_t kSmallWidth = 7, kSmallHeight = 5;
 extern const std::string kSmallIntrinsics;
 void writeSmallRecording(const TemporaryFolder& folder, uint32_t frames);
 
-// The message of the BadInput that building a RecordedCamera and reading it to its end throws; empty when
-// none does.
+// Builds a RecordedCamera and reads it to its end. Returns the message of the BadInput thrown, or empty.
 std::string recordingRefusal(const std::filesystem::path& folder);
 
 } // namespace fathom

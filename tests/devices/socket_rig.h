@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scratch folder, hand-made packets and child processes for tests of the door.
+// Scratch folder, packets and child processes for tests of the socket.
 #pragma once
 
 #include "devices/bridge/socket_server.h"
@@ -17,7 +17,7 @@
 
 namespace fathom::testing {
 
-// A folder of this test alone, removed at its end.
+// A folder for one test, removed at its end.
 class SocketFolder {
 public:
     SocketFolder() {
@@ -61,7 +61,7 @@ inline void pauseMs(int ms) {
     std::this_thread::sleep_for(std::chrono::milliseconds(ms));
 }
 
-// Until `done` or the seconds are over.
+// Waits until `done` or the timeout [s].
 inline bool eventually(const std::function<bool()>& done, int seconds = 20) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
     while (std::chrono::steady_clock::now() < until) {
@@ -73,7 +73,7 @@ inline bool eventually(const std::function<bool()>& done, int seconds = 20) {
     return false;
 }
 
-// A child that runs `body` and ends with its result; killed with this at the latest.
+// A child process that runs `body` and exits with its result. Killed by the destructor at the latest.
 class Child {
 public:
     explicit Child(const std::function<int()>& body)

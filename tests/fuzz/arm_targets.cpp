@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets that read what real arms answer: telegrams, and what their drivers make of them.
+// Targets for the answers of real arms: telegrams, and the drivers that process them.
 #include "devices/serial/eca_arm.h"
 #include "devices/serial/reach_arm.h"
 #include "tests/fuzz/fuzz_target.h"
@@ -19,8 +19,8 @@ namespace fathom::testing {
 
 namespace {
 
-// The arm's end of a serial line, which is a pseudo-terminal. One a process and target: a driver is made anew
-// for each input, the line stays.
+// The arm's end of a serial line (a pseudo-terminal), one per process and target. Each input gets a new
+// driver on the same line.
 class FarEnd {
 public:
     FarEnd()
@@ -34,10 +34,10 @@ public:
 
     SerialPort& port() { return *port_; }
 
-    // Turns of a driver that is told to move, with so many bytes before each.
+    // Steps of a driver that is commanded to move, with this many input bytes before each.
     void feed(ArmDevice& arm, Bytes input) {
         constexpr size_t kTurn = 512, kMostTurns = 8;
-        constexpr double kPeriod = 0.1; // [s] longer than a driver's own: it sends in every turn
+        constexpr double kPeriod = 0.1; // [s] longer than a driver's own period, so it sends in every step
         ArmCommand command;
         command.hold = false;
         for (size_t tick = 0; tick < kMostTurns && tick * kTurn < input.size(); ++tick) {
@@ -68,8 +68,8 @@ private:
     std::unique_ptr<SerialPort> port_;
 };
 
-// The same bytes as what an arm says of its axes, in telegrams whose checksums are right: these guard all
-// that is behind.
+// The same bytes as axis readings of an arm, in telegrams with correct checksums, so that the code behind the
+// checksum runs.
 std::vector<uint8_t> reachAnswers(Bytes input) {
     std::vector<uint8_t> all;
     for (; input.size() >= 6; input = input.subspan(6)) {

@@ -19,7 +19,7 @@ namespace fathom::testing {
 
 namespace {
 
-constexpr uint32_t kMostFrames = 8; // of one input
+constexpr uint32_t kMostFrames = 8; // per input
 
 void drain(Camera& camera) {
     const CameraInfo& info = camera.info();
@@ -58,7 +58,7 @@ void readIntrinsicsFile(Bytes input) {
     need(std::isfinite(lens.camera.depth.fx) && lens.camera.depth.fx > 0.0);
 }
 
-// The first byte says which: a hand's path or the camera's poses.
+// The first byte selects a hand path or the camera's poses.
 void readTracks(Bytes input) {
     if (input.empty()) {
         return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The entrance of libFuzzer: --target=NAME chooses what is fed; the rest of the command line is libFuzzer's.
+// Entry point of libFuzzer. --target=NAME selects the target; other options go to libFuzzer.
 #include "tests/fuzz/fuzz_target.h"
 
 #include <cstdio>
@@ -8,8 +8,7 @@
 
 namespace {
 
-const fathom::testing::FuzzTarget* chosen =
-    nullptr; // libFuzzer calls two C functions: there is no other way between them
+const fathom::testing::FuzzTarget* chosen = nullptr; // global, because libFuzzer calls two C functions
 
 }
 

@@ -44,7 +44,7 @@ constexpr std::array kTargets{
     FuzzTarget{"urdf", readUrdfFile},
 };
 
-// Gone with the process.
+// Removed at process exit.
 class Folder {
 public:
     Folder() {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What reads bytes of strangers, each as a function of bytes. A target may throw Error with one line of text
-// (that is how input is refused); anything else that comes out of it is a finding, and so is what a sanitizer
-// says.
+// The readers of untrusted input, each as a function of bytes. A target may throw Error with one line of
+// text, which rejects the input. Any other exception or a sanitizer report is a finding.
 #pragma once
 
 #include <cstdint>
@@ -14,23 +13,23 @@ namespace fathom::testing {
 using Bytes = std::span<const uint8_t>;
 
 struct FuzzTarget {
-    const char* name; // also of its folder below tests/fuzz/corpus
+    const char* name; // also the name of its folder below tests/fuzz/corpus
     void (*read)(Bytes input);
-    long dear = 1; // how many runs of another target one of this costs
+    long dear = 1; // cost of one run, relative to other targets
 };
 
-// All there are, in order of name.
+// All targets, sorted by name.
 std::span<const FuzzTarget> fuzzTargets();
 
-// Runs one input through a target. Ends the process with a message when something other than a one-line Error
-// comes out. True when the input was taken, false when it was refused.
+// Runs one input through a target. Ends the process with a message on anything other than a one-line Error.
+// True when the input was accepted, false when it was rejected.
 bool runFuzzTarget(const FuzzTarget& target, Bytes input);
 
-// A file with these bytes in a folder of this process alone, in memory where that can be had; the next one of
-// the same name replaces it.
+// Writes a file with these bytes to a folder of this process, in memory if possible. A later file of the same
+// name replaces it.
 std::filesystem::path fuzzFile(const std::string& name, Bytes content);
 
-// Ends the process when what a reader promises does not hold.
+// Ends the process when a guarantee of a reader is violated.
 void need(bool holds);
 
 void readScene(Bytes input);

@@ -35,10 +35,10 @@ void readUrdfFile(Bytes input) {
     try {
         needSound(readSphereTree(file));
     } catch (const Error&) {
-        // no spheres; it may be an arm all the same
+        // no spheres; it can still be an arm
     }
     ArmOptions few;
-    few.leavesPerShape = 1; // covering a shape is slow and has no bytes of strangers in it
+    few.leavesPerShape = 1; // covering a shape is slow and reads no untrusted input
     const ArmModel arm = loadArm(file, few);
     JointVector q{};
     ArmFrames frames;
@@ -50,7 +50,7 @@ void readUrdfFile(Bytes input) {
     }
 }
 
-// The first byte says which kind of file.
+// The first byte selects the kind of file.
 void readMesh(Bytes input) {
     if (input.empty()) {
         return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets that read what devices and bridges send: descriptors, tables, pictures, packets.
+// Targets for data from devices and bridges: descriptors, tables, frames, packets.
 #include "devices/bridge/device_socket.h"
 #include "devices/bridge/force_gate.h"
 #include "devices/bridge/socket_hand.h"
@@ -34,8 +34,7 @@ void needLens(const Intrinsics& lens) {
          std::isfinite(lens.cy));
 }
 
-// Whatever it says, as a table that arrived whole: the checksum is made right, or it would guard all that is
-// behind.
+// Any content as a complete table. The checksum is corrected, so that the code behind it runs.
 std::vector<uint8_t> sealed(Bytes input) {
     std::vector<uint8_t> table(input.begin(), input.end());
     if (table.size() > 16) {
@@ -47,7 +46,7 @@ std::vector<uint8_t> sealed(Bytes input) {
 
 } // namespace
 
-// The first byte says which: USB descriptors, a depth table or a colour table.
+// The first byte selects USB descriptors, a depth table or a colour table.
 void readDescriptors(Bytes input) {
     if (input.empty()) {
         return;
@@ -68,7 +67,7 @@ void readDescriptors(Bytes input) {
     }
 }
 
-// Format, size and stride come from the driver: a picture of as many bytes as they ask for.
+// Format, size and stride come from the driver; the image has the number of bytes that they require.
 void readPixels(Bytes input) {
     if (input.size() < 4) {
         return;
@@ -92,7 +91,7 @@ void readPixels(Bytes input) {
 
 void readFalcon(Bytes input) {
     FalconStream stream;
-    for (size_t at = 0; at < input.size(); at += 7) { // the stream may break anywhere
+    for (size_t at = 0; at < input.size(); at += 7) { // the stream can be split anywhere
         stream.feed(input.subspan(at, std::min<size_t>(7, input.size() - at)));
     }
     need(stream.packets() * kFalconPacket <= input.size());
@@ -106,7 +105,7 @@ void readFalcon(Bytes input) {
 
 void readSpaceMouse(Bytes input) {
     SpaceMouseState state;
-    for (size_t at = 0; at < input.size();) { // a length, then so much of a report
+    for (size_t at = 0; at < input.size();) { // a length, then that many bytes of a report
         const size_t size = std::min<size_t>(input[at] % 16, input.size() - at - 1);
         takeSpaceMouseReport(input.subspan(at + 1, size), state);
         const dvec3 axes = spaceMouseAxes(state.shift);
@@ -115,8 +114,8 @@ void readSpaceMouse(Bytes input) {
     }
 }
 
-// As they come out of the socket: a packet for the engine, or a wrench for the device's side. The first byte
-// says which, and whether the header is made right.
+// Packets as received from the socket: one for the engine, or a wrench for the device's side. The first byte
+// selects which, and whether the header is corrected.
 void readEndpoint(Bytes input) {
     if (input.size() < 2) {
         return;
@@ -153,7 +152,7 @@ void readEndpoint(Bytes input) {
     }
 }
 
-// As they come out of a WebSocket: the first byte says how many arrive at a time.
+// Bytes as received from a WebSocket; the first byte sets how many arrive at a time.
 void readHaply(Bytes input) {
     if (input.empty()) {
         return;

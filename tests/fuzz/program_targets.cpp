@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Targets that read what the program's commands take or left: recorded turns, measured points, firmware.
+// Targets for files that the program's commands read or write: recorded ticks, measured points, firmware.
 #include "apps/operate/tick_log.h"
 #include "apps/register/board_finder.h"
 #include "apps/register/point_pairs.h"
@@ -26,7 +26,7 @@ void readTurns(Bytes input) {
     }
 }
 
-// The first byte says which: pairs of points, or where a board is.
+// The first byte selects pairs of points or a board pose.
 void readPairs(Bytes input) {
     if (input.empty()) {
         return;

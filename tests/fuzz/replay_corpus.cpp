@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The short run of the tests: every target reads every file of its corpus, findings of earlier long runs
-// among them, and then mutations of these. Needs no particular compiler; the long run that looks for new ones
-// is `./run fuzz`.
+// The short run of the tests: every target reads every file of its corpus, which includes findings of earlier
+// long runs, and then mutations of these. Works with any compiler. The long run that searches for new
+// findings is `./run fuzz`.
 //   fuzz_tests MUTATIONS [TARGET...]
 #include "tests/fuzz/fuzz_target.h"
 
@@ -30,8 +30,8 @@ using Input = std::vector<uint8_t>;
 constexpr size_t kMostBytes = 1 << 16;
 const char* const kLastInput = "fuzz-finding";
 
-const Input* current = nullptr; // for keepInput(), which a signal or a sanitizer calls
-pid_t own = 0;                  // a child that reads a mesh may die of it: that is a refusal, no finding
+const Input* current = nullptr; // for keepInput(), called by a signal or a sanitizer
+pid_t own = 0;                  // a child process that crashes on a mesh rejects the input; not a finding
 
 void keepInput() {
     if (::getpid() != own) {
@@ -45,7 +45,7 @@ void keepInput() {
 }
 
 void onAbort(int) {
-    keepInput(); // back to abort(), which ends the process
+    keepInput(); // returns to abort(), which ends the process
 }
 
 std::vector<Input> corpusOf(const FuzzTarget& target) {
@@ -84,24 +84,24 @@ private:
         const size_t at = below(input.size());
         const auto place = [&] { return input.begin() + static_cast<long>(at); };
         switch (below(7)) {
-        case 0: // a bit
+        case 0: // flip a bit
             if (!input.empty()) {
                 input[at] ^= static_cast<uint8_t>(1u << below(8));
             }
             break;
-        case 1: // cut off
+        case 1: // truncate
             input.resize(at);
             break;
-        case 2: // bytes lost
+        case 2: // remove bytes
             input.erase(place(), place() + static_cast<long>(std::min(input.size() - at, 1 + below(8))));
             break;
-        case 3: { // bytes twice
+        case 3: { // repeat bytes
             const Input again(place(),
                               place() + static_cast<long>(std::min(input.size() - at, 1 + below(64))));
             input.insert(place(), again.begin(), again.end());
             break;
         }
-        case 4: { // an extreme number over what is there
+        case 4: { // overwrite with an extreme number
             constexpr uint64_t kExtremes[] = {0,          ~0ull, 0x7fffffff, 0x80000000, 0x7ff8000000000000,
                                               0x7f800000, 1};
             const uint64_t value = kExtremes[below(std::size(kExtremes))];
@@ -110,14 +110,14 @@ private:
             }
             break;
         }
-        case 5: { // a word that texts stumble over
+        case 5: { // insert a difficult token
             constexpr const char* kWords[] = {"nan", "-1", "1e999", "4294967296", "../../", "[",
                                               "{",   "\n", " ",     "&a *a",      "0"};
             const std::string word = kWords[below(std::size(kWords))];
             input.insert(place(), word.begin(), word.end());
             break;
         }
-        default: { // the rest of another one
+        default: { // append the rest of another input
             const Input& other = corpus_[below(corpus_.size())];
             const auto from = other.begin() + static_cast<long>(below(other.size()));
             input.resize(at);
@@ -155,7 +155,7 @@ int main(int argc, char** argv) {
             taken += run(target, input) ? 1 : 0;
             ++passed;
         }
-        if (taken == 0) { // a corpus of nothing but refusals exercises nothing
+        if (taken == 0) { // a corpus of rejected inputs exercises nothing
             std::fprintf(stderr, "ERROR: fuzz target %s: no input of its corpus is taken\n", target.name);
             ++failed;
             continue;

@@ -3,7 +3,7 @@
 # by pkg-config; both must feel 10 N within 0.1 %. Checks which files are installed, that none of them names the build folder, and that
 # the library exports the public API only.
 #   cmake -DSOURCE= -DBINARY= -DCXX= -DVERSION= -P install_test.cmake
-#   cmake -DSOURCE= -DPREFIX=/usr -DCXX= -DVERSION= -P install_test.cmake    the same of what is installed there
+#   cmake -DSOURCE= -DPREFIX=/usr -DCXX= -DVERSION= -P install_test.cmake    tests the installation there
 cmake_minimum_required(VERSION 3.25)
 set(passed 0)
 set(failed 0)
@@ -53,7 +53,7 @@ check("libfathom.so exports its insides" NOT symbols MATCHES "::Impl::")
 execute_process(COMMAND nm -D --undefined-only ${library} OUTPUT_VARIABLE symbols)
 check("libfathom.so changes the process: ${CMAKE_MATCH_1}" NOT symbols MATCHES " (mlockall|setenv|putenv|sigaction)@")
 list(FILTER files INCLUDE REGEX "(cmake|pc|conf|rules|h|yaml)$")
-string(REGEX REPLACE "([][+.*()^$?\\])" "\\\\\\1" sources "${SOURCE}/") # at the head of a path: sources may lie in /fathom
+string(REGEX REPLACE "([][+.*()^$?\\])" "\\\\\\1" sources "${SOURCE}/") # at the start of a path, because the sources may be in /fathom
 foreach(file ${files})
     file(READ ${root}/${file} text)
     string(REGEX MATCH "(^|-[IL]|[^]A-Za-z0-9_./})-])${sources}" named "${text}")
@@ -104,7 +104,7 @@ execute_process(COMMAND ${CXX} -std=c++20 -O1 ${stage}/consumer/hello.cpp -o ${s
 check("the consumer does not build by pkg-config: ${log}" result EQUAL 0)
 must_feel("the consumer built by pkg-config" ${stage}/by_pkg_config)
 
-# Manual page and completion know every subcommand and every long option that the program itself tells of.
+# Manual page and completion know every subcommand and every long option that the program lists.
 execute_process(COMMAND gzip -dc ${root}/share/man/man1/fathom.1.gz OUTPUT_VARIABLE manual)
 string(REPLACE "\\-" "-" manual "${manual}")
 function(words_of result)

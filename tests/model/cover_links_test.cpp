@@ -14,7 +14,7 @@ using namespace fathom;
 
 namespace {
 
-// Most threads that this process had at a fork since the last look.
+// Largest number of threads of this process at a fork since the last call.
 std::atomic<size_t> threadsAtFork{0};
 
 size_t threadsNow() {
@@ -46,7 +46,7 @@ std::string refusalOf(const std::vector<LinkGeometry>& shapes) {
 
 } // namespace
 
-TEST_CASE("Meshes are read before there is another thread, whose locks a child would find held") {
+TEST_CASE("Meshes are read before other threads start, because a child would inherit their locks") {
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const std::vector<LinkGeometry> shapes(6, meshLink("a", one.path()));
     const int watched = ::pthread_atfork([] { threadsAtFork = std::max(threadsAtFork.load(), threadsNow()); },
@@ -64,8 +64,8 @@ TEST_CASE("Meshes are read before there is another thread, whose locks a child w
     }
 }
 
-TEST_CASE("Shapes come in their order, and of several refusals the first is told, whether of a file or of a "
-          "size") {
+TEST_CASE(
+    "Shapes keep their order, and the first of several rejections is reported, of a file or of a size") {
     const testing::ObjFile one(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const auto made = spheresOf(
         std::vector{ballLink("a", 0.1), meshLink("b", one.path()), ballLink("c", 0.3)}, {"arm.urdf", {}}, 8);

@@ -25,7 +25,7 @@ std::string jointOf(const std::string& name, const std::string& type, const std:
            "</joint>";
 }
 
-// base - fixed - arm/a - turns - arm/b - slides - tip, with a finger beside.
+// base - fixed - arm/a - revolute - arm/b - prismatic - tip, and a finger off the chain.
 const std::string kArm =
     "<robot name='r'><link name='base'>" + kBall + "</link><link name='arm/a'>" + kBall +
     "</link><link name='arm/b'>" + kBall + "</link><link name='tip'/><link name='finger'>" + kBall +
@@ -51,8 +51,7 @@ std::string refusalOf(const std::string& text, const ArmOptions& options = {}) {
 } // namespace
 
 TEST_CASE(
-    "a URDF gives the chain to the tip, fixed joints folded in, and every link's spheres with the joint that "
-    "carries them") {
+    "A URDF gives the chain to the tip with fixed joints merged, and every link's spheres with their joint") {
     ArmOptions options;
     options.tip = "tip";
     const ArmModel arm = load(kArm + "</robot>", options);
@@ -81,7 +80,7 @@ TEST_CASE(
     CHECK(glm::distance(arm.tip(frames).position, dvec3(0.3, 0.0, 0.0)) < 1e-9);
 }
 
-TEST_CASE("boxes and cylinders become spheres that hold their corners and rims") {
+TEST_CASE("Boxes and cylinders become spheres that contain their corners and rims") {
     const std::string shapes =
         "<robot name='r'><link name='base'><collision><geometry><box size='0.2 0.1 0.06'/>"
         "</geometry></collision></link><link name='l'><collision><geometry>"
@@ -106,7 +105,7 @@ TEST_CASE("boxes and cylinders become spheres that hold their corners and rims")
     CHECK(arm.leaves.size() <= 48);
 }
 
-TEST_CASE("an arm that cannot be used is refused with the joint or link and the reason") {
+TEST_CASE("An unusable arm is rejected with the joint or link and the reason") {
     ArmOptions options;
     options.tip = "nowhere";
     CHECK(refusalOf(kArm + "</robot>", options).find("link: 'nowhere' (allowed: ") != std::string::npos);
@@ -141,8 +140,7 @@ TEST_CASE("an arm that cannot be used is refused with the joint or link and the 
           std::string::npos);
 }
 
-TEST_CASE("a URDF that would end the stack of its reader is refused: elements nested without end, links "
-          "below links") {
+TEST_CASE("A URDF that would overflow its reader's stack is rejected: deeply nested elements or links") {
     constexpr int kDeep = 50000;
     std::string nested = "<robot name='r'>";
     for (int i = 0; i < kDeep; ++i) {
@@ -166,7 +164,7 @@ TEST_CASE("a URDF that would end the stack of its reader is refused: elements ne
                   links);
 }
 
-TEST_CASE("real arms of four joints are read, slashes in the names and all") {
+TEST_CASE("Real arms with four joints are read, also with slashes in the names") {
     const std::filesystem::path file = "../shared/data/urdf/oberon4/oberon4.urdf";
     if (!std::filesystem::exists(file)) {
         MESSAGE("SKIPPED ALOUD: no such file: " << file);
@@ -184,7 +182,7 @@ TEST_CASE("real arms of four joints are read, slashes in the names and all") {
     CHECK(arm.leaves.size() > 50);
 }
 
-TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is refused") {
+TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is rejected") {
     const testing::ObjFile box(testing::boxMesh(dvec3(0.0), dvec3(0.1)));
     const auto text = [&](const std::string& scale) {
         return "<robot name='r'><link name='a'><collision><geometry><mesh filename='file://" +
@@ -204,7 +202,7 @@ TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is refuse
     CHECK(refusalOf(text("1 0 1")).find("link a: a mesh scale of 0") != std::string::npos);
 }
 
-TEST_CASE("What an arm's files have and its leaves have not is told in a line each") {
+TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
     TriangleMesh mesh = testing::boxMesh(dvec3(0.0), dvec3(0.1));
     testing::addBox(mesh, {4.0, 0.0, 0.0}, dvec3(0.01));
     const testing::ObjFile stray(mesh), large(testing::boxMesh(dvec3(0.0), {2.5, 0.2, 0.2}));
@@ -225,7 +223,7 @@ TEST_CASE("What an arm's files have and its leaves have not is told in a line ea
     CHECK(load(kArm + "</robot>").notes.empty());
 }
 
-TEST_CASE("Meshes from outside of the URDF's folder are told of once, however many there are") {
+TEST_CASE("Any number of meshes outside the URDF's folder is reported once") {
     const auto folder =
         std::filesystem::temp_directory_path() / ("fathom_outside_" + std::to_string(::getpid()));
     std::filesystem::create_directories(folder / "urdf");
@@ -250,7 +248,7 @@ TEST_CASE("Meshes from outside of the URDF's folder are told of once, however ma
     std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("A finger beside the chain is moved by the grasp from its open to its closed place") {
+TEST_CASE("The grasp moves a finger off the chain from its open to its closed position") {
     ArmOptions options;
     options.tip = "tip";
     options.fingers = {{"jaw", 0.0, 1.5707963267948966}};

@@ -28,7 +28,7 @@ std::string refusalOfMesh(const std::filesystem::path& file, const MeshOptions& 
     return "";
 }
 
-// `nodes` that all name one mesh of 99 999 corners.
+// `nodes` nodes that all reference one mesh of 99 999 corners.
 void writeCopies(const std::filesystem::path& file, int nodes) {
     std::ofstream out(file);
     out << "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
@@ -60,7 +60,7 @@ bool present(const std::filesystem::path& file) {
 
 } // namespace
 
-TEST_CASE("a closed mesh is read whole: size, volume, closed, nothing left out") {
+TEST_CASE("A closed mesh is read completely: size, volume, closed, nothing dropped") {
     const ObjFile file(boxMesh({0.1, -0.2, 0.3}, {0.2, 0.1, 0.05}));
     const LoadedMesh loaded = loadMesh(file.path());
     CHECK(loaded.mesh.triangles.size() == 12);
@@ -72,9 +72,9 @@ TEST_CASE("a closed mesh is read whole: size, volume, closed, nothing left out")
     CHECK(glm::distance(loaded.mesh.low(), dvec3(0.0, -0.25, 0.275)) < 1e-6);
 }
 
-TEST_CASE("faces that stand twice are taken once and a mesh turned inside out is turned back") {
+TEST_CASE("Duplicate faces are dropped and an inside-out mesh is reversed") {
     TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(0.1));
-    for (size_t t = 0; t < 12; ++t) { // once more, the other way round, as drawing programs export
+    for (size_t t = 0; t < 12; ++t) { // again with reversed winding, as CAD programs export
         mesh.triangles.push_back({mesh.triangles[t][0], mesh.triangles[t][2], mesh.triangles[t][1]});
     }
     std::swap(mesh.triangles[3][0], mesh.triangles[3][1]);
@@ -89,7 +89,7 @@ TEST_CASE("faces that stand twice are taken once and a mesh turned inside out is
     CHECK(loadMesh(ObjFile(mesh).path()).mesh.volume() > 0.0);
 }
 
-TEST_CASE("an open mesh is read and its open edges are counted") {
+TEST_CASE("An open mesh is read and its open edges are counted") {
     TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(0.1));
     mesh.triangles.pop_back();
     const LoadedMesh loaded = loadMesh(ObjFile(mesh).path());
@@ -97,9 +97,9 @@ TEST_CASE("an open mesh is read and its open edges are counted") {
     CHECK(loaded.facts.openEdges == 3);
 }
 
-TEST_CASE("stray geometry is refused with its distance, or left out when asked") {
+TEST_CASE("Stray geometry is rejected with its distance, or dropped on request") {
     TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(0.1));
-    addBox(mesh, {0.15, 0.0, 0.0}, dvec3(0.05)); // beside it: part of the thing
+    addBox(mesh, {0.15, 0.0, 0.0}, dvec3(0.05)); // next to it: part of the object
     addBox(mesh, {20.0, 0.0, 0.0}, dvec3(0.02));
     const ObjFile file(mesh);
     CHECK(refusalOfMesh(file.path()).find("stray geometry: 1 pieces up to 19.8") != std::string::npos);
@@ -111,7 +111,7 @@ TEST_CASE("stray geometry is refused with its distance, or left out when asked")
     CHECK(loaded.mesh.high().x == doctest::Approx(0.175));
 }
 
-TEST_CASE("a unit that nobody said is refused by its size and mended by --scale; --up turns an axis to +z") {
+TEST_CASE("An unstated unit is rejected by the size and set by --scale; --up rotates an axis to +z") {
     const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);
     CHECK(refusalOfMesh(millimetres.path()).find("size: 300 m (allowed: 0.001 to 10 m") != std::string::npos);
     MeshOptions options;
@@ -127,8 +127,7 @@ TEST_CASE("a unit that nobody said is refused by its size and mended by --scale;
     CHECK(refusalOfMesh("tests/model/meshes.h").find("mesh: ") != std::string::npos);
 }
 
-TEST_CASE(
-    "Each axis of a mesh is stretched by its own factor, and a mirrored one still has its inside inside") {
+TEST_CASE("Each axis of a mesh is stretched by its own factor, and a mirrored mesh keeps outward normals") {
     const ObjFile file(boxMesh({0.1, 0.1, 0.1}, dvec3(0.1)));
     MeshOptions options;
     options.scale = 2.0;
@@ -139,7 +138,7 @@ TEST_CASE(
     CHECK(mesh.volume() == doctest::Approx(0.2 * 0.4 * 0.6).epsilon(1e-6));
 }
 
-TEST_CASE("A mesh of over two metres without a unit is doubted, unless --scale said what is meant") {
+TEST_CASE("A mesh of over two metres without a unit gives a warning, unless --scale is given") {
     const ObjFile large(boxMesh(dvec3(0.0), {3.2, 1.0, 1.0})), small(boxMesh(dvec3(0.0), dvec3(1.9)));
     CHECK(loadMesh(large.path()).doubt.find("3.2 m large") == 0);
     CHECK(loadMesh(small.path()).doubt == "");
@@ -151,7 +150,7 @@ TEST_CASE("A mesh of over two metres without a unit is doubted, unless --scale s
     CHECK(loadMesh(large.path(), metres).doubt == "");
 }
 
-TEST_CASE("Kinds of file that nobody promised to read are refused, whatever is in them") {
+TEST_CASE("Unsupported kinds of file are rejected, whatever they contain") {
     const ObjFile box(boxMesh(dvec3(0.0), dvec3(0.1)));
     const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-kind.ply";
     std::ofstream(file) << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
@@ -167,25 +166,24 @@ TEST_CASE("Kinds of file that nobody promised to read are refused, whatever is i
     std::filesystem::remove(upper);
 }
 
-TEST_CASE(
-    "A mesh that takes more memory than it may is refused, and copies are counted before they are made") {
+TEST_CASE("A mesh that needs too much memory is rejected, and copies are counted before they are made") {
     const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-copies.dae";
     writeCopies(file, 10);
     CHECK(importTriangles(file).mesh.triangles.size() == 333'330);
-    if (!kSanitized) {         // where there is no bound
+    if (!kSanitized) {         // a sanitizer has no memory limit
         writeCopies(file, 55); // 130 MB of corners
         const ImportedTriangles large = importTriangles(file, 16 << 20);
         CHECK(large.mesh.triangles.empty());
         CHECK(large.fault == "takes over 16 MiB to read");
     }
     writeCopies(file, 1000);
-    const ImportedTriangles many = importTriangles(file, 200 << 20); // of 2400 MB that the copies would take
+    const ImportedTriangles many = importTriangles(file, 200 << 20); // the copies would take 2400 MB
     CHECK(many.fault == "over 6000000 corners");
     CHECK(many.mesh.points.empty());
     std::filesystem::remove(file);
 }
 
-TEST_CASE("distance and winding agree with a box's formula, inside, outside and where two boxes overlap") {
+TEST_CASE("Distance and winding agree with a box's formula inside, outside and where two boxes overlap") {
     const TriangleMesh mesh = boxMesh(dvec3(0.0), {2.0, 4.0, 6.0});
     const MeshDistance distance(mesh, true);
     for (const dvec3& p : {dvec3(0.0), dvec3(0.9, 0.5, -2.0), dvec3(1.5, 0.0, 0.0), dvec3(3.0, 5.0, 7.0)}) {
@@ -203,7 +201,7 @@ TEST_CASE("distance and winding agree with a box's formula, inside, outside and 
     CHECK_FALSE(MeshDistance(two, false).isInside(dvec3(0.5)));
 }
 
-TEST_CASE("the winding number of a ring of many faces is right by dipoles, too") {
+TEST_CASE("The dipole approximation of the winding number is correct for a ring of many faces") {
     const TriangleMesh ring = ringMesh(0.1, 0.03, 96, 48);
     const MeshDistance distance(ring, true);
     for (int i = 0; i < 500; ++i) {
@@ -216,7 +214,7 @@ TEST_CASE("the winding number of a ring of many faces is right by dipoles, too")
     }
 }
 
-TEST_CASE("real files with traps are read in metres: inches, doubled faces, an open finger tip") {
+TEST_CASE("Difficult real files are read in metres: inches, duplicate faces, an open finger tip") {
     if (const auto file = kMeshes / "gazebo_models_CC-BY-3.0/hand_wheel_valve.dae"; present(file)) {
         const LoadedMesh loaded = loadMesh(file);
         const dvec3 size = loaded.mesh.high() - loaded.mesh.low();
@@ -234,13 +232,14 @@ TEST_CASE("real files with traps are read in metres: inches, doubled faces, an o
     }
 }
 
-TEST_CASE("A file that crashes the mesh reader is refused in one line, and so is one that is cut off") {
+TEST_CASE("A file that crashes the mesh reader is rejected in one line, and so is a truncated one") {
     std::ifstream in("tests/fuzz/corpus/mesh/finding-collada", std::ios::binary);
     const std::string input{std::istreambuf_iterator<char>(in), {}};
     REQUIRE(input.size() > 100);
     const auto file = std::filesystem::temp_directory_path() / "fathom-mesh-finding.dae";
     for (size_t size = 1; size <= input.size(); size += 97) {
-        std::ofstream(file, std::ios::binary) << input.substr(1, size); // the first byte is the target's own
+        std::ofstream(file, std::ios::binary)
+            << input.substr(1, size); // the first byte belongs to the fuzz target
         CHECK_THROWS_AS(loadMesh(file), BadInput);
     }
     std::ofstream(file, std::ios::binary) << input.substr(1);

@@ -48,7 +48,7 @@ inline TriangleMesh ringMesh(double large, double small, uint32_t around, uint32
     return mesh;
 }
 
-// The mesh as an OBJ file that goes away with this.
+// The mesh as an OBJ file, removed by the destructor.
 class ObjFile {
 public:
     explicit ObjFile(const TriangleMesh& mesh, double unit = 1.0) {

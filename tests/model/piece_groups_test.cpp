@@ -9,7 +9,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("Every piece lies in one group and in the sphere about it; all groups but the last are full") {
+TEST_CASE("Every piece is in one group and inside its sphere; all groups but the last are full") {
     const TriangleMesh ring = ringMesh(0.05, 0.015, 40, 20);
     std::vector<CoverPiece> all = cutToPieces(ring, MeshDistance(ring, true), 0.004, 0.01);
     REQUIRE(all.size() > 200);

@@ -21,7 +21,7 @@ ReaderEnd endOf(const std::function<void()>& work) {
 }
 
 #ifdef __SANITIZE_ADDRESS__
-// Reads one past the end, by way of a volatile so that no compiler sees it.
+// Reads one past the end, through a volatile to hide it from the compiler.
 void readBeyond() {
     const std::vector<int> four(4, 1);
     const volatile size_t beyond = 4;
@@ -32,14 +32,14 @@ void readBeyond() {
 
 } // namespace
 
-TEST_CASE("a reader that dies of a signal tells which, and one that ends in order tells none") {
+TEST_CASE("A reader killed by a signal reports which, and one that exits normally reports none") {
     CHECK(endOf([] {}).signal == 0);
     CHECK(endOf([] { ::raise(SIGSEGV); }).signal == SIGSEGV);
     CHECK(broken("mesh reader", endOf([] { ::raise(SIGABRT); })) == "breaks the mesh reader (signal 6)");
 }
 
 #ifdef __SANITIZE_ADDRESS__
-TEST_CASE("what a sanitizer says of a reader is a finding, unless it is the library that was at work") {
+TEST_CASE("A sanitizer report of a reader is a finding, unless it occurred in the library") {
     CHECK_THROWS_AS(endOf(readBeyond), std::logic_error);
     CHECK(endOf([] {
               const LibraryAtWork library;

@@ -48,7 +48,7 @@ size_t usedLeaves(const SphereTree& tree) {
 
 } // namespace
 
-TEST_CASE("a tree that was written is read back with the same leaves, bit by bit") {
+TEST_CASE("A written tree is read back with bit-identical leaves") {
     for (size_t count : {1u, 2u, 3u, 17u, 500u}) {
         std::vector<Sphere> leaves;
         for (size_t i = 0; i < count; ++i) {
@@ -73,8 +73,7 @@ TEST_CASE("a tree that was written is read back with the same leaves, bit by bit
     }
 }
 
-TEST_CASE(
-    "the forms of the toolkit are read: four, five, nine and ten columns, blank lines, text at the end") {
+TEST_CASE("The toolkit's variants are read: four, five, nine and ten columns, blank lines, text at the end") {
     const SphFile file("2 4\n\n0 0 0 9 1\n1 0 0 0.5\r\n0 1 0 0.5 0.75\n  0 0 1 0.5 1 2 3 4 0.1\n"
                        "\n0 0 -1 0.5 0.9 1 2 3 4 0.1\nMean: 0.5\nBest 1\nWorst 2\n");
     const SphereTree tree = readSph(file.path(), 0.001);
@@ -85,7 +84,7 @@ TEST_CASE(
     CHECK(tree.nodes[4].radius == 0.0005);
 }
 
-TEST_CASE("radii above the leaves are recomputed, whether the file's were too small or too large") {
+TEST_CASE("Radii above the leaves are recomputed, whether the file's are too small or too large") {
     for (const char* radius : {"0.001", "1000"}) {
         const SphFile file("2 2\n0 0 0 " + std::string(radius) + "\n-1 0 0 0.25\n2 0 0 0.5\n");
         const SphereTree tree = readSph(file.path());
@@ -95,7 +94,7 @@ TEST_CASE("radii above the leaves are recomputed, whether the file's were too sm
     }
 }
 
-TEST_CASE("what lies under an unused slot is unused, even when it holds garbage") {
+TEST_CASE("Slots below an unused slot are unused, even when they contain garbage") {
     const SphFile file("3 2\n0 0 0 5\n1 0 0 1\nnan nan 0 -1\n1 0 0 0.5\n1.5 0 0 0.5\n77 77 77 3\n88 0 0 9\n");
     CHECK(refusal("1 1\n0 0 0 -1\n").find("root node: unused") != std::string::npos);
     const SphereTree tree = readSph(file.path());
@@ -104,7 +103,7 @@ TEST_CASE("what lies under an unused slot is unused, even when it holds garbage"
     CHECK(validate(tree) == "");
 }
 
-TEST_CASE("a sphere that the toolkit did not refine reaches the last level") {
+TEST_CASE("A sphere that the toolkit did not refine reaches the last level") {
     const SphFile file("3 2\n0 0 0 5\n1 0 0 1\n-3 0 0 0.5\n1 0 0 0.5\n1.5 0 0 0.5\n0 0 0 -1\n0 0 0 -1\n");
     const SphereTree tree = readSph(file.path());
     CHECK(usedLeaves(tree) == 3);
@@ -113,7 +112,7 @@ TEST_CASE("a sphere that the toolkit did not refine reaches the last level") {
     CHECK(validate(tree) == "");
 }
 
-TEST_CASE("a damaged file is refused with its line and allocates nothing it does not hold") {
+TEST_CASE("A damaged file is rejected with its line and allocates no more than its content") {
     CHECK(refusal("").find("line 1: end of file") != std::string::npos);
     CHECK(refusal("0 2\n").find("line 1: '0 2'") != std::string::npos);
     CHECK(refusal("2 0\n0 0 0 1\n").find("line 1: '2 0'") != std::string::npos);
@@ -134,7 +133,7 @@ TEST_CASE("a damaged file is refused with its line and allocates nothing it does
     CHECK_THROWS_AS(readSph("tests"), BadInput);
 }
 
-TEST_CASE("an unsound tree or an impossible place is not written") {
+TEST_CASE("An invalid tree is not written, and an unwritable path is reported") {
     SphereTree tree = buildSphereTree(std::vector<Sphere>{{{0, 0, 0}, 1}, {{3, 0, 0}, 1}});
     CHECK_THROWS_AS(writeSph(tree, "no/such/folder/tree.sph"), Error);
     tree.nodes[1].radius = 5.0;

@@ -36,7 +36,7 @@ CoverOptions leaves(uint32_t count, uint32_t effort = 1) {
 
 } // namespace
 
-TEST_CASE("a cover contains the mesh at every number of leaves, from one on, and is proven to be no worse") {
+TEST_CASE("A cover contains the mesh for every number of leaves and keeps its proven bound") {
     const TriangleMesh mesh = boxMesh({0.02, 0.0, -0.01}, {0.12, 0.06, 0.03});
     double before = 1.0;
     for (uint32_t count : {1u, 2u, 7u, 33u}) {
@@ -53,14 +53,14 @@ TEST_CASE("a cover contains the mesh at every number of leaves, from one on, and
     }
 }
 
-TEST_CASE("one sphere round a box is close to the smallest there is") {
+TEST_CASE("A single sphere around a box is close to the smallest possible") {
     const dvec3 size(0.12, 0.06, 0.03);
     const Made made = make(boxMesh({1.0, 2.0, 3.0}, size), true, leaves(1, 2));
     REQUIRE(made.cover.spheres.size() == 1);
     CHECK(made.cover.spheres[0].radius == doctest::Approx(0.5 * glm::length(size)).epsilon(0.002));
 }
 
-TEST_CASE("the allowed protrusion is a bound that is kept, and fewer millimetres take more leaves") {
+TEST_CASE("The allowed protrusion is kept, and a smaller one needs more leaves") {
     const TriangleMesh ring = ringMesh(0.05, 0.015, 40, 20);
     size_t before = 0;
     for (double allowed : {0.01, 0.004, 0.002}) {
@@ -77,7 +77,7 @@ TEST_CASE("the allowed protrusion is a bound that is kept, and fewer millimetres
     CHECK_THROWS_AS(make(ring, true, impossible), Error);
 }
 
-TEST_CASE("a mesh without an inside is covered as a shell, spheres standing out on both sides") {
+TEST_CASE("A mesh without an inside is covered as a shell, with spheres protruding on both sides") {
     TriangleMesh open = boxMesh(dvec3(0.0), dvec3(0.1));
     open.triangles.resize(10);
     const Made made = make(open, false, leaves(40));
@@ -86,7 +86,7 @@ TEST_CASE("a mesh without an inside is covered as a shell, spheres standing out 
     CHECK(made.measure.volumeRatio == 0.0);
 }
 
-TEST_CASE("two parts that run into each other are covered as one") {
+TEST_CASE("Two intersecting parts are covered as one") {
     TriangleMesh cross = boxMesh(dvec3(0.0), {0.1, 0.02, 0.02});
     addBox(cross, dvec3(0.0), {0.02, 0.1, 0.02});
     const Made made = make(cross, true, leaves(30));
@@ -94,7 +94,7 @@ TEST_CASE("two parts that run into each other are covered as one") {
     CHECK(made.cover.protrusionBound < 0.01);
 }
 
-TEST_CASE("a cover is the same every time it is made") {
+TEST_CASE("A cover is deterministic") {
     const TriangleMesh mesh = boxMesh(dvec3(0.0), {0.1, 0.05, 0.02});
     const Made a = make(mesh, true, leaves(12)), b = make(mesh, true, leaves(12));
     REQUIRE(a.cover.spheres.size() == b.cover.spheres.size());
@@ -104,7 +104,7 @@ TEST_CASE("a cover is the same every time it is made") {
     }
 }
 
-TEST_CASE("the measure sees a corner that sticks out and how far a sphere stands out") {
+TEST_CASE("The measure detects an uncovered corner and the protrusion of a sphere") {
     const TriangleMesh mesh = boxMesh(dvec3(0.0), dvec3(2.0));
     const MeshDistance distance(mesh, true);
     const std::vector<Sphere> ball{{dvec3(0.0), 1.5}};
@@ -120,7 +120,7 @@ TEST_CASE("the measure sees a corner that sticks out and how far a sphere stands
     CHECK(whole.insideCovered == 1.0);
 }
 
-TEST_CASE("the tree of a real jaw contains the jaw: the leaves read back from the file hold every sample") {
+TEST_CASE("The tree of a real jaw contains the jaw: the leaves read from the file contain every sample") {
     const std::filesystem::path file = "../shared/data/meshes/uuv_manipulators_Apache-2.0/Jaw.stl";
     if (!std::filesystem::exists(file)) {
         MESSAGE("SKIPPED ALOUD: no such file: " << file);

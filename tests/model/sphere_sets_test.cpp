@@ -50,7 +50,7 @@ const std::string kRobot = "<robot name='r'><link name='a/hand'>" + ball("0.1 0 
 
 } // namespace
 
-TEST_CASE("a spherized URDF gives each link's spheres at their origins, other shapes left alone") {
+TEST_CASE("A spherized URDF gives each link's spheres at their origins and ignores other shapes") {
     const TextFile file(".urdf", kRobot + "</robot>");
     const auto sets = readSpherizedUrdf(file.path());
     REQUIRE(sets.size() == 1);
@@ -63,7 +63,7 @@ TEST_CASE("a spherized URDF gives each link's spheres at their origins, other sh
     CHECK(tree.nodes[0].radius > 0.1);
 }
 
-TEST_CASE("cuRobo's YAML is read at the top and under its tables; spheres switched off are left out") {
+TEST_CASE("cuRobo's YAML is read at the top and under its tables; disabled spheres are skipped") {
     const std::string spheres =
         "collision_spheres:\n  hand:\n    - {center: [0, 0, 0.1], radius: 0.02}\n"
         "    - {center: [0, 0, 0.2], radius: -10}\n  base: [{center: [1, 2, 3], radius: 0.5}]\n";
@@ -85,7 +85,7 @@ TEST_CASE("cuRobo's YAML is read at the top and under its tables; spheres switch
     CHECK(refusalOf(".yaml", spheres, "arm").find("link: 'arm' (allowed: hand, base)") != std::string::npos);
 }
 
-TEST_CASE("a damaged set is refused with its place") {
+TEST_CASE("A damaged set is rejected with the place of the error") {
     CHECK(refusalOf(".urdf", "").find("file: empty") != std::string::npos);
     CHECK(refusalOf(".urdf", "<robot").find("robot: ") != std::string::npos);
     CHECK(refusalOf(".urdf", "<robot name='r'><link name='x'/></robot>").find("spheres: none") !=
@@ -95,7 +95,7 @@ TEST_CASE("a damaged set is refused with its place") {
     CHECK(refusalOf(".yaml", "collision_spheres: {a: [{center: [0, 0], radius: 1}]}")
               .find("line 1: not a sphere") != std::string::npos);
     CHECK(refusalOf(".yaml", "a: \"\\\x02\"\n").find_first_of("\n\x02") ==
-          std::string::npos); // it quotes what it got
+          std::string::npos); // it quotes the input
     CHECK(refusalOf(".yaml", "a: \"\\\x02\"\n").find("escape") != std::string::npos);
     CHECK(refusalOf(".yaml", "collision_spheres:\n  a:\n    - {center: [0, 0, .nan], radius: 1}")
               .find("line 3") != std::string::npos);
@@ -104,7 +104,7 @@ TEST_CASE("a damaged set is refused with its place") {
     CHECK(refusalOf(".txt", "x").find("kind of file: '.txt'") != std::string::npos);
 }
 
-TEST_CASE("a set whose tables or lists name themselves or each other without end is refused") {
+TEST_CASE("A set whose tables or lists reference themselves or each other is rejected") {
     CHECK(refusalOf(".yaml", "&a {robot_cfg: {kinematics: *a}}").find("collision_spheres: missing") !=
           std::string::npos);
     CHECK(refusalOf(".yaml", "collision_spheres: &a {hand: &b [*b], arm: *a}").find("not a sphere") !=
@@ -121,7 +121,7 @@ TEST_CASE("a set whose tables or lists name themselves or each other without end
           std::string::npos);
 }
 
-TEST_CASE("a set larger than any real one is refused before it takes memory, and quoted in part only") {
+TEST_CASE("An oversized set is rejected before it takes memory, and quoted only in part") {
     const std::string set = "collision_spheres: {hand: [{center: [0, 0, 0], radius: 1}]}\n#";
     CHECK(refusalOf(".yaml", set + std::string(900'000, 'x') + "\n") == "");
     const std::string large = refusalOf(".yaml", set + std::string(1'100'000, 'x') + "\n");
@@ -141,7 +141,7 @@ TEST_CASE("a set larger than any real one is refused before it takes memory, and
     }
 }
 
-TEST_CASE("a pipe in place of spheres or an arm is refused and not waited for") {
+TEST_CASE("A pipe instead of spheres or an arm is rejected without waiting") {
     for (const char* kind : {".yaml", ".urdf", ".sph"}) {
         const TextFile file(kind, "");
         std::filesystem::remove(file.path());
@@ -151,7 +151,7 @@ TEST_CASE("a pipe in place of spheres or an arm is refused and not waited for") 
     }
 }
 
-TEST_CASE("the sphere sets that foam made of a real arm are read, every link a sound tree") {
+TEST_CASE("The sphere sets that foam made of a real arm are read, with a valid tree per link") {
     const std::filesystem::path file =
         "../shared/data/meshes/foam_spherized_MIT/smaller_panda_spherized.urdf";
     if (!std::filesystem::exists(file)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The camera of OpenNI2 on the real library: a live device of a driver that draws, and .oni files of the
-// library's own recorder.
+// The OpenNI2 camera on the real library: a live device of a test driver, and .oni files of the library's own
+// recorder.
 #include "devices/openni2/openni2_camera.h"
 
 #include "devices/openni2/open_openni2.h"
@@ -16,7 +16,7 @@ namespace {
 
 const std::filesystem::path kFolder = std::filesystem::temp_directory_path() / "fathom-openni2-test";
 
-// Whether every pixel is that of one drawn picture; its number is in `n`.
+// True if every pixel belongs to one drawn frame; `n` receives its number.
 bool isDrawn(const Frame& frame, int& n) {
     n = frame->depth[0] - 1000;
     for (uint32_t v = 0; v < 24; ++v) {
@@ -32,8 +32,8 @@ bool isDrawn(const Frame& frame, int& n) {
     return true;
 }
 
-// Returns how many pictures of depth the file has: the library leaves out what it has not written when it is
-// stopped, on a busy machine most.
+// Returns the number of depth frames in the file. The library drops frames that are not written when it
+// stops, on a busy machine most of them.
 int record(const char* uri, const std::string& file, int images, bool colour) {
     REQUIRE(openni::OpenNI::initialize() == openni::STATUS_OK);
     {
@@ -125,7 +125,7 @@ TEST_CASE("A live device gives depth with its own colour, registered, with the l
     }
 }
 
-TEST_CASE("A device that falls silent is lost") {
+TEST_CASE("A silent device is reported as lost") {
     const auto camera = openOpenNi2("openni2:fathom-test-silent");
     CHECK_THROWS_AS(
         [&] {
@@ -138,7 +138,7 @@ TEST_CASE("A device that falls silent is lost") {
 
 namespace {
 
-// Every picture until the end, each as it was drawn and later than the one before; how many.
+// Checks every frame until the end: as drawn, and later than the previous one. Returns their number.
 int readWhole(Camera& camera) {
     int count = 0, before = 0;
     double stamp = -1.0;
@@ -158,12 +158,11 @@ int readWhole(Camera& camera) {
 
 } // namespace
 
-TEST_CASE(
-    "An .oni file gives the pictures of the device that it was recorded from, to the last bit, and ends") {
+TEST_CASE("An .oni file gives the recorded device's frames bit by bit, and ends") {
     for (const bool colour : {false, true}) {
         CAPTURE(colour);
         int count = 0;
-        // On a busy machine the library's recorder leaves pictures out, those in colour first.
+        // On a busy machine the library's recorder drops frames, colour first.
         for (int asked = 6; count < 6 && asked <= 96; asked *= 2) {
             const auto camera = openOpenNi2(recorded("fathom-test", asked, colour) + ",registered=yes");
             CHECK_FALSE(camera->live());
@@ -177,7 +176,7 @@ TEST_CASE(
     std::filesystem::remove_all(kFolder);
 }
 
-TEST_CASE("What is not there, is no recording, or does not tell its lens is refused in one line") {
+TEST_CASE("A missing file, a file that is not a recording, and an unknown lens are rejected in one line") {
     CHECK(refusal("openni2:nowhere").find("nowhere: device") != std::string::npos);
     CHECK(refusal("/none/x.oni").find("/none/x.oni: device") != std::string::npos);
     CHECK(refusal("openni2:fathom-test,focus=3").find("focus=3 (allowed: intrinsics=FILE, registered=yes)") !=
@@ -201,8 +200,7 @@ TEST_CASE("What is not there, is no recording, or does not tell its lens is refu
 }
 
 TEST_CASE(
-    "A camera on USB is offered with its sizes where a driver knows it, and refused with the reason where "
-    "none does") {
+    "A USB camera known to a driver is listed with its sizes, and one without a driver with the reason") {
     const auto refusalFor = [](uint16_t vendor, uint16_t product) {
         try {
             return "offered: " + openNi2Offer(vendor, product);
@@ -217,7 +215,7 @@ TEST_CASE(
     ::unsetenv("FATHOM_TEST_PLUGGED");
 }
 
-TEST_CASE("Requests of OpenNI2 are told from others") {
+TEST_CASE("OpenNI2 requests are distinguished from others") {
     for (const char* yes : {"openni2", "openni2:2bc5/0401@1/2", "a/b.oni", "x.oni,intrinsics=l.json"}) {
         CHECK_MESSAGE(isOpenNi2Request(yes), yes);
     }

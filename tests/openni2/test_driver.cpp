@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver for OpenNI2 with a camera that is drawn: depth and colour of 32x24 pixels that hold the picture's
-// number, mirrored colour on request. URIs: fathom-test, fathom-test-mirrored, fathom-test-silent (three
-// pictures), fathom-test-plain (no field of view, colour not registered).
+// An OpenNI2 driver with a synthetic camera: depth and colour of 32x24 pixels that encode the frame number,
+// mirrored colour on request. URIs: fathom-test, fathom-test-mirrored, fathom-test-silent (three frames),
+// fathom-test-plain (no field of view, colour not registered).
 #include <Driver/OniDriverAPI.h>
 #include <atomic>
 #include <chrono>
@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-// What the export macro makes objects with.
+// The export macro creates objects with these functions.
 #define XN_NEW(type, ...) new type(__VA_ARGS__)
 #define XN_DELETE(p) delete (p)
 
@@ -98,8 +98,7 @@ private:
     int stride() const { return kWidth * (colour_ ? 3 : 2); }
     bool mirrored() const { return uri_ == "fathom-test-mirrored"; }
 
-    // Pixel (u, v) of picture n: depth 1000 + 40 v + u + n; red u, green v, blue n. Mirrored: columns the
-    // other way round.
+    // Pixel (u, v) of frame n: depth 1000 + 40 v + u + n; red u, green v, blue n. Mirrored: columns reversed.
     void draw(OniFrame& frame, int n) const {
         auto* depth = static_cast<uint16_t*>(frame.data);
         auto* rgb = static_cast<uint8_t*>(frame.data);
@@ -193,7 +192,7 @@ class Driver final : public oni::driver::DriverBase {
 public:
     explicit Driver(OniDriverServices* services)
         : DriverBase(services) {}
-    // A camera that is plugged in, when the test says so.
+    // A camera that the test plugs in.
     OniStatus initialize(oni::driver::DeviceConnectedCallback connected,
                          oni::driver::DeviceDisconnectedCallback gone,
                          oni::driver::DeviceStateChangedCallback changed, void* cookie) override {

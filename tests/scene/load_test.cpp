@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene file that is accepted comes to.
+// The values of accepted scene files.
 #include "tests/scene/scene_file.h"
 
 #include <cmath>
@@ -39,7 +39,7 @@ contact: { where: gpu, reach: 0.02, delay: 1000 }
 
 } // namespace
 
-TEST_CASE("a scene with only fixtures and a tool has the stated default everywhere else") {
+TEST_CASE("A scene with only fixtures and a tool has the documented default everywhere else") {
     const SceneFile file(kMinimal);
     const Scene scene = loadScene(file.path());
     CHECK(scene.file == file.path());
@@ -67,7 +67,7 @@ TEST_CASE("a scene with only fixtures and a tool has the stated default everywhe
     CHECK_FALSE(scene.usesColour());
 }
 
-TEST_CASE("classes by range and intensity are taken as written, intensity as the lightness of grey") {
+TEST_CASE("Classes by range and intensity are loaded as written, intensity as the lightness of grey") {
     const SceneFile file(R"(
 camera: {near: 0.3, far: 8}
 fixtures:
@@ -89,7 +89,7 @@ tool: { spheres: [[0, 0, 0, 0.01]] }
     CHECK_FALSE(scene.fixtures[1].lightness.has_value());
 }
 
-TEST_CASE("camera, filter and tool are taken as written, paths from the scene's folder") {
+TEST_CASE("Camera, filter and tool are loaded as written, with paths from the scene's folder") {
     const SceneFile file(kEverything);
     std::filesystem::create_directories(file.folder() / "sub");
     std::ofstream(file.folder() / "sub/tool.sph") << "1 1\n0 0 0 0.01\n";
@@ -111,7 +111,7 @@ TEST_CASE("camera, filter and tool are taken as written, paths from the scene's 
     CHECK_FALSE(scene.hand.builtIn);
 }
 
-TEST_CASE("fixtures keep their order and every value of points and shapes") {
+TEST_CASE("Fixtures keep their order and every value of points and shapes") {
     const SceneFile file(kEverything);
     std::filesystem::create_directories(file.folder() / "sub");
     std::ofstream(file.folder() / "sub/tool.sph") << "1 1\n0 0 0 0.01\n";
@@ -143,7 +143,7 @@ TEST_CASE("fixtures keep their order and every value of points and shapes") {
     CHECK(scene.hasGuidance());
 }
 
-TEST_CASE("hand, haptics and contact are taken as written") {
+TEST_CASE("Hand, haptics and contact are loaded as written") {
     const SceneFile file(kEverything);
     std::filesystem::create_directories(file.folder() / "sub");
     std::ofstream(file.folder() / "sub/tool.sph") << "1 1\n0 0 0 0.01\n";
@@ -172,7 +172,7 @@ TEST_CASE("hand, haptics and contact are taken as written") {
     CHECK(scene.contact.delay == 1000);
 }
 
-TEST_CASE("bounds are inclusive, an empty list of fixtures and the words auto and preset are fine") {
+TEST_CASE("Bounds are inclusive; an empty list of fixtures and the words auto and preset are accepted") {
     CHECK(refusal("fixtures: []\n" + kTool) == "");
     CHECK(
         refusal(
@@ -197,7 +197,7 @@ TEST_CASE("bounds are inclusive, an empty list of fixtures and the words auto an
     }
 }
 
-TEST_CASE("a quaternion of huge or tiny length is normalised without overflow") {
+TEST_CASE("A quaternion of huge or tiny length is normalised without overflow") {
     for (const char* quat : {"[0, 0, 1e300, 1e300]", "[0, 0, 1e-290, 1e-290]"}) {
         const SceneFile file(kMinimal + "hand: {map: {base_R_device: " + quat + "}}\n");
         const dquat q = loadScene(file.path()).hand.baseRdevice;
@@ -206,7 +206,7 @@ TEST_CASE("a quaternion of huge or tiny length is normalised without overflow") 
     }
 }
 
-TEST_CASE("A flat port under water is read, and one that cannot be is refused") {
+TEST_CASE("A flat port under water is read, and an impossible one is rejected") {
     CHECK(loadScene(SceneFile(kMinimal + "camera: {port: {distance: 0.03}}\n").path()).port->index == 1.34);
     CHECK(loadScene(SceneFile(kMinimal + "camera: {port: {distance: 0, index: 1.33}}\n").path())
               .port->distance == 0.0);
@@ -220,7 +220,7 @@ TEST_CASE("A flat port under water is read, and one that cannot be is refused") 
           std::string::npos);
 }
 
-TEST_CASE("Paths of a scene that lead out of its folder are noted, the others are not") {
+TEST_CASE("Only paths of a scene that leave its folder are reported") {
     const SceneFile inside(kMinimal + "hand: {path: sub/../way.csv}\ncamera: {source: {recorded: ./rec}}\n");
     CHECK(loadScene(inside.path()).outside.empty());
     const SceneFile outside(kMinimal +

@@ -21,7 +21,7 @@ const std::string kTwo = "haptics: {stiffness: 500, limits: {force: 9, slew_N_pe
 
 } // namespace
 
-TEST_CASE("A pilot has the scene's haptics but for what is told of him, and the first is in force") {
+TEST_CASE("A pilot has the scene's haptics with the given overrides, and the first pilot is active") {
     const Scene scene = load(kTwo);
     REQUIRE(scene.pilots.size() == 2);
     CHECK(scene.pilot == "anna");
@@ -42,7 +42,7 @@ TEST_CASE("A pilot has the scene's haptics but for what is told of him, and the 
     CHECK(load(kTwo + "pilot: ben\n").hand.scale == 0.8);
 }
 
-TEST_CASE("A scene without pilots has none in force") {
+TEST_CASE("A scene without pilots has no active pilot") {
     const Scene scene = load("");
     CHECK(scene.pilots.empty());
     CHECK(scene.pilot.empty());
@@ -60,7 +60,7 @@ TEST_CASE("Window settings and attenuation are read") {
     CHECK(scene.attenuation == dvec3(0.6, 0.1, 0.05));
 }
 
-TEST_CASE("Pilots, settings and water that make no sense are refused in one line") {
+TEST_CASE("Invalid pilots, settings and water are rejected in one line") {
     const std::pair<std::string, std::string> bad[] = {
         {"pilots: []\n", "pilots: 0 pilots"},
         {"pilots: [{stiffness: 3}]\n", "pilots[0].name"},

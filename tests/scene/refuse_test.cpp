@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene file may not say, and that the message names file, field, value and what is allowed.
+// Invalid scene files. The message names file, field, value and what is allowed.
 #include "engine/scene/yaml_node.h"
 #include "tests/scene/scene_file.h"
 
@@ -9,7 +9,7 @@ using namespace fathom;
 
 namespace {
 
-// One bad value: the text, then what the message must say after the file's name ("field: value") and what is
+// One invalid value: the text, the expected message after the file name ("field: value"), and what is
 // allowed.
 struct Bad {
     std::string text, fieldAndValue, allowed;
@@ -47,7 +47,7 @@ std::string pointRows(size_t count) {
 
 } // namespace
 
-TEST_CASE("unknown keys are refused at every level with the nearest known key") {
+TEST_CASE("Unknown keys are rejected at every level with the nearest known key") {
     checkRefused({
         section("camra: {}", "camra: unknown key, did you mean 'camera'?", "fixtures"),
         section("camera: {nera: 1}", "camera.nera: unknown key, did you mean 'near'?", "near"),
@@ -70,14 +70,14 @@ TEST_CASE("unknown keys are refused at every level with the nearest known key") 
     });
 }
 
-TEST_CASE("the nearest word counts a swap of neighbours as one slip and takes any length") {
+TEST_CASE("The nearest word counts a swap of neighbours as one error and accepts any length") {
     constexpr std::array<std::string_view, 3> kWords{"frocks", "force", "near"};
     CHECK(nearestWord("froce", kWords) == "force"); // one swap; "frocks" is two letters away and comes first
     CHECK(nearestWord("", kWords) == "near");       // fewest letters to add
     CHECK(nearestWord(std::string(100000, 'k'), kWords) == "frocks");
 }
 
-TEST_CASE("colour gates outside their range, reversed or of another form are refused") {
+TEST_CASE("Colour gates outside their range, reversed or of another form are rejected") {
     checkRefused({
         fixture("hue: [-1, 20]", "hue[0]: -1", "from 0 to 360"),
         fixture("hue: [0, 360.5]", "hue[1]: 360.5", "from 0 to 360"),
@@ -93,7 +93,7 @@ TEST_CASE("colour gates outside their range, reversed or of another form are ref
     });
 }
 
-TEST_CASE("points with a bad radius, box or guidance value are refused") {
+TEST_CASE("Points with a bad radius, box or guidance value are rejected") {
     checkRefused({
         fixture("radius: -0.01", "radius: -0.01", "above 0"),
         fixture("radius: 0", "radius: 0", "above 0"),
@@ -118,7 +118,7 @@ TEST_CASE("points with a bad radius, box or guidance value are refused") {
     });
 }
 
-TEST_CASE("rows without a name, role or sense are refused") {
+TEST_CASE("Rows without a name or role, or with invalid combinations, are rejected") {
     checkRefused({
         {"fixtures: [{role: forbidden}]\n" + kTool, "fixtures[0].name: missing", "must be given"},
         {"fixtures: [{name: '', role: forbidden}]\n" + kTool, "fixtures[0].name: empty text", "text"},
@@ -140,7 +140,7 @@ TEST_CASE("rows without a name, role or sense are refused") {
     CHECK(refusal(pointRows(8)) == "");
 }
 
-TEST_CASE("shapes without their size or with keys of points are refused") {
+TEST_CASE("Shapes without their size or with keys of points are rejected") {
     checkRefused({
         fixture("shape: cube", "shape: cube", "sphere, box, plane, cylinder, line, axis"),
         fixture("shape: box", "size: missing", "must be given"),
@@ -155,7 +155,7 @@ TEST_CASE("shapes without their size or with keys of points are refused") {
     });
 }
 
-TEST_CASE("camera and filter values outside their range are refused") {
+TEST_CASE("Camera and filter values outside their range are rejected") {
     checkRefused({
         section("camera: {near: 0}", "camera.near: 0", "above 0"),
         section("camera: {near: -1}", "camera.near: -1", "above 0"),
@@ -189,7 +189,7 @@ TEST_CASE("camera and filter values outside their range are refused") {
     });
 }
 
-TEST_CASE("a scene without a usable tool is refused") {
+TEST_CASE("A scene without a usable tool is rejected") {
     const std::string fixtures = "fixtures: []\n";
     checkRefused({
         {fixtures, "tool: missing", "must be given"},
@@ -205,7 +205,7 @@ TEST_CASE("a scene without a usable tool is refused") {
     CHECK(message.find("nowhere.sph (allowed: an existing") != std::string::npos);
 }
 
-TEST_CASE("hand, haptics and contact values outside their range are refused") {
+TEST_CASE("Hand, haptics and contact values outside their range are rejected") {
     checkRefused({
         section("hand: {path: wander}", "hand.path: wander", "approach or a .csv"),
         section("hand: {map: {base_R_device: [0,0,0,0]}}", "hand.map.base_R_device: [0, 0, 0, 0]",
@@ -241,13 +241,13 @@ TEST_CASE("hand, haptics and contact values outside their range are refused") {
     });
 }
 
-TEST_CASE("a scene larger than any real one is refused with its size and the limit") {
+TEST_CASE("An oversized scene is rejected with its size and the limit") {
     checkRefused({{kMinimal + "#" + std::string(1 << 20, 'x'),
                    "file: " + std::to_string(kMinimal.size() + 1 + (1 << 20)) + " bytes",
                    "a readable scene file (YAML) of at most 1 MiB"}});
 }
 
-TEST_CASE("a file that is no YAML, no file or too deep is refused with its line") {
+TEST_CASE("A missing file, one that is not YAML and one nested too deep are rejected, with the line") {
     checkRefused({
         {kMinimal + "camera: {near: 1\n", "line ", "YAML"},
         {kMinimal + "hold_s: 1\n\tcamera: 2\n", "line 4: ", "YAML"},

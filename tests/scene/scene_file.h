@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene file in a folder of its own that goes when the test ends.
+// A scene file in its own folder, removed at the end of the test.
 #pragma once
 
 #include "engine/scene/scene.h"

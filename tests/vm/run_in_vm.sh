@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Runs a command on Debian's own kernel in a virtual machine whose root is this machine's own (read only below a scratch layer), so
-# that the program and its libraries need no installing. Exits as the command does.
+# that the program and its libraries need no installation. Exits with the command's exit code.
 #   run_in_vm.sh [-m "MODULE [OPTION...]"]... [-e NAME=VALUE]... [-o DIR] [-t SECONDS] [-i] -- COMMAND [ARGUMENT...]
 # -m loads a kernel module; -o: files that the command leaves in $FATHOM_VM_OUT come back into DIR, with kernel.log.
-# -i: the guest's clock counts its instructions, 2 ns each, and skips what it sleeps. What runs there then sees a processor of the
-# same speed however slow or busy this machine is; SECONDS stay those of this machine.
+# -i: the guest's clock counts its instructions, 2 ns each, and skips what it sleeps. Programs there see a processor of the
+# same speed regardless of the load of this machine; SECONDS are those of this machine.
 # Exit 77: no virtual machine can start here, the reason is printed; 125: the guest did not finish (the kernel's last words follow).
 # Environment: FATHOM_VM_CACHE (the kernel, default build/vm), FATHOM_VM_MIB (memory, default 2048), FATHOM_VM_ACCEL (tcg or kvm).
 # Nothing reaches the network but one apt-get download of the kernel's package, which is unpacked and never installed.
@@ -57,7 +57,7 @@ flock 9
 [ "$cache/initramfs.gz" -nt "$here/make_initramfs.sh" ] || "$here/make_initramfs.sh" "$cache/kernel" "$cache/initramfs.gz"
 flock -u 9
 
-# A nested kernel module without VMX or SVM opens, too, but runs a stock kernel far slower than plain emulation does. With
+# A nested kernel module without VMX or SVM also opens, but runs a stock kernel far slower than plain emulation. With
 # emulation one processor is steadier than two.
 accel=${FATHOM_VM_ACCEL:-tcg}
 if [ -z "${FATHOM_VM_ACCEL:-}$counted" ] && [ -w /dev/kvm ] && grep -qwE 'vmx|svm' /proc/cpuinfo; then
@@ -82,7 +82,7 @@ mkdir "$share/out"
     printf '\n%s\n' 'rc=$?; echo $rc >/run/share/rc; sync; echo o >/proc/sysrq-trigger; while :; do sleep 1; done'
 } >"$share/guest-init"
 
-# no_timer_check: a busy machine delays the emulated timer so much at boot that the kernel takes it for broken and panics.
+# no_timer_check: a busy machine delays the emulated timer so much at boot that the kernel considers it broken and panics.
 readonly_share() { echo "-fsdev local,id=$1,path=$2,security_model=none,readonly=on,multidevs=remap -device virtio-9p-pci,fsdev=$1,mount_tag=$1"; }
 status=0
 # shellcheck disable=SC2046  # one word an option

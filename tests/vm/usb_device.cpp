@@ -59,7 +59,7 @@ void UsbDevice::unplug() {
     waitUntilVhciFree(port_);
 }
 
-// Until the kernel lets go of the other end, or unplug().
+// Until the kernel closes the other end, or unplug().
 void UsbDevice::serve() {
     for (;;) {
         const auto pause = std::clamp<std::chrono::nanoseconds>(
@@ -132,7 +132,7 @@ bool UsbDevice::unlink(const uint8_t* header) {
     return writeAll(reply);
 }
 
-// Whether a transfer of that number was still pending; it is gone then.
+// Removes the pending transfer with that number; false when there is none.
 bool UsbDevice::forget(uint32_t number) {
     const auto late = std::find_if(delayed_.begin(), delayed_.end(),
                                    [number](const Delayed& one) { return one.transfer.number == number; });
@@ -174,7 +174,7 @@ std::optional<UsbReply> UsbDevice::standard(const UsbSetup& setup) {
     case 11:
         setInterface(setup.index, setup.value);
         return UsbReply{};
-    default: // CLEAR_FEATURE, too: a halt that ends matters to the device
+    default: // also CLEAR_FEATURE, because the end of a halt matters to the device
         return std::nullopt;
     }
 }
@@ -182,7 +182,7 @@ std::optional<UsbReply> UsbDevice::standard(const UsbSetup& setup) {
 std::optional<UsbReply> UsbDevice::descriptor(const UsbSetup& setup) const {
     const int kind = setup.value >> 8, index = setup.value & 255;
     if ((setup.requestType & 0x1f) != 0) {
-        return std::nullopt; // of an interface: the class's own
+        return std::nullopt; // of an interface: handled by the class
     }
     if (kind == 1) {
         return UsbReply{.data = description_.device};

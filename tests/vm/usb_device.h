@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A USB device made of test code, plugged into the real USB core of the kernel it runs on through vhci_hcd.
+// A simulated USB device, plugged into the real USB core of the running kernel through vhci_hcd.
 // Source: the kernel's Documentation/usb/usbip_protocol.rst (messages) and drivers/usb/usbip/vhci_sysfs.c
 // (the files attach and status).
 #pragma once
@@ -42,10 +42,9 @@ struct UsbDescription {
     UsbSpeed speed = UsbSpeed::High;
 };
 
-// Derived classes fill `description_` and answer; every answer is asked for on the device's one thread, so
-// that they need no lock among themselves. State that a test changes meanwhile is atomic. Control, bulk and
-// interrupt transfers; no isochronous ones. A derived class calls unplug() in its destructor, before its own
-// members go.
+// Derived classes fill `description_` and answer. All callbacks run on the device's one thread, so they need
+// no lock. State that a test changes meanwhile is atomic. Control, bulk and interrupt transfers; no
+// isochronous ones. A derived class calls unplug() in its destructor, before its own members go.
 class UsbDevice {
 public:
     virtual ~UsbDevice();
@@ -53,10 +52,10 @@ public:
     UsbDevice(const UsbDevice&) = delete;
     UsbDevice& operator=(const UsbDevice&) = delete;
 
-    // Into the first free port of its speed. Needs root and vhci-hcd; throws std::runtime_error that says so.
-    // The kernel enumerates it afterwards, on its own time. May follow unplug().
+    // Into the first free port of its speed. Needs root and vhci-hcd; throws std::runtime_error with the
+    // reason. The kernel enumerates it later. May follow unplug().
     void plug();
-    // As pulling the plug: pending transfers fail. Returns when the port is free again.
+    // Like pulling the plug: pending transfers fail. Returns when the port is free again.
     void unplug();
     bool plugged() const { return socket_ >= 0; }
 
@@ -65,13 +64,13 @@ protected:
     virtual UsbReply control(const UsbSetup& setup, const Bytes& out) = 0;
     // A transfer to `endpoint` (number without the direction bit) came; its status.
     virtual int out(uint8_t endpoint, const Bytes& data);
-    // A transfer of at most `room` bytes from `endpoint` waits: its reply, or nothing yet (asked again at
-    // due() and after anything arrives).
+    // A transfer of at most `room` bytes from `endpoint` waits. Returns its reply, or nothing yet (called
+    // again at due() and after any arrival).
     virtual std::optional<UsbReply> in(uint8_t endpoint, size_t room) = 0;
-    // When in() may answer otherwise though nothing arrived.
+    // Time at which in() can change its answer without an arrival.
     virtual Clock::time_point due() { return Clock::now() + std::chrono::milliseconds(1); }
     virtual void setInterface(int /*interface*/, int /*alternate*/) {}
-    // Whether the host waits for something from `endpoint` now.
+    // True if the host is waiting for data from `endpoint`.
     bool asked(uint8_t endpoint) const {
         const auto waiting = waiting_.find(endpoint);
         return waiting != waiting_.end() && !waiting->second.empty();

@@ -11,7 +11,7 @@ constexpr uint8_t kExtensionUnit = 3;
 constexpr size_t kMailboxBytes = 1024;
 
 Bytes extensionDescriptor(bool realSense) {
-    // {C9606CCB-594C-4D25-AF47-CCC496435995}, the depth unit of a D4xx; else a GUID of our own.
+    // {C9606CCB-594C-4D25-AF47-CCC496435995}, the depth unit of a D4xx; else a private GUID.
     const Bytes guid = realSense ? Bytes{0xCB, 0x6C, 0x60, 0xC9, 0x4C, 0x59, 0x25, 0x4D,
                                          0xAF, 0x47, 0xCC, 0xC4, 0x96, 0x43, 0x59, 0x95}
                                  : Bytes{0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x48,

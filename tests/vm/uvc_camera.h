@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A simulated depth + colour camera for the kernel's own uvcvideo: Z16 and YUYV or MJPEG over bulk, with a
-// vendor extension unit; on request one that answers as a RealSense D4xx does.
+// vendor extension unit; optionally behaves like a RealSense D4xx.
 #pragma once
 
 #include "tests/vm/uvc_stream.h"
@@ -8,8 +8,8 @@
 namespace fathom::vm {
 
 struct UvcCameraOptions {
-    uint16_t width = 320, height = 240;     // of both pictures
-    UvcFormat depthFormat = UvcFormat::Z16; // or Inzi, whose default picture is plainInzi()
+    uint16_t width = 320, height = 240;     // of both images
+    UvcFormat depthFormat = UvcFormat::Z16; // or Inzi, whose default image is plainInzi()
     bool colour = true, motionJpeg = false;
     bool realSense = false;  // 8086:0b03 with its mailbox and tables, else 1209:d3d3
     bool colourTable = true; // of the RealSense; a D430 has none
@@ -54,11 +54,11 @@ constexpr float kColourFx = 0.71f, kColourFy = 1.27f, kColourCx = 0.02f,
 Bytes table(uint32_t number);       // 25 or 32, header included; else empty
 } // namespace simulated_realsense
 
-// Pixel 0 holds the picture's number (16 bits); pixel (x, y) 1000 + x + 2 y.
+// Pixel 0 holds the frame number (16 bits); pixel (x, y) 1000 + x + 2 y.
 UvcPainter plainDepth(uint16_t width, uint16_t height);
 // The same depth, behind an infrared plane whose pixels are all 777.
 UvcPainter plainInzi(uint16_t width, uint16_t height);
-// YUYV: left half red, right half blue; the luma of pixel 0 holds the picture's number (8 bits).
+// YUYV: left half red, right half blue; the luma of pixel 0 holds the frame number (8 bits).
 UvcPainter plainColour(uint16_t width, uint16_t height);
 // A JPEG: left half red, right half blue.
 UvcPainter redAndBlueJpeg(uint16_t width, uint16_t height);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the simulated camera shows by default, and the tables of the simulated RealSense.
+// Default images of the simulated camera, and the tables of the simulated RealSense.
 #include "tests/vm/uvc_camera.h"
 
 #include <algorithm>
@@ -66,7 +66,7 @@ namespace simulated_realsense {
 
 namespace {
 
-// CRC-32 as zlib's, bit by bit; on purpose not the product's.
+// CRC-32 like zlib, bit by bit; deliberately independent of the product's.
 uint32_t checksum(const Bytes& bytes) {
     uint32_t crc = ~0u;
     for (const uint8_t byte : bytes) {

@@ -30,7 +30,7 @@ Bytes UvcStream::formatDescriptor() const {
     if (shape_.format == UvcFormat::Mjpeg) {
         return {11, 0x24, 6, 1, 1, 1, 1, 0, 0, 0, 0};
     }
-    // The GUID is the four-character code and the base of all media subtypes, or a maker's own (INZI).
+    // The GUID is the four-character code and the base of all media subtypes, or a vendor GUID (INZI).
     const bool inzi = shape_.format == UvcFormat::Inzi;
     const char* code = inzi ? "INZI" : shape_.format == UvcFormat::Z16 ? "Z16 " : "YUY2";
     Bytes bytes{27, 0x24, 4, 1, 1};
@@ -145,7 +145,7 @@ bool UvcStream::nextFrame() {
         return false;
     }
     due_ += std::chrono::nanoseconds(100) * interval_;
-    due_ = std::max(due_, now - std::chrono::milliseconds(200)); // an emulated machine may fall behind
+    due_ = std::max(due_, now - std::chrono::milliseconds(200)); // an emulated machine can fall behind
     toggle_ = static_cast<uint8_t>(toggle_ ^ (take(faults.sameToggle) ? 0 : 1));
     bad_ = take(faults.errorBit);
     image_.resize(imageBytes());
@@ -156,7 +156,7 @@ bool UvcStream::nextFrame() {
     return true;
 }
 
-// Payload header: length, flags (end of header, source clock, time stamp, error, end of picture, toggle),
+// Payload header: length, flags (end of header, source clock, time stamp, error, end of frame, toggle),
 // stamps.
 void UvcStream::header(Bytes& out, bool end) {
     const auto micros =
@@ -169,7 +169,7 @@ void UvcStream::header(Bytes& out, bool end) {
     if (!shape_.wholePayloads) {
         return;
     }
-    // Capture timing as a RealSense D4xx sends it: picture number, sensor stamp, readout, exposure, interval
+    // Capture timing as sent by a RealSense D4xx: frame number, sensor stamp, readout, exposure, interval
     // [us].
     for (const uint32_t word :
          {0x80000001u, 40u, 1u, 0x3fu, number_ - 1, stamp, 0u, 8500u, 33333u, pipeLatencyMicros.load()}) {

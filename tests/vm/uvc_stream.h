@@ -11,16 +11,16 @@ namespace fathom::vm {
 
 enum class UvcFormat { Z16, Inzi, Yuyv, Mjpeg };
 
-// Paints picture n: Z16 and YUYV rows of 16-bit words, INZI rows of infrared and then of depth, or a whole
+// Paints frame n: Z16 and YUYV rows of 16-bit words, INZI rows of infrared and then of depth, or a whole
 // JPEG.
 using UvcPainter = std::function<void(uint32_t n, Bytes& image)>;
 
-// What may go wrong, set by a test while the camera runs. Each count is of pictures still to be spoilt.
+// Faults that a test sets while the camera runs. Each count is the number of frames still to damage.
 struct UvcFaults {
     std::atomic<int> cutShort{0};    // ends half-way
-    std::atomic<int> errorBit{0};    // the header says that it is bad
+    std::atomic<int> errorBit{0};    // the header marks it as bad
     std::atomic<int> sameToggle{0};  // the frame bit does not change: the driver is out of step
-    std::atomic<bool> silent{false}; // nothing comes
+    std::atomic<bool> silent{false}; // nothing is sent
 };
 
 class UvcStream {
@@ -29,7 +29,7 @@ public:
         UvcFormat format = UvcFormat::Z16;
         uint16_t width = 320, height = 240;
         uint8_t interfaceNumber = 1, endpoint = 1, terminal = 2;
-        bool wholePayloads = false; // one payload a picture with a capture-timing block (RealSense)
+        bool wholePayloads = false; // one payload per frame with a capture-timing block (RealSense)
     };
     UvcStream(const Shape& shape, UvcPainter painter);
 
@@ -38,13 +38,13 @@ public:
 
     UsbReply control(const UsbSetup& setup, const Bytes& out); // probe and commit
     void stop() { on_ = false; }
-    // Next bulk transfer of at most `room` bytes; nothing while no picture is due.
+    // Next bulk transfer of at most `room` bytes; nothing while no frame is due.
     std::optional<UsbReply> transfer(size_t room);
     Clock::time_point due() const;
 
     UvcFaults faults;
-    std::atomic<uint32_t> sent{0};              // pictures, whole or spoilt
-    std::atomic<uint32_t> pipeLatencyMicros{0}; // as capture timing tells it, with whole payloads
+    std::atomic<uint32_t> sent{0};              // frames, complete or damaged
+    std::atomic<uint32_t> pipeLatencyMicros{0}; // reported by the capture timing, with whole payloads
 
 private:
     Bytes formatDescriptor() const;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ports of the kernel's virtual USB host controller, and what a test in the virtual machine waits for.
+// The ports of the kernel's virtual USB host controller, and waiting for conditions in the virtual machine.
 #pragma once
 
 #include <chrono>
@@ -8,16 +8,16 @@
 
 namespace fathom::vm {
 
-// Number of a port without a device. Throws std::runtime_error that says what is missing.
+// Number of a free port. Throws std::runtime_error with what is missing.
 int freeVhciPort();
 
-// Plugs: the socket on which the kernel now speaks the protocol. speed: 2 full, 3 high.
+// Attaches the device; the kernel then uses the protocol on this socket. speed: 2 full, 3 high.
 int attachVhci(int port, int speed);
 
 // At most two seconds.
 void waitUntilVhciFree(int port);
 
-// Asks every 5 ms; whether it came true in time.
+// Polls every 5 ms; true if the condition came true in time.
 bool waitFor(const std::function<bool()>& condition,
              std::chrono::milliseconds most = std::chrono::milliseconds(5000));
 bool waitForFile(const std::filesystem::path& file,

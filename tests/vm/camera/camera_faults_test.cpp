@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes wrong with a camera: every fault on the kernel's own stack, and what the product makes of it.
+// Camera faults on the kernel's own stack, and the product's reaction.
 #include "tests/vm/camera/live_camera.h"
 
 #include "engine/types/error.h"
@@ -11,7 +11,7 @@ using namespace fathom::vm;
 
 namespace {
 
-// The driver hides damaged pictures unless told not to; it reads this when a stream starts.
+// The driver hides damaged frames unless this option is set; it is read at stream start.
 class NoDrop {
 public:
     NoDrop() { std::ofstream("/sys/module/uvcvideo/parameters/nodrop") << "1"; }
@@ -28,7 +28,7 @@ void readFrames(V4l2Camera& camera, int count) {
 
 } // namespace
 
-TEST_CASE("Pictures that the driver throws away show as gaps of its counter, and are counted as lost") {
+TEST_CASE("Frames that the driver drops appear as gaps of its counter and are counted as lost") {
     UvcCamera device({.colour = false});
     device.plug();
     REQUIRE(waitForCamera(false));
@@ -39,13 +39,14 @@ TEST_CASE("Pictures that the driver throws away show as gaps of its counter, and
     device.depth().faults.errorBit = 2;
     device.depth().faults.cutShort = 1;
     readFrames(*camera, 6);
-    CHECK(camera->lost() >= before + 2); // one may hide behind a toggle that the driver had not seen
+    CHECK(camera->lost() >= before + 2); // the driver can miss one because of a toggle it did not see
     CHECK(device.depth().faults.errorBit == 0);
     CHECK(device.depth().faults.cutShort == 0);
     CHECK(camera->skipped() == 0);
 }
 
-TEST_CASE("Gaps of the colour stream are counted apart, and cost no pair where a neighbour is near enough") {
+TEST_CASE(
+    "Gaps of the colour stream are counted separately and cost no pair where a neighbour is close enough") {
     UvcCamera device({});
     device.plug();
     REQUIRE(waitForCamera());
@@ -63,14 +64,14 @@ TEST_CASE("Gaps of the colour stream are counted apart, and cost no pair where a
 }
 
 TEST_CASE(
-    "A short picture and one with the error bit are skipped and counted when the driver lets them through") {
+    "A truncated frame and one with the error bit are skipped and counted when the driver passes them") {
     const NoDrop noDrop;
     UvcCamera device({.colour = false});
     device.plug();
     REQUIRE(waitForCamera(false));
     const IntrinsicsFile lens(320, 240);
     CameraRequest request = parseCameraRequest("v4l2:auto,intrinsics=" + lens.path().string());
-    request.everyFrame = true; // no newer picture hides a spoilt one
+    request.everyFrame = true; // no newer frame hides a damaged one
     V4l2Camera camera(request);
     readFrames(camera, 2);
     device.depth().faults.cutShort = 1;
@@ -81,7 +82,7 @@ TEST_CASE(
     CHECK(camera.skipped() == 2);
 }
 
-TEST_CASE("A frame bit that does not change costs a picture and no more") {
+TEST_CASE("A frame bit that does not change costs one frame") {
     UvcCamera device({.colour = false});
     device.plug();
     REQUIRE(waitForCamera(false));
@@ -94,7 +95,7 @@ TEST_CASE("A frame bit that does not change costs a picture and no more") {
 }
 
 TEST_CASE(
-    "A camera that is unplugged in mid-stream is lost at once, and the same one is found when it is back") {
+    "A camera that is unplugged in mid-stream is lost at once, and the same one is found after it returns") {
     auto device = std::make_unique<UvcCamera>(UvcCameraOptions{});
     device->plug();
     REQUIRE(waitForCamera());
@@ -116,7 +117,7 @@ TEST_CASE(
     CHECK(isPlainDepth(*held, 320));                         // a frame outlives the camera's unplugging
     CHECK_FALSE(lossOf(*camera).empty());
     held.reset();
-    // Another camera with another serial number is not taken for it.
+    // A camera with another serial number is not accepted.
     UvcCamera other({.serial = "OTHER"});
     other.plug();
     REQUIRE(waitForCamera());
@@ -128,7 +129,7 @@ TEST_CASE(
     readFrames(*camera, 3);
 }
 
-TEST_CASE("A stream that falls silent is started anew, and is lost when that does not help") {
+TEST_CASE("A silent stream is restarted, and is lost when that does not help") {
     UvcCamera device({.colour = false});
     device.plug();
     REQUIRE(waitForCamera(false));
@@ -147,11 +148,10 @@ TEST_CASE("A stream that falls silent is started anew, and is lost when that doe
     device.depth().faults.silent = true;
     CHECK_THROWS_AS(readFrames(camera, 5), DeviceLost);
     device.depth().faults.silent = false;
-    readFrames(camera, 1); // opened anew
+    readFrames(camera, 1); // opened again
 }
 
-TEST_CASE("A colour stream that falls silent beside running depth is started anew once, not with each depth "
-          "picture") {
+TEST_CASE("A silent colour stream with running depth is restarted once, not with each depth frame") {
     UvcCamera device({});
     device.plug();
     REQUIRE(waitForCamera());
@@ -169,5 +169,5 @@ TEST_CASE("A colour stream that falls silent beside running depth is started ane
     CHECK(camera.restarts() == 1);
     CHECK(camera.skipped() > 5); // depth came all the time, and found no colour
     device.colour().faults.silent = false;
-    readFrames(camera, 2); // opened anew
+    readFrames(camera, 2); // opened again
 }

@@ -55,7 +55,7 @@ inline std::unique_ptr<V4l2Camera> openLive(const std::string& options) {
     return std::make_unique<V4l2Camera>(parseCameraRequest("v4l2:auto" + options));
 }
 
-// The message of the refusal; empty when it opens.
+// The error message; empty when the camera opens.
 inline std::string refusalOf(const std::string& text) {
     try {
         V4l2Camera camera(parseCameraRequest(text));
@@ -75,7 +75,7 @@ inline std::string lossOf(V4l2Camera& camera) {
     return "";
 }
 
-// Whether the depth is plainDepth()'s but for pixel 0.
+// True if the depth equals plainDepth() except for pixel 0.
 inline bool isPlainDepth(const Frame& frame, uint32_t width) {
     for (uint32_t i = 1; i < frame->depth.size(); ++i) {
         if (frame->depth[i] != 1000 + i % width + 2 * (i / width)) {

@@ -9,7 +9,7 @@ using namespace fathom;
 using namespace fathom::vm;
 namespace sim = fathom::vm::simulated_realsense;
 
-TEST_CASE("A RealSense tells its lenses, depth unit and extrinsics over its extension unit") {
+TEST_CASE("A RealSense reports its lenses, depth unit and extrinsics through its extension unit") {
     UvcCamera device({.realSense = true});
     device.plug();
     REQUIRE(waitForCamera());
@@ -39,10 +39,9 @@ TEST_CASE("A RealSense tells its lenses, depth unit and extrinsics over its exte
     }
 }
 
-TEST_CASE(
-    "A RealSense that tells how old a frame was when it came has its capture time at the exposure's start") {
+TEST_CASE("A RealSense that reports the age of a frame has its capture time at the start of exposure") {
     constexpr uint32_t kLatency = 500000;         // [us] longer than any delivery here
-    std::array<std::atomic<double>, 256> drawn{}; // [s] when picture n began to be sent
+    std::array<std::atomic<double>, 256> drawn{}; // [s] start of sending frame n
     const auto now = [] {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     };
@@ -70,7 +69,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A RealSense whose tables cannot be had is refused, saying why") {
+TEST_CASE("A RealSense whose tables cannot be read is rejected with the reason") {
     UvcCamera device({.realSense = true});
     device.plug();
     REQUIRE(waitForCamera());
@@ -85,12 +84,11 @@ TEST_CASE("A RealSense whose tables cannot be had is refused, saying why") {
     device.stallMailbox = true;
     CHECK(refusalOf("v4l2:auto,size=320x240").find("extension unit 3, control 1") != std::string::npos);
     device.stallMailbox = false;
-    device.mailboxDelayMs = 300; // late, but within the kernel's own limit
+    device.mailboxDelayMs = 300; // late, but within the kernel's limit
     CHECK(refusalOf("v4l2:auto,size=320x240").empty());
 }
 
-TEST_CASE(
-    "A RealSense without a colour calibration goes on with depth, and refuses colour that is asked for") {
+TEST_CASE("A RealSense without a colour calibration continues with depth and rejects requested colour") {
     UvcCamera device({.realSense = true, .colourTable = false});
     device.plug();
     REQUIRE(waitForCamera());
@@ -106,7 +104,7 @@ TEST_CASE(
             CHECK((*frame)->colour.empty());
             CHECK((*frame)->yuyv.empty());
         }
-        CHECK(camera->skipped() == 0); // nothing waits for a colour picture
+        CHECK(camera->skipped() == 0); // nothing waits for a colour frame
         device.unplug();
         CHECK_FALSE(lossOf(*camera).empty());
         REQUIRE(waitForNoCamera());

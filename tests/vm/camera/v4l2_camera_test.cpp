@@ -39,7 +39,7 @@ TEST_CASE("A live camera delivers depth and colour as they were sent, stamped wi
     const auto camera = openLive(",intrinsics=" + lens.path().string() + ",frames=20");
     CHECK(camera->live());
     CHECK(camera->info().hasColour);
-    CHECK(camera->info().yuyv); // left as it came
+    CHECK(camera->info().yuyv); // not converted
     CHECK(camera->info().metresPerUnit == 0.0005);
     std::set<const void*> places;
     double last = 0.0;
@@ -56,18 +56,18 @@ TEST_CASE("A live camera delivers depth and colour as they were sent, stamped wi
         checkColour(*frame, 320, 240, 4);
         number = (*frame)->depth[0];
         last = (*frame)->captureTime;
-        CHECK((*frame)->depthMemory.get() == (*frame)->depth.data()); // a device may read it there
+        CHECK((*frame)->depthMemory.get() == (*frame)->depth.data()); // a device can read it there
         places.insert((*frame)->depth.data());
         ++count;
     }
     CHECK(count == 20);
-    CHECK(camera->copied() == 0); // depth stayed where the driver put it
+    CHECK(camera->copied() == 0); // depth stayed in the driver's buffer
     CHECK(places.size() <= CaptureStream::kBuffers);
     CHECK(camera->next() == std::nullopt);
     MESSAGE("20 pairs of 320x240, " << camera->lost() << " lost, " << camera->skipped() << " skipped");
 }
 
-TEST_CASE("Frames held by the engine leave the driver two buffers, and later ones are copies") {
+TEST_CASE("Frames held by the engine leave the driver two buffers; later frames are copies") {
     UvcCamera device({.colour = false});
     device.plug();
     REQUIRE(waitForCamera(false));
@@ -83,20 +83,20 @@ TEST_CASE("Frames held by the engine leave the driver two buffers, and later one
     for (const Frame& frame : held) {
         CHECK(isPlainDepth(frame, 320)); // not overwritten while it is held
     }
-    CHECK(held.back()->depthMemory.get() == held.back()->depth.data()); // of the camera's own
+    CHECK(held.back()->depthMemory.get() == held.back()->depth.data()); // the camera's own memory
     CHECK_FALSE(camera->info().hasColour);
     held.clear();
     CHECK(camera->next());
 }
 
-TEST_CASE("After a pause the camera gives a picture of now, not one that waited in a buffer") {
+TEST_CASE("After a pause the camera gives a current frame, not a buffered one") {
     UvcCamera device({});
     device.plug();
     REQUIRE(waitForCamera());
     const IntrinsicsFile lens(320, 240);
     const auto camera = openLive(",intrinsics=" + lens.path().string());
     REQUIRE(camera->next());
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // 45 pictures; the driver holds four
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500)); // 45 frames; the driver buffers four
     const uint32_t sent = device.depth().sent;
     const auto frame = camera->next();
     REQUIRE(frame);
@@ -104,7 +104,7 @@ TEST_CASE("After a pause the camera gives a picture of now, not one that waited 
     CHECK(camera->lost() >= 30);
 }
 
-TEST_CASE("INZI depth is taken where it lies, behind the infrared plane, whatever stride the driver tells") {
+TEST_CASE("INZI depth is read in place behind the infrared plane, for any stride of the driver") {
     UvcCamera device({.depthFormat = UvcFormat::Inzi});
     device.plug();
     REQUIRE(waitForCamera());
@@ -133,7 +133,8 @@ TEST_CASE("Motion JPEG colour is decoded") {
     }
 }
 
-TEST_CASE("A colour camera of its own, with its size, rate and place, gives each depth picture its nearest") {
+TEST_CASE(
+    "A separate colour camera with its own size, rate and pose gives each depth frame its nearest frame") {
     UvcCamera depth({.colour = false});
     depth.plug();
     REQUIRE(waitForCamera(false));
@@ -153,7 +154,7 @@ TEST_CASE("A colour camera of its own, with its size, rate and place, gives each
     V4l2Camera camera(parseCameraRequest("v4l2:" + depthNode + ",colour=" + colourNode +
                                          ",rate=30,colour_rate=15,frames=20,intrinsics=" + lens.string()));
     CHECK(camera.info().colourTdepth.position.x == 0.1);
-    std::set<uint32_t> colours; // pixel 0 tells its number
+    std::set<uint32_t> colours; // pixel 0 encodes the frame number
     uint32_t count = 0;
     while (const auto frame = camera.next()) {
         CHECK(isPlainDepth(*frame, 320));
@@ -163,12 +164,12 @@ TEST_CASE("A colour camera of its own, with its size, rate and place, gives each
     }
     CHECK(count == 20);
     CHECK(colours.size() >= 5);
-    CHECK(colours.size() <= 14); // each serves two
+    CHECK(colours.size() <= 14); // each is used twice
     CHECK(camera.skipped() == 0);
     std::filesystem::remove(lens);
 }
 
-TEST_CASE("What a camera does not have is refused with what it has") {
+TEST_CASE("An unavailable format is rejected with the list of available ones") {
     UvcCamera device({});
     device.plug();
     REQUIRE(waitForCamera());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The product's camera on vivid, the kernel's own virtual camera: formats that UVC depth cameras do not have,
-// and errors that the driver makes on purpose.
+// The product's camera on vivid, the kernel's virtual camera: formats that UVC depth cameras lack, and
+// deliberate driver errors.
 #include "tests/vm/camera/live_camera.h"
 
 #include "engine/types/error.h"
@@ -28,7 +28,7 @@ struct Vivid {
     }
 };
 
-// A button of vivid's, by its name.
+// Presses a control button of vivid, by name.
 void press(const std::string& name) {
     const VideoNode node("/dev/video0");
     v4l2_queryctrl query{};
@@ -45,8 +45,7 @@ void press(const std::string& name) {
 
 } // namespace
 
-TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth from a driver that has them, when asked for "
-          "by name") {
+TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth when requested by name") {
     const Vivid vivid;
     const IntrinsicsFile lens(640, 360);
     const std::string file = ",colour=none,intrinsics=" + lens.path().string();
@@ -58,7 +57,7 @@ TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth from a driver th
             REQUIRE(frame);
             const auto [low, high] = std::minmax_element((*frame)->depth.begin(), (*frame)->depth.end());
             CHECK(*high <= most);
-            CHECK(*high > most / 2); // its bars have white in them
+            CHECK(*high > most / 2); // the test bars include white
             CHECK(*low < most / 8);  // and black
         }
         CHECK(camera.copied() == (most == 0xffff ? 0u : 3u));
@@ -67,7 +66,7 @@ TEST_CASE("Grey formats of 10, 12 and 16 bits are read as depth from a driver th
           std::string::npos);
 }
 
-TEST_CASE("Colour of three bytes a pixel is read in either order, beside depth of another device") {
+TEST_CASE("Colour of three bytes per pixel is read in either order, with depth from another device") {
     const Vivid vivid(2);
     const IntrinsicsFile lens(640, 360);
     for (const char* name : {"RGB3", "BGR3"}) {
@@ -87,8 +86,7 @@ TEST_CASE("Colour of three bytes a pixel is read in either order, beside depth o
     }
 }
 
-TEST_CASE("A stream that ends in a fatal error is started anew; a device that the driver calls disconnected "
-          "is lost") {
+TEST_CASE("A stream that ends in a fatal error is restarted; a device reported as disconnected is lost") {
     const Vivid vivid;
     const IntrinsicsFile lens(640, 360);
     CameraRequest request =
@@ -97,7 +95,7 @@ TEST_CASE("A stream that ends in a fatal error is started anew; a device that th
     V4l2Camera camera(request);
     REQUIRE(camera.next());
     press("Inject Fatal Streaming Error");
-    for (int i = 0; i < 8; ++i) { // what was in the buffers, then pictures of the stream started anew
+    for (int i = 0; i < 8; ++i) { // buffered frames, then frames of the restarted stream
         CHECK(camera.next());
     }
     press("Disconnect");

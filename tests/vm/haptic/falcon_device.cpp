@@ -150,7 +150,8 @@ void FalconDevice::command(const Bytes& packet) {
     }
 }
 
-// As an FT232R: when the latency timer ends, with whatever there is, or at once when a USB packet is full.
+// Like an FT232R: sends the available bytes when the latency timer ends, or at once when a USB packet is
+// full.
 std::optional<UsbReply> FalconDevice::in(uint8_t /*endpoint*/, size_t room) {
     const auto now = Clock::now();
     if (!later_.empty() && now >= laterAt_) {
@@ -165,7 +166,7 @@ std::optional<UsbReply> FalconDevice::in(uint8_t /*endpoint*/, size_t room) {
     return packed(room);
 }
 
-// USB packets of at most 64 bytes, each begun by two bytes of modem status.
+// USB packets of at most 64 bytes, each starting with two bytes of modem status.
 UsbReply FalconDevice::packed(size_t room) {
     UsbReply reply;
     do {

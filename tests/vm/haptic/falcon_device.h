@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Novint Falcon made of code on the real USB stack: FT232R framing, latency timer, boot loader, firmware,
-// and the faults that tests ask for.
+// A simulated Novint Falcon on the real USB stack: FT232R framing, latency timer, boot loader, firmware, and
+// faults on request.
 #pragma once
 
 #include "tests/vm/usb_device.h"
@@ -17,30 +17,30 @@ public:
     explicit FalconDevice(bool booted = true);
     ~FalconDevice() override;
 
-    // What the next answers suffer from; counted down by one an answer.
+    // Faults of the next answers; each answer counts down by one.
     struct Faults {
-        std::atomic<int> half{0};    // only nine characters come, in the transfer of their own
+        std::atomic<int> half{0};    // only nine characters, in their own transfer
         std::atomic<int> twofold{0}; // two packets in one transfer
-        std::atomic<int> late{0};    // comes after lateMs
-        std::atomic<int> dropped{0}; // does not come; modem status alone does
+        std::atomic<int> late{0};    // delayed by lateMs
+        std::atomic<int> dropped{0}; // missing; only modem status is sent
         std::atomic<int> wrong{0};   // a character out of range
         std::atomic<int> lateMs{15};
     } faults;
-    std::atomic<bool> statusOnly{false}; // nothing but modem status, ever
+    std::atomic<bool> statusOnly{false}; // only modem status, always
     std::atomic<bool> homed{true};
     std::atomic<int> wrongEchoAt{-1}; // byte of the firmware
     std::atomic<int> latencyMs{16};
-    std::atomic<int> leastMs{0}; // between two answers, whatever the latency timer says
+    std::atomic<int> leastMs{0}; // shortest time between two answers, regardless of the latency timer
 
     void setEncoders(const std::array<int16_t, 3>& encoders);
     std::array<int16_t, 3> motors() const;               // newest command
     std::vector<std::array<int16_t, 3>> history() const; // all of them
-    Clock::time_point released() const; // when the newest command came that took a force away
+    Clock::time_point released() const;                  // time of the newest command that removed a force
     Bytes firmware() const;
     std::atomic<uint64_t> commands{0}, statusPackets{0};
-    std::atomic<uint64_t> unasked{0}; // commands that came while no IN transfer was pending
+    std::atomic<uint64_t> unasked{0}; // commands received while no IN transfer was pending
 
-    static constexpr int kFirmwareSize = 300; // that runs once it is in
+    static constexpr int kFirmwareSize = 300; // [bytes] runs when complete
 
 private:
     UsbReply control(const UsbSetup& setup, const Bytes& out) override;
@@ -54,7 +54,7 @@ private:
         return std::chrono::milliseconds(std::max(latencyMs.load(), leastMs.load()));
     }
 
-    mutable std::mutex mutex_; // of what follows, between test and device
+    mutable std::mutex mutex_; // guards the members below between test and device
     std::array<int16_t, 3> encoders_{}, motors_{};
     std::vector<std::array<int16_t, 3>> history_;
     Clock::time_point released_{};

@@ -17,10 +17,10 @@ namespace {
 
 using Motors = std::array<int16_t, 3>;
 constexpr Motors kStill{};
-// A silence of 10 ms, and the rest for an emulated processor and a packet on its way.
+// 10 ms of silence, plus time for an emulated processor and a packet in flight.
 constexpr double kLongestForce = 0.2; // [s]
 
-// An engine that presses for ever, once there is a door.
+// An engine that presses forever, once the socket exists.
 int press(const std::filesystem::path& endpoint) {
     for (;;) {
         try {
@@ -38,7 +38,7 @@ int press(const std::filesystem::path& endpoint) {
 
 struct Stage {
     Stage()
-        : engine([this] { return press(folder.endpoint()); }) { // before there is any thread
+        : engine([this] { return press(folder.endpoint()); }) { // before any thread starts
         device.setEncoders(FalconKinematics::encoderOf(*FalconKinematics::inverse({0.0, 0.01, 0.13})));
         device.plug();
         REQUIRE(eventually([] { // the kernel enumerates
@@ -46,13 +46,13 @@ struct Stage {
             return !files.empty() && files[0].kind == DeviceFile::Kind::Falcon && files[0].refused.empty();
         }));
         guard = std::make_unique<Child>([this] {
-            std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
+            std::signal(SIGHUP, SIG_DFL); // the parent process may ignore it
             const std::string path = folder.endpoint().string();
             return ::execl(FATHOM_PROGRAM, "fathom", "guard", "falcon", "--door", path.c_str(), nullptr);
         });
         REQUIRE(eventually([&] { return device.motors() != kStill; }));
     }
-    // Until no command at the device has a force any more, from a fault on [s]; none to come within 50 ms.
+    // Time [s] from a fault until the last command with a force; none may follow within 50 ms.
     double forceLasts(std::chrono::steady_clock::time_point fault) const {
         CHECK(eventually([&] { return device.motors() == kStill; }));
         pauseMs(50);
@@ -88,7 +88,7 @@ TEST_CASE("An engine killed by SIGKILL leaves a Falcon without force, and the ne
     }));
 }
 
-TEST_CASE("An engine that hangs is zero force after 10 ms of silence, though its end stays open") {
+TEST_CASE("An engine that hangs gives zero force after 10 ms of silence, although its socket stays open") {
     Stage stage;
     const auto stopped = std::chrono::steady_clock::now();
     stage.engine.signal(SIGSTOP);
@@ -99,8 +99,8 @@ TEST_CASE("An engine that hangs is zero force after 10 ms of silence, though its
     CHECK(eventually([&] { return stage.device.motors() != kStill; }));
 }
 
-TEST_CASE("Ctrl-C at the guardian with an engine pressing leaves zero force and exit code 0, and so does a "
-          "terminal that closes") {
+TEST_CASE("Ctrl-C at the bridge while an engine presses leaves zero force and exit code 0, as does closing "
+          "the terminal") {
     int ending = SIGINT;
     SUBCASE("Ctrl-C") {}
     SUBCASE("the terminal is closed") {
@@ -117,7 +117,7 @@ TEST_CASE("Ctrl-C at the guardian with an engine pressing leaves zero force and 
     CHECK_FALSE(std::filesystem::exists(stage.folder.endpoint()));
 }
 
-TEST_CASE("A guardian whose log nobody reads any more goes on") {
+TEST_CASE("A bridge whose log is no longer read continues") {
     Stage stage;
     stage.guard->signal(SIGPIPE);
     const uint64_t commands = stage.device.commands;
@@ -128,9 +128,8 @@ TEST_CASE("A guardian whose log nobody reads any more goes on") {
     CHECK(stage.device.motors() == kStill);
 }
 
-// Not a promise: it shows what the simulated device is left with, and that nothing here can know the real
-// one.
-TEST_CASE("A guardian killed by SIGKILL says nothing more to the device") {
+// Not a guarantee: it shows the state of the simulated device. A real one is unknown.
+TEST_CASE("A bridge killed by SIGKILL sends nothing more to the device") {
     Stage stage;
     stage.guard->signal(SIGKILL);
     CHECK(stage.guard->wait() == -SIGKILL);

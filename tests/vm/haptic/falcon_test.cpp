@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The Falcon's guardian on the kernel's own USB stack, with faults, and its door to an engine.
+// The Falcon's bridge on the kernel's own USB stack, with faults, and its socket to an engine.
 #include "devices/bridge/socket_hand.h"
 #include "devices/usb/falcon_guard.h"
 #include "devices/usb/falcon_kinematics.h"
@@ -28,7 +28,7 @@ void placeAt(FalconDevice& device, const dvec3& knob) {
     device.setEncoders(FalconKinematics::encoderOf(*FalconKinematics::inverse(knob)));
 }
 
-// Retried: the kernel takes its time to enumerate.
+// Retried, because the kernel needs time to enumerate.
 std::unique_ptr<FalconGuard> openGuard(const FalconGuard::Options& options) {
     std::unique_ptr<FalconGuard> guard;
     std::string fault;
@@ -44,7 +44,7 @@ std::unique_ptr<FalconGuard> openGuard(const FalconGuard::Options& options) {
     return guard;
 }
 
-struct Running { // the guardian on a thread of this process
+struct Running { // the bridge on a thread of this process
     explicit Running(const FalconGuard::Options& options)
         : guard(openGuard(options))
         , thread([this] { guard->run(stop); }) {}
@@ -60,7 +60,7 @@ struct Running { // the guardian on a thread of this process
     std::thread thread;
 };
 
-// One turn of an engine that pushes along z.
+// One tick of an engine that pushes along z.
 HandSample step(SocketHand& hand, double fz = 2.0) {
     const HandSample sample = hand.read(0.0);
     hand.write({{0.0, 0.0, fz}, {0.0, 0.1, 0.0}}, 0.001);
@@ -75,7 +75,7 @@ bool pushes(const FalconDevice& device) {
 
 std::string faultOf(const FalconGuard::Options& options) {
     std::string fault;
-    vm::waitFor([&] { // not "not found": it has not been enumerated yet
+    vm::waitFor([&] { // "not found" means that it is not enumerated yet
         try {
             FalconGuard guard(options);
             fault = "none";
@@ -89,7 +89,8 @@ std::string faultOf(const FalconGuard::Options& options) {
 
 } // namespace
 
-TEST_CASE("The knob's place reaches the engine, its force the motors, and at the end they are still") {
+TEST_CASE(
+    "The knob's position reaches the engine, the force reaches the motors, and at the end they are at zero") {
     SocketFolder folder;
     FalconDevice device;
     placeAt(device, kKnob);
@@ -120,21 +121,21 @@ TEST_CASE("The knob's place reaches the engine, its force the motors, and at the
         MESSAGE("exchanges " << static_cast<double>(device.commands - commands) / took.count()
                              << " Hz; worst age of a sample in a turn " << hand.figures().worstAge * 1e3
                              << " ms");
-        // An answer need not be asked for. Modem status may have taken the transfer at that very moment.
+        // Not every command meets a pending transfer: modem status may have used it at that moment.
         CHECK(device.commands > commands + 20);
         CHECK(device.unasked - unasked < (device.commands - commands) / 4);
         CHECK(eventually([&] {
             step(hand);
             return hand.alive() && pushes(device);
         }));
-        running.end(); // as Ctrl-C does, with the engine still pushing
+        running.end(); // like Ctrl-C, with the engine still pushing
         CHECK(device.motors() == kNoTorque);
         step(hand);
     }
     CHECK(running.guard->figures().faults == 0);
 }
 
-TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leave the exchange going") {
+TEST_CASE("The exchange survives half a packet, two at once, and a late, dropped or wrong answer") {
     SocketFolder folder;
     FalconDevice device;
     placeAt(device, kKnob);
@@ -152,7 +153,7 @@ TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leav
     SUBCASE("late by 15 ms") {
         fault = &device.faults.late;
     }
-    SUBCASE("late by 45 ms, after it was given up") {
+    SUBCASE("late by 45 ms, after the timeout") {
         device.faults.lateMs = 45;
         fault = &device.faults.late;
     }
@@ -185,7 +186,7 @@ TEST_CASE("Half a packet, two at once, a late, a dropped and a wrong answer leav
     CHECK(f.faults <= 3);
 }
 
-TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged in again it goes on") {
+TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged in again it resumes") {
     SocketFolder folder;
     FalconDevice device;
     placeAt(device, kKnob);
@@ -196,8 +197,8 @@ TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged
     device.unplug();
     CHECK(eventually([&] { return step(hand).buttons == 6; }));
     CHECK_FALSE(hand.alive());
-    CHECK(glm::distance(step(hand).deviceThandle.position, kKnob) < 1e-4); // the last place, held
-    device.homed = false;                                                  // it lost that with its power
+    CHECK(glm::distance(step(hand).deviceThandle.position, kKnob) < 1e-4); // the last position, held
+    device.homed = false;                                                  // lost with the power
     device.plug();
     const uint64_t commands = device.commands;
     CHECK(eventually([&] {
@@ -205,13 +206,13 @@ TEST_CASE("A Falcon unplugged in mid-exchange opens the dead-man switch; plugged
         return device.commands > commands + 50;
     }));
     CHECK(step(hand).buttons == 6);
-    CHECK(device.motors() == kNoTorque); // no place, no force
+    CHECK(device.motors() == kNoTorque); // no position, no force
     device.homed = true;
     CHECK(eventually([&] { return step(hand).buttons == 0 && pushes(device); }));
     CHECK(running.guard->losses() >= 1);
 }
 
-TEST_CASE("A Falcon that is not homed gives neither a place nor a force") {
+TEST_CASE("A Falcon that is not homed gives neither a position nor a force") {
     SocketFolder folder;
     FalconDevice device;
     device.homed = false;
@@ -227,7 +228,7 @@ TEST_CASE("A Falcon that is not homed gives neither a place nor a force") {
 }
 
 TEST_CASE(
-    "A device without firmware gets the user's file; without one, or with a wrong answer, it is refused") {
+    "A device without firmware gets the user's file; without one, or with a wrong answer, it is rejected") {
     SocketFolder folder;
     const auto file = folder.path() / "firmware.bin";
     vm::Bytes blob;
@@ -264,11 +265,11 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A Falcon that somebody may not open is refused with the name of the udev rule") {
+TEST_CASE("A Falcon without access permission is rejected with the name of the udev rule") {
     FalconDevice device;
     device.plug();
     SocketFolder folder;
-    faultOf({folder.endpoint(), {}}); // until it is there
+    faultOf({folder.endpoint(), {}}); // until it is enumerated
     Child other([&] {
         if (::setgid(65534) != 0 || ::setuid(65534) != 0) {
             return 98;

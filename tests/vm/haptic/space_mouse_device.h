@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A SpaceNavigator made of code on the real USB stack: an HID device whose reports a test sets.
+// A simulated SpaceNavigator on the real USB stack: an HID device whose reports a test sets.
 #pragma once
 
 #include "tests/vm/usb_device.h"
@@ -12,15 +12,15 @@ namespace fathom::vm {
 
 class SpaceMouseDevice final : public UsbDevice {
 public:
-    // Shift and turn in one report, as later models send them; else in two.
+    // Translation and rotation in one report, like later models; else in two.
     explicit SpaceMouseDevice(bool combined = false);
     ~SpaceMouseDevice() override { unplug(); }
 
-    // Reported every 8 ms from now on; after zeros once, nothing, as the device does.
+    // Reported every 8 ms from now on. Zeros are reported once, then nothing, like the device.
     void deflect(const std::array<int16_t, 3>& shift, const std::array<int16_t, 3>& tick);
     void press(uint8_t buttons);
     std::atomic<bool> silent{false}; // no report at all, though deflected
-    std::atomic<bool> halves{false}; // motion reports break off after four bytes
+    std::atomic<bool> halves{false}; // motion reports are truncated to four bytes
 
 private:
     UsbReply control(const UsbSetup& setup, const Bytes& out) override;

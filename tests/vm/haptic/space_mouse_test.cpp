@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A SpaceMouse through the kernel's own USB and HID stack.
+// A SpaceMouse on the kernel's own USB and HID stack.
 #include "apps/devices/hand_devices.h"
 #include "devices/usb/device_files.h"
 #include "devices/usb/space_mouse_hand.h"
@@ -24,7 +24,7 @@ struct Cap {
         REQUIRE(eventually([&] {
             try {
                 hand = std::make_unique<SpaceMouseHand>(std::filesystem::path());
-            } catch (const BadInput&) { // the kernel has not got there yet
+            } catch (const BadInput&) { // not enumerated yet
             }
             return hand != nullptr;
         }));
@@ -40,10 +40,10 @@ struct Cap {
 
 } // namespace
 
-TEST_CASE("A SpaceMouse moves the hand while it is pushed, on all axes, and holds it when let go") {
+TEST_CASE("A SpaceMouse moves the hand on all axes while it is pushed, and holds it when released") {
     bool combined = false;
-    SUBCASE("shift and turn in two reports") {}
-    SUBCASE("both in one report of twelve bytes, as later models send them") {
+    SUBCASE("translation and rotation in two reports") {}
+    SUBCASE("both in one report of twelve bytes, like later models") {
         combined = true;
     }
     Cap cap(combined);
@@ -66,7 +66,7 @@ TEST_CASE("A SpaceMouse moves the hand while it is pushed, on all axes, and hold
     CHECK(eventually([&] { return cap.read().buttons == 0; }));
 }
 
-TEST_CASE("Reports that break off move nothing, silence while pushed counts as let go") {
+TEST_CASE("Truncated reports move nothing, and silence while pushed counts as released") {
     Cap cap;
     cap.read();
     cap.device.halves = true;
@@ -84,7 +84,7 @@ TEST_CASE("Reports that break off move nothing, silence while pushed counts as l
     }));
 }
 
-TEST_CASE("A SpaceMouse unplugged while pushed opens the dead-man switch and stops; plugged in it goes on") {
+TEST_CASE("A SpaceMouse unplugged while pushed opens the dead-man switch and stops; plugged in it resumes") {
     Cap cap;
     cap.device.deflect({350, 0, 0}, {0, 0, 0});
     CHECK(eventually([&] { return cap.read().deviceThandle.position.x > 0.002; }));
@@ -99,7 +99,8 @@ TEST_CASE("A SpaceMouse unplugged while pushed opens the dead-man switch and sto
     CHECK(eventually([&] { return cap.read().deviceThandle.position.x > before.position.x + 0.002; }));
 }
 
-TEST_CASE("The list of devices shows Falcon and SpaceMouse with capabilities, and to others the refusal") {
+TEST_CASE(
+    "The list of devices shows Falcon and SpaceMouse with capabilities, and the reason without permission") {
     Cap cap;
     vm::FalconDevice falcon;
     falcon.plug();

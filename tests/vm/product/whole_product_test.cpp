@@ -26,7 +26,7 @@ namespace {
 
 constexpr uint16_t kWidth = 160, kHeight = 120;
 
-// A block in the middle at 0.5 m before a wall at 0.9 m.
+// A block in the middle at 0.5 m in front of a wall at 0.9 m.
 bool onBlock(uint32_t x, uint32_t y) {
     return x > 60 && x < 100 && y > 40 && y < 80;
 }
@@ -106,8 +106,8 @@ struct Stage {
 
 } // namespace
 
-TEST_CASE("A live camera makes regions that push back; pulled out its forces fade, and the run goes on when "
-          "it is back") {
+TEST_CASE("A live camera gives regions that push back; forces fade when it is unplugged, and the run resumes "
+          "when it is back") {
     Stage stage;
     // Down onto the block from above, and 20 mm into its region.
     std::ofstream(stage.folder / "press.csv") << "t_s,x,y,z,qw,qx,qy,qz\n0,0,0,0.35,1,0,0,0\n"
@@ -132,8 +132,8 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
     CHECK(summary["fixtures"][0]["points_mean"].get<double>() == doctest::Approx(39 * 39).epsilon(0.1));
     CHECK(summary["lockstep"] == false);
-    // The block's top is at 0.5 m, its region 40 mm, the tool 10 mm: it is held at 0.45 m though the hand is
-    // at 0.47 m.
+    // The block is at 0.5 m, its region 40 mm, the tool 10 mm: it is held at 0.45 m although the hand is at
+    // 0.47 m.
     const auto rows = readCsv(stage.folder / "out/haptics.csv");
     CHECK(std::any_of(rows.begin(), rows.end(), [](const CsvRow& r) { return r.at("contacts") > 0.0; }));
     for (const CsvRow& row : rows) {
@@ -141,7 +141,7 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
         CHECK((!seen || row.at("tool_z") < 0.4502));
     }
     CHECK(rows.back().at("dev_z") == doctest::Approx(0.47));
-    // Forces act while the scene is fresh. An emulated machine may be too slow for that, and says so.
+    // Forces act while the scene is fresh. An emulated machine may be too slow; then a message reports it.
     const bool fresh = std::any_of(rows.begin(), rows.end(), [](const CsvRow& r) {
         return r.at("contacts") > 0.0 && r.at("scene_age_s") < 0.1;
     });
@@ -150,7 +150,7 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
     } else {
         MESSAGE("this machine is too slow for forces: no picture became a region within 100 ms");
     }
-    // Depth was read where the kernel's driver put it, before the plug was pulled and after.
+    // Depth was read in the kernel driver's buffers, before and after the unplugging.
     const size_t inPlace = run.out.find(" read where the camera left them");
     REQUIRE(inPlace != std::string::npos);
     const size_t number = run.out.rfind(' ', inPlace - 1) + 1;
@@ -162,7 +162,7 @@ TEST_CASE("A live camera makes regions that push back; pulled out its forces fad
 }
 
 TEST_CASE(
-    "The list of devices names depth and colour of a camera with the source to write, and no metadata node") {
+    "The list of devices shows depth and colour of a camera with the source option, and no metadata node") {
     Stage stage;
     const ProgramRun run = runFathom({"devices"});
     INFO(run.err);
@@ -181,14 +181,14 @@ TEST_CASE(
     CHECK(count("\n          colour only: YUYV 160x120; --source v4l2:DEPTH,colour=/dev/video") == 1);
 }
 
-TEST_CASE("A live camera in lockstep is refused") {
+TEST_CASE("A live camera in lockstep is rejected") {
     Stage stage;
     const ProgramRun run = runFathom({"replay", stage.file("scene.yaml"), "--out", stage.file("out")});
     CHECK(run.exitCode == 2);
     CHECK(run.err.find("--realtime with a live camera") != std::string::npos);
 }
 
-TEST_CASE("A recording of a live camera has every picture of 30 a second") {
+TEST_CASE("A recording of a live camera has every frame at 30 per second") {
     Stage stage;
     const ProgramRun record = runFathom({"record", stage.file("scene.yaml"), "--source",
                                          "v4l2:auto,frames=60,rate=30,intrinsics=" + stage.file("lens.json"),

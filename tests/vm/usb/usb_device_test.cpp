@@ -15,7 +15,7 @@ namespace {
 constexpr uint16_t kVendor = 0x1209, kProduct = 0x0001;
 constexpr uint8_t kIn = 0x81, kOut = 0x01;
 
-// Sends back what it gets; vendor request 1 answers 42 after `delay`, 2 stalls.
+// Echoes its input; vendor request 1 answers 42 after `delay`, 2 stalls.
 class EchoDevice final : public UsbDevice {
 public:
     EchoDevice() {
@@ -54,7 +54,7 @@ private:
 // The device opened through libusb, its interface claimed.
 struct Opened {
     Opened() {
-        // Without udev a context never hears of later devices: a new one a try.
+        // Without udev a context is not notified of later devices, so each try uses a new one.
         waitFor([this] {
             libusb_init(&context);
             handle = libusb_open_device_with_vid_pid(context, kVendor, kProduct);
@@ -86,7 +86,7 @@ struct Opened {
 
 } // namespace
 
-TEST_CASE("A simulated USB device is enumerated by the kernel and echoes what libusb sends") {
+TEST_CASE("A simulated USB device is enumerated by the kernel and echoes data from libusb") {
     EchoDevice device;
     device.plug();
     Opened opened;
@@ -115,7 +115,7 @@ TEST_CASE("A simulated USB device stalls a request, and answers one late") {
     CHECK(opened.ask(1, 1000) == 1); // the late answer was withdrawn
 }
 
-TEST_CASE("A simulated USB device that is unplugged is gone for libusb, and may be plugged in again") {
+TEST_CASE("A simulated USB device that is unplugged is gone for libusb and can be plugged in again") {
     EchoDevice device;
     device.plug();
     {

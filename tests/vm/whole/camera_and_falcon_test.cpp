@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The whole product in the virtual machine: a simulated camera on the kernel's UVC driver, a simulated Falcon
-// on its USB stack behind the guardian's process, the engine between them; what is looked at is the motor
-// commands that reach the device.
+// on its USB stack behind its bridge process, and the engine between them. Checks the motor commands that
+// reach the device.
 #include "devices/usb/falcon_drive.h"
 #include "devices/usb/falcon_kinematics.h"
 #include "devices/v4l2/video_node.h"
@@ -37,7 +37,7 @@ void paintWall(uint32_t, vm::Bytes& image) {
     }
 }
 
-// The program with its messages in a file.
+// The program, with its messages in a file.
 int runProgram(const std::filesystem::path& log, std::vector<std::string> words) {
     const int out = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(out, 1);
@@ -51,7 +51,7 @@ int runProgram(const std::filesystem::path& log, std::vector<std::string> words)
     return ::execv(FATHOM_PROGRAM, arguments.data());
 }
 
-// Each leg as the force asks, and a good part of a newton.
+// Each leg in the direction of the force, with a substantial part of a newton.
 bool pushes(const Motors& motors, const Motors& newton) {
     for (size_t leg = 0; leg < motors.size(); ++leg) {
         if (motors[leg] * newton[leg] <= 0 || std::abs(motors[leg]) < std::abs(newton[leg]) / 2) {
@@ -61,7 +61,7 @@ bool pushes(const Motors& motors, const Motors& newton) {
     return true;
 }
 
-// How many Falcons the kernel has on its buses: a port is free a moment before its device is forgotten.
+// Number of Falcons on the kernel's buses. A port is free a moment before its device is removed.
 size_t falconsOnBus() {
     const auto holds = [](const std::filesystem::path& file, const char* id) {
         std::string text;
@@ -84,10 +84,10 @@ struct Stage {
                "filter: {radius: 0, edge: 0}\nerror_budget: 0\nhold_s: 0\ncontact: {where: cpu}\n"
                "hand: {path: start.csv}\nhaptics: {rate_hz: 200, stiffness: 300}\ntool: {spheres: [[0, 0, 0, "
                "0.01]]}\n";
-        // The wall's region ends at 0.42 m, so that the tool's centre rests at 0.41 m.
+        // The wall's region ends at 0.42 m, so the tool's centre rests at 0.41 m.
         std::ofstream(file("start.csv")) << "t_s,x,y,z,qw,qx,qy,qz\n0,0,0,0.39,1,0,0,0\n";
         moveKnob(kOpen);
-        falcon.leastMs = 3; // a device slower than 1 kHz: less for an emulated processor to carry
+        falcon.leastMs = 3; // slower than 1 kHz, to reduce the load of an emulated processor
         REQUIRE(eventually([] { return falconsOnBus() == 0; }));
         falcon.plug();
         camera.plug();
@@ -114,7 +114,7 @@ struct Stage {
             pauseMs(10);
         }
     }
-    // What the guardian's own drive makes of a force there.
+    // Motor commands of the bridge's drive for a force there.
     static Motors motorsFor(const dvec3& force, double z) {
         FalconDrive drive;
         HandSample sample;
@@ -130,7 +130,7 @@ struct Stage {
     FalconDevice falcon;
 };
 
-// The guardian's process, with its door open.
+// The bridge process with its socket open.
 struct Guard {
     explicit Guard(const Stage& stage)
         : process([&] {
@@ -147,8 +147,8 @@ struct Guard {
 
 } // namespace
 
-TEST_CASE("What the camera sees pushes a Falcon's knob back: the wrench reaches the device, and ends with "
-          "the run") {
+TEST_CASE("A surface in the camera's view pushes a Falcon's knob back, and the wrench at the device ends "
+          "with the run") {
     Stage stage;
     Guard guard(stage);
     Child engine([&] {
@@ -164,7 +164,7 @@ TEST_CASE("What the camera sees pushes a Falcon's knob back: the wrench reaches 
     REQUIRE(eventually([&] { return stage.falcon.commands > commands + 50; }, 60));
     CHECK(stage.falcon.motors() == kStill); // 20 mm before the region: no force
     stage.push(kOpen, kPressed);
-    // As the mechanism's Jacobian says for a force along -z: towards the pilot, out of the wall.
+    // Matches the mechanism's Jacobian for a force along -z: towards the pilot, out of the wall.
     const Motors away = Stage::motorsFor({0.0, 0.0, -1.0}, kPressed);
     const bool pushed = eventually([&] { return pushes(stage.falcon.motors(), away); }, 60);
     INFO(stage.text("replay.log"));
@@ -172,7 +172,7 @@ TEST_CASE("What the camera sees pushes a Falcon's knob back: the wrench reaches 
     const Motors felt = stage.falcon.motors();
     MESSAGE("motor commands at the device: " << felt[0] << " " << felt[1] << " " << felt[2] << ", of "
                                              << away[0] << " " << away[1] << " " << away[2] << " for 1 N");
-    stage.push(kPressed, kOpen); // in the open again it is gone, while the run goes on
+    stage.push(kPressed, kOpen); // outside again the force is gone, while the run continues
     CHECK(eventually([&] { return stage.falcon.motors() == kStill; }, 60));
     stage.push(kOpen, kPressed);
     CHECK(eventually([&] { return pushes(stage.falcon.motors(), away); }, 60));
@@ -187,9 +187,8 @@ TEST_CASE("What the camera sees pushes a Falcon's knob back: the wrench reaches 
     CHECK(guard.process.wait() == 0);
 }
 
-TEST_CASE(
-    "A recording with a live hand has every picture of 30 a second and what the knob did, and the knob felt "
-    "nothing") {
+TEST_CASE("A recording with a live hand has every frame at 30 per second and the knob's path, without forces "
+          "at the knob") {
     Stage stage;
     Guard guard(stage);
     Child record([&] {
@@ -218,7 +217,7 @@ TEST_CASE(
     INFO(said);
     CHECK(said.find("90 pictures") != std::string::npos);
     CHECK(said.find("0 skipped, 0 lost") != std::string::npos);
-    // The hand's path: from where the knob was to where it was pushed, in time, as long as the pictures.
+    // The hand's path: from the knob's start to its pushed position, in time order, as long as the frames.
     std::ifstream rows(stage.file("rec/hand.csv"));
     std::string line;
     std::getline(rows, line);
@@ -233,7 +232,7 @@ TEST_CASE(
         first = count++ == 0 ? z : first;
     }
     CHECK(count > 90);
-    CHECK(t == doctest::Approx(3.0).epsilon(0.05)); // of lockstep: picture j is at j / 30 s
+    CHECK(t == doctest::Approx(3.0).epsilon(0.05)); // lockstep: frame j is at j / 30 s
     CHECK(std::abs(z - first - (kPressed - kOpen)) < 0.002);
     guard.process.signal(SIGTERM);
     CHECK(guard.process.wait() == 0);
