@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 done, 1 a stated limit does not
-// hold or an internal error, 2 bad input, 3 device lost.
+// fathom: haptic virtual fixtures from a live depth camera. Exit codes: 0 success, 1 a stated limit is
+// violated or internal error, 2 bad input, 3 device lost.
 #include "apps/arm_simulator/arm_simulator_command.h"
 #include "apps/clock/keep_clock_command.h"
 #include "apps/devices/devices_command.h"
@@ -31,7 +31,7 @@
 
 namespace {
 
-// What the command line did not mean, as one line: where, value, what is allowed.
+// A command-line error as one line: option, value, what is allowed.
 std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     const std::vector<std::string> rest = app.remaining(true);
@@ -39,7 +39,7 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     const auto allow = [&](const std::string& name) { allowed += (allowed.empty() ? "" : ", ") + name; };
     if (chosen.empty()) {
         for (const CLI::App* command : app.get_subcommands(nullptr)) {
-            if (!command->get_group().empty()) { // what the program starts by itself has none
+            if (!command->get_group().empty()) { // internal commands have no group
                 allow(command->get_name());
             }
         }
@@ -49,7 +49,7 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
     if (!rest.empty()) {
         for (const CLI::App* owner : {static_cast<const CLI::App*>(chosen.back()), &app}) {
             for (const CLI::Option* option : owner->get_options()) {
-                if (owner != &app || option != app.get_help_ptr()) { // the subcommand has one of its own
+                if (owner != &app || option != app.get_help_ptr()) { // the subcommand has its own
                     allow(option->get_name());
                 }
             }
@@ -62,7 +62,7 @@ std::string refusalOf(const CLI::App& app, const CLI::ParseError& error) {
 }
 
 int run(int argc, char** argv) {
-    std::signal(SIGXFSZ, SIG_IGN); // a file that may grow no more is told of like a disk that is full
+    std::signal(SIGXFSZ, SIG_IGN); // a file at its size limit is then reported like a full disk
     CLI::App app("Haptic virtual fixtures from a live depth camera");
     app.require_subcommand(1);
     fathom::GlobalOptions global;
@@ -104,7 +104,7 @@ int run(int argc, char** argv) {
     return result;
 }
 
-// What the command ended with, unless the validation layer had something against it.
+// The exit code of the command, or 1 when the validation layer reported messages.
 int judged(int result) {
     const uint32_t messages = fathom::gpu::validationMessages();
     if (messages == 0) {

@@ -23,7 +23,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMostStep = 0.05; // [s] that motors go at once: a process that was stopped makes no leap
+constexpr double kMostStep = 0.05; // [s] largest simulated step, so that a stopped process does not jump
 constexpr double kEcaRange = 1.6;  // [rad] between the stops of every joint
 
 struct SimulatorOptions {
@@ -32,7 +32,7 @@ struct SimulatorOptions {
     double seconds = 0.0; // 0 = until Ctrl-C
 };
 
-// Both ends of a pseudo-terminal: the far one is held open, so that the arm stays when its host goes.
+// Both ends of a pseudo-terminal. The far end stays open, so that the arm survives its host.
 class Terminal {
 public:
     Terminal()
@@ -58,8 +58,8 @@ public:
     }
     const std::string& name() const { return name_; }
 
-    // What the host has written goes to the arm, its answers to the host; what finds no room is lost, as on a
-    // wire.
+    // Passes the host's bytes to the arm and its answers to the host. Bytes that do not fit are lost, like on
+    // a wire.
     void exchange(ArmSimulator& arm) const {
         std::vector<uint8_t> answers;
         uint8_t bytes[256];
@@ -75,13 +75,13 @@ private:
     std::string name_;
 };
 
-// A name that leads to the terminal, for scripts; gone with this.
+// Symbolic link to the terminal, for scripts. Removed by the destructor.
 class Link {
 public:
     Link(std::filesystem::path link, const std::string& target)
         : link_(std::move(link)) {
         std::error_code fault;
-        if (!link_.empty() && std::filesystem::is_symlink(link_)) { // of one that was killed
+        if (!link_.empty() && std::filesystem::is_symlink(link_)) { // left by a killed process
             std::filesystem::remove(link_, fault);
         }
         if (!link_.empty()) {
@@ -111,7 +111,7 @@ std::unique_ptr<ArmSimulator> simulatorOf(const std::string& protocol) {
     }
     auto eca = std::make_unique<EcaSimulator>();
     eca->upper.fill(kEcaRange);
-    eca->angle.fill(0.1 * kEcaRange); // homing goes there slowly
+    eca->angle.fill(0.1 * kEcaRange); // homing moves there slowly
     return eca;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom arm-simulator`: an arm that is not there, behind a pseudo-terminal, for `--arm` to drive.
+// `fathom arm-simulator`: a simulated arm on a pseudo-terminal, for use with `--arm`.
 #pragma once
 
 namespace CLI {

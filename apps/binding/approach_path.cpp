@@ -16,16 +16,16 @@ constexpr double kFastest = 0.24;       // [m/s] peak of a free move
 constexpr double kPushSpeed = 0.10;     // [m/s] peak of a push
 constexpr double kPushDepth = 0.020;    // [m] inside the region
 constexpr double kPushStart = 0.060;    // [m] before the touch
-constexpr double kClear = 0.030;        // [m] round the stance
-constexpr double kRoom = 0.100;         // [m] in front of the nearest region where the stance is sought first
+constexpr double kClear = 0.030;        // [m] clearance around the stance
+constexpr double kRoom = 0.100;         // [m] in front of the nearest region: first candidate of the stance
 constexpr double kBackStep = 0.020;     // [m]
-constexpr int kMostBackSteps = 200;     // 4 m: far behind any camera's near end
+constexpr int kMostBackSteps = 200;     // 4 m: far behind the near limit of any camera
 constexpr double kBeforeTarget = 0.060; // [m]
-constexpr double kGapCap = 0.050;       // [m] no march step is longer
+constexpr double kGapCap = 0.050;       // [m] longest step of the search
 constexpr double kTurn = 4.0;           // [degree]
 constexpr double kTurnTime = 1.4;       // [s]
 constexpr double kHoldTime = 2.2;       // [s] at a guidance target,
-constexpr double kButtonTime = 1.5;     // [s] of which the last with the button
+constexpr double kButtonTime = 1.5;     // [s] at the end of it with the button
 constexpr uint32_t kGuidanceButton = 1;
 
 struct Goal {
@@ -34,7 +34,7 @@ struct Goal {
     dvec3 point{0.0}; // base frame
 };
 
-// Where the tool can go: straight moves at the base frame's own orientation.
+// Free moves of the tool: straight, with the orientation of the base frame.
 class FreeSpace {
 public:
     FreeSpace(const Tool& tool, const Fixtures& set, const RegionGrid& grid)
@@ -47,8 +47,8 @@ public:
     }
 
     // Length of the move from a towards b at whose end a leaf first touches; empty when the move is free.
-    // Steps of the gap cannot pass a region; the shortest step keeps grazing moves going and is halved back
-    // when it lands inside.
+    // Steps of the gap's length cannot pass a region. A shortest step keeps grazing moves progressing; it is
+    // halved when it ends inside.
     std::optional<double> touch(const dvec3& a, const dvec3& b, int fixture = -1) const {
         const double length = glm::length(b - a);
         const dvec3 direction = length > 0.0 ? (b - a) / length : dvec3(0.0);
@@ -109,7 +109,7 @@ public:
 private:
     static double minimumJerk(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
 
-    // A waypoint's buttons hold from its time on, so the one at the start of the stretch takes them too.
+    // A waypoint's buttons hold from its time on, so the waypoint at the start also gets them.
     template <class PoseAt>
     void append(double duration, uint32_t buttons, const PoseAt& poseAt) {
         path_.back().buttons = buttons;
@@ -124,7 +124,7 @@ private:
     std::vector<HandWaypoint> path_;
 };
 
-// Centre of the class's sphere that is nearest the mean of them all; empty without spheres.
+// Centre of the class's sphere nearest to their mean; empty without spheres.
 std::optional<dvec3> middleSphere(const Fixtures& set, int fixture) {
     const RegionSpheres& s = set.spheres;
     dvec3 sum(0.0);
@@ -170,8 +170,8 @@ std::vector<Goal> goalsOf(const Scene& scene, const Fixtures& set) {
     return goals;
 }
 
-// The point `distance` before `end` on the way from the camera, or as much farther back as it takes to be
-// clear and to be reached freely from `from`.
+// The point `distance` before `end` on the ray from the camera, or farther back until it is clear and the
+// move from `from` is free.
 dvec3 standBefore(const FreeSpace& space, const dvec3& end, const dvec3& direction, double distance,
                   const dvec3* from) {
     dvec3 point = end - distance * direction;
@@ -195,7 +195,7 @@ void push(PathWriter& path, const FreeSpace& space, const Goal& goal, const dvec
     path.move(before + std::max(0.0, touch - kPushStart) * direction, kFastest);
     path.move(before + (touch + kPushDepth) * direction, kPushSpeed);
     path.rest(0.3, 0);
-    // Mostly across the push, which levers a long tool, and partly about it.
+    // Mostly across the push, which tilts a long tool, and partly about it.
     const dvec3 aside = glm::cross(direction, std::abs(direction.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0));
     path.step(glm::normalize(glm::normalize(aside) + 0.5 * direction), kTurn * kPi / 180.0, kTurnTime);
     path.rest(0.3, 0);

@@ -15,7 +15,7 @@ namespace {
 using Driver = SceneArm::Driver;
 
 constexpr double kSlidingLag = 0.05; // [m]
-// In the drivers' order; the last one is the jaws'.
+// In the drivers' order; the last axis drives the jaws.
 constexpr std::array<const char*, 5> kReachAxes{"base", "shoulder", "elbow", "wrist", "jaws"};
 constexpr std::array<const char*, 5> kEcaAxes{"shoulder", "slew", "elbow", "wrist", "gripper"};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which axis of an arm's driver is which joint of the scene's arm, and what it reads there.
+// Maps the axes of an arm's driver to the joints of the scene's arm and converts their readings.
 #pragma once
 
 #include "devices/arm.h"
@@ -16,7 +16,7 @@ struct ArmAxes {
     struct Joint { // q = zero + sign * position
         size_t axis = 0;
         double sign = 1.0, zero = 0.0;
-        double mostLag = 0.35; // [rad], [m] behind what is asked for, longer than a moment: held
+        double mostLag = 0.35; // [rad], [m] lag behind the setpoint; exceeded for longer, the arm is held
     };
     struct Jaws {
         size_t axis = 0;
@@ -26,14 +26,14 @@ struct ArmAxes {
     std::optional<Jaws> jaws;
 
     ArmPosture
-    postureOf(const ArmFeedback& feedback) const noexcept; // without jaws the grasp is NaN: not known
+    postureOf(const ArmFeedback& feedback) const noexcept; // without jaws the grasp is NaN (unknown)
     // Writes the positions of these axes; others stay as they are.
     void command(const ArmPosture& posture, ArmCommand& out) const noexcept;
-    // Farthest that a joint is from where it should be, over its mostLag.
+    // Largest ratio of a joint's lag to its mostLag.
     double lag(const ArmPosture& wanted, const ArmPosture& measured) const noexcept;
 };
 
-// Throws BadInput naming the scene's field: axes or joints that there are not, joints without an axis.
+// Throws BadInput with the scene's field for unknown axes or joints and for joints without an axis.
 ArmAxes armAxes(const Scene& scene, const ArmRig& rig);
 
 } // namespace fathom

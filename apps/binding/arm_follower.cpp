@@ -27,10 +27,10 @@ ArmStatus ArmFollower::exchange(double now, const ArmSetpoint& setpoint, double 
     if (setpoint.off) {
         device_.reset();
     }
-    // A hold while the positions mean nothing: homing in the middle of a run would go to the stops blindly.
+    // Hold while positions are not valid: homing during a run would move blindly to the stops.
     command_.hold = !asked || behind_ || !device_.feedback().homed;
     if (command_.hold) {
-        command_.position = device_.feedback().position; // also of axes that nobody moves
+        command_.position = device_.feedback().position; // also for axes without a joint
     } else {
         axes_.command(setpoint.posture, command_);
     }

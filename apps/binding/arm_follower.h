@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One exchange with a real arm: what the haptic thread wishes against what the arm may do.
+// One exchange with a real arm: limits the haptic thread's setpoint to what the arm can follow.
 #pragma once
 
 #include "apps/binding/arm_axes.h"
@@ -14,17 +14,17 @@ public:
         : device_(device)
         , axes_(axes) {}
 
-    // An exchange that homes the arm, or holds it where it needs no homing (any more). True when it is ready.
-    // Nothing looks at what the joints hit on their way to their stops.
+    // An exchange that homes the arm, or holds it when no homing is needed. True when it is ready. Homing
+    // does not check for collisions.
     bool home(double now) noexcept;
 
-    // now [s]: any monotonic clock; setpointAge [s]: of the wish, on the haptic thread's word. at and
-    // reopened of the answer are the caller's.
+    // now [s]: any monotonic clock; setpointAge [s]: age of the setpoint, by the haptic thread's time stamp.
+    // The caller fills `at` and `reopened` of the answer.
     ArmStatus exchange(double now, const ArmSetpoint& setpoint, double setpointAge) noexcept;
 
-    static constexpr double kSetpointStale = 0.1; // [s] a haptic thread that is silent holds the arm
+    static constexpr double kSetpointStale = 0.1; // [s] an older setpoint holds the arm
     static constexpr double kBehindTime = 0.5;    // [s]
-    static constexpr double kBehindOver = 0.25;   // of the lag that is allowed: it may follow again
+    static constexpr double kBehindOver = 0.25;   // of the allowed lag: below it the arm follows again
 
 private:
     ArmState stateOf(bool asked) const noexcept;

@@ -18,9 +18,9 @@ using Clock = std::chrono::steady_clock;
 constexpr auto kPause = std::chrono::milliseconds(2);
 constexpr double kNoAnswer = 5.0, kHomingTime = 300.0; // [s]
 constexpr auto kWatchdogStart = std::chrono::seconds(5);
-constexpr double kRetry = 0.5;     // [s] between looks for a line that is gone, or for another guardian
-constexpr double kLastWords = 0.2; // [s] of telling it to stand still
-constexpr double kQuiet = 2.0;     // [s] between two lines of the log
+constexpr double kRetry = 0.5;     // [s] between attempts to reopen the port or restart the watchdog
+constexpr double kLastWords = 0.2; // [s] of stop commands at the end
+constexpr double kQuiet = 2.0;     // [s] between two log lines
 constexpr double kOutside = 0.02;  // [rad], [m] beyond a limit that calibration may be off by
 
 double secondsAt(Clock::time_point time) {
@@ -145,7 +145,7 @@ ArmPosture ArmThread::ready(const std::atomic<bool>& stop) {
 
 void ArmThread::reopen(double now) noexcept {
     follower_.reset();
-    line_.reset(); // closes the dead one
+    line_.reset(); // closes the dead port
     if (now < nextTry_) {
         return;
     }
@@ -153,12 +153,12 @@ void ArmThread::reopen(double now) noexcept {
     try {
         open();
         ++reopened_;
-    } catch (const std::exception&) { // not there yet
+    } catch (const std::exception&) { // not available yet
         line_.reset();
     }
 }
 
-// A guardian that somebody killed gets a successor; this never waits for it.
+// Restarts a killed watchdog without waiting for it.
 bool ArmThread::guarded(double now) noexcept {
     std::unique_ptr<ArmWatchdog>& watchdog = line_->watchdog;
     if (watchdog && !watchdog->ended()) {
@@ -172,7 +172,7 @@ bool ArmThread::guarded(double now) noexcept {
     try {
         log::warn("{}: its watchdog process ended; the arm is held until a new one runs", description());
         watchdog = std::make_unique<ArmWatchdog>(line_->port, driver_.protocol);
-    } catch (const std::exception&) { // no process to be had now
+    } catch (const std::exception&) { // cannot start a process now
         watchdog.reset();
     }
     return false;
@@ -187,7 +187,7 @@ ArmStatus ArmThread::exchange(double now) noexcept {
         link_.setpoint.refresh();
         ArmSetpoint setpoint = link_.setpoint.front();
         const bool safe = guarded(now);
-        setpoint.hold = setpoint.hold || !safe; // nothing moves that nobody would stop
+        setpoint.hold = setpoint.hold || !safe; // no motion without a watchdog
         told = follower_->exchange(now, setpoint, now - secondsAt(setpoint.at));
     }
     const bool gone = !line_ || line_->port.gone();
@@ -231,7 +231,7 @@ void ArmThread::run() noexcept {
         link_.status.publish();
         try {
             note(told, now);
-        } catch (...) { // a log that cannot be written stops no arm
+        } catch (...) { // a failing log must not stop the arm
         }
         std::this_thread::sleep_until(time + kPause);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The thread that speaks to a real arm over its serial line, from its first answer to the last command: stand
-// still. A guardian process says it where this one cannot any more; without one nothing moves.
+// The thread that talks to a real arm over its serial port, from its first answer to the final stop command.
+// A watchdog process sends that command if this process cannot; without it the arm does not move.
 #pragma once
 
 #include "apps/binding/arm_follower.h"
@@ -14,42 +14,42 @@
 
 namespace fathom {
 
-// What --arm takes.
+// Help text of --arm.
 inline constexpr const char* kArmHelp =
     "serial port of the real arm in the scene's arm.driver; the arm moves";
 
 class ArmThread;
 
-// rig: of the scene. Throws BadInput where the scene has no arm or no driver, and as ArmThread.
+// rig: of the scene. Throws BadInput when the scene has no arm or no driver, and like ArmThread.
 std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port);
 
-// Made, homed and started by one thread; then the haptic thread speaks to it through link() alone.
+// One thread constructs, homes and starts it; afterwards the haptic thread uses only link().
 class ArmThread {
 public:
-    // Opens the line and starts its guardian, moves nothing. Throws BadInput (no driver in the scene, no such
-    // line), Error (no guardian).
+    // Opens the port and starts the watchdog; moves nothing. Throws BadInput (no driver in the scene, no such
+    // port), Error (no watchdog).
     ArmThread(const Scene& scene, const ArmRig& rig, std::string port);
     ArmThread(const ArmThread&) = delete;
     ArmThread& operator=(const ArmThread&) = delete;
-    // Tells the arm to stand still, several times, and closes the line.
+    // Sends the stop command several times and closes the port.
     ~ArmThread();
 
-    // Waits for the arm to answer and homes it, which moves it where encoders are relative; starts the
-    // thread. Returns where it stands, inside the joint limits. Throws DeviceLost (no answer, a motor that
-    // draws too much, no stop found), BadInput (a joint beyond its limits), Error (`stop`, no guardian).
+    // Waits for an answer, homes the arm (moves it if its encoders are relative) and starts the thread.
+    // Returns the posture, inside the joint limits. Throws DeviceLost (no answer, motor overload, no end
+    // stop), BadInput (a joint beyond its limits), Error (`stop`, no watchdog).
     ArmPosture ready(const std::atomic<bool>& stop);
 
     ArmLink& link() { return link_; }
-    std::string description() const; // protocol and line
+    std::string description() const; // protocol and port
     // Any thread: the serial port is gone and has not come back.
     bool gone() const { return gone_.load(std::memory_order_relaxed); }
 
 private:
-    struct Line { // port, what speaks on it, who watches that
+    struct Line { // port, driver and watchdog
         Line(const SceneArm::Driver& driver, const std::string& port);
         SerialPort port;
         std::unique_ptr<ArmDevice> device;
-        std::unique_ptr<ArmWatchdog> watchdog; // null: it was killed, and another could not be started yet
+        std::unique_ptr<ArmWatchdog> watchdog; // null: killed and not restarted yet
     };
     void open();
     void run() noexcept;
@@ -65,7 +65,7 @@ private:
     std::vector<ArmJoint> joints_;
     ArmAxes axes_;
     std::string port_;
-    std::unique_ptr<Line> line_; // null while it is gone
+    std::unique_ptr<Line> line_; // null while the port is gone
     std::unique_ptr<ArmFollower> follower_;
     ArmLink link_;
     std::atomic<bool> stop_{false}, gone_{false};

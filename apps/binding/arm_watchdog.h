@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's end of an arm's guardian (devices/serial/line_guard.h): a process of its own, so that no end
-// of the engine leaves an arm moving.
+// The engine's side of an arm's watchdog process (devices/serial/line_guard.h). A separate process stops the
+// arm however the engine ends.
 #pragma once
 
 #include "devices/serial/serial_port.h"
@@ -11,23 +11,23 @@
 
 namespace fathom {
 
-// The program's own first argument for it, and the descriptors that it inherits.
+// The first argument that starts it, and the descriptors that it inherits.
 inline constexpr const char* kArmWatchdogCommand = "arm-guardian";
 inline constexpr int kWatchdogEngine = 3, kWatchdogLine = 4;
 
 std::string protocolName(SceneArm::Driver::Protocol protocol);
 
-// One thread. Waits for nothing but in the end.
+// One thread. Only the destructor waits.
 class ArmWatchdog {
 public:
-    // Starts this program again, as the guardian of the line that is open. Throws Error.
+    // Starts this program again as the watchdog of the open port. Throws Error.
     ArmWatchdog(const SerialPort& port, SceneArm::Driver::Protocol protocol);
     ArmWatchdog(const ArmWatchdog&) = delete;
     ArmWatchdog& operator=(const ArmWatchdog&) = delete;
-    // Says farewell and waits until it has ended, so that the line is free.
+    // Ends the process and waits for it, so that the port is free.
     ~ArmWatchdog();
 
-    // It is there and would stop the arm. False at first, and when it was killed.
+    // True when it runs and would stop the arm. False at first, and after it was killed.
     bool stands() noexcept;
     bool ended() const noexcept { return ended_; }
     // now [s]: any monotonic clock. Before each exchange with the arm.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From what --hand-device names to a live haptic device.
+// Opens the live haptic device that --hand-device names.
 #pragma once
 
 #include "devices/live_hand.h"
@@ -11,19 +11,20 @@
 
 namespace fathom {
 
-// What --hand-device takes.
+// Help text of --hand-device.
 inline constexpr const char* kHandHelp =
     "a live hand: falcon, haply, spacemouse[:/dev/hidrawN], or the socket of a bridge";
 
-// name: "falcon" or "haply" (the default door of `fathom guard` of it), "spacemouse",
-// "spacemouse:/dev/hidrawN", or the path of a hand door. The device's own preset takes the place of the
-// scene's haptics.device. Throws BadInput.
+// name: "falcon" or "haply" (the default socket of its `fathom guard`), "spacemouse",
+// "spacemouse:/dev/hidrawN", or the path of a bridge's socket. The device's own preset replaces the scene's
+// haptics.device. Throws BadInput.
 std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene);
 
-// Which axes it senses and drives, in one line: "x y z sensed, x y z driven; torque is shown, not felt".
+// The axes that it senses and drives, in one line: "x y z sensed, x y z driven; torque is shown, not felt".
 std::string axesOf(const std::string& preset);
 
-// Until the device gives poses (plugged in, homed) or `stop`: false then. Tells once what it waits for.
+// Waits until the device gives poses (plugged in, homed), or until `stop` and returns false. Logs once what
+// it waits for.
 bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop);
 
 } // namespace fathom

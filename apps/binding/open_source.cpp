@@ -80,7 +80,7 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
         break;
     }
     CameraRequest request = parseCameraRequest(scene.source.value);
-    if (!request.intrinsics.empty()) { // as all paths in a scene file
+    if (!request.intrinsics.empty()) { // like all paths in a scene file
         const std::filesystem::path folder = scene.file.parent_path(), file = folder / request.intrinsics;
         if (!staysInside(request.intrinsics) || !liesInside(file, folder)) {
             warnOutside(scene.file, request.intrinsics.string());
@@ -99,7 +99,7 @@ std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::
         const BeamSigma beam{scene.beam->range, scene.beam->perMetre, scene.beam->width};
         camera = std::make_unique<BeamCamera>(std::move(camera), beam);
     }
-    // A recording keeps what the camera saw, but for one that a window made of what it used.
+    // A recording contains raw camera frames, unless the window recorded corrected ones.
     if (!scene.port || images == Images::Every || camera->info().inWater) {
         return camera;
     }

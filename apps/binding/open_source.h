@@ -11,20 +11,20 @@
 
 namespace fathom {
 
-// What --source takes.
+// Help text of --source.
 inline constexpr const char* kSourceHelp =
     "instead of the scene's camera: a recording folder, a ROS bag, "
     "an organised PCD, an .oni file, or a live camera as v4l2:auto or openni2";
 
-// Of a live camera: the newest at each call, or every one in order (for recordings).
+// For a live camera: the newest frame at each call, or every frame in order (for recordings).
 enum class Images { Newest, Every };
 
 // The scene's camera, or `source` when given: a recording, or a live camera ("v4l2:..."). Throws BadInput.
 std::unique_ptr<Camera> openCamera(const Scene& scene, const std::optional<std::filesystem::path>& source,
                                    Images images = Images::Newest);
 
-// What the camera's own corrections leave uncertain (of a flat port) makes the scene's regions grow as a
-// registration does. Once a scene and camera.
+// Adds the uncertainty of the camera's own corrections (flat port) to the scene's registration sigma, which
+// grows the regions. Call once per scene and camera.
 void takeUncertainty(Scene& scene, const Camera& camera);
 
 } // namespace fathom

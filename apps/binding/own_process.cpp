@@ -14,16 +14,16 @@ namespace fathom {
 namespace {
 
 constexpr int kAbove = 10;  // descriptors that no action of the child overwrites
-constexpr size_t kMost = 8; // of a child's
+constexpr size_t kMost = 8; // per child
 
-// What we were started with has no FD_CLOEXEC; what we open has, and may be given the number of a standard
-// error that was closed.
+// Inherited descriptors have no FD_CLOEXEC. Ours have it, and one may have the number of a standard error
+// that was closed.
 bool hasStandardError() noexcept {
     const int flags = ::fcntl(STDERR_FILENO, F_GETFD);
     return flags >= 0 && (flags & FD_CLOEXEC) == 0;
 }
 
-// The child's descriptors: copies that its places do not hit, closed here when it has them.
+// The child's descriptors, copied above its target numbers and closed here afterwards.
 class Actions {
 public:
     explicit Actions(std::span<const int> files) noexcept {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Between the path of a hand, as its device gives it, and where that commands the tool.
+// Converts between the raw path of a hand device and the commanded tool poses.
 #pragma once
 
 #include "devices/simulated/hand_path.h"
@@ -9,11 +9,11 @@
 
 namespace fathom {
 
-// Commanded base_T_tool poses as the hand would make them, raw in the device frame: the inverse of hand.map
+// The raw hand poses (device frame) for commanded base_T_tool poses: the inverse of hand.map
 // before any clutch.
 std::vector<HandWaypoint> toHand(std::vector<HandWaypoint> waypoints, const Scene::Hand& hand);
 
-// base_T_tool where a raw path begins: where the tool of a live hand begins, too.
+// base_T_tool at the start of a raw path, and of a live hand.
 Pose startOf(const HandPath& path, const Scene& scene);
 
 } // namespace fathom

@@ -13,7 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostEdits = 100'000;
-constexpr const char* kSpareName = "(spare "; // in a recording's scene files; while it runs: no name
+constexpr const char* kSpareName = "(spare "; // in a recording's scene files; without a name during the run
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const TextLine& line, const char* column,
                          std::string_view value, const std::string& allowed) {
@@ -21,7 +21,7 @@ constexpr const char* kSpareName = "(spare "; // in a recording's scene files; w
                    "'" + std::string(value.substr(0, 80)) + "'", allowed);
 }
 
-// A file of this folder and of no other.
+// A file name without a folder.
 Scene sceneNamed(const std::filesystem::path& file, const TextLine& line, std::string_view name) {
     const std::filesystem::path path(name);
     if (path.empty() || path != path.filename()) {
@@ -120,12 +120,13 @@ SceneEdits takeEdits(Scene& scene, const std::filesystem::path& source) {
         const std::filesystem::path file = scene.file;
         scene = edits.at(0).scene;
         scene.file = file;
-        scene.contact.where = Scene::Contact::Where::Cpu; // classes that are held still are the host's only
+        scene.contact.where =
+            Scene::Contact::Where::Cpu; // classes that are held still exist only on the host
     }
     return edits;
 }
 
-// Radii may change while it runs: what the scene at first could leave out for its radii stays in.
+// Radii can change during the run, so passes that the first scene's radii would skip stay in the plan.
 Plan planToEdit(const Scene& scene, const CameraInfo& camera, const Tool& tool, const DeviceFacts& device) {
     Scene editable = scene;
     editable.contact.where = Scene::Contact::Where::Cpu;

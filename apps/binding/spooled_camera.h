@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// All pictures of a slow source, taken beforehand into an unnamed file, and given out at the speed of a copy.
+// All frames of a slow source, stored in an unnamed file beforehand and delivered at the speed of a copy.
 #pragma once
 
 #include "devices/camera.h"
@@ -14,12 +14,13 @@
 
 namespace fathom {
 
-// For sources that cannot keep up with the clock: a simulated camera renders for longer than a frame lasts,
-// which no real one asks of the machine. The file has no name and is gone with the process, however it ends.
+// For sources slower than their frame rate, such as a simulated camera that renders longer than a frame
+// period. The file has no name and vanishes with the process.
 class SpooledCamera final : public Camera {
 public:
-    // Takes pictures until the source ends or `stop`, at least one. `folder`: where the file lies.
-    // progress(pictures so far) after each. Throws Error that names the folder, and what the source throws.
+    // Stores frames until the source ends or `stop`, at least one. `folder`: location of the file. Calls
+    // progress(frames so far) after each. Throws Error with the folder, and passes on exceptions of the
+    // source.
     SpooledCamera(std::unique_ptr<Camera> source, const std::filesystem::path& folder,
                   const std::atomic<bool>& stop, const std::function<void(uint64_t)>& progress);
     ~SpooledCamera() override;
@@ -39,7 +40,7 @@ private:
     std::string description_, folder_;
     uint32_t skipped_ = 0;
     int descriptor_ = -1;
-    size_t colourWords_ = 0;               // of a frame
+    size_t colourWords_ = 0;               // per frame
     std::vector<Frame::Content> contents_; // without their pixels
     size_t next_ = 0;
     int64_t written_ = 0, read_ = 0; // [bytes]

@@ -5,7 +5,7 @@ namespace fathom {
 
 namespace {
 
-std::atomic<bool> stopAsked{false}; // a signal handler is given nothing: its flag can only live here
+std::atomic<bool> stopAsked{false}; // global, because a signal handler gets no context
 static_assert(std::atomic<bool>::is_always_lock_free);
 
 extern "C" void fathomAskStop(int) {

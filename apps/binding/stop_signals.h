@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ctrl-C as a flag: while one lives, SIGINT, SIGTERM, SIGQUIT and SIGHUP (the terminal closed) ask the run to
-// end instead of ending the program, so that the last thing a hand feels is zero force. SIGPIPE, a reader of
-// the output that went away, is no reason to end.
+// Ctrl-C as a flag. While a StopSignals exists, SIGINT, SIGTERM, SIGQUIT and SIGHUP (terminal closed) request
+// the end of the run instead of ending the program, so that the last wrench is zero. SIGPIPE (the reader of
+// the output ended) is ignored.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// At most one at a time. The earlier dispositions return with its end. SIGHUP stays ignored where it was
+// At most one at a time. The destructor restores the earlier dispositions. SIGHUP stays ignored if it was
 // (nohup).
 class StopSignals {
 public:

@@ -123,7 +123,7 @@ void ViewPublisher::tellRegions() noexcept {
     copy(set_->origin, regions_.origin);
     regions_.total = static_cast<uint32_t>(spheres.size());
     regions_.first = 0;
-    do { // an empty set is told, too
+    do { // also send an empty set
         regions_.count = std::min<uint32_t>(FATHOM_DOOR_SPHERES, regions_.total - regions_.first);
         for (uint32_t i = 0; i < regions_.count; ++i) {
             const size_t at = regions_.first + i;
@@ -151,7 +151,7 @@ void ViewPublisher::tellFixtures() {
     }
     fixtures_.total = static_cast<uint32_t>(rows_.size());
     fixtures_.first = 0;
-    do { // none is told, too
+    do { // also send when there is none
         fixtures_.count = std::min<uint32_t>(FATHOM_DOOR_ROWS, fixtures_.total - fixtures_.first);
         std::copy_n(rows_.begin() + fixtures_.first, fixtures_.count, fixtures_.rows);
         endpoint_.send(fixtures_);

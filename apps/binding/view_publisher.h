@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the writer of a realtime run tells through a view door: every turn, every new fixture set, and the
-// shapes that people placed.
+// Sends every tick, every new fixture set and the authored shapes of a realtime run through a view socket.
 #pragma once
 
 #include "devices/bridge/view_socket.h"
@@ -15,7 +14,7 @@ namespace fathom {
 inline constexpr const char* kViewEndpointHelp =
     "socket that sends every tick and fixture set to observers (devices/bridge)";
 
-// One thread, the writer's, but for setShapes() and forget().
+// Writer thread, except setShapes() and forget().
 class ViewPublisher {
 public:
     // Throws BadInput.
@@ -23,12 +22,12 @@ public:
         : endpoint_(path) {}
 
     void step(const TickRow& row);
-    // `set` must stay whole until the next call: an observer who comes later gets it then.
+    // `set` must stay valid until the next call, because an observer that connects later receives it.
     void frame(const Fixtures& set);
 
-    // In force from now on. Any thread; waits for a writer that copies them.
+    // Active from now on. Any thread; waits while the writer copies them.
     void setShapes(std::span<const Shape> shapes);
-    // The set last given goes away: while no run is on.
+    // Drops the last set. Call it only while no run is active.
     void forget() noexcept { set_ = nullptr; }
 
     const ViewSocket& endpoint() const noexcept { return endpoint_; }
@@ -36,27 +35,27 @@ public:
 private:
     void tellRegions() noexcept;
     void tellFixtures();
-    bool shapesAreOthers(); // than those told
+    bool shapesAreOthers(); // than those sent
 
-    static constexpr uint32_t kPollEvery = 16; // turns
+    static constexpr uint32_t kPollEvery = 16; // ticks
 
     ViewSocket endpoint_;
     const Fixtures* set_ = nullptr;
-    uint64_t told_ = 0; // generation
+    uint64_t told_ = 0; // generation of the last sent set
     uint32_t ticks_ = 0;
     fathom_door_state state_{};
     fathom_door_regions regions_{};
     fathom_door_fixtures fixtures_{};
     std::vector<fathom_door_fixture> rows_;
-    std::mutex mutex_; // of the two below
+    std::mutex mutex_; // guards the two members below
     std::vector<Shape> shapes_;
     bool othersThanTold_ = false;
 };
 
-// Hands everything on to one sink, and tells it at the door where there is one.
+// Forwards everything to one sink, and to the socket if there is one.
 class PublishedSink final : public RunSink {
 public:
-    // Both outlive this; null: no door.
+    // Both outlive this; null = no socket.
     PublishedSink(RunSink& next, ViewPublisher* view)
         : next_(next)
         , view_(view) {}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A live hand whose going and coming back another thread tells of.
+// A live hand whose loss and return another thread reports.
 #pragma once
 
 #include "devices/live_hand.h"
@@ -11,7 +11,7 @@ namespace fathom {
 // read() and write(): haptic thread. told(): one other thread.
 class WatchedHand final : public HapticDevice {
 public:
-    // Outlives this, and is there now.
+    // Outlives this, and is present now.
     explicit WatchedHand(LiveHand& hand)
         : hand_(hand)
         , name_(hand.description()) {}
@@ -23,7 +23,7 @@ public:
     }
     void write(const Wrench& deviceWrench, double dt) noexcept override { hand_.write(deviceWrench, dt); }
 
-    // Once a change: one line for the log; else empty. What comes and goes between two calls is counted only
+    // One log line per change, else empty. A loss and return between two calls is only counted
     // (LiveHandFigures::losses).
     std::string told() {
         const bool there = there_.load(std::memory_order_relaxed);
@@ -37,7 +37,7 @@ public:
 
 private:
     LiveHand& hand_;
-    std::string name_; // as it was: the haptic thread may write the device's own
+    std::string name_; // a copy, because the haptic thread may change the device's own
     std::atomic<bool> there_{true};
     bool told_ = true;
 };

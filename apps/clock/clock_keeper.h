@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Holds an NVIDIA GPU at its full clock while it waits for pictures (--hold-clock). The driver lowers the
+// Holds an NVIDIA GPU at its full clock while it waits for frames (--hold-clock). The driver lowers the
 // clock of an idle device between frames, to a sixth, and raises it too late for a millisecond of passes,
 // except while a CUDA context exists. A separate process creates one, so that the memory and threads of the
 // CUDA driver stay out of the engine's process, whose memory is locked and whose threads are pinned.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom plan SCENE`: what a scene gets on a device, what is left out, and why.
+// `fathom plan SCENE`: the passes, buffers and threads of a scene on a device, which are skipped, and why.
 #pragma once
 
 #include "apps/global_options.h"
@@ -15,7 +15,7 @@ namespace fathom {
 
 void addPlanCommand(CLI::App& app, const GlobalOptions& global);
 
-// One line an item: kind, name, in or out, bytes, reason.
+// One line per item: kind, name, in or out, bytes, reason.
 void printPlan(std::ostream& out, const Plan& plan);
 
 } // namespace fathom

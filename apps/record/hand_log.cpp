@@ -48,7 +48,7 @@ void HandLog::watch() noexcept {
             waiting_.push_back({t, sample});
         }
         ++samples_;
-        next = std::max(next + kPeriod, Clock::now()); // a late turn is not caught up
+        next = std::max(next + kPeriod, Clock::now()); // a late sample is not repeated
         std::this_thread::sleep_until(next);
     }
 }
@@ -78,7 +78,7 @@ void HandLog::flush(double from, double to, double start, double scale) {
 void HandLog::frame(double captureTime) {
     if (frames_ > 0 && captureTime > last_) {
         flush(last_, captureTime, (frames_ - 1) * kFramePeriod, kFramePeriod / (captureTime - last_));
-    } else if (frames_ == 0) { // what came before the first picture belongs to none
+    } else if (frames_ == 0) { // samples before the first frame are dropped
         const std::lock_guard lock(mutex_);
         std::erase_if(waiting_, [=](const Sample& s) { return s.t < captureTime; });
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a live hand does while pictures are recorded, as a path that `replay --operator` plays beside them.
+// Records a live hand with the frames, as a path that `replay --operator` plays with them.
 #pragma once
 
 #include "devices/live_hand.h"
@@ -14,9 +14,9 @@
 
 namespace fathom {
 
-// Reads the hand a thousand times a second on a thread of its own and gives it zero force. Lockstep shows
-// picture j at j / 30 s: what the hand did between two pictures is written between their places there, so
-// that a replay sees the same hand at the same picture, however irregular the pictures came.
+// Reads the hand at 1 kHz on its own thread and sends it zero force. Lockstep shows frame j at j / 30 s, so
+// samples between two frames are written between those times. A replay then sees the same hand at the same
+// frame, even if the frames came irregularly.
 class HandLog {
 public:
     // Throws Error when the file cannot be written.
@@ -25,13 +25,13 @@ public:
     HandLog& operator=(const HandLog&) = delete;
     ~HandLog();
 
-    // The next picture of the recording, taken at `captureTime` [s] of CLOCK_MONOTONIC.
+    // The next frame of the recording, captured at `captureTime` [s] of CLOCK_MONOTONIC.
     void frame(double captureTime);
-    // Writes what came since the last picture, at most a frame's length, and ends. Throws Error when the disk
-    // did not take all.
+    // Writes the samples since the last frame, at most one frame period, and ends. Throws Error when the disk
+    // is full.
     void finish();
 
-    uint64_t samples() const noexcept { return samples_.load(); } // read so far
+    uint64_t samples() const noexcept { return samples_.load(); } // samples read so far
     const LiveHand& hand() const { return *hand_; }
 
     static constexpr double kFramePeriod = 1.0 / 30.0; // [s] of lockstep
@@ -52,7 +52,7 @@ private:
     std::atomic<uint64_t> samples_{0};
     std::atomic<bool> stop_{false};
     uint32_t frames_ = 0;
-    double last_ = 0.0, written_ = -1.0; // [s] capture time of the last picture; last row's place
+    double last_ = 0.0, written_ = -1.0; // [s] capture time of the last frame; time of the last row
     std::thread thread_;
 };
 

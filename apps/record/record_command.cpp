@@ -23,7 +23,7 @@ struct RecordOptions {
     double seconds = 0.0; // 0 = until the source ends or a signal
 };
 
-// Pictures until the source ends, `seconds` have passed on its own clock, or a signal.
+// Records frames until the source ends, `seconds` have passed on its own clock, or a signal.
 double copyFrames(Camera& camera, RecordingWriter& writer, HandLog* hand, double seconds,
                   const std::atomic<bool>& stop) {
     std::optional<double> first;
@@ -46,7 +46,7 @@ double copyFrames(Camera& camera, RecordingWriter& writer, HandLog* hand, double
     return first ? last - *first : 0.0;
 }
 
-// A picture and a hand have one clock only where the pictures are live.
+// Frames and hand share one clock only when the frames are live.
 std::unique_ptr<HandLog> openHandLog(const RecordOptions& options, Scene scene, const Camera& camera) {
     if (options.handDevice.empty()) {
         return nullptr;
@@ -72,7 +72,7 @@ int runRecord(const RecordOptions& options) {
     try {
         length = copyFrames(*camera, writer, hand.get(), options.seconds, signals.asked());
     } catch (const DeviceLost& e) {
-        gone = e.what(); // what was seen until then is kept
+        gone = e.what(); // frames until then are kept
     }
     writer.finish();
     if (hand) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom record SCENE.yaml --out DIR`: what the scene's camera sees, as a recording that `replay` reads.
+// `fathom record SCENE.yaml --out DIR`: records the scene's camera for `replay`.
 #pragma once
 
 #include "apps/global_options.h"
@@ -10,7 +10,7 @@ class App;
 
 namespace fathom {
 
-// result: the exit code; 1 when a live camera lost pictures.
+// result: the exit code; 1 when a live camera lost frames.
 void addRecordCommand(CLI::App& app, const GlobalOptions& global, int& result);
 
 } // namespace fathom

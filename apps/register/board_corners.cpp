@@ -20,7 +20,7 @@ using glm::dvec2;
 
 constexpr int kRing[16][2] = {{5, 0},  {5, 2},   {4, 4},   {2, 5},   {0, 5},  {-2, 5}, {-4, 4}, {-5, 2},
                               {-5, 0}, {-5, -2}, {-4, -4}, {-2, -5}, {0, -5}, {2, -5}, {4, -4}, {5, -2}};
-constexpr int kMargin = 7;          // [pixels] from the picture's edge
+constexpr int kMargin = 7;          // [pixels] from the image's edge
 constexpr double kWeakest = 0.2;    // of the strongest response
 constexpr double kOff = 0.35;       // of a square's edge: tolerance of a predicted corner
 constexpr size_t kSeeds = 12;       // seed corners of grids
