@@ -37,7 +37,7 @@ void hurry() {
 
 template <class Guard>
 void runGuard(Guard& guard, const GuardOptions& options, const StopSignals& signals) {
-    std::cout << options.kind << " at " << guard.place() << ", door " << guard.endpoint().path().string()
+    std::cout << options.kind << " at " << guard.place() << ", socket " << guard.endpoint().path().string()
               << "; Ctrl-C ends with zero force" << std::endl;
     hurry();
     guard.run(signals.asked());

@@ -38,7 +38,7 @@ std::vector<PointPair> seenBy(Finder& finder, Camera& camera, const RegisterOpti
         pairs.insert(pairs.end(), found.begin(), found.end());
     }
     std::cout << "# " << pairs.size() << " corners of " << what << " in " << with << " of " << frames
-              << " pictures of " << camera.description() << "\n";
+              << " frames of " << camera.description() << "\n";
     if (pairs.empty()) {
         throw BadInput(camera.description(), what, "none seen", what + " in colour and depth");
     }

@@ -11,7 +11,7 @@
 
 namespace fathom {
 
-// BT.601 luma of the colour picture.
+// BT.601 luma of the colour image.
 void greyOf(const Frame& frame, std::vector<uint8_t>& grey);
 
 class SeenPlane {

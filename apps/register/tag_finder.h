@@ -36,7 +36,7 @@ private:
     struct Detector;
     struct Corners {
         int id = 0;
-        std::array<glm::dvec2, 4> pixels; // of the colour picture, in order of the tag's corners
+        std::array<glm::dvec2, 4> pixels; // of the colour image, in order of the tag's corners
     };
     std::vector<Corners> detect(const Frame& frame);
 

@@ -84,7 +84,7 @@ void BagCamera::chooseTopics() {
         seen += topic.type == kImage ? (seen.empty() ? "" : ", ") + topic.name : "";
     }
     if (depth_.topic == nullptr) {
-        throw BadInput(bag_.file().string(), "topics", seen.empty() ? "no pictures" : seen,
+        throw BadInput(bag_.file().string(), "topics", seen.empty() ? "no images" : seen,
                        "one of sensor_msgs/Image with encoding 16UC1, mono16 or 32FC1");
     }
 }

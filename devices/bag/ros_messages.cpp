@@ -34,7 +34,7 @@ constexpr const char* kYuyv = "yuv422_yuy2";
 
 std::string checkBytes(const Image& image, size_t row) {
     if (image.step < row || image.data.size() < size_t{image.step} * (image.height - 1) + row) {
-        return "a picture of " + std::to_string(image.data.size()) + " bytes in rows of " +
+        return "an image of " + std::to_string(image.data.size()) + " bytes in rows of " +
                std::to_string(image.step);
     }
     return image.bigEndian && image.encoding.find("16") != std::string::npos ? "big-endian pixels" : "";

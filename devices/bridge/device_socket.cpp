@@ -143,7 +143,7 @@ DeviceSocket DeviceSocket::connect(const std::filesystem::path& path) {
         refuse(path, "no permission", "a socket that you may write to (chmod)");
     case ENOENT:
     case ECONNREFUSED:
-        refuse(path, "nobody listens", "the socket of a running bridge, such as `fathom guard falcon`");
+        refuse(path, "no program listens", "the socket of a running bridge, such as `fathom guard falcon`");
     case EAGAIN:
         refuse(path, "busy", "a bridge without another engine");
     case EPROTOTYPE:

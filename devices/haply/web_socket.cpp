@@ -152,7 +152,7 @@ void WebSocket::connect(const std::string& host, uint16_t port, std::chrono::mil
     if (const int no = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &hints, &found); no != 0) {
         throw Error(place_ + ": " + ::gai_strerror(no));
     }
-    std::string why = "nobody there";
+    std::string why = "no answer";
     for (const addrinfo* one = found; one != nullptr && socket_ < 0; one = one->ai_next) {
         const int made = ::socket(one->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
         const bool begun =

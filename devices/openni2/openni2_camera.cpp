@@ -161,7 +161,7 @@ void OpenNi2Camera::readLens(const std::filesystem::path& intrinsics) {
         if (lens.width != info_.depth.width || lens.height != info_.depth.height) {
             throw BadInput(intrinsics.string(), "width, height",
                            std::to_string(lens.width) + "x" + std::to_string(lens.height),
-                           "the picture's " + std::to_string(info_.depth.width) + "x" +
+                           "the image's " + std::to_string(info_.depth.width) + "x" +
                                std::to_string(info_.depth.height));
         }
         info_.depth = info_.colour = lens;

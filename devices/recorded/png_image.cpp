@@ -60,7 +60,7 @@ public:
     int bits() const { return png_get_bit_depth(png_, info_); }
     int kind() const { return png_get_color_type(png_, info_); }
 
-    // Rows of the transformed picture; true when every one was read and every checksum holds.
+    // Rows of the transformed image; true when every one was read and every checksum holds.
     bool readDepth(png_bytepp rows) {
         if (setjmp(png_jmpbuf(png_)) != 0) {
             return false;

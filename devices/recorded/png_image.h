@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PNG pictures of a recording, decoded by libpng straight into the camera's memory.
+// PNG images of a recording, decoded by libpng straight into the camera's memory.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// Size of a picture.
+// Size of an image.
 struct PngSize {
     uint32_t width = 0, height = 0; // [pixels]
     bool operator==(const PngSize&) const = default;

@@ -26,7 +26,7 @@ public:
     explicit RecordedCamera(const std::filesystem::path& folder);
 
     const CameraInfo& info() const override { return intrinsics_.camera; }
-    // Throws BadInput at the end of a recording of which no frame was usable, Error when too many leases are
+    // Throws BadInput at the end of a recording without a usable frame, Error when too many leases are
     // alive.
     std::optional<Frame> next() override;
     uint32_t skipped() const override { return skipped_; }
@@ -49,13 +49,13 @@ private:
     std::vector<IndexLine> index_;
     std::optional<PoseTrack> poses_;
     FrameSlots slots_;
-    std::vector<float> axisShare_; // z of a unit step along each ray; empty = pictures hold z
+    std::vector<float> axisShare_; // z of a unit step along each ray; empty = images hold z
     uint32_t cursor_ = 0;          // next data line
     uint32_t skipped_ = 0;
     uint32_t named_ = 0;                     // lines before this one are already counted
     bool any_ = false;                       // a valid frame was seen
     bool toldOfLinks_ = false;               // warn about links out of the folder once
-    std::unordered_set<std::string> judged_; // folders of pictures
+    std::unordered_set<std::string> judged_; // image folders
     std::optional<double> lastStamp_;        // [s] of the last delivered frame; empty after seek()
     std::string firstFault_;
     std::vector<std::string> unnamed_; // skipped frames that are not logged yet

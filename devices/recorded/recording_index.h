@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// One line of the index: a depth picture and its colour picture.
+// One line of the index: a depth image and its colour image.
 struct IndexLine {
     double depthStamp = 0.0, colourStamp = 0.0; // [s]
     std::filesystem::path depth, colour;        // files, the folder included
@@ -18,7 +18,7 @@ struct IndexLine {
 };
 
 // One entry per data line of associations.txt ("t_rgb rgb/x.png t_depth depth/x.png"). Without that file:
-// rgb.txt and depth.txt ("t path") joined to pairs, closest stamps first, each picture once, at most 0.02 s
+// rgb.txt and depth.txt ("t path") joined to pairs, closest stamps first, each image once, at most 0.02 s
 // apart, in order of depth.txt (as the TUM tool associate.py does). Without those: the stamps of
 // intrinsics.json for the files of depth/ and rgb/ in order of their names, joined alike within pairWithin.
 // A recording without colour: one entry per line of depth.txt. Throws BadInput when the index is missing or

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Writes a recording folder that RecordedCamera reads: pictures, index, intrinsics, poses.
+// Writes a recording folder that RecordedCamera reads: images, index, intrinsics, poses.
 #pragma once
 
 #include "devices/recorded/line_file.h"
@@ -31,7 +31,7 @@ public:
     // As finish(), but ignores failures.
     ~RecordingWriter();
 
-    // One depth picture with its colour picture, row by row, as the camera's info describes them.
+    // One depth image with its colour image, row by row, as the camera's info describes them.
     struct Image {
         double stamp = 0.0; // [s]
         std::vector<uint16_t> depth;

@@ -50,7 +50,7 @@ AnalyticScene sphereScene() {
     return scene;
 }
 
-// One tilted plane that fills the picture.
+// One tilted plane that fills the image.
 AnalyticScene planeScene() {
     AnalyticScene scene = emptyScene("plane");
     add(scene, kRed, planeThrough({0.0, 0.0, 0.7}, {0.2, -0.3, -1.0}, redPaint()));

@@ -26,7 +26,7 @@ struct AnalyticScene {
 //   sphere, plane, torus, slot, gap, plate, corner   one red object, a yellow target where it does not hide
 //   it, grey
 //           surroundings; dry
-//   wetmate  panel with a red valve and a yellow receptacle beside it; underwater
+//   wetmate  panel with a red valve and a yellow receptacle next to it; underwater
 const std::vector<std::string>& analyticSceneNames();
 std::optional<AnalyticScene> analyticScene(std::string_view name);
 

@@ -7,7 +7,7 @@
 
 namespace fathom::paint {
 
-// Red, green and blue in 0..255 as a picture stores them, then gloss and grime (see Paint).
+// Red, green and blue in 0..255 as stored in an image, then gloss and grime (see Paint).
 inline const Paint kRed{linearColour(226, 18, 16), 0.12f, 0.0f};
 inline const Paint kYellow{linearColour(255, 186, 8), 0.10f, 0.0f};
 inline const Paint kPanel{linearColour(98, 120, 142), 0.03f, 0.45f};

@@ -43,7 +43,7 @@ public:
     void setVisitors(std::span<const Sphere> spheres);
     void setView(const Pose& sceneTcamera, const Intrinsics& intrinsics);
 
-    // Nearest surface along the ray of a pixel inside the picture, -0.5 .. size - 0.5.
+    // Nearest surface along the ray of a pixel inside the image, -0.5 .. size - 0.5.
     struct PixelHit {
         double depth = 0.0; // [m] along the optical axis; 0 = no surface
         RayHit hit;

@@ -16,7 +16,7 @@ namespace {
 
 const double kPi = std::acos(-1.0);
 constexpr uint32_t kRowsAtOnce = 8;
-constexpr float kColourSigma = 1.3f; // [1/255] of the stored picture
+constexpr float kColourSigma = 1.3f; // [1/255] of the stored image
 constexpr uint32_t kSnowflakes = 48; // a frame
 
 // Calls work(row) for every row, shared out to `threads` threads in blocks.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ray-cast RGB-D camera on an analytic scene, with the errors of a real one and an exact truth beside it.
+// Ray-cast RGB-D camera on an analytic scene, with the errors of a real one and exact ground truth.
 #pragma once
 
 #include "devices/camera.h"
@@ -12,7 +12,7 @@
 
 namespace fathom {
 
-// What the camera is like; equal options give equal pictures.
+// Properties of the camera; equal options give equal frames.
 struct SimulatedCameraOptions {
     uint32_t width = 640, height = 480; // [pixels] 1..3840 x 1..2160
     double focal = 0.0;                 // [pixels]; 0 = 570/640 of the width
@@ -25,20 +25,20 @@ struct SimulatedCameraOptions {
     bool yuyv = false;                  // colour as a USB camera sends it; an even width
     double dropShare = 0.01;            // of the pixels without a reading, with noise
     uint64_t seed = 1;
-    uint32_t threads = 2; // 1..16 that render a frame
+    uint32_t threads = 2; // 1..16 render threads
     Pose baseTscene;      // base_T_camera of the first frame
 };
 
 // Every pixel of a frame is a pure function of (scene, options, frame number): the thread count is none of
 // its inputs. Frame j shows the scene at j / 30 s from a known pose. Sway: 20, 12, 15 mm and 1.2, 1.5, 0.8
 // degrees about x, y, z, periods 7..13 s, identity at t = 0. Depth noise: normal, sigma = 0.3 depthSigma(z)
-// (a good camera), rounded to units; beside a jump of over 2 % half the pixels fly between the two surfaces.
+// (a good camera), rounded to units; at a jump of over 2 % half the pixels fly between the two surfaces.
 class SimulatedCamera final : public Camera {
 public:
     static constexpr double kFrameRate = 30.0;      // [Hz]
     static constexpr double kDepthSigmaShare = 0.3; // of depthSigma()
     static constexpr double kFlyingJump = 0.02;     // relative
-    static constexpr double kFlyingShare = 0.5;     // of the pixels beside a jump
+    static constexpr double kFlyingShare = 0.5;     // of the pixels next to a jump
 
     // Throws Error when an option is out of range.
     SimulatedCamera(AnalyticScene scene, SimulatedCameraOptions options);

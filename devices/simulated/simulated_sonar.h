@@ -27,8 +27,8 @@ struct SimulatedSonarOptions {
 // Beam (u, v) is a pixel of a fan. Of nine rays, the axis and eight round it at the beam's half width, the
 // nearest gives the range, as the first echo does; the reading has the beam's range sigma and lies on the
 // axis. Strength: what comes back of the rays within 30 mm of the first, by reflectivity and incidence,
-// spreading loss made up for; it is the picture's grey. Depth pictures hold z, not range. Every reading is a
-// function of (options, frame, beam).
+// spreading loss made up for; it is the grey value of the image. Depth images hold z, not range. Every
+// reading is a function of (options, frame, beam).
 class SimulatedSonar final : public Camera {
 public:
     // Throws Error when an option is out of range.

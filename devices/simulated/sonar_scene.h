@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scene of the simulated sonar: a steel pipe with a valve wheel over sand, a concrete block beside it.
+// The scene of the simulated sonar: a steel pipe with a valve wheel over sand, a concrete block next to it.
 #pragma once
 
 #include "devices/simulated/analytic_scene.h"

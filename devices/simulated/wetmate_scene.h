@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wet-mate connector beside a valve: what an arm is to approach, and what it must not touch on the way.
+// A wet-mate connector next to a valve: an arm approaches the connector and must not touch the valve.
 #pragma once
 
 #include "devices/simulated/analytic_scene.h"

@@ -55,7 +55,7 @@ private:
         CapturedBuffer buffer;
     };
     struct Watch {                                  // over one stream
-        std::chrono::steady_clock::time_point last; // its newest picture, or when the first must be here
+        std::chrono::steady_clock::time_point last; // time of the newest frame, or deadline of the first
         bool restarted = false;                     // since then
     };
 

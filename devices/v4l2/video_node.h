@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// Size of a picture.
+// Size of an image.
 struct VideoSize {
     uint32_t width = 0, height = 0; // [pixels]
     bool operator==(const VideoSize&) const = default;

@@ -26,9 +26,9 @@ struct WaterLens {
     double worst = 0.0; // [m] largest error that is left, sideways and in depth together
 };
 
-// A ray in water does not pass through the lens's centre: one slope a pixel is right at one z alone (taken so
-// that near and far are off alike). Stereo tells z by the angle between two rays: it is too near by about the
-// index, and by more off the axis. The lens has its own distortion removed first. Throws Error for a lens
+// A ray in water does not pass through the lens's centre: one slope per pixel is exact at one z only (taken
+// so that near and far are off alike). Stereo tells z by the angle between two rays: it is too near by about
+// the index, and by more off the axis. The lens has its own distortion removed first. Throws Error for a lens
 // that sees flatter rays than the fit holds (a field of view of more than 120 degrees in air).
 WaterLens inWater(const Intrinsics& air, const FlatPort& port, double nearZ, double farZ);
 

@@ -54,7 +54,7 @@ std::optional<Frame> WaterCamera::next() {
     }
     Frame::Content content = **frame;
     content.depth = out.first(info_.depth.pixels());
-    slot->name(content); // depth; colour lies in the source's memory
+    slot->name(content); // depth; colour is in the source's memory
     // The source's frame lives as long as this one: its colour is still in use.
     auto held = std::make_unique<Frame>(std::move(*frame));
     return Frame(content, [slot, source = held.release()] {

@@ -11,9 +11,9 @@
 
 namespace fathom {
 
-// For stereo and structured light along the picture's rows; not for time of flight. Depth is written anew, in
+// For stereo and structured light along the image rows; not for time of flight. Depth is rewritten, in
 // the source's unit (65535 units are the farthest); colour is the source's own. A lens's own distortion is
-// taken as in air and straightened only in the model of the rays, so the source must tell pictures without
+// taken as in air and straightened only in the model of the rays, so the source must deliver images without
 // distortion. What the model leaves wrong between nearZ and farZ is info().sigma, a third of its largest.
 class WaterCamera final : public Camera {
 public:

@@ -10,7 +10,7 @@ namespace fathom {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kRounding = 1e-12; // of the radius: a corner that lies on its sphere is in it
+constexpr double kRounding = 1e-12; // of the radius: a corner on its sphere counts as inside
 
 double gapTo(std::span<const Sphere> spheres, const dvec3& p) {
     double gap = std::numeric_limits<double>::infinity();

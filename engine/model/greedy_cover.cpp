@@ -23,7 +23,7 @@ bool holds(const Sphere& s, const CoverPiece& piece) {
 
 enum class Share { None, Some, All };
 
-// Conservative test of what a sphere contains of another sphere's content.
+// Conservative test whether a sphere contains the content of another sphere.
 Share shareOf(const Sphere& s, const Sphere& about) {
     const double slack = 1e-9 * (s.radius + glm::length(s.centre));
     const double d = glm::distance(about.centre, s.centre);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Covers a mesh with few spheres that protrude as little as possible: greedy set cover of the surface
 // by inner spheres grown by the allowed protrusion, then each sphere fitted to its share. The surface is cut
-// into triangles small enough to lie in one sphere each; a ball is convex, so three corners inside prove a
-// triangle inside, and all of them prove the surface inside.
+// into triangles small enough for one sphere each. A ball is convex, so a triangle is inside when its three
+// corners are, and the surface is inside when all triangles are.
 #pragma once
 
 #include "engine/model/mesh_distance.h"

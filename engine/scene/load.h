@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-// Each reads the section of that name into its part of the scene. Any thread; no state.
+// Each function reads the section of its name into the scene. Any thread; no state.
 void loadCamera(const YamlNode& camera, Scene& scene);
 void loadFilter(const YamlNode& filter, Scene& scene);
 void loadFixtures(const YamlNode& fixtures, Scene& scene);

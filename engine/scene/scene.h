@@ -49,7 +49,7 @@ struct FixtureClass {
     // Shapes.
     ShapeKind shape = ShapeKind::None;
     bool keepIn = false; // role keep_in: stay inside the shape
-    // Points: frozen where they were when this was set, until the run ends (not a scene key).
+    // Points: frozen at their positions at the time this was set, until the run ends (not a scene key).
     bool frozen = false;
     Pose baseTshape;
     dvec3 size{0.0}; // [m] box: edge lengths; sphere: x = radius; cylinder: x = radius, y = length
@@ -73,7 +73,7 @@ struct HandLoop {             // the simulated hand that closes the loop (--hand
     double stiffness = 300.0; // [N/m] of the spring to the intended path
 };
 
-// Section `arm:` as written; names of joints and links are resolved when the URDF is read.
+// Section `arm:` as written; joint and link names are resolved when the URDF is read.
 struct SceneArm {
     std::filesystem::path urdf, meshes; // meshes: root of package:// paths; empty = near the URDF
     Pose baseTarm;                      // of the arm's base link
@@ -104,7 +104,7 @@ struct SceneArm {
         enum class Protocol { ReachAlpha5, Eca5e } protocol = Protocol::ReachAlpha5;
         uint32_t baud = 115200;
         bool rs485 = false; // the kernel switches the transmit direction
-        struct Axis {       // q = zero + sign * what the axis reads
+        struct Axis {       // q = zero + sign * axis reading
             std::string axis, joint;
             double sign = 1.0; // 1 or -1
             double zero = 0.0; // [rad] joint value at axis reading 0; for an ECA, at its clockwise stop
@@ -121,7 +121,7 @@ struct SceneArm {
 };
 
 struct Scene {
-    std::filesystem::path file; // where it was read, for messages and relative paths; empty = built in
+    std::filesystem::path file; // path of the file, for messages and relative paths; empty = built in
 
     std::vector<std::string> outside; // paths, as written, that leave the file's folder, for a warning
 
@@ -144,7 +144,7 @@ struct Scene {
     };
     std::optional<Beam> beam;
 
-    // How depth is smoothed before anything else.
+    // Depth filter, the first step of every frame.
     struct Filter {
         uint32_t radius = 2; // [pixels] 0..16; 0 = none
         double sigma = 0.01; // [m] paper eq. 2
@@ -211,7 +211,7 @@ struct Scene {
     };
     std::optional<Window> window;
 
-    // Where contact queries run, and their reach.
+    // Device of the contact queries, and their reach.
     struct Contact {
         enum class Where { Auto, Cpu, Gpu } where = Where::Auto;
         double reach = 0.01; // [m]
@@ -224,10 +224,10 @@ struct Scene {
 };
 
 // Reads and checks a scene file. Throws BadInput naming file, field, value and what is allowed; unknown keys
-// are refused with the nearest known key as a suggestion. Relative paths are taken from the scene file's
+// are rejected with the nearest known key as a suggestion. Relative paths are taken from the scene file's
 // folder.
 Scene loadScene(const std::filesystem::path& file);
-// The same of a text; messages name it `name`. Relative paths are taken from the working directory.
+// Same for a text; messages call it `name`. Relative paths are taken from the working directory.
 Scene loadSceneText(const std::string& text, const std::string& name);
 
 } // namespace fathom

@@ -37,9 +37,9 @@ struct Range {
 // allowed.
 class YamlNode {
 public:
-    // The one document of a file of at most 1 MiB. Broken syntax is named with its line.
+    // The one document of a file of at most 1 MiB. Syntax errors are reported with the line.
     static YamlNode parseFile(const std::filesystem::path& file);
-    // The same of a text; messages name it `file`.
+    // Same for a text; messages call it `file`.
     static YamlNode parseText(const std::filesystem::path& file, const std::string& text);
 
     // Mappings. checkKeys() rejects a node that is not a mapping, an unknown key (and suggests the nearest
@@ -53,7 +53,7 @@ public:
     std::vector<YamlNode> list(size_t n) const;
 
     // Scalars. Quoted numbers and booleans are text and are rejected.
-    bool is(std::string_view word) const; // a scalar that reads exactly so
+    bool is(std::string_view word) const; // true if the scalar equals `word`
     std::string text() const;             // not empty
     bool boolean() const;                 // true or false
     double number(const Range& range,
@@ -68,7 +68,7 @@ public:
     dvec3 vec3(const Range& range = Range::any()) const; // list of three numbers
     dquat quatXyzw() const;                              // list of four, x y z w; not zero; normalised
 
-    [[noreturn]] void refuse(const std::string& allowed) const; // this node's own value
+    [[noreturn]] void refuse(const std::string& allowed) const; // throws for this node's value
     [[noreturn]] void refuse(const std::string& value, const std::string& allowed) const;
 
     const std::string& path() const { return path_; }

@@ -203,7 +203,7 @@ TEST_CASE("A bag that is not closed, truncated, damaged or without depth is reje
     CHECK(refused(smallBag(5.0).bag("lz4")).find("extrinsics: missing") != std::string::npos);
     BagMaker none;
     none.add("/ta\nlk", "std_msgs/String\n", 1.0, "hello");
-    CHECK(refused(none.bag("none")).find("no pictures") != std::string::npos);
+    CHECK(refused(none.bag("none")).find("no images") != std::string::npos);
     for (size_t keep = 0; keep < whole.size(); keep += 97) { // never a crash, never a picture from nowhere
         CHECK_FALSE(refused(whole.substr(0, keep)).empty());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The door between processes: ends that are killed, a user without permission, the example bridge.
+// The socket between processes: killed ends, a user without permission, the example bridge.
 #include "devices/bridge/socket_hand.h"
 #include "devices/bridge/socket_server.h"
 #include "engine/types/error.h"

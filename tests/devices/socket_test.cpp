@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The door's two ends against each other and against packets that break its contract, in one process.
+// Both ends of the socket against each other and against invalid packets, in one process.
 #include "devices/bridge/socket_hand.h"
 #include "devices/bridge/socket_server.h"
 #include "engine/types/error.h"
@@ -202,7 +202,7 @@ TEST_CASE("A wrench of a wrong version, kind, magic or size ends the connection 
     CHECK_FALSE(server.hasEngine());
     CHECK(server.wrench().force.x == 0.0);
     CHECK(server.dropped() == 1);
-    DeviceSocket next = DeviceSocket::connect(folder.endpoint()); // and the door is open for the next one
+    DeviceSocket next = DeviceSocket::connect(folder.endpoint()); // and the socket accepts the next one
     server.poll();
     CHECK(server.hasEngine());
     CHECK(server.wrench().force.x == 0.0);
@@ -237,7 +237,7 @@ TEST_CASE(
     "The engine rejects a bridge of another version, a silent bridge, and a socket without a listener") {
     SocketFolder folder;
     const auto attempt = [&] { SocketHand(folder.endpoint(), 4, 0.2); };
-    CHECK(has(refusalOf(attempt), "nobody listens"));
+    CHECK(has(refusalOf(attempt), "no program listens"));
     std::ofstream(folder.endpoint()) << "text";
     CHECK(has(refusalOf([&] { SocketServer(serverAt(folder.endpoint())); }), "exists and is not a socket"));
     std::filesystem::remove(folder.endpoint());

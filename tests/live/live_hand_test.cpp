@@ -254,7 +254,7 @@ TEST_CASE("a live hand without realtime, with a path, or where nobody listens, i
     };
     refused({"--hand-device", "falcon"}, "--hand-device: falcon (allowed: together with --realtime)");
     refused({"--view-door", "x"}, "--view-door: x (allowed: together with --realtime)");
-    refused({"--realtime", "--hand-device", (stage / "no.door").string()}, "nobody listens");
+    refused({"--realtime", "--hand-device", (stage / "no.door").string()}, "no program listens");
     refused({"--realtime", "--hand-device", "spacemouse:/dev/hidraw250"}, "no SpaceMouse");
     refused({"--realtime", "--hand", "--hand-device", "falcon"}, "--hand");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device at a hand door whose handle a test moves.
+// A haptic device on a bridge socket; a test moves its handle.
 #pragma once
 
 #include "devices/bridge/socket_server.h"

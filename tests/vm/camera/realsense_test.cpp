@@ -115,5 +115,5 @@ TEST_CASE("A RealSense without a colour calibration continues with depth and rej
     CHECK(refusalOf("v4l2:auto,size=320x240,colour_format=YUYV").find("RealSense command 21: refused") !=
           std::string::npos);
     const IntrinsicsFile lens(320, 240);
-    CHECK(openLive(",intrinsics=" + lens.path().string())->info().hasColour); // who has calibrated it himself
+    CHECK(openLive(",intrinsics=" + lens.path().string())->info().hasColour); // a user's own calibration
 }

@@ -119,7 +119,7 @@ TEST_CASE(
         }
         const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
         MESSAGE("exchanges " << static_cast<double>(device.commands - commands) / took.count()
-                             << " Hz; worst age of a sample in a turn " << hand.figures().worstAge * 1e3
+                             << " Hz; worst age of a sample per tick " << hand.figures().worstAge * 1e3
                              << " ms");
         // Not every command meets a pending transfer: modem status may have used it at that moment.
         CHECK(device.commands > commands + 20);
