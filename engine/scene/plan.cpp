@@ -111,9 +111,9 @@ std::string budgetSentence(const Plan& plan, const Scene& scene) {
 }
 
 const char* noBudgetSentence(const Plan& plan) {
-    return plan.beam      ? "each point's sphere has a size of its own"
+    return plan.beam      ? "each point's sphere has its own radius"
            : plan.spheres ? "error budget 0 keeps every point"
-                          : "no forbidden class of points";
+                          : "no forbidden point class";
 }
 
 void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
@@ -122,13 +122,13 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
     };
     pass("occlusion", plan.occlusion,
          "colour is not registered to depth: parallax hides points from the colour camera",
-         !scene.usesColour() ? "no class asks for colour" : "colour is registered to depth");
+         !scene.usesColour() ? "no class uses colour" : "colour is registered to depth");
     pass("classify", plan.cloud,
-         std::string("there are classes of points") +
-             (plan.water ? ", colours put right for water before their gates" : ""),
-         "the scene has no class of points");
-    pass("list", plan.lists(), "patches with work, and among them those that hold points or guide, listed",
-         plan.cloud ? "classify lists as it goes" : "the scene has no class of points");
+         std::string("the scene has point classes") +
+             (plan.water ? ", colours corrected for water before the gates" : ""),
+         "the scene has no point class");
+    pass("list", plan.lists(), "lists patches with work, and those with points or guidance",
+         plan.cloud ? "classify writes the list" : "the scene has no point class");
     pass("surface", plan.cloud,
          plan.filterRadius != 0 ? "bilateral filter " + std::to_string(2 * plan.filterRadius + 1) + "x" +
                                       std::to_string(2 * plan.filterRadius + 1) +
@@ -138,21 +138,22 @@ void explainPasses(Plan& plan, const Scene& scene, const CameraInfo& camera) {
                                                             : ", direct reads") +
                                       (plan.polynomialWeights ? ", polynomial weights" : "")
                                 : "no filter: points as measured",
-         "the scene has no class of points");
+         "the scene has no point class");
     pass("thin", plan.thin, budgetSentence(plan, scene), noBudgetSentence(plan));
     pass("spheres", plan.spheres,
          std::string("forbidden classes") + (plan.beam ? ", 3 sigma of range and beam added" : "") +
              (plan.hold ? ", unseen points held" : "") +
-             (plan.leaks ? ", holes between points looked for" : ", too near for holes between points") +
-             (plan.pack ? ", in runs for the host, who reads them across a bus" : ""),
-         "no forbidden class of points");
+             (plan.leaks ? ", checked for holes between points"
+                         : ", near enough to exclude holes between points") +
+             (plan.pack ? ", packed for transfer to the host" : ""),
+         "no forbidden point class");
     pass("tree", plan.tree, "bounds up to one root for the query",
-         plan.spheres ? "the CPU's query asks a grid" : "no forbidden class of points");
+         plan.spheres ? "the CPU query uses a grid" : "no forbidden point class");
     pass("moments", plan.moments, "mean and covariance of the guidance classes", "no guidance class");
-    pass("deliver", plan.cloud, "counters and marks of patches, to the host and cleared for the next frame",
-         "the scene has no class of points");
+    pass("deliver", plan.cloud, "sends patch counters and marks to the host and clears them",
+         "the scene has no point class");
     pass("tree_query", plan.query == Plan::Query::Gpu, "contact query on the GPU",
-         plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "nothing to collide with");
+         plan.query == Plan::Query::Cpu ? "contact query on the CPU" : "no contact constraints");
     (void)camera;
 }
 
@@ -163,22 +164,22 @@ void explainBuffer(Plan& plan, const char* name, bool in, uint64_t bytes, std::s
 void explainImages(Plan& plan, const CameraInfo& camera) {
     const uint64_t pixels = camera.depth.pixels();
     const char* copies = plan.inPlace
-                             ? "double-buffered, for pictures not in whole pages of the host's memory"
+                             ? "double-buffered, for frames that are not in whole pages of host memory"
                              : "double-buffered";
     explainBuffer(plan, "depth upload", plan.cloud, 2 * 2 * pixels, copies);
     explainBuffer(plan, "colour upload", plan.colour, 2 * camera.colourBytes(),
-                  !plan.colour ? "no class asks for colour"
-                  : plan.yuyv  ? std::string(copies) + "; YUYV, as the camera sends it"
+                  !plan.colour ? "no class uses colour"
+                  : plan.yuyv  ? std::string(copies) + "; YUYV, unconverted"
                                : copies);
     explainBuffer(plan, "depth on the device", plan.keepDepth, 2 * pixels,
-                  plan.keepDepth ? "read across the bus once" : "passes read what was uploaded");
+                  plan.keepDepth ? "read across the bus once" : "passes read the upload");
     explainBuffer(plan, "rays", plan.rays, 8 * pixels,
                   plan.fan    ? "beams at equal angles"
                   : plan.rays ? "distorted lens"
                               : "no lens distortion: computed from the pixel");
     explainBuffer(plan, "rays on the host", plan.rays && plan.packsDepths(), 8 * pixels,
-                  !plan.packsDepths() ? "the host is sent no depths to make points of"
-                  : plan.rays         ? "it makes points of depths"
+                  !plan.packsDepths() ? "the host receives points, not depths"
+                  : plan.rays         ? "the host computes points from depths"
                                       : "no lens distortion: computed from the pixel");
 }
 
@@ -187,28 +188,28 @@ void explainResults(Plan& plan, const CameraInfo& camera) {
     const uint64_t slots = layout.slots();
     explainBuffer(plan, "masks and points", plan.cloud, 17 * slots, "class bits and base-frame points");
     explainBuffer(plan, "thinning cells", plan.thin, slots,
-                  plan.thin ? "one decision a 4x4 cell" : "nothing is thinned");
+                  plan.thin ? "one decision per 4x4 cell" : "no thinning");
     explainBuffer(plan, "memory of points", plan.hold, 36 * slots,
-                  plan.hold ? "points that may be held" : "hold_s is 0");
+                  plan.hold ? "points that can be held" : "hold_s is 0");
     explainBuffer(plan, "sphere slots", plan.tree, slots * (plan.hold ? 32u : 16u),
-                  plan.tree ? "of one fixture set: the GPU query reads them" : "no query asks the device");
+                  plan.tree ? "of one fixture set, for the GPU query" : "no GPU query");
     explainBuffer(plan, "radii", plan.spheres && !plan.pack, slots * (plan.hold ? 8u : 4u),
-                  !plan.spheres ? "no forbidden class of points"
+                  !plan.spheres ? "no forbidden point class"
                   : plan.pack   ? "the host reads packed spheres"
-                                : "the host reads them beside the points");
+                                : "the host reads them with the points");
     const bool packedClasses = plan.pack && plan.classes > 1;
     explainBuffer(plan, "classes of spheres", plan.spheres && (!plan.pack || packedClasses), slots,
-                  !plan.spheres   ? "no forbidden class of points"
-                  : packedClasses ? "of patches with spheres of several"
-                  : plan.pack     ? "there is one"
-                                  : "the host reads them beside the points");
+                  !plan.spheres   ? "no forbidden point class"
+                  : packedClasses ? "for patches with several classes"
+                  : plan.pack     ? "only one class"
+                                  : "the host reads them with the points");
     explainBuffer(plan, "packed spheres", plan.pack, slots * plan.packedBytes() + 72ull * layout.patches(),
-                  !plan.spheres        ? "no forbidden class of points"
-                  : plan.packsDepths() ? "of one fixture set; a depth a seen sphere"
+                  !plan.spheres        ? "no forbidden point class"
+                  : plan.packsDepths() ? "of one fixture set; one depth per seen sphere"
                   : plan.pack          ? "of one fixture set"
-                                       : "the host reads radii beside the points");
+                                       : "the host reads radii with the points");
     explainBuffer(plan, "tree nodes", plan.tree, 20ull * layout.nodes(),
-                  plan.tree ? "of one fixture set" : "no query walks a tree");
+                  plan.tree ? "of one fixture set" : "no query traverses a tree");
     explainBuffer(plan, "moments", plan.moments, 64ull * 8 * layout.patches(), "of one fixture set");
 }
 
@@ -261,8 +262,8 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
         throw BadInput(scene.file.string(), "contact.where", "gpu", "auto or cpu with an arm");
     }
     if (camera.yuyv && camera.colour.width % 2 != 0) {
-        throw BadInput("camera", "width of its colour, which comes as YUYV",
-                       std::to_string(camera.colour.width), "an even one: two pixels a word");
+        throw BadInput("camera", "width of its YUYV colour", std::to_string(camera.colour.width),
+                       "even, because two pixels share a word");
     }
     Plan plan = decide(scene, camera, toolLeaves, device);
     explainPasses(plan, scene, camera);
@@ -273,20 +274,20 @@ Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves,
     };
     thread("camera", true, "frames, uploads, passes (realtime)");
     thread("contact", plan.query != Plan::Query::None,
-           plan.query != Plan::Query::None ? "contact sets (realtime)" : "nothing to collide with");
-    thread("haptic", true, "turns (realtime)");
+           plan.query != Plan::Query::None ? "contact sets (realtime)" : "no contact constraints");
+    thread("haptic", true, "ticks (realtime)");
     thread("publishers", plan.publishers > 1,
-           plan.publishers > 1 ? "those beside the camera's lay out each set with it"
-                               : "the camera's alone lays out each set");
+           plan.publishers > 1 ? "additional threads help the camera thread to publish each set"
+                               : "the camera thread alone publishes each set");
     const auto arm = [&](const char* name, bool in, const char* why) {
         plan.items.push_back({"arm", name, in, why, 0});
     };
     arm("joint space", plan.arm,
-        plan.arm ? "joint increments are the unknowns, every link meets the fixtures"
+        plan.arm ? "joint increments are the unknowns; every link is checked against the fixtures"
                  : "no arm: the tool moves freely");
     arm("self_filter", plan.selfFilter,
-        plan.selfFilter ? "in classify: what the arm's spheres hold is no point"
-        : plan.arm      ? "arm.self_filter is not given: the arm stays in the cloud"
+        plan.selfFilter ? "in classify: removes points inside the arm's spheres"
+        : plan.arm      ? "no arm.self_filter: the arm stays in the cloud"
                         : "no arm");
     return plan;
 }

@@ -150,8 +150,7 @@ TEST_CASE("A camera whose colour has an odd width is refused when it says that i
     const CameraInfo camera = sendsYuyv(pinholeCamera(63, 48));
     CHECK_THROWS_WITH_AS(
         makePlan(gates(), camera, 1, vulkan().device.facts()),
-        "camera: width of its colour, which comes as YUYV: 63 (allowed: an even one: two pixels a word)",
-        BadInput);
+        "camera: width of its YUYV colour: 63 (allowed: even, because two pixels share a word)", BadInput);
 }
 
 TEST_CASE("A frame without the YUYV that its camera promised is refused, and so is one that lacks a row") {

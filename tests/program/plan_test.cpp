@@ -96,8 +96,8 @@ TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out,
     CHECK(plan.at("pass surface").why.find("no filter") != std::string::npos);
     const std::map<std::string, std::string> out{{"pass thin", "error budget 0"},
                                                  {"pass moments", "no guidance"},
-                                                 {"pass occlusion", "no class asks for colour"},
-                                                 {"buffer colour upload", "no class asks for colour"},
+                                                 {"pass occlusion", "no class uses colour"},
+                                                 {"buffer colour upload", "no class uses colour"},
                                                  {"buffer memory of points", "hold_s is 0"},
                                                  {"buffer rays", "no lens distortion"}};
     for (const auto& row : out) {

@@ -28,7 +28,7 @@ TEST_CASE("The plan of the sonar scene has beams and no thinning, and says why")
     const ProgramRun run = runFathom({"plan", "apps/scenes/sonar.yaml"});
     REQUIRE(run.exitCode == 0);
     CHECK(run.out.find("3 sigma of range and beam added") != std::string::npos);
-    CHECK(run.out.find("each point's sphere has a size of its own") != std::string::npos);
+    CHECK(run.out.find("each point's sphere has its own radius") != std::string::npos);
     CHECK(run.out.find("beams at equal angles") != std::string::npos);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plan: what a scene gets on a device, and why. Pure data.
+// The plan: the passes, buffers and threads of a scene on a device, with reasons. Pure data.
 #include "engine/scene/plan.h"
 
 #include "engine/types/error.h"
@@ -56,7 +56,7 @@ uint64_t bytesOf(const Plan& plan) {
 
 } // namespace
 
-TEST_CASE("A scene without classes of points gets no pass, no buffer and no contact thread") {
+TEST_CASE("A scene without point classes has no pass, no buffer and no contact thread") {
     FixtureClass wall = points(Role::Forbidden);
     wall.shape = ShapeKind::Plane;
     for (const Scene& scene : {sceneOf({}), sceneOf({wall})}) {
@@ -71,7 +71,8 @@ TEST_CASE("A scene without classes of points gets no pass, no buffer and no cont
     }
 }
 
-TEST_CASE("Guidance, forbidden classes, colour, filter, thinning and hold come in one by one") {
+TEST_CASE(
+    "Guidance, forbidden classes, colour, filter, thinning and hold each add their passes and buffers") {
     Scene scene = sceneOf({points(Role::Guidance)});
     Plan plan = planOf(scene);
     CHECK(plan.moments);
@@ -124,7 +125,7 @@ TEST_CASE("Occlusion, colour and rays follow the camera") {
     CHECK(planOf(scene, camera).rays);
 }
 
-TEST_CASE("Only a CPU device fetches the memory of points as texels, and only where there is one") {
+TEST_CASE("Only a CPU device reads the memory of points as texels, and only with hold") {
     Scene scene = sceneOf({points(Role::Forbidden)});
     scene.holdSeconds = 0.5;
     const CameraInfo camera = cameraOf(640, 480);
@@ -136,8 +137,8 @@ TEST_CASE("Only a CPU device fetches the memory of points as texels, and only wh
     CHECK_FALSE(planOf(scene, camera, DeviceKind::Cpu).memoryTexels);
 }
 
-TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter and by tool size, unless the "
-          "scene says") {
+TEST_CASE(
+    "Tiles and the GPU query are for GPUs, depending on filter and tool size, unless the scene decides") {
     Scene scene = sceneOf({points(Role::Forbidden)});
     const CameraInfo camera = cameraOf(640, 480);
     CHECK(planOf(scene, camera, DeviceKind::Discrete).tiled);
@@ -169,7 +170,7 @@ TEST_CASE("Tiles and the GPU query are for devices that are no CPU, by filter an
     CHECK(makePlan(scene, camera, 1, small).tiled);
 }
 
-TEST_CASE("Holes between points are looked for only where neighbours can be a radius apart") {
+TEST_CASE("Holes between points are checked only where neighbours can be a radius apart") {
     CameraInfo camera = cameraOf(640, 480);
     camera.depth.cx = 320.0, camera.depth.cy = 240.0;
     const double radius = 0.04, from = leaksFrom(camera.depth, radius);
@@ -197,9 +198,8 @@ TEST_CASE("Holes between points are looked for only where neighbours can be a ra
     CHECK_FALSE(planOf(sceneOf({points(Role::Guidance)}), bent).leaks);
 }
 
-TEST_CASE(
-    "Pictures are read in place where the device imports pages, sets are laid out by several threads where "
-    "processors are to spare") {
+TEST_CASE("Frames are read in place if the device imports pages, and spare processors share the publication "
+          "of sets") {
     const Scene scene = sceneOf({points(Role::Forbidden)});
     const auto plan = [&](DeviceKind kind, uint32_t processors, uint64_t alignment) {
         DeviceFacts device = deviceOf(kind);
@@ -222,7 +222,7 @@ TEST_CASE(
     CHECK_FALSE(planOf(sceneOf({}), cameraOf(640, 480)).inPlace);
 }
 
-TEST_CASE("Every item says why, what is left out takes no memory, what is in takes some") {
+TEST_CASE("Every item has a reason; skipped items take no memory and others take some") {
     Scene all = sceneOf({points(Role::Forbidden), points(Role::Guidance)});
     all.fixtures[0].hue = Band{0, 10};
     all.contact.where = Scene::Contact::Where::Gpu;
@@ -241,7 +241,8 @@ TEST_CASE("Every item says why, what is left out takes no memory, what is in tak
             CHECK((item.kind == "pass" || item.kind == "buffer" || item.kind == "thread" ||
                    item.kind == "arm"));
             CHECK((item.bytes > 0) == (item.kind == "buffer" && item.in));
-            // An arm changes the query, the host reads spheres in one way only, and a GPU lists as it marks.
+            // An arm changes the query, the host reads spheres in only one layout, and a GPU writes lists
+            // while it marks.
             CHECK((plan == &nothing || item.in || item.kind == "arm" || item.name == "radii" ||
                    item.name == "list"));
             CHECK((plan == &everything || item.kind == "thread" || !item.in));
@@ -252,7 +253,7 @@ TEST_CASE("Every item says why, what is left out takes no memory, what is in tak
     CHECK_FALSE(everything.has("no such thing"));
 }
 
-TEST_CASE("Patches and tree levels of any size from 1x1 to 3840x2160; larger is refused") {
+TEST_CASE("Patches and tree levels work for any size from 1x1 to 3840x2160; larger is rejected") {
     const PatchLayout one = patchLayout(1, 1);
     CHECK((one.across == 1 && one.down == 1 && one.levels.size() == 2 && one.nodes() == 17 &&
            one.slots() == 256));
@@ -280,7 +281,7 @@ TEST_CASE("Patches and tree levels of any size from 1x1 to 3840x2160; larger is 
     }
 }
 
-TEST_CASE("Every pixel has a slot of its own, in its patch and its 4x4 sub-patch") {
+TEST_CASE("Every pixel has its own slot, in its patch and its 4x4 sub-patch") {
     const uint32_t width = 53, height = 38;
     const PatchLayout layout = patchLayout(width, height);
     std::set<uint32_t> slots;
