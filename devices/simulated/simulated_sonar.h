@@ -25,7 +25,7 @@ struct SimulatedSonarOptions {
 };
 
 // Beam (u, v) is a pixel of a fan. Of nine rays, the axis and eight round it at the beam's half width, the
-// nearest gives the range, as the first echo does; the reading has the beam's range sigma and lies on the
+// nearest gives the range, as the first echo does; the reading has the beam's range sigma and is on the
 // axis. Strength: what comes back of the rays within 30 mm of the first, by reflectivity and incidence,
 // spreading loss made up for; it is the grey value of the image. Depth images hold z, not range. Every
 // reading is a function of (options, frame, beam).

@@ -42,7 +42,7 @@ struct ContactSet {
     // The same sphere values again in pair order, so that kernels read them contiguously.
     std::vector<float> pairX, pairY, pairZ, pairRadius;
 
-    // Leaves that new data put on the far side of a surface (BehindTracker), and the way out.
+    // Leaves that new data put on the far side of a surface (BehindTracker), and how to leave it.
     struct Behind {
         uint32_t leaf;
         dvec3 towardsCamera; // unit, base axes

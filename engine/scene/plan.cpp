@@ -23,13 +23,13 @@ bool mayLeak(const Scene& scene, const Intrinsics& lens) {
     });
 }
 
-// Of surface.comp: points of a patch and of the window about it.
+// Shared memory of surface.comp: the points of a patch and of the filter window around it.
 uint64_t bytesOfTile(uint32_t radius) {
     const uint64_t edge = 16 + 2 * radius;
     return 3 * sizeof(float) * edge * edge;
 }
 
-// What the scene asks for of what the camera gives.
+// Sets the parts of the plan that depend on the scene and the camera.
 void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.spheres = scene.hasForbiddenPoints();
     plan.arm = scene.arm.has_value();

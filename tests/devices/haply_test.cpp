@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The guardian of an Inverse3 between an engine and a service that the test plays.
+// The bridge of an Inverse3 between an engine and a simulated service.
 #include "devices/bridge/socket_hand.h"
 #include "devices/haply/haply_guard.h"
 #include "engine/types/error.h"
@@ -14,7 +14,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// The guardian on a thread of its own, and an engine that pushes with 2 N along z.
+// The bridge on its own thread, and an engine that pushes with 2 N along z.
 struct Loop {
     explicit Loop(uint16_t port)
         : guard({folder.endpoint(), "127.0.0.1", port, ""})

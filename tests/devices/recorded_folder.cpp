@@ -55,7 +55,7 @@ void writePng(const std::filesystem::path& file, uint32_t width, uint32_t height
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
     png_infop info = png_create_info_struct(png);
     if (out == nullptr || setjmp(png_jmpbuf(png)) != 0) {
-        throw std::runtime_error("the test cannot write its picture");
+        throw std::runtime_error("the test cannot write its image");
     }
     png_init_io(png, out);
     png_set_IHDR(png, info, width, height, bits, colourType,

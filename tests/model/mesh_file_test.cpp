@@ -245,7 +245,7 @@ TEST_CASE("A file that crashes the mesh reader is rejected in one line, and so i
     std::ofstream(file, std::ios::binary) << input.substr(1);
     try {
         loadMesh(file);
-        FAIL("not refused");
+        FAIL("not rejected");
     } catch (const BadInput& e) {
         const std::string line = e.what(); // Assimp 5.4 refuses by itself what crashes 5.2
         CHECK_MESSAGE((line.find("breaks the mesh reader") != std::string::npos ||

@@ -152,7 +152,7 @@ int readWhole(Camera& camera) {
         ++count;
     }
     CHECK_FALSE(camera.next());
-    MESSAGE("read ", count, " pictures");
+    MESSAGE("read ", count, " frames");
     return count;
 }
 

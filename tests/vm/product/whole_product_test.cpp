@@ -148,7 +148,7 @@ TEST_CASE("A live camera gives regions that push back; forces fade when it is un
     if (fresh) {
         CHECK(summary["haptic"]["max_force_N"].get<double>() > 0.0);
     } else {
-        MESSAGE("this machine is too slow for forces: no picture became a region within 100 ms");
+        MESSAGE("this machine is too slow for forces: no frame became a region within 100 ms");
     }
     // Depth was read in the kernel driver's buffers, before and after the unplugging.
     const size_t inPlace = run.out.find(" read where the camera left them");
