@@ -40,7 +40,7 @@ public:
     int chosen() const noexcept { return chosen_; }         // index into poses; -1 = none
     const Pose& target() const noexcept { return target_; } // held and slewed
 
-    // What is added to the solver's target x_u in mode `target`: [w clamp(p_g - p_dev, F_g/K_t);
+    // Offset added to the solver's target x_u in mode `target`: [w clamp(p_g - p_dev, F_g/K_t);
     // w clamp(log(q_g q_dev^-1), tau_g/K_r)]. The pull at rest is then at most F_g and tau_g, and the proxy
     // leads the hand by at most F_g/K_t. With free roll only the axis rotates, not about the target's z.
     struct Lead {
@@ -49,7 +49,7 @@ public:
     };
     Lead lead(const Pose& device, const Springs& springs) const noexcept;
 
-    // What is added to the wrench in mode `paper`: w K_g (p_g - p_dev), at most F_g, and w K_gr (rotation),
+    // Wrench added in mode `paper`: w K_g (p_g - p_dev), at most F_g, and w K_gr (rotation),
     // at most tau_g, K_gr = k^2 K_g.
     Wrench pull(const Pose& device, const Springs& springs) const noexcept;
 

@@ -79,7 +79,7 @@ private:
         double depth = 0.0;  // [m] separation that rows may request of touching pairs
         double travel = 0.0; // [m] leaf travel allowed for it
     };
-    // Rows describe the whole solution, of which only `share` was tried.
+    // Rows describe the whole solution, but only `share` of it was tried.
     static double scaleOf(double share) noexcept { return 1.0 / std::max(share, 1e-9); }
     static double answered(const Answer& answer) noexcept {
         return answer.escapeShare * (1.0 - answer.towards) + answer.towards;

@@ -38,8 +38,8 @@ TEST_CASE("With the defaults the device pose is the raw pose, and in general it 
     }
 }
 
-TEST_CASE(
-    "A rotation of the hand about a base axis rotates the device pose about that axis, also after re-indexing") {
+TEST_CASE("A rotation of the hand about a base axis rotates the device pose about that axis, also after "
+          "re-indexing") {
     Random random(5);
     HandMap map(kTurned, 0.5);
     Pose raw = randomPose(random);
