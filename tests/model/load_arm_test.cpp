@@ -158,7 +158,7 @@ TEST_CASE("A URDF that would overflow its reader's stack is rejected: deeply nes
     CHECK_MESSAGE((refusal.find("robot: breaks the URDF reader") != std::string::npos ||
                    refusal.find("XML_ELEMENT_DEPTH_EXCEEDED") != std::string::npos), // newer TinyXML-2
                   refusal);
-    const std::string links = refusalOf(chain + "</robot>"); // a larger stack may survive them
+    const std::string links = refusalOf(chain + "</robot>"); // a larger stack can survive them
     CHECK_MESSAGE((links.find("robot: 50000 links (allowed: 1000 at most)") != std::string::npos ||
                    links.find("robot: breaks the URDF reader") != std::string::npos),
                   links);

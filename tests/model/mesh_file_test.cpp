@@ -247,7 +247,7 @@ TEST_CASE("A file that crashes the mesh reader is rejected in one line, and so i
         loadMesh(file);
         FAIL("not rejected");
     } catch (const BadInput& e) {
-        const std::string line = e.what(); // Assimp 5.4 refuses by itself what crashes 5.2
+        const std::string line = e.what(); // Assimp 5.4 itself rejects the file that crashes 5.2
         CHECK_MESSAGE((line.find("breaks the mesh reader") != std::string::npos ||
                        line.find("Not enough data for accessor") != std::string::npos),
                       line);

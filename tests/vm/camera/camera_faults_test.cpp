@@ -113,8 +113,9 @@ TEST_CASE(
         loss = lossOf(*camera);
     }
     pull.join();
-    CHECK(loss.find("No such device") != std::string::npos); // told by the driver, not found out by silence
-    CHECK(isPlainDepth(*held, 320));                         // a frame outlives the camera's unplugging
+    CHECK(loss.find("No such device") !=
+          std::string::npos);        // reported by the driver, not detected by silence
+    CHECK(isPlainDepth(*held, 320)); // a frame outlives the camera's unplugging
     CHECK_FALSE(lossOf(*camera).empty());
     held.reset();
     // A camera with another serial number is not accepted.
