@@ -48,6 +48,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
                 throw BadInput("operate", name, *value, "nothing beside a recording");
             }
         }
+        options->armed = options->path && !options->offscreen.empty(); // no key could arm them
         if (options->recording.empty()) {
             operate::OperatorRun(*options, global).run();
         } else {

@@ -13,7 +13,7 @@ namespace fathom {
 struct OperateOptions : SessionOptions {
     OperateOptions() { endless = true; }
 
-    bool armed = false;       // forces are asked for from the start: of `latency`, no option
+    bool armed = false;       // forces on from the start: of `latency` and of `--offscreen --path`
     bool path = false;        // the scene's hand path drives, not mouse and keyboard
     std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
     std::string offscreen;    // WxH: the same frames without a surface; empty = a window

@@ -15,13 +15,13 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kStreamBall = 0.01, kStreamWall = 0.5,
-                 kStreamStand = WallCamera::kRegion + kStreamBall; // [m]
+constexpr double kStreamBall = 0.01, kStreamWall = 0.5;            // [m]
+constexpr double kStreamStand = WallCamera::kRegion + kStreamBall; // [m]
 constexpr double kSlewStep = 2.0 * (1.0 + 1e-9);                   // [N] a turn at 2000 N/s and 1 kHz
 
 void requireSound(Outcome& out, const LockstepRig& rig) {
-    require(out, rig.audit().maxPenetration() <= 1e-5,
-            "a depth grew by " + num(rig.audit().maxPenetration()) + " m");
+    const double deepest = rig.audit().maxPenetration();
+    require(out, deepest <= 1e-5, "a depth grew by " + num(deepest) + " m");
     require(out, rig.figures.forceStep <= kSlewStep, "force step of " + num(rig.figures.forceStep) + " N");
     require(out, rig.figures.notFinite == 0, "a wrench that is not finite");
     require(out, rig.figures.contact > 0, "the tool never touched");
@@ -289,8 +289,7 @@ void addStreamCases(std::vector<Case>& cases) {
         return restlessCase(e, {0.001, 0.0, 1, false, 2.5}, "a new set with noise of 1 mm in every tick.");
     });
     put("two-places", [](RunLength e) {
-        return restlessCase(e, {0.0, 0.02, 33, false, 2.5},
-                            "a wall that stands 20 mm nearer in every second frame.");
+        return restlessCase(e, {0.0, 0.02, 33, false, 2.5}, "a wall 20 mm nearer in every second frame.");
     });
     put("trapped-recognised", [](RunLength e) { return viceCase(e, ViceFigure::Recognised); });
     put("trapped-force-out", [](RunLength e) { return viceCase(e, ViceFigure::ForceOut); });

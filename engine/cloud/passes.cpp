@@ -2,7 +2,6 @@
 #include "engine/cloud/passes.h"
 
 #include "shaders/classify.h"
-#include "shaders/deliver.h"
 #include "shaders/list.h"
 #include "shaders/moments.h"
 #include "shaders/occlusion.h"
@@ -281,30 +280,6 @@ std::vector<PassInfo> framePasses(const CloudContext& c) {
         passes.push_back(treeLevels(c, false));
     }
     return passes;
-}
-
-PassInfo deliverPass(const CloudContext& c) {
-    const uint32_t words = std::max<uint32_t>(sizeof(FrameCounters) / sizeof(uint32_t), c.layout.patches());
-    return {"deliver",
-            deliver_spv,
-            {&Work::counters, &Work::listed, &Set::counters, &Set::listed},
-            {{kSpecGroupSize, c.plan.subGroup}},
-            groupsFor(words, c.plan.subGroup)};
-}
-
-void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const SetBuffers& set) {
-    commands.copy(work.counters, set.counters, work.counters.bytes());
-    commands.copy(work.listed, set.listed, work.listed.bytes());
-    commands.barrier();
-    clearCounters(commands, work);
-}
-
-void clearCounters(gpu::Commands& commands, const WorkBuffers& work) {
-    FrameCounters zero{};
-    zero.patchGroups = zero.subGroups = zero.guidedGroups = {0, 1, 1, 0};
-    zero.quietGroups = zero.holdingGroups = {0, 1, 1, 0};
-    commands.update(work.counters, 0, sizeof(zero), &zero);
-    commands.fill(work.listed, 0);
 }
 
 } // namespace fathom::cloud

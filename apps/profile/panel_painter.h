@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: Apache-2.0
+// Draws one panel of a study's plot.
+#pragma once
+
+#include "apps/profile/panel_colours.h"
+#include "apps/profile/plot_labels.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace fathom::profile {
+
+// One panel in its rectangle of the image.
+class PanelPainter {
+public:
+    PanelPainter(const Image& image, const PlotPanel& panel, const ColourTable& colours, double left,
+                 double top)
+        : p_(image)
+        , panel_(panel)
+        , colours_(colours)
+        , x0_(left + (panel.bars ? labelRoom(image, panel) : 86.0))
+        , x1_(left + kPanelWidth - 24.0 - legendRoom(image, panel))
+        , y0_(top + 40.0)
+        , y1_(top + kPanelHeight - 62.0) {
+        std::vector<double> xs, ys;
+        for (const PlotSeries& s : panel.series) {
+            for (const PlotPoint& q : s.points) {
+                xs.push_back(q.x);
+                ys.push_back(q.y);
+                if (std::isfinite(q.xHigh)) {
+                    xs.push_back(q.xHigh);
+                }
+                if (std::isfinite(q.yHigh)) {
+                    ys.push_back(q.yHigh);
+                }
+            }
+        }
+        if (panel.bars && panel.logX) {
+            xs.push_back(kBarFoot);
+        }
+        x_ = panel.signedLog ? signedLogAxis(xs, x0_, x1_) : panelAxis(xs, panel.logX, x0_, x1_);
+        y_ = panelAxis(ys, panel.logY, y1_, y0_);
+    }
+
+    void paint() {
+        p_.text(x0_, y0_ - 16.0, panel_.title, 16, kInk, Align::Left, true);
+        if (panel_.bars) {
+            paintBars();
+            return;
+        }
+        paintAxes();
+        for (size_t i = 0; i < panel_.series.size(); ++i) {
+            paintLine(panel_.series[i], colourOf(i));
+        }
+        for (size_t i = 0; i < panel_.series.size(); ++i) {
+            paintPoints(panel_.series[i], colourOf(i));
+        }
+        paintLegend();
+        paintLabels();
+    }
+
+private:
+    // The legend stands beside the plot, never over data.
+    static double legendRoom(const Image& image, const PlotPanel& panel) {
+        double widest = 0.0;
+        for (const PlotSeries& s : panel.series) {
+            widest = std::max(widest, image.textWidth(s.name, 13));
+        }
+        return panel.bars ? 0.0 : widest + 40.0;
+    }
+
+    static double labelRoom(const Image& image, const PlotPanel& panel) {
+        double widest = 60.0;
+        for (const PlotSeries& s : panel.series) {
+            for (const PlotPoint& q : s.points) {
+                widest = std::max(widest, image.textWidth(q.label, 13, q.isDefault));
+            }
+        }
+        return widest + 32.0;
+    }
+
+    Colour colourOf(size_t i) const {
+        return kSeries[colours_.at(thingOf(panel_.series[i])) % kSeries.size()];
+    }
+
+    void setDash(double dash) const { cairo_set_dash(p_.cr(), &dash, dash > 0.0 ? 1 : 0, 0.0); }
+
+    // Words that stay readable over lines: the paper's colour behind them.
+    void words(double x, double y, const std::string& text, Colour colour, bool bold) const {
+        for (const double dx : {-1.5, 0.0, 1.5}) {
+            for (const double dy : {-1.5, 0.0, 1.5}) {
+                p_.text(x + dx, y + dy, text, 12, kPaper, Align::Left, bold);
+            }
+        }
+        p_.text(x, y, text, 12, colour, Align::Left, bold);
+    }
+
+    void line(double x0, double y0, double x1, double y1, Colour colour, double width) const {
+        p_.setColour(colour);
+        cairo_set_line_width(p_.cr(), width);
+        cairo_move_to(p_.cr(), x0, y0);
+        cairo_line_to(p_.cr(), x1, y1);
+        cairo_stroke(p_.cr());
+    }
+
+    void dot(double x, double y, double radius, Colour colour, bool filled) const {
+        p_.setColour(colour);
+        cairo_arc(p_.cr(), x, y, radius, 0, 6.2831853);
+        cairo_set_line_width(p_.cr(), 2.0);
+        filled ? cairo_fill(p_.cr()) : cairo_stroke(p_.cr());
+    }
+
+    // From a value to its p90, with a cap across the end.
+    void errorBar(double x0, double y0, double x1, double y1, Colour colour) const {
+        const double across = x0 == x1 ? 4.0 : 0.0, along = 4.0 - across;
+        line(x0, y0, x1, y1, colour, 1.4);
+        line(x1 - across, y1 - along, x1 + across, y1 + along, colour, 1.4);
+    }
+
+    void paintXAxis() const {
+        for (const PanelAxis::Tick& t : x_.ticks()) {
+            const double x = x_.at(t.value);
+            line(x, y0_, x, y1_, kGrid, 1.0);
+            p_.text(x, y1_ + 20.0, t.label, 13, kInk, Align::Centre);
+        }
+        line(x0_, y1_, x1_, y1_, kInk, 1.2);
+        p_.text(0.5 * (x0_ + x1_), y1_ + 44.0, panel_.xLabel, 14, kInk, Align::Centre);
+    }
+
+    void paintAxes() const {
+        for (const PanelAxis::Tick& t : y_.ticks()) {
+            const double y = y_.at(t.value);
+            line(x0_, y, x1_, y, kGrid, 1.0);
+            p_.text(x0_ - 8.0, y + 5.0, t.label, 13, kInk, Align::Right);
+        }
+        paintXAxis();
+        line(x0_, y0_, x0_, y1_, kInk, 1.2);
+        cairo_save(p_.cr());
+        cairo_translate(p_.cr(), x0_ - 64.0, 0.5 * (y0_ + y1_));
+        cairo_rotate(p_.cr(), -1.5707963);
+        p_.text(0.0, 0.0, panel_.yLabel, 14, kInk, Align::Centre);
+        cairo_restore(p_.cr());
+    }
+
+    // A line in the points' order, or the front: steps, because nothing between two settings was measured.
+    void paintLine(const PlotSeries& series, Colour colour) const {
+        std::vector<PlotPoint> points = series.points;
+        if (!series.connect) {
+            std::erase_if(points, [](const PlotPoint& q) { return !q.isFront; });
+            std::sort(points.begin(), points.end(),
+                      [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
+        }
+        p_.setColour(colour.alpha(series.connect ? 0.9 : 0.55));
+        cairo_set_line_width(p_.cr(), series.connect ? 2.2 : 3.0);
+        setDash(series.dash);
+        for (size_t i = 0; i < points.size(); ++i) {
+            const double x = x_.at(points[i].x), y = y_.at(points[i].y);
+            if (i == 0) {
+                cairo_move_to(p_.cr(), x, y);
+                continue;
+            }
+            if (!series.connect) {
+                cairo_line_to(p_.cr(), x, y_.at(points[i - 1].y));
+            }
+            cairo_line_to(p_.cr(), x, y);
+        }
+        cairo_stroke(p_.cr());
+        setDash(0.0);
+    }
+
+    void paintPoints(const PlotSeries& series, Colour colour) const {
+        for (const PlotPoint& q : series.points) {
+            const double x = x_.at(q.x), y = y_.at(q.y);
+            if (std::isfinite(q.xHigh)) {
+                errorBar(x, y, x_.at(q.xHigh), y, colour.alpha(0.5));
+            }
+            if (std::isfinite(q.yHigh)) {
+                errorBar(x, y, x, y_.at(q.yHigh), colour.alpha(0.5));
+            }
+            dot(x, y, series.connect ? 4.0 : 5.0, q.isFront || series.connect ? colour : colour.alpha(0.45),
+                true);
+            if (q.isDefault) {
+                dot(x, y, 10.0, kInk, false);
+            }
+        }
+    }
+
+    // Points of the front and defaults choose first.
+    void paintLabels() const {
+        std::vector<PlotBox> taken;
+        std::vector<LabelRequest> all, requests;
+        std::vector<const PlotPoint*> points;
+        for (const PlotSeries& s : panel_.series) {
+            for (const PlotPoint& q : s.points) {
+                const double r = q.isDefault ? 10.0 : 4.0, x = x_.at(q.x), y = y_.at(q.y);
+                taken.push_back({x - r, y - r, x + r, y + r});
+                if (!q.label.empty()) {
+                    points.push_back(&q);
+                }
+            }
+        }
+        std::stable_sort(points.begin(), points.end(), [](const PlotPoint* a, const PlotPoint* b) {
+            return std::pair(!a->isDefault, !a->isFront) < std::pair(!b->isDefault, !b->isFront);
+        });
+        for (const PlotPoint* q : points) {
+            const std::string text = textOf(*q);
+            all.push_back({x_.at(q->x), y_.at(q->y), p_.textWidth(text, 12, q->isDefault), text});
+        }
+        const std::vector<size_t> distinct = distinctLabels(all);
+        for (const size_t i : distinct) {
+            requests.push_back(all[i]);
+        }
+        const auto places = placeLabels(requests, {x0_, y0_ - 12.0, x1_ + 14.0, y1_}, std::move(taken));
+        for (size_t i = 0; i < distinct.size(); ++i) {
+            paintLabel(*points[distinct[i]], requests[i], places[i]);
+        }
+    }
+
+    static std::string textOf(const PlotPoint& q) { return q.isDefault ? q.label + " (default)" : q.label; }
+
+    void paintLabel(const PlotPoint& q, const LabelRequest& request, const LabelPlace& place) const {
+        if (!place.beside) { // to the nearer end of the text
+            const bool right = place.x >= request.x;
+            line(request.x, request.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0,
+                 kFaint.alpha(0.5), 0.8);
+        }
+        const Colour colour = q.isFront || q.isDefault ? kInk : kFaint;
+        words(place.x, place.y, request.text, colour, q.isDefault);
+    }
+
+    void paintLegend() const {
+        double y = y0_ + 10.0;
+        for (size_t i = 0; i < panel_.series.size(); ++i, y += 20.0) {
+            if (panel_.series[i].dash > 0.0) {
+                setDash(panel_.series[i].dash);
+                line(x1_ + 6.0, y - 4.0, x1_ + 33.0, y - 4.0, colourOf(i), 2.2);
+                setDash(0.0);
+            } else {
+                dot(x1_ + 20.0, y - 4.0, 5.0, colourOf(i), true);
+            }
+            p_.text(x1_ + 37.0, y, panel_.series[i].name, 13, kInk);
+        }
+    }
+
+    // Whole numbers where three digits would need an exponent.
+    static std::string barFigure(double value) {
+        return value >= 1e3 && value < 1e6 ? digits(std::round(value), 6) : digits(value);
+    }
+
+    void paintBars() const {
+        paintXAxis();
+        size_t count = 0, k = 0;
+        for (const PlotSeries& s : panel_.series) {
+            count += s.points.size();
+        }
+        const double step = (y1_ - y0_ - 8.0) / static_cast<double>(std::max<size_t>(1, count));
+        for (size_t i = 0; i < panel_.series.size(); ++i) {
+            for (const PlotPoint& q : panel_.series[i].points) {
+                const double y = y0_ + 4.0 + step * static_cast<double>(k++),
+                             foot = x_.at(panel_.logX ? kBarFoot : 0.0), end = x_.at(q.x);
+                p_.setColour(colourOf(i));
+                cairo_rectangle(p_.cr(), std::min(foot, end), y, std::abs(end - foot),
+                                std::min(0.72 * step, 30.0));
+                cairo_fill(p_.cr());
+                const double base = y + 0.5 * std::min(0.72 * step, 30.0) + 5.0;
+                p_.text(x0_ - 8.0, base, q.label, 13, kInk, Align::Right, q.isDefault);
+                double right = std::max(foot, end);
+                if (std::isfinite(q.xHigh)) {
+                    errorBar(end, base - 5.0, x_.at(q.xHigh), base - 5.0, kInk.alpha(0.6));
+                    right = std::max(right, x_.at(q.xHigh));
+                }
+                const bool inside = right > x1_ - 60.0;
+                p_.text(inside ? end - 5.0 : right + 5.0, base, barFigure(q.x), 12, inside ? kPaper : kInk,
+                        inside ? Align::Right : Align::Left);
+            }
+        }
+    }
+
+    const Image& p_;
+    const PlotPanel& panel_;
+    const ColourTable& colours_;
+    double x0_, x1_, y0_, y1_;
+    PanelAxis x_, y_;
+};
+
+} // namespace fathom::profile

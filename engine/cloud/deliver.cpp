@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// The end of a frame: hands counters and marks of patches to the host and clears them.
+#include "engine/cloud/passes.h"
+
+#include "shaders/deliver.h"
+#include "shaders/shared/constants.h"
+
+#include <algorithm>
+
+namespace fathom::cloud {
+
+using namespace shared;
+
+PassInfo deliverPass(const CloudContext& c) {
+    const uint32_t words = std::max<uint32_t>(sizeof(FrameCounters) / sizeof(uint32_t), c.layout.patches());
+    return {"deliver",
+            deliver_spv,
+            {&WorkBuffers::counters, &WorkBuffers::listed, &SetBuffers::counters, &SetBuffers::listed},
+            {{kSpecGroupSize, c.plan.subGroup}},
+            Groups{(words + c.plan.subGroup - 1) / c.plan.subGroup, 1, 1}};
+}
+
+void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const SetBuffers& set) {
+    commands.copy(work.counters, set.counters, work.counters.bytes());
+    commands.copy(work.listed, set.listed, work.listed.bytes());
+    commands.barrier();
+    clearCounters(commands, work);
+}
+
+void clearCounters(gpu::Commands& commands, const WorkBuffers& work) {
+    FrameCounters zero{};
+    zero.patchGroups = zero.subGroups = zero.guidedGroups = {0, 1, 1, 0};
+    zero.quietGroups = zero.holdingGroups = {0, 1, 1, 0};
+    commands.update(work.counters, 0, sizeof(zero), &zero);
+    commands.fill(work.listed, 0);
+}
+
+} // namespace fathom::cloud
