@@ -138,7 +138,7 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
 
 shared uint found[kMaxClasses]; // pixels of the group, a class
 
-// Depths of four pixels of a row [m]; 0 outside the picture and where there is no measurement.
+// Depths of four pixels of a row [m]; 0 outside the frame and where there is no measurement.
 vec4 depthsAt(uvec2 at) {
     vec4 z = vec4(0.0);
     if (at.y >= params.size.y) {
@@ -159,7 +159,7 @@ vec4 depthsAt(uvec2 at) {
     return z;
 }
 
-// Registered colours of four pixels of a row; anything outside the picture.
+// Registered colours of four pixels of a row; anything outside the frame.
 vec3[4] coloursAt(uvec2 at) {
     vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     bool inside = all(lessThan(at, params.size.xy));

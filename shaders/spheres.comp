@@ -15,7 +15,7 @@ const uint kPack = 0;
 #include "shaders/lib/spheres.glsl"
 
 layout(binding = 19) uniform samplerBuffer growth; // per sub-patch: what thin.comp decided
-// The memory of points as texels: an invocation reads a slot before it writes it, and no other invocation does
+// The memory of points as texels: an invocation reads per slot before it writes it, and no other invocation does
 // either.
 layout(binding = 20) uniform samplerBuffer seenBefore;
 layout(binding = 21) uniform samplerBuffer keptBefore;

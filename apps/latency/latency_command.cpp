@@ -58,7 +58,7 @@ int measure(const Request& request, const GlobalOptions& global, const WindowLoa
 void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad windowLoad, int& result) {
     auto request = std::make_shared<Request>();
     CLI::App* command =
-        app.add_subcommand("latency", "measure how late the haptic thread wakes, and its turn");
+        app.add_subcommand("latency", "measure how late the haptic thread wakes, and its tick");
     command->add_option("SCENE", request->run.scene, "scene file (YAML)")->required();
     command->add_option("--source", request->run.source, "recording folder instead of the scene's camera");
     command->add_option("--seconds", request->run.seconds, "length of each part (10)")

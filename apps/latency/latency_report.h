@@ -13,7 +13,7 @@ inline constexpr double kMostGrowth =
     8.0; // [MiB] of resident memory over a soak: what allocators keep and give back
 
 void printLatency(std::ostream& out, const LatencyPart& part);
-// A row a range of 1-2-5 steps, a column a part and kind; rows that nothing fell in at either end are left
+// A row a range of 1-2-5 steps, a column per part and kind; rows that nothing fell in at either end are left
 // out.
 void printHistograms(std::ostream& out, std::span<const LatencyPart> parts);
 // Throws Error when it cannot be written.

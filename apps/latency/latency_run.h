@@ -21,7 +21,7 @@ namespace fathom {
 // One part of a measurement: one load for some seconds.
 struct LatencyPart {
     std::string
-        load; // idle: one picture, then none; frames: 30 a second; window: frames, and the window drawing
+        load; // idle: one frame, then none; frames: 30 a second; window: frames, and the window drawing
     double seconds = 0.0;       // that it really took
     Histogram late;             // [us] wake-ups after they were due
     Histogram tick;             // [us] compute time of a step

@@ -27,14 +27,15 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
         ->excludes("--hand-device");
     command->add_option("--arm", options->arm, kArmHelp);
     command->add_option("--view-door", options->viewEndpoint, kViewEndpointHelp);
-    command->add_option("--offscreen", options->offscreen, "WxH: draw without a display; with --folder, ends with a screenshot");
+    command->add_option("--offscreen", options->offscreen,
+                        "WxH: draw without a display; with --folder, ends with a screenshot");
     command->add_option("--seconds", options->seconds, "end after so long; 0: when the window is closed")
         ->check(CLI::NonNegativeNumber);
     command->add_option("--pilot", options->pilot,
                         "whose stiffness, limits and scale: one of the scene's pilots");
     command->add_option("--text-scale", options->textScale, "size of letters")->check(CLI::Range(0.75, 2.0));
     command->add_option("--state", options->state,
-                        "write what the window shows to this file, a JSON object a line");
+                        "write what the window shows to this file, a JSON object per line");
     command->add_option("--folder", options->shots, "where screenshots, traces and recordings go");
     command->callback([options, &global] {
         if (std::filesystem::is_directory(options->scene)) {

@@ -78,7 +78,7 @@ void OperatorRun::followRecorder() {
         recorder_.finish();
         const std::string failure = recorder_.failure();
         const uint64_t lost = recorder_.lost();
-        console_.notify(std::to_string(recorder_.images()) + " pictures recorded in " + recordingTo_ +
+        console_.notify(std::to_string(recorder_.images()) + " frames recorded in " + recordingTo_ +
                         (lost > 0 ? ", " + std::to_string(lost) + " left out: the disk was too slow" : "") +
                         (failure.empty() ? "" : ", then: " + failure));
         recordingTo_.clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Hands for the operator's window: mouse and keyboard in place of a device, and the gate in front of any hand
-// that turns forces off whatever the device says.
+// that ticks forces off whatever the device says.
 #pragma once
 
 #include "devices/live_hand.h"

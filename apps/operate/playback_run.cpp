@@ -45,7 +45,7 @@ TickLog mappedHand(const HandPath& hand, const Scene& scene) {
     return log;
 }
 
-// What is known of each turn, the hand from its own file where wrench.csv is without poses.
+// What is known of each tick, the hand from its own file where wrench.csv is without poses.
 TickLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
                 const Scene& scene) {
     TickLog log = readTickLog(folder);
@@ -99,7 +99,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     console_.timeLine.images = past_.images();
     console_.timeLine.duration = durationOf(past_, log_);
     if (log_.moments.empty()) {
-        console_.notify("no hand.csv or wrench.csv there: pictures only");
+        console_.notify("no hand.csv or wrench.csv there: frames only");
     }
 }
 

@@ -16,7 +16,7 @@
 
 namespace fathom::operate {
 
-// Pictures go through the passes again, with the fixtures as they are in the panel; hand, tool and wrench
+// Frames go through the passes again, with the fixtures as they are in the panel; hand, tool and wrench
 // are those of the files. Where a folder has no wrench.csv the hand is shown as its map has it, without tool.
 // Everything on one thread. A GPU that is lost is opened again, the moment that is looked at stays.
 class PlaybackRun {

@@ -5,9 +5,9 @@
 #include "apps/operate/alarms.h"
 #include "apps/operate/canvas.h"
 #include "apps/operate/fixture_editor.h"
-#include "apps/session/session.h"
 #include "apps/operate/screen.h"
 #include "apps/operate/state_log.h"
+#include "apps/session/session.h"
 
 namespace fathom::operate {
 

@@ -223,7 +223,7 @@ void addStep(const StudyContext& context, Study& study) {
     verify(run.deepest <= 1e-9, "budgets", "turn, " + size,
            "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
     verify(share >= 0.95, "budgets", "turn, " + size,
-           "the tool touches the wall in " + digits(share * 100.0) + " % of the turns only");
+           "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
     addRow(study, "haptic turn pressed 2 mm, up to 4 solves with the full check", size, run.turns.cost(),
            {0.03, 0.08}, share);
 }

@@ -171,7 +171,7 @@ Study peersStudy(const StudyContext& context) {
     study.errorName = "answers that differ";
     study.errorUnit = "count";
     study.rankBy.reason =
-        "ours needs no library, gives the same bits on every machine and is the part of a turn "
+        "ours needs no library, gives the same bits on every machine and is the part of a tick "
         "or a frame that the rest goes on from";
     study.timeName = "p50";
     study.moreNames = {"ratio_to_ours",    "ratio_to_ours_submit", "build_p50_ms",    "build_ratio",

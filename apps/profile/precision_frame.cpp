@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half, single and double along a frame and a turn: depth pixels, the filter's weights and sums, pair gaps.
+// Half, single and double along a frame and a tick: depth pixels, the filter's weights and sums, pair gaps.
 #include "apps/profile/half_number.h"
 #include "apps/profile/precision.h"
 #include "engine/types/pose.h"
@@ -203,7 +203,7 @@ std::vector<PrecisionLoop> weightRows(const StudyContext& context) {
 
 std::vector<PrecisionLoop> gapRows(const StudyContext& context) {
     const auto pairs = std::make_shared<const Pairs>(context.settings.quick ? 2000 : 20000);
-    const std::string source = "frame: pair gaps of a turn";
+    const std::string source = "frame: pair gaps of a tick";
     std::vector<double> truth;
     std::vector<float> single;
     gapsOf(*pairs, truth);

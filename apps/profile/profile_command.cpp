@@ -126,7 +126,7 @@ void addProfileCommand(CLI::App& app, const GlobalOptions& global) {
     command->add_option("--scene", settings->scene,
                         "scene file in place of the built-in classes and settings");
     command->add_flag("--quick", settings->quick,
-                      "few settings, small pictures, few repeats: under two minutes");
+                      "few settings, small frames, few repeats: under two minutes");
     command->add_option("--out", settings->out, "output folder; its files are replaced")->required();
     command->callback([settings, &global] { runProfile(*settings, global); });
 }

@@ -6,8 +6,8 @@
 
 namespace fathom::profile {
 
-// The study scene with a tool in touch that is pressed and dragged; 33 ticks a frame, one query before each.
-// Throws Error that names the file.
+// The study scene with a tool in touch that is pressed and dragged; 33 ticks per frame, one query before
+// each. Throws Error that names the file.
 void writeTimeLine(const StudyContext& context, const std::filesystem::path& file);
 
 } // namespace fathom::profile

@@ -200,7 +200,7 @@ std::string autoDecision(const DeviceFacts& device, const std::vector<uint32_t>&
                                 ? "no tool is known with which the device is faster in every set measured"
                                 : "the device is faster in every set measured from " +
                                       countOf(device.gpuQueryLeaves) + " leaves on";
-    return "'where: auto' decides by the tool's leaves before the first picture, so by the worst set; it "
+    return "'where: auto' decides by the tool's leaves before the first frame, so by the worst set; it "
            "asks " +
            who + ": " + why + "; brute force it never chooses";
 }

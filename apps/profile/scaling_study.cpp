@@ -174,7 +174,7 @@ Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
 Study scalingStudy(const StudyContext& context) {
     Study study;
     study.name = "scaling";
-    study.title = "Scaling: picture size, selected pixels, classes";
+    study.title = "Scaling: frame size, selected pixels, classes";
     study.verified =
         "at every size: class bits of every pixel and points of up to 300 patches, corners among them, "
         "against "

@@ -180,10 +180,10 @@ void addSpeed(const StudyContext& context, Study& study, double speed) {
 Study solverStudy(const StudyContext& context) {
     Study study;
     study.name = "solver";
-    study.title = "Solver: pose error to the converged optimum against the time of a turn";
-    study.verified =
-        "64 solves a turn are converged (128 change nothing beyond 0.1 um); few rows with a look at the rest "
-        "lead where all rows do, tick by tick; no leaf in a sphere in any run";
+    study.title = "Solver: pose error to the converged optimum against the time of a tick";
+    study.verified = "64 solves per tick are converged (128 change nothing beyond 0.1 um); few rows with a "
+                     "look at the rest "
+                     "lead where all rows do, tick by tick; no leaf in a sphere in any run";
     study.errorName = "pose error RMS to the converged optimum, a radian as 50 mm";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;

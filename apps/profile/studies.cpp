@@ -22,12 +22,12 @@ bool takesRecording(const std::string& study) {
 
 std::string servedBy(const std::string& study, const Settings& settings) {
     if (settings.source.empty()) {
-        return "pictures made for it";
+        return "frames made for it";
     }
     const std::filesystem::path clean = settings.source.lexically_normal();
     const std::string name = (clean.has_filename() ? clean : clean.parent_path()).filename().string();
     return takesRecording(study) ? "the recording " + name
-                                 : "pictures made for it; this study has no use for --source " + name;
+                                 : "frames made for it; this study has no use for --source " + name;
 }
 
 } // namespace fathom::profile

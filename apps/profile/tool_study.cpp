@@ -38,7 +38,7 @@ StudyRow rowOf(const StudyContext& context, const std::string& source, const std
     verify(run.deepest <= 1e-9, "tool", row.setting,
            "a leaf entered a sphere by " + digits(run.deepest * 1e6) + " um");
     verify(share >= 0.9, "tool", row.setting,
-           "the tool touches the wall in " + digits(share * 100.0) + " % of the turns only");
+           "the tool touches the wall in " + digits(share * 100.0) + " % of the ticks only");
     row.error = std::max(fit.protrusion, fit.gap) * 1e3;
     row.cost = run.turns.cost();
     row.more = {fit.protrusion * 1e3, fit.gap * 1e3, static_cast<double>(tool.leafCount()),
@@ -80,9 +80,9 @@ void addMadeCovers(const StudyContext& context, Study& study, const std::vector<
 Study toolStudy(const StudyContext& context) {
     Study study;
     study.name = "tool";
-    study.title = "Tool: how well spheres fit a gripper against the time of a turn";
+    study.title = "Tool: how well spheres fit a gripper against the time of a tick";
     study.verified = "covering spheres leave no gap, made covers hold the mesh's points; no leaf in a sphere "
-                     "in any run, in contact in nine of ten turns";
+                     "in any run, in contact in nine of ten ticks";
     study.errorName = "protrusion or gap, the larger";
     study.errorUnit = "mm";
     study.rankBy.time = cpuTime;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run leaves of its arm: arm.csv, one row a tick, and the section `arm` of summary.json.
+// What a run leaves of its arm: arm.csv, one row per tick, and the section `arm` of summary.json.
 #pragma once
 
 #include "apps/replay/csv.h"
@@ -13,7 +13,7 @@
 
 namespace fathom {
 
-// One thread. The limits are checked here once more, from the joints alone. arm.csv: t_s, a column a joint
+// One thread. The limits are checked here once more, from the joints alone. arm.csv: t_s, a column per joint
 // [rad], [m], grasp, residual_m, manipulability, at_limits, limit_violation, singular, grasp_held; where a
 // real arm follows also real_arm (its state) and measured_ with every joint's name.
 class ArmReport {

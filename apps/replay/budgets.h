@@ -18,9 +18,9 @@ struct BudgetFigure {
     bool holds() const { return measured <= budget; }
 };
 
-// Frame latency p50 (upload to published) where a budget exists for the picture's size and the device:
+// Frame latency p50 (upload to published) where a budget exists for the frame's size and the device:
 // 640x480 up to a tenth of the pixels forbidden, 640x480 and 1280x720 beyond that; CPU devices and discrete
-// ones. The haptic turn's p50 and p99 always, with the tool's leaves and for how many the budget is. Figures
+// ones. The haptic tick's p50 and p99 always, with the tool's leaves and for how many the budget is. Figures
 // that were not measured are left out.
 std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intrinsics& depth,
                                         DeviceKind device, size_t leaves);

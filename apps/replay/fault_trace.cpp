@@ -57,9 +57,9 @@ void FaultTrace::write(double t) const {
             }
         }
         file.commit();
-        log::warn("at {:.2f} s a number is not finite: the turns before it are in {}", t, path.string());
+        log::warn("at {:.2f} s a number is not finite: the ticks before it are in {}", t, path.string());
     } catch (const Error& e) {
-        log::warn("at {:.2f} s a number is not finite, and the turns before it are lost: {}", t, e.what());
+        log::warn("at {:.2f} s a number is not finite, and the ticks before it are lost: {}", t, e.what());
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What led to a turn with a number that is none: the turns of the last two seconds, as a file of their own
+// What led to a tick with a number that is none: the ticks of the last two seconds, as a file of their own
 // that is there whether or not the run comes to its end.
 #pragma once
 
@@ -12,11 +12,11 @@
 namespace fathom {
 
 // Hands everything on to one sink, on the writer thread, as all sinks; allocates when it is made. At a turn
-// that is not finite, and at most once a minute after, it leaves fault-T.csv, T the time of that turn [s] in
+// that is not finite, and at most once a minute after, it leaves fault-T.csv, T the time of that tick [s] in
 // the run, with the columns of haptics.csv. One that cannot be written is a warning: the run goes on.
 class FaultTrace final : public RunSink {
 public:
-    // period: of a turn [s]. `next` outlives this.
+    // period: of a tick [s]. `next` outlives this.
     FaultTrace(std::filesystem::path folder, double period, RunSink& next);
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }

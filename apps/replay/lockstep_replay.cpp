@@ -33,7 +33,7 @@ LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, R
     , audit_(session.tool, session.arm.get()) {}
 
 void LockstepReplay::fetch() {
-    if (session_.arm) { // a picture that shows the arm is taken now, a frame before it is due
+    if (session_.arm) { // a frame that shows the arm is taken now, a frame before it is due
         taken_ = cycle_ ? cycle_->place().arm : session_.arm->startPosture();
         if (session_.scene.source.showsArm) {
             session_.camera->showArm(session_.arm->toolAt(taken_).leaves());
@@ -66,7 +66,7 @@ void LockstepReplay::processNext() {
     takeEdit((*next_)->index);
     readColours(**next_, lastColour_);
     if (session_.cycles.plan()
-            .selfFilter) { // the arm as the picture shows it, or as it is when the picture is due
+            .selfFilter) { // the arm as the frame shows it, or as it is when the frame is due
         const bool now = cycle_ && !session_.scene.source.showsArm;
         session_.cycles.frames().setArm(session_.arm->inImage(now ? cycle_->place().arm : taken_));
     }

@@ -51,7 +51,7 @@ RealtimeReplay::RealtimeReplay(Session& session, const ReplayOptions& options, R
 
 RealtimeReplay::~RealtimeReplay() = default;
 
-// Camera thread. The first picture comes before the run is made: the scene is that picture's.
+// Camera thread. The first frame comes before the run is made: the scene is that frame's.
 void RealtimeReplay::takeShapes(const std::vector<Shape>& shapes) {
     if (run_) {
         run_->setShapes(shapes);
@@ -78,7 +78,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
 // On all CPUs: nothing else runs yet.
 void RealtimeReplay::spool() {
     if (session_.scene.source.showsArm) {
-        log::warn("the simulated camera's pictures are taken beforehand: they do not show the arm");
+        log::warn("the simulated camera's frames are taken beforehand: they do not show the arm");
     }
     const CpuConfinement everywhere(placement_.all);
     session_.camera = std::make_unique<SpooledCamera>(std::move(session_.camera), recorder_.folder(),

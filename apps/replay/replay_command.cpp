@@ -167,7 +167,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     return summary;
 }
 
-// SCENE may be the folder of a recording: its own scene, pictures and hand, where no other is asked for.
+// SCENE may be the folder of a recording: its own scene, frames and hand, where no other is asked for.
 ReplayOptions withFolder(ReplayOptions options) {
     const std::filesystem::path folder = options.scene;
     if (!std::filesystem::is_directory(folder)) {
@@ -234,7 +234,7 @@ void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result) {
     command->add_flag("--realtime", options->realtime, "by the clock, on threads, in place of lockstep");
     command
         ->add_option("--picture-rate", options->frameRate,
-                     "with --realtime: pictures a second of a recording or simulated camera, 30 unless told")
+                     "with --realtime: frames a second of a recording or simulated camera, 30 unless told")
         ->check(CLI::Range(1.0, 240.0));
     command->add_flag("--save-fixtures", options->saveFixtures, "write fixtures/NNNNNN.ply of every frame");
     command->add_option("--out", options->out, "output folder; its files are replaced")->required();

@@ -13,7 +13,7 @@ namespace fathom {
 namespace {
 
 constexpr double kMomentMargin =
-    1.05; // a picture is copied for this much more force, not for every tick of a rising one
+    1.05; // a frame is copied for this much more force, not for every tick of a rising one
 
 std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
     prepareOutputFolder(out, withFixtures);

@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-// stepMicros: compute time of the turn [us]; late: it ended more than one period after its start was due.
+// stepMicros: compute time of the tick [us]; late: it ended more than one period after its start was due.
 TickRecord tickOf(const StepRecord& tick, const ArmPosture& armStart, double stepMicros, bool late);
 
 } // namespace fathom

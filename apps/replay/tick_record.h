@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What one haptic turn and one used frame leave behind: plain values that every writer of `replay --out`
+// What one haptic tick and one used frame leave behind: plain values that every writer of `replay --out`
 // reads.
 #pragma once
 
@@ -19,7 +19,7 @@ namespace fathom {
 enum class TickState : uint8_t { Off, Free, Contact, Escape, Trapped, Fading };
 constexpr uint32_t kTickStates = 6;
 
-// The word that haptics.csv and the pictures use.
+// The word that haptics.csv and the frames use.
 constexpr const char* stateName(TickState state) {
     constexpr const char* kNames[kTickStates] = {"off", "free", "contact", "escape", "trapped", "fading"};
     return kNames[static_cast<uint8_t>(state)];
@@ -36,24 +36,24 @@ struct TickRecord {
     Pose tool; // the proxy
     Wrench wrench;
     uint32_t contacts = 0;    // rows with a positive multiplier in the last solve
-    double minGap = kUnknown; // [m] over the contact set after the turn
+    double minGap = kUnknown; // [m] over the contact set after the tick
     TickState state = TickState::Off;
     double guidance = 0.0;      // w, 0..1
     int64_t frame = -1;         // index of the set obeyed, -1 = none
     double sceneAge = kUnknown; // [s]
-    bool stalled = false;       // the trust region cut this turn
+    bool stalled = false;       // the trust region cut this tick
     double marginPassive = kUnknown, marginUncoupled = kUnknown;
 
     // Not columns: they feed summary.json and are left out of the digest.
-    double stepMicros = kUnknown; // [us] compute time of the turn
+    double stepMicros = kUnknown; // [us] compute time of the tick
     bool late = false;            // ended more than one period after its start was due
     uint32_t solves = 0;          // linearisations
     bool infeasible = false;      // some solve had no feasible step
     bool notFinite = false;       // some number was none, and there was no force
     ArmRecord arm;                // all zero without an arm
-    ArmPosture armStart;          // that the turn started from
+    ArmPosture armStart;          // that the tick started from
     bool driven = false;          // a real arm follows
-    ArmStatus armStatus;          // by it, before the turn
+    ArmStatus armStatus;          // by it, before the tick
 };
 
 // A pass of the frame cadence and the time it took [ms]; kUnknown when the device gives no timestamps.

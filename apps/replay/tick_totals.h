@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the haptic turns of a run add up to: the part of summary.json that follows from the tick records
+// What the haptic ticks of a run add up to: the part of summary.json that follows from the tick records
 // alone.
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace fathom {
 
-// Not thread-safe. Values that are not finite are left out of maxima and minima. Memory: 4 bytes a tick (the
-// turn times).
+// Not thread-safe. Values that are not finite are left out of maxima and minima. Memory: 4 bytes per tick
+// (the turn times).
 class TickTotals {
 public:
     void add(const TickRecord& tick);

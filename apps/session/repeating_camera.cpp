@@ -53,7 +53,7 @@ ShuttleCamera::ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const
         progress(images_.size());
     }
     if (images_.empty()) {
-        throw Error(description_ + ": no picture");
+        throw Error(description_ + ": no frame");
     }
     slots_ = std::make_unique<FrameSlots>(info_.depth.pixels(), info_.hasColour, kFramesInFlight + 2);
 }

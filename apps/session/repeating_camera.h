@@ -35,11 +35,11 @@ private:
     uint32_t skipped_ = 0, offset_ = 0, next_ = 0;
 };
 
-// Takes `count` pictures beforehand and shows them to and fro: for a camera that is simulated, so slower than
-// the clock. Memory: 6 bytes a pixel and picture.
+// Takes `count` frames beforehand and shows them to and fro: for a camera that is simulated, so slower than
+// the clock. Memory: 6 bytes per pixel and frame.
 class ShuttleCamera final : public Camera {
 public:
-    // Fewer pictures when the source ends or `stop`. progress(taken) after each. Throws Error when there is
+    // Fewer frames when the source ends or `stop`. progress(taken) after each. Throws Error when there is
     // none.
     ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const std::atomic<bool>& stop,
                   const std::function<void(size_t)>& progress);

@@ -80,7 +80,7 @@ bool swingGrows(LoopSpec spec, double k, bool rotational) {
     return late.sum() > early.sum();
 }
 
-// Eigenvalues of the loop over one period: state x, v, x of the turn before, the forces under way.
+// Eigenvalues of the loop over one period: state x, v, x of the tick before, the forces under way.
 bool modelGrows(const SampledLoop& loop, double k) {
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero(); // x, v and the constant force
     a(0, 1) = 1.0;
@@ -90,7 +90,7 @@ bool modelGrows(const SampledLoop& loop, double k) {
     const Eigen::Matrix3d step = (a * loop.period).exp();
     const int n = static_cast<int>(loop.delay);
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(3 + n, 3 + n);
-    Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(3 + n); // what is written this turn
+    Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(3 + n); // what is written this tick
     force(0) = -k - loop.virtualDamping / loop.period;
     force(2) = loop.virtualDamping / loop.period;
     Eigen::RowVectorXd felt = n == 0 ? force : Eigen::RowVectorXd(Eigen::RowVectorXd::Unit(3 + n, 2 + n));

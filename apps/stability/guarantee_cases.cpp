@@ -106,11 +106,11 @@ std::vector<Case> guaranteeCases() {
     put("speed-005", {0.05, 2.0, 0.0, 0.0, 8.0, 0.0}, {}, "Hand of 0.05 m/s that hops about the arena.");
     put("speed-05", {0.5, 5.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 0.5 m/s.");
     put("speed-5", {5.0, 20.0, 0.0, 0.0, 4.0, 0.0}, {}, "Hand of 5 m/s.");
-    put("leaps-10m", {0.5, 5.0, 20.0, 10.0, 20.0, 0.0}, {}, "20 leaps of up to 10 m a second.");
+    put("leaps-10m", {0.5, 5.0, 20.0, 10.0, 20.0, 0.0}, {}, "20 leaps of up to 10 m per second.");
     put("half-turns", {0.5, 0.0, 0.0, 0.0, 8.0, 30.0}, {},
-        "30 rotations by 180 degrees a second, each at once.");
+        "30 rotations by 180 degrees per second, each at once.");
     put("twenty-turns-a-second", {0.5, kTwentyTurns, 0.0, 0.0, 8.0, 0.0}, {},
-        "Rotation at 10 to 20 turns a second.");
+        "Rotation at 10 to 20 turns per second.");
     for (const uint32_t late : kLate) {
         put("answers-late-" + std::to_string(late) + "ms", plain, {late, false, 0.0},
             "Answers late by " + std::to_string(late) + " ms.");

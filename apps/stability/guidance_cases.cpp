@@ -98,7 +98,7 @@ Outcome flicker(RunLength runLength) {
     Outcome out = outcomeOf(largest, 0.1 + 1e-6, "N",
                             "A target that flips between two valves 0.6 m apart at random frames, and two "
                             "classes that come and go: largest step of the force "
-                            "between two turns. Limit: the slew of 0.1 m/s times K = 1000 N/m and 1 ms.");
+                            "between two ticks. Limit: the slew of 0.1 m/s times K = 1000 N/m and 1 ms.");
     require(out, changes == 0,
             "the valve was changed " + std::to_string(changes) + " times while the button was held");
     return out;

@@ -64,7 +64,7 @@ public:
     // News of the frame cadence: what the next query is asked of. The generation and the frame number are
     // given here.
     void show(Fixtures set);
-    // From now on the set shown ages; otherwise every turn counts as a fresh image of the same.
+    // From now on the set shown ages; otherwise every tick counts as a fresh image of the same.
     void freeze() { fresh_ = false; }
 
     StepRecord step(const Pose& hand);

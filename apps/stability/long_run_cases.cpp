@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group long-run: one million turns in lockstep, with frames, guidance, dead-man and a hand that roams:
+// Group long-run: one million ticks in lockstep, with frames, guidance, dead-man and a hand that roams:
 // nothing drifts, nothing grows, and the same run gives the same digest.
 #include "apps/replay/digest.h"
 #include "apps/replay/step_to_tick.h"

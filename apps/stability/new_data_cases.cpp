@@ -187,7 +187,7 @@ Outcome sweepCase(RunLength runLength, double speed) {
     Outcome out =
         outcomeOf(ratio, 1.0, "1",
                   "Ticks from the start of the sweep until out over the longer of the sweep and 250 mm at 1 "
-                  "mm a turn, and a "
+                  "mm per tick, and a "
                   "frame: wall at " +
                       num(speed) + " m/s, 30 Hz, with and without hold and noise, " + num(uint64_t(trials)) +
                       " runs. At over 1 m/s the surface outruns the 1 mm per tick and the tool is out "

@@ -50,7 +50,7 @@ Outcome halfTurn(RunLength runLength) {
         outcomeOf(step / allowed, 1.0 + 1e-9, "1",
                   "The hand swings through the half turn against a held axis, 30 crossings about three axes: "
                   "largest step of the torque over the "
-                  "slew limit of a turn. The shortest arc changes sides there; the largest torque was " +
+                  "slew limit of a tick. The shortest arc changes sides there; the largest torque was " +
                       num(torque) + " N m.");
     require(out, sound && torque <= 2.0 + 1e-9,
             "finite numbers, a unit quaternion and at most 2 N m were expected");
@@ -83,7 +83,7 @@ Outcome wholeTurns(RunLength runLength) {
         "Whole turns of the hand against a held axis: work that one turn gives over what the spring holds at "
         "the half turn (" +
             num(stored) +
-            " J); the change of sides falls between two turns of the cycle, which is all that is left.");
+            " J); the change of sides falls between two ticks of the cycle, which is all that is left.");
 }
 
 // Guidance without a roll of its own: the torque has no part about the axis that it aims, wherever the hand
@@ -140,7 +140,7 @@ Outcome fastSpin(RunLength runLength) {
         before = record.wrench.torque;
     }
     Outcome out = outcomeOf(step, 1.0 + 1e-9, "1",
-                            "A hand that spins 20 times a second, about another axis every half second, "
+                            "A hand that spins 20 times per second, about another axis every half second, "
                             "against a held axis: largest torque step over the slew "
                             "limit; quaternions off unit length by at most " +
                                 num(norm) + ".");

@@ -36,7 +36,7 @@ Outcome anyLength(RunLength runLength) {
         }
     }
     return outcomeOf(worst, 1e-9, "N",
-                     "Orientations as quaternions of length 1e-6 to 1e6, another at every turn: largest "
+                     "Orientations as quaternions of length 1e-6 to 1e6, another at every tick: largest "
                      "difference of wrench [N, N m] and tool [m] to the "
                      "same motion with unit ones; a device with all axes and one without roll.");
 }

@@ -108,7 +108,7 @@ SolveStatus SolverTrial::judge(const RowSet& set, SolverTally& tally) {
 }
 
 // Two reasons not to believe the reference: a point that obeys every row is at hand, which its residual of
-// 1e-12 cannot tell from none; or one rounding of the rows turns its answer.
+// 1e-12 cannot tell from none; or one rounding of the rows ticks its answer.
 bool SolverTrial::undecidable(const RowSet& set, SolveStatus status, const NearestPoint& truth) const {
     if (status == SolveStatus::Optimal) {
         return checkKkt(set.problem(), x_, solver_.multipliers()).worst() < kWorthALook;

@@ -9,7 +9,7 @@
 
 namespace fathom::stability {
 
-// margins.png: a bar a case, figure over limit on a logarithmic axis, by group; red beyond 1. CASE.png for
+// margins.png: a bar per case, figure over limit on a logarithmic axis, by group; red beyond 1. CASE.png for
 // every case with curves: its curves over their axes with units, linear or logarithmic. Files of an earlier
 // run are replaced. Throws Error that names the file.
 void writePlots(const std::filesystem::path& folder, const std::vector<CaseResult>& results);

@@ -60,7 +60,7 @@ Outcome injectionCounted(RunLength) {
     }
     return outcomeOf(worst, 0.02, "1",
                      "A wall jumps by 0.5 to 3 mm under a hand 3 mm deep: energy that the observer counts "
-                     "within 3 turns against K p delta + K delta^2/2 "
+                     "within 3 ticks against K p delta + K delta^2/2 "
                      "(8 mJ at 2 mm), 16 loops; the hand starts to move meanwhile.");
 }
 
@@ -100,7 +100,7 @@ Outcome jumpBurst(RunLength) {
                          "stays a wall has to lift the hand.");
 }
 
-// The wall goes up and down by 2 mm, 30 times a second or as the hand swings, whichever is the worse.
+// The wall goes up and down by 2 mm, 30 times per second or as the hand swings, whichever is the worse.
 Outcome shakenWall(RunLength runLength) {
     double worst = 0.0, worstOff = 0.0, energyOn = 0.0, energyOff = 0.0;
     for (size_t h = 1; h < kHands.size(); ++h) {

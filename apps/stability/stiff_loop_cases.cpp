@@ -165,7 +165,7 @@ Outcome closedLoops(RunLength runLength) {
                                 num(uint64_t{tied.loops}) + " over what the springs held at most, " +
                                 num(tied.stored * 1e3) + " mJ: " + num(tied.most * 1e3) +
                                 " mJ drawn (one loop took " + num(-tied.least * 1e3) +
-                                " mJ; both halve with the length of a turn). With a metric 1.6 times off the "
+                                " mJ; both halve with the length of a tick). With a metric 1.6 times off the "
                                 "springs' own up to " +
                                 num(off.most * 1e3) + " mJ are drawn.");
     require(out, off.most > 1e-3, "a wrong metric was expected to be seen");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames through the passes on a Vulkan device, with every buffer read back as row-major pictures, so that
+// Frames through the passes on a Vulkan device, with every buffer read back as row-major frames, so that
 // each pass can be compared with its float64 twin fed by what that pass was fed.
 #pragma once
 

@@ -17,7 +17,7 @@ namespace fathom {
 
 // Frame index and source number = data line of the index from 0; capture time = depth stamp. Every data line
 // is either delivered or skipped: a missing or damaged image, another size or type, or a depth stamp that
-// goes back skips the frame and is logged once. Pictures are read on the calling thread. The camera must
+// goes back skips the frame and is logged once. Frames are read on the calling thread. The camera must
 // outlive its leases; leases may end on any thread.
 class RecordedCamera final : public Camera {
 public:

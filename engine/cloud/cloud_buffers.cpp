@@ -56,7 +56,7 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
     }
     if (plan.occlusion) {
         // A cell half as wide again as the distance between neighbouring depth pixels in the colour picture:
-        // a surface that turns its face to the colour camera is stretched there, and a gap would let what it
+        // a surface that ticks its face to the colour camera is stretched there, and a gap would let what it
         // hides show through.
         const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
         cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(1.5 * ratio)));

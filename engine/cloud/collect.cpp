@@ -32,7 +32,7 @@ uint64_t rowsOfSubs(const uint32_t* sub) {
     return n ^ far ^ far << 24;
 }
 
-// Sub-patch bits of the listed patches of a row of patches to row-major bits of the picture. Returns how many
+// Sub-patch bits of the listed patches of a row of patches to row-major bits of the frame. Returns how many
 // there are.
 uint32_t takeBitsOfRow(FixtureSet& set, uint32_t down, const PatchLayout& layout) {
     const auto listed = set.device.listed.as<uint32_t>();
@@ -44,7 +44,7 @@ uint32_t takeBitsOfRow(FixtureSet& set, uint32_t down, const PatchLayout& layout
             uint64_t rows = rowsOfSubs(&bits[patch * 16 + four * 4]);
             count += static_cast<uint32_t>(std::popcount(rows));
             uint32_t pixel = (down * 16 + four * 4) * set.host.camera.depth.width + across * 16;
-            for (; rows != 0; rows >>= 16, pixel += set.host.camera.depth.width) { // none below the picture
+            for (; rows != 0; rows >>= 16, pixel += set.host.camera.depth.width) { // none below the frame
                 const uint64_t placed = (rows & 0xffff) << pixel % 32;
                 out[pixel / 32] |= static_cast<uint32_t>(placed);
                 if (placed >> 32 != 0) {
@@ -56,7 +56,7 @@ uint32_t takeBitsOfRow(FixtureSet& set, uint32_t down, const PatchLayout& layout
     return count;
 }
 
-// Two rows of patches, or the last: 32 rows of pixels end with a word, whatever the picture's width.
+// Two rows of patches, or the last: 32 rows of pixels end with a word, whatever the frame's width.
 uint32_t takeBitsOfPair(FixtureSet& set, uint32_t pair, const PatchLayout& layout) {
     return takeBitsOfRow(set, 2 * pair, layout) +
            (2 * pair + 1 < layout.down ? takeBitsOfRow(set, 2 * pair + 1, layout) : 0);

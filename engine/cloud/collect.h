@@ -19,11 +19,11 @@ struct FrameCounts {
     std::vector<float> leakSpacing, leakRange; // a class [m]; 0 = none
 };
 
-// The picture's depth into host.depth; returns the readings in near..far. Counted on the CPU: a counter that
+// The frame's depth into host.depth; returns the readings in near..far. Counted on the CPU: a counter that
 // 300 000 invocations share costs the device milliseconds. crew: who shares it; null: the caller alone.
 uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers);
 
-// work: where radii and points are read when the plan packs nothing. seen: of the picture's frame, where it
+// work: where radii and points are read when the plan packs nothing. seen: of the frame's frame, where it
 // packs depths; else null. Fills set.host.spheres, forbiddenBits
 // and guidance from the device side; the caller has set camera, pose, origin and frame, and counts the valid
 // pixels. crew shares the work. Allocates much only when a frame is larger than any before.

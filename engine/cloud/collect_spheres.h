@@ -15,7 +15,7 @@ namespace fathom::cloud {
 // of Scene::fixtures of each class of points. Allocates when it is made; taking does not.
 class SphereCollector {
 public:
-    // seen: of the picture's frame; null where the plan packs no depths.
+    // seen: of the frame's frame; null where the plan packs no depths.
     SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Plan& plan,
                     const std::vector<uint32_t>& rows, const PatchLayout& layout, ThreadPool& workers);
 

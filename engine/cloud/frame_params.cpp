@@ -12,7 +12,7 @@ namespace {
 
 using glm::vec4;
 
-// Isolated points: fewer than 2 neighbours this near; wide-angle and far pictures are coarser than 20 mm by
+// Isolated points: fewer than 2 neighbours this near; wide-angle and far frames are coarser than 20 mm by
 // nature.
 constexpr double kIsolation = 0.020; // [m]
 constexpr double kIsolationPixels = 3.0;

@@ -20,7 +20,7 @@ std::vector<uint32_t> classRows(const Scene& scene);
 std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit);
 
 // What does not change from frame to frame. origin: base frame [m], what float32 positions are relative to.
-// cells: occlusion cells of the colour picture (edge, across), 1 and 1 when the plan has none.
+// cells: occlusion cells of the colour image (edge, across), 1 and 1 when the plan has none.
 shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout,
                                 const dvec3& origin, uint32_t cellEdge, uint32_t cellsAcross);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classes of points that stay where they were while the picture goes on.
+// Classes of points that stay where they were while the frame goes on.
 #pragma once
 
 #include "engine/contact/fixtures.h"

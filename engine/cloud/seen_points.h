@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spheres of points that the picture shows, from their depths alone: across a bus go four bytes per
+// The spheres of points that the frame shows, from their depths alone: across a bus go four bytes per
 // sphere instead of sixteen. The same operations in the same order as on the device (rayOf, pointAt,
 // transformPoint and growthOf in shaders/), so that host and device have the same spheres to the last bit.
 #pragma once
@@ -13,14 +13,14 @@
 
 namespace fathom::cloud {
 
-// Rays (x/z, y/z) of a picture's pixels, row-major, as passes read them where they are not linear in the
+// Rays (x/z, y/z) of a frame's pixels, row-major, as passes read them where they are not linear in the
 // pixel.
 std::vector<glm::vec2> raysOf(const Intrinsics& lens);
 
 class SeenPoints {
 public:
     SeenPoints(const Intrinsics& lens, const PatchLayout& layout);
-    // What the passes of the picture that is collected read. Nobody takes points meanwhile.
+    // What the passes of the frame that is collected read. Nobody takes points meanwhile.
     void setFrame(const shared::FrameParams& params);
 
     // Base-frame points about the origin [m] of slots (0..255) of a patch with these depths [m]. Any thread,

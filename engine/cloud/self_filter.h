@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm's spheres where a picture shows them: what they hold is no point of any class. Done in
+// The arm's spheres where a frame shows them: what they hold is no point of any class. Done in
 // classify.comp; here is what it reads.
 #pragma once
 

@@ -49,7 +49,7 @@ FATHOM_CLONES void toPlaces(const uint32_t* bits, uint32_t words, uint16_t* __re
     }
 }
 
-// Pixels, row-major in the picture, of a patch whose first is `corner`; held points count on from the last
+// Pixels, row-major in the frame, of a patch whose first is `corner`; held points count on from the last
 // pixel.
 FATHOM_CLONES void toSources(const uint16_t* places, size_t n, uint32_t corner, uint32_t width,
                              uint32_t pixels, uint32_t* __restrict source) noexcept {

@@ -30,7 +30,7 @@ UploadSlots::Choice UploadSlots::choose(const Frame& frame, std::optional<uint32
     return slot && import(*slot, images) ? Choice{*slot, true} : Choice{copied(inFlight), false};
 }
 
-// A block counts only when it begins where the picture does: a picture may have been replaced by another.
+// A block counts only when it begins where the frame does: a frame may have been replaced by another.
 UploadSlots::Images UploadSlots::inPlace(const Frame& frame) const {
     Images images;
     if (!plan_.inPlace || refused_) {
@@ -86,7 +86,7 @@ bool UploadSlots::import(uint32_t slot, const Images& images) {
     } catch (const Error& e) {
         refused_ = depthRefused_ || !images.depth || !images.colour;
         depthRefused_ = true;
-        log::debug("{} copied: {}", refused_ ? "pictures are" : "depth is", e.what());
+        log::debug("{} copied: {}", refused_ ? "frames are" : "depth is", e.what());
         return false;
     }
 }

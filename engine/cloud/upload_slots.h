@@ -10,7 +10,7 @@
 
 namespace fathom::cloud {
 
-// Slots 0 and 1 are copied into. A picture whose memory the device can import (Plan::inPlace) gets a slot of
+// Slots 0 and 1 are copied into. A frame whose memory the device can import (Plan::inPlace) gets a slot of
 // its own when that memory is seen first; a camera's few blocks come round again and again. One thread.
 class UploadSlots {
 public:
@@ -21,7 +21,7 @@ public:
 
     UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
 
-    // Where one frame's pictures go.
+    // Where one frame's frames go.
     struct Choice {
         uint32_t slot;
         bool isNew; // its buffers were made just now

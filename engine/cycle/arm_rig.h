@@ -29,7 +29,7 @@ struct ArmRig {
     // All leaves of all links, in the base frame: what a contact query asks about, with an identity pose.
     // Allocates.
     Tool toolAt(const ArmPosture& posture) const { return armTool(model, framesAt(posture)); }
-    // The same spheres about the tip, for pictures. Allocates.
+    // The same spheres about the tip, for frames. Allocates.
     std::vector<Sphere> aboutTip(const ArmPosture& posture) const;
     // The same spheres in the base frame, grown by the padding: what the self-filter takes out. Allocates.
     cloud::LinkSpheres inImage(const ArmPosture& posture) const;

@@ -19,7 +19,7 @@ public:
     // calibrated against each other.
     void frame(const FrameReport& report) noexcept;
     void query(TraceTime begin, TraceTime end, size_t spheres) noexcept;
-    // lateSeconds: from when the turn was due to its start.
+    // lateSeconds: from when the tick was due to its start.
     void step(TraceTime begin, TraceTime end, double lateSeconds) noexcept;
 
     Trace& file() { return trace_; }

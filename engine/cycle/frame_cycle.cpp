@@ -281,7 +281,7 @@ void FrameCycle::readTimes(const InFlight& f, FrameReport& report) const {
     try {
         report.passMs = passes_.watch(f.slot).intervalsMs();
     } catch (const DeviceFailed& e) {
-        log::debug("the times of picture {}: {}", report.index, e.what());
+        log::debug("the times of frame {}: {}", report.index, e.what());
     }
 }
 

@@ -45,7 +45,7 @@ void Device::chooseDrawQueue() {
 }
 
 void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
-    const float priorities[] = {1.0f, 0.5f}; // passes before pictures
+    const float priorities[] = {1.0f, 0.5f}; // passes before frames
     std::vector<VkDeviceQueueCreateInfo> queues;
     const auto add = [&](uint32_t family, uint32_t number, const float* priority) {
         VkDeviceQueueCreateInfo queue{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -90,7 +90,7 @@ std::vector<const char*> Device::extensionsFor(Drawing drawing) const {
     if (drawing == Drawing::Surface) {
         if (!hasExtension(physical_, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) {
             throw BadInput("--device", "window", facts_.name,
-                           "a device that shows pictures (VK_KHR_swapchain)");
+                           "a device that can present to a display (VK_KHR_swapchain)");
         }
         extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     }

@@ -13,7 +13,7 @@
 
 namespace fathom {
 
-// Which rows a solve gets. No choice lets a leaf enter a sphere, because the exact check tests every listed
+// Which rows a solve gets. No choice lets a leaf enter per sphere, because the exact check tests every listed
 // pair before a pose is accepted and a violated pair gets a row. A reduction can only cost lag.
 struct RowReduction {
     double reach = 2.0; // pairs farther than this many step caps get no row; below 1 counts as 1

@@ -23,7 +23,7 @@ ClearColour withoutWater(uint32_t rgba, const dvec3& attenuation, double range);
 
 struct ClassImage {
     std::vector<uint32_t> masks;
-    std::vector<uint8_t> unsure; // 1: a coordinate, a depth or a picture position lies within 1e-6 m (1e-3
+    std::vector<uint8_t> unsure; // 1: a coordinate, a depth or a frame position lies within 1e-6 m (1e-3
                                  // pixels) of its threshold
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame as the float64 twins see it: the plain scene, camera and pose, row-major pictures. Every twin of
+// One frame as the float64 twins see it: the plain scene, camera and pose, row-major frames. Every twin of
 // a GPU pass lives in namespace reference and is written from the formulas in the paper, not from the
 // shader.
 #pragma once
@@ -15,7 +15,7 @@ namespace fathom::reference {
 // The classes of points of a scene in file order: bit c of a pixel's mask is pointClasses(scene)[c].
 std::vector<const FixtureClass*> pointClasses(const Scene& scene);
 
-// Keeps references: scene, camera and pictures must outlive it. Rays are computed once.
+// Keeps references: scene, camera and frames must outlive it. Rays are computed once.
 class FrameView {
 public:
     FrameView(const Scene& scene, const CameraInfo& camera, const Pose& baseTcamera,
@@ -31,7 +31,7 @@ public:
         return static_cast<size_t>(v) * camera_.depth.width + static_cast<size_t>(u);
     }
 
-    // Depth [m]; 0 where there is no measurement in near..far and outside the picture. The bounds are
+    // Depth [m]; 0 where there is no measurement in near..far and outside the frame. The bounds are
     // inclusive; 1e-9 of a depth unit absorbs the rounding of near / unit.
     double z(int u, int v) const noexcept;
     // Point at depth z [m] on the pixel's ray, camera frame.
@@ -49,7 +49,7 @@ private:
     std::vector<glm::dvec2> rays_;
 };
 
-// Points of a picture, row-major, base frame [m]; z = depth along the optical axis, 0 = no point.
+// Points of a frame, row-major, base frame [m]; z = depth along the optical axis, 0 = no point.
 struct PointImage {
     std::vector<dvec3> at;
     std::vector<double> z;

@@ -12,7 +12,7 @@ public:
     // The next frame: what is held in it, one sphere per pixel. classes: class of the forbidden point seen
     // now at each pixel. previousTime: the capture time at which the last frame's points were still seen. A
     // point stays while it was last seen at most scene.holdSeconds ago and its pixel now shows no depth, or
-    // something nearer by more than 3 sigma of depth, or lies outside the picture.
+    // something nearer by more than 3 sigma of depth, or lies outside the frame.
     std::vector<RegionSphere> step(const FrameView& view, double captureTime, double previousTime,
                                    std::span<const int> classes, const PointImage& points);
 

@@ -9,7 +9,7 @@ namespace fathom::reference {
 
 namespace {
 
-// Lowers every cell that the picture position (u, v) +- slack can belong to. Returns how many those are.
+// Lowers every cell that the frame position (u, v) +- slack can belong to. Returns how many those are.
 int lowerCells(CellImage& cells, const Intrinsics& lens, double u, double v, double slack, double z) {
     int touched = 0;
     int last[4][2] = {};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Twin of shaders/occlusion.comp: the nearest depth that the colour camera sees in each small cell of its
-// picture.
+// frame.
 #pragma once
 
 #include "engine/reference/frame_view.h"

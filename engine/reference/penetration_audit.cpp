@@ -11,7 +11,7 @@ namespace fathom {
 
 namespace {
 
-// What is nearer than this when a leaf is searched becomes a candidate, looked at every turn until it has
+// What is nearer than this when a leaf is searched becomes a candidate, looked at every tick until it has
 // moved as far.
 constexpr double kNear = 0.002; // [m]
 // How far a search looks for the nearest sphere of a free leaf [m]: it may move as far before the next one.
@@ -167,7 +167,7 @@ void PenetrationAudit::takeAllowances() {
     }
 }
 
-// Depths of one leaf after the turn, against its allowances, which shrink to them.
+// Depths of one leaf after the tick, against its allowances, which shrink to them.
 PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre) {
     if (glm::length(centre - leaf.searchedAt) + kAuditRounding >= leaf.mayMove) {
         search(leaf, centre);

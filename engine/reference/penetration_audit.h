@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Independent witness of the engine's promise: no tool leaf enters a region sphere of the set in force beyond
+// Independent witness of the engine's promise: no tool leaf enters a region sphere of the active set beyond
 // its allowance (the depth the pair had when the set came into force, shrinking, never growing; 0 if it did
 // not touch).
 #pragma once
@@ -16,13 +16,13 @@ namespace fathom {
 
 // Sees the poses alone, nothing of the solver: every depth is taken in float64 from the very floats of the
 // set. A search round a leaf finds all spheres near it, and looks at these alone until the leaf has moved so
-// far that another could touch: exact, and a turn in free water costs a few nanoseconds per leaf. Allocates;
+// far that another could touch: exact, and a tick in free water costs a few nanoseconds per leaf. Allocates;
 // not for the haptic thread.
 class PenetrationAudit {
 public:
     explicit PenetrationAudit(const Tool& tool);
 
-    // One turn: the set it obeyed, the grid built from that very set, base_T_tool it started from and ended
+    // One tick: the set it obeyed, the grid built from that very set, base_T_tool it started from and ended
     // at. A new Fixtures::generation is a new set, and its allowances are the depths at `start`. Leaves in
     // `behind` (indices) are exempt from the promise: their depth is counted apart. A set without frame (-1)
     // is no set. Throws Error when the grid is not of the set's size or a pose is not finite.
@@ -35,7 +35,7 @@ public:
               std::span<const dvec3> end, std::span<const uint32_t> behind = {});
 
     // Before a turn whose tool was put somewhere by something else than the engine (a real arm that stood
-    // still): its allowances are the depths at that turn's start.
+    // still): its allowances are the depths at that tick's start.
     void retake() { anySet_ = false; }
 
     // [m] largest depth of one leaf beyond its allowance, so far.
@@ -63,7 +63,7 @@ private:
         dvec3 searchedAt{0.0};             // about the set's origin: where the last search was
         double mayMove = 0.0;              // [m] from there, before any sphere but the candidates can touch
         std::vector<Candidate> candidates; // all that were near there
-        double worst = 0.0;                // [m] beyond the allowance, over all turns
+        double worst = 0.0;                // [m] beyond the allowance, over all ticks
     };
     struct Worst {
         double beyond = 0.0, inside = 0.0, any = 0.0; // [m]
@@ -79,10 +79,10 @@ private:
 
     std::vector<Leaf> leaves_;
     std::vector<dvec3> start_,
-        end_;                       // scratch, a leaf each: about the set's origin, before and after the turn
+        end_;                       // scratch, a leaf each: about the set's origin, before and after the tick
     std::vector<double> allowed_;   // scratch, a sphere each: allowance for the leaf at hand [m], else 0
     std::vector<Candidate> before_; // scratch
-    std::vector<uint8_t> behind_;   // a leaf: flagged in this turn
+    std::vector<uint8_t> behind_;   // a leaf: flagged in this tick
     const Fixtures* set_ = nullptr; // during tick() only
     const RegionGrid* grid_ = nullptr;
     uint64_t generation_ = 0;

@@ -15,7 +15,7 @@ struct SurfaceImage {
 
 // Points of the pixels with a class (masks != 0). Flying: nearer than all neighbours on one side by more than
 // filter.edge (relative) and farther than all on the opposite side. Isolated: fewer than 2 of the 8
-// neighbours within 20 mm, or within three pixels' width where the picture is coarser.
+// neighbours within 20 mm, or within three pixels' width where the frame is coarser.
 SurfaceImage surface(const FrameView& view, std::span<const uint32_t> masks);
 
 } // namespace fathom::reference

@@ -74,8 +74,8 @@ public:
         const bool broken = !row.record.finite;
         if (broken && !broken_ && row.record.t >= quietUntil_) {
             const bool fromHand = !isFinite(row.hand.deviceThandle);
-            log::warn("at {:.2f} s {} not finite: no force in such turns", row.record.t,
-                      fromHand ? "the hand's sample is" : "some number of the turn is");
+            log::warn("at {:.2f} s {} not finite: no force in such ticks", row.record.t,
+                      fromHand ? "the hand's sample is" : "some number of the tick is");
             quietUntil_ = row.record.t + kQuiet;
         }
         broken_ = broken;

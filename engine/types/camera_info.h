@@ -55,13 +55,13 @@ struct CameraInfo {
     bool inWater = false;          // a flat port was corrected for already; sigma says what that left
     std::optional<BeamSigma> beam; // of each point; its region grows by 3 of them
 
-    uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of a picture
+    uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of a frame
     double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading there, camera frame
 };
 
 // Standard deviation of a depth reading at range z [m], [m]: the model of structured-light and stereo cameras
 // (constant + quadratic). Measured on the D435 recordings: 0.48 mm at 0.38 m on a wheel, 3.75 mm median of
-// the picture.
+// the frame.
 inline double depthSigma(double z) noexcept {
     return 0.0005 + 0.0025 * z * z;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A picture's colours for who reads them on the host.
+// A frame's colours for who reads them on the host.
 #pragma once
 
 #include "engine/types/frame.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family of exceptions. Thrown while things are built; never on the haptic turn, which returns values.
+// The family of exceptions. Thrown while things are built; never on the haptic tick, which returns values.
 #pragma once
 
 #include "engine/types/printable.h"

@@ -21,7 +21,7 @@ public:
     // What a frame is made of.
     struct Content {
         uint32_t index = 0;        // line of associations.txt from 0, or a live counter
-        uint64_t sourceNumber = 0; // the source's own frame number; unchanged = the same picture again
+        uint64_t sourceNumber = 0; // the source's own frame number; unchanged = the same frame again
         double captureTime = 0.0;  // [s] on the source's clock
         std::span<const uint16_t> depth;
         std::span<const uint32_t> colour; // 0xAABBGGRR

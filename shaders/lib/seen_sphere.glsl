@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The region sphere of a point that the picture shows. Needs params, kBeam, kThin, beam.glsl, forbidden.glsl.
+// The region sphere of a point that the frame shows. Needs params, kBeam, kThin, beam.glsl, forbidden.glsl.
 
 // Three sigma of a point, by its range from the camera [m].
 float grownBySigma(vec3 point) {

@@ -8,7 +8,7 @@ const uint kCells = 25u, kQuarters = 4u * kCells;
 shared float asked[kThin != 0 ? 2u * kQuarters : 1u]; // R'^2 - R^2 of a cell by each of the four that ask it, then the growth of each quarter; -1 = kept
 shared vec4 cells[kThin != 0 ? kCells : 1u];          // as `growth`, 5 a row
 
-// Points of a square of pixels into `ofPatch`, w = forbidden class; kNone outside the picture and in patches without work.
+// Points of a square of pixels into `ofPatch`, w = forbidden class; kNone outside the frame and in patches without work.
 void readAround(ivec2 from) {
     for (uint i = gl_LocalInvocationID.x; i < kSide * kSide; i += gl_WorkGroupSize.x) {
         ivec2 at = from + ivec2(i % kSide, i / kSide);

@@ -26,7 +26,7 @@ Intrinsics image(uint32_t width, uint32_t height) {
 
 } // namespace
 
-TEST_CASE("a frame over its budget and a turn over its p99 are told, a turn within its p50 holds") {
+TEST_CASE("a frame over its budget and a tick over its p99 are told, a turn within its p50 holds") {
     const auto figures = budgetFigures(summaryWith(20000.0), image(640, 480), DeviceKind::Cpu, 8);
     REQUIRE(figures.size() == 3);
     CHECK(figures[0].budget == 8.0);

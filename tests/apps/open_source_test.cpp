@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the port of a scene corrects a camera, and a recording of processed frames.
+// How the port of a scene corrects per camera, and a recording of processed frames.
 #include "apps/binding/open_source.h"
 
 #include "devices/recorded/recording_writer.h"

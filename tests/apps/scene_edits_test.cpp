@@ -97,7 +97,7 @@ TEST_CASE("Classes of points keep their rows whatever shapes come and go") {
 }
 
 TEST_CASE(
-    "A recording has each change of fixtures from the picture on that obeyed it, in the rows that classes "
+    "A recording has each change of fixtures from the frame on that obeyed it, in the rows that classes "
     "had") {
     Pilot pilot;
     pilot.image(0);

@@ -63,7 +63,7 @@ void checkList(CloudRig& rig) {
     }
 }
 
-// One picture that holds every colour with channels in steps, and greys, at one depth.
+// One frame that holds every colour with channels in steps, and greys, at one depth.
 Image allColours(CameraInfo& camera) {
     camera = pinholeCamera(512, 128);
     Image image = drawnImage(camera, [](int, int) { return 1.0; });
@@ -270,7 +270,7 @@ TEST_CASE("A box takes the points that lie exactly on its faces") {
     }
 }
 
-TEST_CASE("Pictures without a depth, with all pixels selected and with none selected run through") {
+TEST_CASE("Frames without a depth, with all pixels selected and with none selected run through") {
     const CameraInfo camera = pinholeCamera(100, 50);
     Scene scene = classesScene(2);
     scene.fixtures[0] = forbiddenClass("all", 0.03);

@@ -154,8 +154,7 @@ TEST_CASE("A pixel that flickers is covered in every frame and never twice") {
     }
 }
 
-TEST_CASE(
-    "A held point stays where it is in the base frame while the camera moves, also out of the picture") {
+TEST_CASE("A held point stays where it is in the base frame while the camera moves, also out of the frame") {
     Scene scene = holdScene(0.2);
     scene.baseTcamera = {{1000.0, -2000.0, 5.0}, rotationExp({0.3, -0.2, 0.1})};
     CloudRig rig(scene, kCamera);

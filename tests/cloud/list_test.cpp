@@ -108,7 +108,7 @@ Scene bandScene(bool guidance, double hold) {
     return scene;
 }
 
-// Rows that have no depth in one picture are held in the next.
+// Rows that have no depth in one frame are held in the next.
 void runBands(const CloudRig::Change& change, const CameraInfo& camera, bool guidance, double hold) {
     CloudRig rig(bandScene(guidance, hold), camera, change);
     List live;

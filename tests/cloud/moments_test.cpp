@@ -29,7 +29,7 @@ double covarianceError(const cloud::Moments& here, const reference::PointMoments
     return there.trace() > 0.0 ? worst / there.trace() : worst;
 }
 
-// Points of one class in one patch, or in the whole picture (patch < 0).
+// Points of one class in one patch, or in the whole frame (patch < 0).
 std::vector<dvec3> pointsIn(const CloudRig& rig, const std::vector<uint32_t>& masks,
                             const reference::PointImage& points, size_t c, int patch) {
     std::vector<dvec3> out;

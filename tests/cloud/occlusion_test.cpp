@@ -54,7 +54,7 @@ Image plateBeforeWall(const CameraInfo& camera, const Plate& plate) {
         const dvec3 along(camera.depth.ray(u, v), 1.0);
         return plate.inside(dvec3(0.0), along) >= 0.0 ? plate.meet(dvec3(0.0), along).z : kBack;
     });
-    // The colour picture by casting the colour camera's own rays at the two planes.
+    // The colour image by casting the colour camera's own rays at the two planes.
     const Pose depthTcolour = inverse(camera.colourTdepth);
     for (uint32_t v = 0; v < camera.colour.height; ++v) {
         for (uint32_t u = 0; u < camera.colour.width; ++u) {
@@ -229,7 +229,7 @@ TEST_CASE("A class without colour gates takes hidden points too") {
     CHECK(report.counts.classPixels[0] + report.counts.classPixels[1] < report.counts.valid);
 }
 
-TEST_CASE("Two-plane and empty pictures of one pixel run through the occlusion pass") {
+TEST_CASE("Two-plane and empty frames of one pixel run through the occlusion pass") {
     CameraInfo camera = parallaxCamera(1.0, 0.01);
     camera.depth.width = camera.depth.height = 1;
     camera.depth.cx = camera.depth.cy = 0.0;

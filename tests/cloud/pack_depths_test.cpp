@@ -39,7 +39,7 @@ TEST_CASE(
     CHECK(distorted > 100);
 }
 
-TEST_CASE("A picture in flight keeps the radii and the pose that its passes read") {
+TEST_CASE("A frame in flight keeps the radii and the pose that its passes read") {
     const CameraInfo camera = pinholeCamera(50, 34);
     for (const bool pack : {false, true}) {
         CAPTURE(pack);

@@ -49,7 +49,7 @@ TEST_CASE("Held spheres follow the seen ones of their patch, thinned ones are le
                       [](uint32_t source) { return source >= 130 * 70; }));
 }
 
-TEST_CASE("A picture without one point, with few over the corner of four patches, and with every point") {
+TEST_CASE("A frame without one point, with few over the corner of four patches, and with every point") {
     const CameraInfo camera = pinholeCamera(66, 50);
     for (const int points : {0, 16, 66 * 50}) {
         CAPTURE(points);

@@ -32,7 +32,7 @@ bool samePoses(const Fixtures& a, const Fixtures& b) {
     return same;
 }
 
-// Pictures that differ, so that points are held where there is a memory.
+// Frames that differ, so that points are held where there is a memory.
 void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
     CAPTURE(c.name);
     CAPTURE(group);

@@ -33,7 +33,7 @@ TEST_CASE("Two pixels an invocation give the points of one, and a patch that has
     }
 }
 
-TEST_CASE("Two pixels an invocation are for a GPU's large pictures and the 5x5 filter") {
+TEST_CASE("Two pixels an invocation are for a GPU's large frames and the 5x5 filter") {
     Scene scene = edgeScene(0.03);
     scene.filter.radius = 2;
     const auto planOf = [&](uint32_t width, uint32_t height, DeviceKind kind) {

@@ -18,7 +18,7 @@ struct TreeAgreement {
     double centre = 0.0, radius = 0.0;          // [m] largest errors, of radii over 1 m as a share of them
 };
 
-// Bounds of the 4x4 sub-patches of the picture over seen and held spheres; every sphere inside, in float64.
+// Bounds of the 4x4 sub-patches of the frame over seen and held spheres; every sphere inside, in float64.
 std::vector<reference::Bound> checkLeaves(const CloudRig& rig, const std::vector<reference::Bound>& bounds,
                                           TreeAgreement& a) {
     const auto seen = rig.spheres();
@@ -108,7 +108,7 @@ TEST_CASE("Every leaf sphere lies inside its sub-patch, every child inside its p
             " um over ", all.nodes, " nodes");
 }
 
-TEST_CASE("The tree holds for tall, wide and odd pictures with held points in it") {
+TEST_CASE("The tree holds for tall, wide and odd frames with held points in it") {
     for (const std::pair<uint32_t, uint32_t>& size : std::vector<std::pair<uint32_t, uint32_t>>{
              {16u, 16u}, {17u, 16u}, {64u, 64u}, {65u, 64u}, {300u, 5u}, {5u, 300u}, {257u, 129u}}) {
         CAPTURE(size.first);

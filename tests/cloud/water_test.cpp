@@ -86,7 +86,7 @@ TEST_CASE("With water the pass marks what its float64 twin marks, but for bytes 
     }
 }
 
-TEST_CASE("Without attenuation, or with one of zero, colours are those of the picture") {
+TEST_CASE("Without attenuation, or with one of zero, colours are those of the frame") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = classesScene(5);
     CloudRig plain(scene, camera);

@@ -54,7 +54,7 @@ Scene gates() {
     return scene;
 }
 
-// Class bits of one picture whose colours are those words.
+// Class bits of one frame whose colours are those words.
 std::vector<uint32_t> masksOf(const Scene& scene, const CameraInfo& camera, const Frame::Content& content,
                               const CloudRig::Change& change = {}) {
     CloudRig rig(scene, camera, change);
@@ -136,7 +136,7 @@ TEST_CASE("Any word of YUYV falls in the classes of what the host unpacks it to,
     checkSame(gates(), pinholeCamera(322, 241)); // two
 }
 
-TEST_CASE("Colours that are looked up in another camera's YUYV are those of the same picture unpacked") {
+TEST_CASE("Colours that are looked up in another camera's YUYV are those of the same frame unpacked") {
     checkSame(gates(), beside(pinholeCamera(160, 120)));
 }
 

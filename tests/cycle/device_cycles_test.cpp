@@ -57,7 +57,7 @@ struct TwinRig {
 
 } // namespace
 
-TEST_CASE("A device that is made anew goes on with the origin and the generations, and equal pictures give "
+TEST_CASE("A device that is made anew goes on with the origin and the generations, and equal frames give "
           "equal sets") {
     TwinRig rig(Scene::Contact::Where::Cpu), undisturbed(Scene::Contact::Where::Cpu);
     for (uint32_t i = 0; i < kFrames; ++i) {
@@ -80,12 +80,12 @@ TEST_CASE("A device that is made anew goes on with the origin and the generation
     CHECK(rig.cycles.renewals() == 2);
 }
 
-TEST_CASE("Until the first picture on the new device the CPU answers over the last set, and query numbers "
+TEST_CASE("Until the first frame on the new device the CPU answers over the last set, and query numbers "
           "only grow") {
     for (const auto where : {Scene::Contact::Where::Cpu, Scene::Contact::Where::Gpu}) {
         TwinRig rig(where);
         ContactSet before, between, after;
-        CHECK_FALSE(rig.cycles.answer({}, before)); // no picture yet
+        CHECK_FALSE(rig.cycles.answer({}, before)); // no frame yet
         rig.next();
         const ToolState place = rig.place();
         REQUIRE(rig.cycles.answer(place, before));

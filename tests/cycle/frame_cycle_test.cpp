@@ -207,7 +207,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Generations count published sets, a leased set stays whole, an unchanged picture costs no work") {
+TEST_CASE("Generations count published sets, a leased set stays whole, an unchanged frame costs no work") {
     const CameraInfo camera = pinholeCamera(90, 60);
     CloudRig rig(fullScene(), camera);
     FrameCycle& cycle = rig.cycle();
@@ -229,7 +229,7 @@ TEST_CASE("Generations count published sets, a leased set stays whole, an unchan
     CHECK(cycle.process(frameOf(second, 6, 1.0)).unchanged == false);
 }
 
-TEST_CASE("A picture smaller than the camera said is refused, and the next good one works") {
+TEST_CASE("A frame smaller than the camera said is refused, and the next good one works") {
     const CameraInfo camera = pinholeCamera(64, 48);
     CloudRig rig(fullScene(), camera);
     Image small = stressImage(camera, 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One class stays where it was while the others follow the picture.
+// One class stays where it was while the others follow the frame.
 #include "engine/types/error.h"
 #include "tests/support/cloud_rig.h"
 
@@ -45,7 +45,7 @@ std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
 } // namespace
 
 TEST_CASE(
-    "A frozen class keeps its spheres while another follows the picture, and follows it again when let go") {
+    "A frozen class keeps its spheres while another follows the frame, and follows it again when let go") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = redAndBlue();
     CloudRig rig(scene, camera);

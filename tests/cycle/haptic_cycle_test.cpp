@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic turn rule by rule: start, contact, forces off, dead-man, clutch, trapped, old scene, numbers
+// The haptic tick rule by rule: start, contact, forces off, dead-man, clutch, trapped, old scene, numbers
 // that are not.
 #include "tests/cycle/haptic_rig.h"
 
@@ -210,7 +210,7 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, says so
     record = rig.ticks(260);
     CHECK(forceOf(record) <= 1e-12);
     CHECK(record.state == StepState::Fading);
-    rig.captured = rig.time; // the same picture again: only a new capture time
+    rig.captured = rig.time; // the same frame again: only a new capture time
     record = rig.step();
     CHECK(record.state == StepState::Contact);
     rig.age = false;
@@ -228,7 +228,7 @@ TEST_CASE("A source that has ended does not age in lockstep, and a set that is n
     auto record = rig.ticks(3000);
     CHECK(record.state == StepState::Contact);
     CHECK(record.sceneAge == doctest::Approx(0.030));
-    // The set in force stays at frame 1 while frame 2 is already there, captured later.
+    // The active set stays at frame 1 while frame 2 is already there, captured later.
     rig.sourceEnded = false;
     rig.query = false;
     Fixtures next = wallSet(2);
@@ -244,7 +244,7 @@ TEST_CASE("A source that has ended does not age in lockstep, and a set that is n
 }
 
 TEST_CASE(
-    "A sample that is not finite gives a zero wrench in that turn, is counted, and does no lasting harm") {
+    "A sample that is not finite gives a zero wrench in that tick, is counted, and does no lasting harm") {
     auto rig = pressedRig();
     const double full = forceOf(rig.step());
     const Pose good = rig.hand;

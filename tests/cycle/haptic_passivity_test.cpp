@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passivity controller and the watch over the stiffness inside the haptic turn.
+// The passivity controller and the watch over the stiffness inside the haptic tick.
 #include "tests/cycle/haptic_rig.h"
 
 #include <doctest/doctest.h>
@@ -64,7 +64,7 @@ TEST_CASE("A wall that jumps is counted, and the hand is damped while it moves a
     for (HapticRig* r : {&rig, &off}) {
         r->show(raisedWall());
         r->age = false;
-        r->ticks(3); // 1 mm a turn, skin included
+        r->ticks(3); // 1 mm per tick, skin included
     }
     const double p = force / 1000.0;
     CHECK(rig.cycle->passivity().generated() == doctest::Approx(1000.0 * (p * 0.002 + 2e-6)).epsilon(0.01));

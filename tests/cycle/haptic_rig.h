@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic cycle run in lockstep by hand: one contact answer before each turn, a clock, a hand that the
+// The haptic cycle run in lockstep by hand: one contact answer before each tick, a clock, a hand that the
 // test moves.
 #pragma once
 
@@ -98,7 +98,7 @@ public:
     Pose hand;
     double time = 0.0, captured = 0.0;
     double measured = 0.0; // [s] from turn to turn; 0 = the nominal period, as in lockstep
-    bool age = true;       // false: every turn is a fresh capture
+    bool age = true;       // false: every tick is a fresh capture
     bool query = true;
     uint32_t buttons = 0;
     bool forcesOff = false, sourceEnded = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic turn: guidance in both modes, projection, hand map, damping, options, repeatability, no
+// The haptic tick: guidance in both modes, projection, hand map, damping, options, repeatability, no
 // allocation.
 #include "tests/cycle/haptic_rig.h"
 
@@ -152,7 +152,7 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
 
 TEST_CASE("Turns that come late put no fading off, and make no force come back sooner") {
     Scene scene = handScene();
-    scene.haptics.stiffness = 1000.0; // given: not lowered for the late turns
+    scene.haptics.stiffness = 1000.0; // given: not lowered for the late ticks
     HapticRig rig(scene, at(0.0, 0.0, 0.03));
     rig.show(wallSet());
     rig.age = false;

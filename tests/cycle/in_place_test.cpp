@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that the device reads in the camera's memory, and those that it cannot.
+// Frames that the device reads in the camera's memory, and those that it cannot.
 #include "devices/frame_slots.h"
 #include "tests/support/cloud_rig.h"
 
@@ -11,7 +11,7 @@ using namespace fathom::test;
 
 namespace {
 
-// A camera's memory with a picture in it.
+// A camera's memory with a frame in it.
 class Blocks {
 public:
     Blocks(const CameraInfo& camera, uint32_t count)
@@ -53,8 +53,7 @@ struct Slots {
 
 } // namespace
 
-TEST_CASE(
-    "Pictures read in place give the sets that copied ones give, also when the camera was opened anew") {
+TEST_CASE("Frames read in place give the sets that copied ones give, also when the camera was opened anew") {
     for (const glm::uvec2 size : {glm::uvec2(123, 77), glm::uvec2(160, 90), glm::uvec2(1, 1)}) {
         CAPTURE(size.y);
         const CameraInfo camera = pinholeCamera(size.x, size.y);
@@ -80,7 +79,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A picture in whole pages is not copied: what the camera writes until the passes run is what they read") {
+    "A frame in whole pages is not copied: what the camera writes until the passes run is what they read") {
     const CameraInfo camera = pinholeCamera(90, 60);
     Scene scene = classesScene(3);
     scene.holdSeconds = 0.0;
@@ -117,7 +116,7 @@ TEST_CASE(
     CHECK(rig.choose(blocks, 3).slot == 2);
 }
 
-TEST_CASE("Pictures elsewhere than in whole pages are copied, by turns and never over the one in flight") {
+TEST_CASE("Frames elsewhere than in whole pages are copied, by turns and never over the one in flight") {
     Slots rig;
     const Image& image = rig.image;
     Frame::Content content;
@@ -130,7 +129,7 @@ TEST_CASE("Pictures elsewhere than in whole pages are copied, by turns and never
     CHECK(copy(1) == 0);
     CHECK(copy(1) == 0);
     CHECK(copy(7) == 1);
-    // A block that is another picture's counts for nothing.
+    // A block that is another frame's counts for nothing.
     Blocks blocks(rig.camera, 1);
     const Frame other = blocks.next(image);
     content.depthMemory = other->depthMemory, content.colourMemory = other->colourMemory;
@@ -209,7 +208,7 @@ TEST_CASE("Where the device cannot import depth it is copied, and colour is read
     const auto choose = [&] {
         const Frame frame = blocks.next(rig.image);
         Frame::Content content = *frame;
-        // A picture in the middle of a page, as no device takes it.
+        // A frame in the middle of a page, as no device takes it.
         content.depth = content.depth.subspan(8);
         content.depthMemory = {content.depthMemory, content.depth.data()};
         return rig.slots.choose(Frame(content, nullptr), {});

@@ -134,7 +134,7 @@ std::string info(double fx) {
     return out.bytes + std::string(21 * 8 + 25, '\0');
 }
 
-// Three depth pictures 100 ms apart and two colour pictures, 3 x 2 pixels, rows with padding.
+// Three depth images 100 ms apart and two colour images, 3 x 2 pixels, rows with padding.
 BagMaker smallBag(double colourFx = 4.0) {
     BagMaker maker;
     maker.add("/cam/depth/camera_info", "sensor_msgs/CameraInfo", 1.0, info(4.0));
@@ -204,7 +204,7 @@ TEST_CASE("A bag that is not closed, truncated, damaged or without depth is reje
     BagMaker none;
     none.add("/ta\nlk", "std_msgs/String\n", 1.0, "hello");
     CHECK(refused(none.bag("none")).find("no images") != std::string::npos);
-    for (size_t keep = 0; keep < whole.size(); keep += 97) { // never a crash, never a picture from nowhere
+    for (size_t keep = 0; keep < whole.size(); keep += 97) { // never a crash, never a frame from nowhere
         CHECK_FALSE(refused(whole.substr(0, keep)).empty());
     }
 }
@@ -266,5 +266,5 @@ TEST_CASE("A real RealSense bag gives the frames, lenses and extrinsics that wer
     REQUIRE((*one)->colour.size() == (*other)->colour.size());
     CHECK(std::equal((*one)->colour.begin(), (*one)->colour.end(), (*other)->colour.begin()));
     CHECK_FALSE(bag.next());
-    CHECK(bag.skipped() == 1); // its second depth picture is 113 ms from the one colour picture
+    CHECK(bag.skipped() == 1); // its second depth image is 113 ms from the one colour image
 }

@@ -77,7 +77,7 @@ TEST_CASE("An engine that is silent for 10 ms leaves zero force at the service")
     HaplyService service;
     Loop loop(service.port());
     CHECK(loop.until([&](const HandSample&) { return service.force()[2] == 2.0; }));
-    CHECK(eventually([&] { return service.force()[2] == 0.0; })); // no turn meanwhile
+    CHECK(eventually([&] { return service.force()[2] == 0.0; })); // no tick meanwhile
     CHECK(loop.until([&](const HandSample&) { return service.force()[2] == 2.0; }));
 }
 

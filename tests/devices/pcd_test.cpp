@@ -141,7 +141,7 @@ TEST_CASE("LZF unpacks literals and short, long and overlapping matches, and rej
     CHECK_FALSE(unpackLzf(std::vector<uint8_t>{7 << 5}, small));
 }
 
-TEST_CASE("A real compressed cloud gives the depth picture and lens of its recording") {
+TEST_CASE("A real compressed cloud gives the depth image and lens of its recording") {
     if (!haveRecording("pcl_milk_table")) {
         return;
     }

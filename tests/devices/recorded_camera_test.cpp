@@ -77,7 +77,7 @@ TEST_CASE("A missing, truncated or unreadable image skips only its frame") {
                 truncate(f.path() / name, std::filesystem::file_size(f.path() / name) - gone);
             });
         }
-        checkSkipsFrameOne("text", [&](const auto& f) { f.write(name, "this is no picture"); });
+        checkSkipsFrameOne("text", [&](const auto& f) { f.write(name, "this is no frame"); });
         checkSkipsFrameOne("a folder", [&](const auto& f) {
             std::filesystem::remove(f.path() / name);
             std::filesystem::create_directories(f.path() / name);
@@ -121,7 +121,7 @@ TEST_CASE("Images without any depth are valid frames") {
     CHECK(camera.skipped() == 0);
 }
 
-TEST_CASE("colour is read from grey, palette, alpha and interlaced pictures") {
+TEST_CASE("colour is read from grey, palette, alpha and interlaced frames") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 5);
     const auto file = [&](int i) { return folder.path() / ("rgb/" + std::to_string(i) + ".png"); };
@@ -192,7 +192,7 @@ TEST_CASE("poses are interpolated at the capture time and held outside their spa
     CHECK(pose().position == dvec3(2, 4, 0));
 }
 
-TEST_CASE("without associations the nearest stamps within 20 ms make the pairs, each picture once") {
+TEST_CASE("without associations the nearest stamps within 20 ms make the pairs, each frame once") {
     const TemporaryFolder folder;
     writeSmallRecording(folder, 4);
     std::filesystem::remove(folder.path() / "associations.txt");

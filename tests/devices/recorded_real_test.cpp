@@ -49,7 +49,7 @@ void checkFirstFrame(const Frame::Content& frame, const Facts& facts) {
     CHECK(frame.colour[facts.firstPixel] == facts.firstColour);
 }
 
-// Colour gradient (up to 60 grey values a pixel) where depth edges fall, mean over the edges.
+// Colour gradient (up to 60 grey values per pixel) where depth edges fall, mean over the edges.
 double edgeAgreement(const CameraInfo& camera, const Frame::Content& frame, const Pose& colourTdepth) {
     const long w = camera.depth.width, h = camera.depth.height;
     const auto grey = [&](long u, long v) {
@@ -84,7 +84,7 @@ double edgeAgreement(const CameraInfo& camera, const Frame::Content& frame, cons
 
 } // namespace
 
-TEST_CASE("every real recording is read to its end with the pictures that its files hold") {
+TEST_CASE("every real recording is read to its end with the frames that its files hold") {
     for (const Facts& facts : kFacts) {
         if (!haveRecording(facts.name)) {
             continue;
@@ -147,7 +147,7 @@ TEST_CASE("depth edges of the D435 fall on colour edges by its extrinsics, and n
     RecordedCamera camera(kRecordings / "realsense_bag");
     const std::optional<Frame> frame = camera.next();
     REQUIRE(frame.has_value());
-    CHECK((*frame)->captureTime == 1.5e-06); // the depth stamp nearest to the one colour picture
+    CHECK((*frame)->captureTime == 1.5e-06); // the depth stamp nearest to the one colour image
     const Pose colourTdepth = camera.info().colourTdepth;
     const double as = edgeAgreement(camera.info(), **frame, colourTdepth);
     const double inverted = edgeAgreement(camera.info(), **frame, inverse(colourTdepth));

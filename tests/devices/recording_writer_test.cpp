@@ -205,5 +205,5 @@ TEST_CASE(
     }
     CHECK(count == kMany);
     const double rate = kMany / took.count();
-    MESSAGE(rate << " pictures of 640x480 a second on two threads");
+    MESSAGE(rate << " images of 640x480 a second on two threads");
 }

@@ -69,7 +69,7 @@ TEST_CASE("A frame depends only on its index: a static camera without noise repe
     CHECK(still[0] == still[2]);
 }
 
-TEST_CASE("Without noise and water the depth picture is the exact depth rounded to units of either size") {
+TEST_CASE("Without noise and water the depth image is the exact depth rounded to units of either size") {
     for (const double unit : {0.001, 0.0001}) {
         SimulatedCameraOptions options = small();
         options.noise = options.water = false;
@@ -151,7 +151,7 @@ TEST_CASE("Flying pixels lie between the two surfaces of a silhouette and nowher
     CHECK(flying > 200);
 }
 
-TEST_CASE("Water takes red first, hides what is far, and puts single near specks into the picture") {
+TEST_CASE("Water takes red first, hides what is far, and puts single near specks into the frame") {
     SimulatedCameraOptions options;
     options.frames = 1, options.noise = false;
     const Seen wet = film(options)[0];

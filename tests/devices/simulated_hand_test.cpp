@@ -117,7 +117,7 @@ TEST_CASE(
           doctest::Approx(start).epsilon(0.05)); // the integrator neither feeds nor brakes it
 }
 
-TEST_CASE("Under a constant force a free hand has moved by exactly F t^2 / (2 m) after any number of turns") {
+TEST_CASE("Under a constant force a free hand has moved by exactly F t^2 / (2 m) after any number of ticks") {
     SimulatedHandOptions options;
     options.loop = {0.1, 0.0, 0.0};
     SimulatedHand hand(still(), options);

@@ -59,7 +59,7 @@ TEST_CASE("The true echo of a beam is within three sigma of its reading: always 
     MESSAGE("within three sigma: ", 100.0 * share, " % of the noisy readings");
 }
 
-TEST_CASE("Steel echoes louder than sand and concrete, in a picture of greys") {
+TEST_CASE("Steel echoes louder than sand and concrete, in a frame of greys") {
     SimulatedSonar sonar(sonarScene(), smallSonar());
     const auto frame = sonar.next();
     REQUIRE(frame);
@@ -104,7 +104,7 @@ TEST_CASE("A sonar's frames are numbered, ten per second, finite in number, and 
     CHECK_THROWS_AS(SimulatedSonar(sonarScene(), wide), Error);
 }
 
-TEST_CASE("A recorded sonar is read back with its fan, its beam and every picture; ranges become depths") {
+TEST_CASE("A recorded sonar is read back with its fan, its beam and every frame; ranges become depths") {
     const TemporaryFolder folder;
     SimulatedSonar sonar(sonarScene(), smallSonar());
     std::vector<std::vector<uint16_t>> seen;
@@ -128,7 +128,7 @@ TEST_CASE("A recorded sonar is read back with its fan, its beam and every pictur
         REQUIRE(frame);
         CHECK(std::equal(depth.begin(), depth.end(), (*frame)->depth.begin(), (*frame)->depth.end()));
     }
-    // The same pictures, said to hold ranges.
+    // The same frames, said to hold ranges.
     std::ifstream in(folder.path() / "rec/intrinsics.json");
     std::string text{std::istreambuf_iterator<char>(in), {}};
     text.insert(text.find('{') + 1, "\"depth_is\": \"range\",");

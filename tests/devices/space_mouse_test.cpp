@@ -52,7 +52,7 @@ struct Cap {
         }
         device = -1;
     }
-    // Reads 1000 times a second until `seconds` are over; `held` is reported every 8 ms.
+    // Reads 1000 times per second until `seconds` are over; `held` is reported every 8 ms.
     HandSample run(double seconds, const std::vector<Report>& held = {}) {
         HandSample sample;
         for (int i = 0; i < std::lround(seconds * 1000); ++i) {

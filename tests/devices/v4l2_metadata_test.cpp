@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Metadata of a picture as the kernel hands them over, without a camera.
+// Metadata of a frame as the kernel hands them over, without a camera.
 #include "devices/v4l2/frame_metadata.h"
 
 #include <doctest/doctest.h>

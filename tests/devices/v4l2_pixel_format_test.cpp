@@ -70,7 +70,7 @@ TEST_CASE("No depth is read from a colour format, and no colour from a depth for
 }
 
 TEST_CASE("YUYV and UYVY give black, white and the primaries of BT.601, odd widths too") {
-    // Pairs: black and white; then red, whose second half lies outside a picture three pixels wide.
+    // Pairs: black and white; then red, whose second half lies outside a frame three pixels wide.
     const auto yuyv = bytesOf({16, 128, 235, 128, 81, 90, 0, 240});
     std::vector<uint32_t> out(3);
     REQUIRE(unpackColour(fourccOf("YUYV"), {3, 1}, 8, yuyv, out).empty());

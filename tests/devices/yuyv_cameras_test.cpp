@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras that send YUYV, and what is made of their pictures.
+// Cameras that send YUYV, and what is made of their frames.
 #include "devices/recorded/recorded_camera.h"
 #include "devices/recorded/recording_writer.h"
 #include "devices/simulated/analytic_scene.h"

@@ -140,7 +140,7 @@ TEST_CASE("A step allocates nothing and leaves the caller's floating-point mode 
     CHECK(during == 0);
     CHECK(kept);
     const uint64_t before = threadAllocationCount();
-    CHECK(!std::string(100, 'x').empty()); // longer than what a string holds in place
+    CHECK(!std::string(100, 'x').empty());        // longer than what a string holds in place
     CHECK(threadAllocationCount() == before + 1); // the count counts
 }
 

@@ -31,7 +31,7 @@ int exitCodeOf(pid_t engine) { // -1 = a signal ended it
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Until an observer at the door has been told of a turn that pushes the hand with this much [N].
+// Until an observer at the door has been told of a tick that pushes the hand with this much [N].
 bool awaitForce(const std::filesystem::path& path, double force) {
     DeviceSocket endpoint;
     union {
@@ -75,7 +75,7 @@ double largestStep(const std::vector<Tick>& ticks) {
     return largest;
 }
 
-// When the longest time begins and ends that turns are off, by the run's clock [s].
+// When the longest time begins and ends that ticks are off, by the run's clock [s].
 std::pair<double, double> longestOff(const std::vector<Tick>& ticks) {
     std::pair<double, double> longest{0.0, 0.0};
     std::optional<double> off;
@@ -99,7 +99,7 @@ std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) 
 } // namespace
 
 TEST_CASE(
-    "Numbers that are none in a realtime run leave the turns before them as a file, and force comes back") {
+    "Numbers that are none in a realtime run leave the ticks before them as a file, and force comes back") {
     Stage stage;
     setUpPressing(stage, 2, 2.0);
     const double beyond = 1e308; // a number, but not its square
@@ -122,7 +122,7 @@ TEST_CASE(
     }
     REQUIRE(names.size() == 1);
     CHECK(run.err.find("at 0.9") != std::string::npos);
-    CHECK(run.err.find("the turns before it are in " + (stage / "out" / names[0]).string()) !=
+    CHECK(run.err.find("the ticks before it are in " + (stage / "out" / names[0]).string()) !=
           std::string::npos);
     const std::vector<Tick> before = readTicks(stage / "out" / names[0]);
     REQUIRE(before.size() > 50);
@@ -172,7 +172,7 @@ TEST_CASE("A device that is unplugged while it presses leaves no force and the t
     double moved = 0.0, strongest = 0.0;
     for (const Tick& tick : replay.ticks) {
         if (tick.t < off && tick.state != "fading") {
-            before = tick; // to the last turn that pushed with all its force
+            before = tick; // to the last tick that pushed with all its force
         }
         if (tick.t < off || tick.t > on) {
             continue;
@@ -264,7 +264,7 @@ TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts t
     CHECK(missed >= 1100);
     // A turn a period, or told of: from the first turn to the last.
     CHECK(static_cast<double>(ticks.size()) + missed >= 0.99 * ticks.back().t * 1000.0);
-    // A machine may let the camera come first, and then no turn sees an old scene.
+    // A machine may let the camera come first, and then no tick sees an old scene.
     CHECK((said.find("ms old: forces fade") != std::string::npos) == stale);
     CHECK(glm::length(replay.at(resumed + 1.0).force) > 5.0); // it is back
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that come faster or slower than 30 a second.
+// Frames that come faster or slower than 30 a second.
 #include "tests/rig/refusal.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ void prepare(const Stage& stage) {
     }
     stage.recording(images);
     stage.scene({});
-    stage.hand({{0.0, {0.0, 0.0, 0.2}}, {0.1, {0.0, 0.0, 0.2}}}); // shorter than the pictures last
+    stage.hand({{0.0, {0.0, 0.0, 0.2}}, {0.1, {0.0, 0.0, 0.2}}}); // shorter than the frames last
 }
 
 } // namespace
 
-TEST_CASE("Pictures come as many a second as are asked for, each no earlier than it is due") {
+TEST_CASE("Frames come as many a second as are asked for, each no earlier than it is due") {
     for (const double rate : {90.0, 15.0}) {
         CAPTURE(rate);
         Stage stage;
@@ -45,7 +45,7 @@ TEST_CASE("Pictures come as many a second as are asked for, each no earlier than
     }
 }
 
-TEST_CASE("A rate of pictures without a clock, or none that a camera has, is refused in one line") {
+TEST_CASE("A rate of frames without a clock, or none that a camera has, is refused in one line") {
     Stage stage;
     prepare(stage);
     checkRefused(stage, {"together with --realtime"}, {"--picture-rate", "90"});

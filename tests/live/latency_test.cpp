@@ -12,7 +12,7 @@ using namespace fathom;
 
 namespace {
 
-// latency on four pictures over and over, with `more` options.
+// latency on four frames over and over, with `more` options.
 std::vector<std::string> latencyCommand(const Stage& stage, const std::vector<std::string>& more) {
     stage.recording(std::vector<Image>(4, bumpImage()));
     stage.scene({});
@@ -32,7 +32,7 @@ nlohmann::json onlyPart(const Stage& stage) {
 
 } // namespace
 
-TEST_CASE("latency measures with and without frames, and tells of every turn") {
+TEST_CASE("latency measures with and without frames, and tells of every tick") {
     const Stage stage;
     const ProgramRun run =
         runFathom(latencyCommand(stage, {"--seconds", "0.7", "--load", "idle", "--load", "frames"}));
@@ -63,7 +63,7 @@ TEST_CASE("latency measures beside a window, which is drawn without a display wh
     REQUIRE(run.exitCode == 0);
     const auto part = onlyPart(stage);
     CHECK(part.at("load") == "window");
-    CHECK(part.at("seconds").get<double>() >= 0.7); // however late the turns were
+    CHECK(part.at("seconds").get<double>() >= 0.7); // however late the ticks were
     const auto ticks = part.at("turn").at("count").get<uint64_t>();
     CHECK(ticks > 5);
     CHECK(part.at("woken_late").at("count") == ticks);

@@ -125,7 +125,7 @@ TEST_CASE(
     for (const Tick& tick : replay.ticks) {
         moved = std::max(moved, glm::distance(tick.device.position, replay.ticks.front().device.position));
     }
-    CHECK(moved > 0.005); // the example's handle goes 15 mm a second
+    CHECK(moved > 0.005); // the example's handle goes 15 mm per second
     CHECK(moved < 0.05);  // from where the scene's path begins, without a leap
 
     CHECK(observer.states > 50);

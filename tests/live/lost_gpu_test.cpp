@@ -14,7 +14,7 @@ using namespace fathom;
 
 namespace {
 
-// 4 s of pictures and of a hand that presses into the bump all the time.
+// 4 s of frames and of a hand that presses into the bump all the time.
 void setPressing(const Stage& stage, const std::string& where = "cpu") {
     stage.recording(std::vector<Image>(120, bumpImage()));
     SceneText scene;
@@ -29,7 +29,7 @@ double deepest(const Replay& replay) {
 
 } // namespace
 
-TEST_CASE("A GPU that is lost or out of memory is opened again while the hand goes on, and pictures follow") {
+TEST_CASE("A GPU that is lost or out of memory is opened again while the hand goes on, and frames follow") {
     for (const bool lost : {true, false}) {
         CAPTURE(lost);
         Stage stage;
@@ -51,8 +51,7 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand go
     }
 }
 
-TEST_CASE(
-    "A GPU that is lost when a picture's regions are out already leaves no turn with regions untold of") {
+TEST_CASE("A GPU that is lost when a frame's regions are out already leaves no tick with regions untold of") {
     Stage stage;
     setPressing(stage);
     const Losing losing(30, "lost", 0, "TIMES");

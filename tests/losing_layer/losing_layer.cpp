@@ -193,7 +193,7 @@ VKAPI_ATTR VkResult VKAPI_CALL times(VkDevice handle, VkQueryPool pool, uint32_t
 
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     PFN_vkQueuePresentKHR pass = nullptr;
-    VkResult after = VK_SUCCESS; // whatever becomes of the picture, its semaphores have been waited for
+    VkResult after = VK_SUCCESS; // whatever becomes of the frame, its semaphores have been waited for
     {
         const std::lock_guard lock(mutex);
         if (loses(devices[keyOf(queue)], "presenting")) {

@@ -107,7 +107,7 @@ TEST_CASE("Every filter keeps the step, smooths the noise and marks no pixel as 
     }
 }
 
-TEST_CASE("A filter leaves a constant picture alone") {
+TEST_CASE("A filter leaves a constant frame alone") {
     const Intrinsics lens = lensOf(17, 9);
     const std::vector<float> z(lens.pixels(), 0.75f);
     for (const auto& way : filterWays(2, 2.0, 0.01)) {

@@ -35,7 +35,7 @@ TEST_CASE(
         CHECK(rig.bench.differsFromTwins(wrong, 1).rfind("point of pixel ", 0) == 0);
     }
     size_t found = 0;
-    for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel a patch; 5 patches asked for, 4 corners besides
+    for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel per patch; 5 patches asked for, 4 corners besides
         SampleFrame wrong = image;
         const size_t u = std::min(p % 13 * 16 + 8, 200u), v = std::min(p / 13 * 16 + 2, 115u);
         wrong.depth[v * 203 + u] = static_cast<uint16_t>(wrong.depth[v * 203 + u] + 40);
@@ -135,7 +135,7 @@ TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidan
     CHECK(bench.guidanceDiffers() == "guidance of 'yellow'");
 }
 
-TEST_CASE("A picture that is not new costs nothing of the device and publishes nothing") {
+TEST_CASE("A frame that is not new costs nothing of the device and publishes nothing") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = wallFrame(160, 120, 0.5);

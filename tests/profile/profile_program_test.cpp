@@ -39,17 +39,17 @@ TEST_CASE("A quick profile takes less than two minutes by its own figure") {
 
 TEST_CASE("A study that measures no recording says so when one is given, and one that does names it") {
     Settings settings;
-    CHECK(profile::servedBy("query", settings) == "pictures made for it");
+    CHECK(profile::servedBy("query", settings) == "frames made for it");
     settings.source = "data/valve_ball_d435/";
     CHECK(profile::servedBy("filter", settings) == "the recording valve_ball_d435");
     CHECK(profile::servedBy("query", settings) ==
-          "pictures made for it; this study has no use for --source valve_ball_d435");
+          "frames made for it; this study has no use for --source valve_ball_d435");
     for (const auto& entry : profile::allStudies()) {
-        CHECK(quickRun().study(entry.name)["served"] == "pictures made for it");
+        CHECK(quickRun().study(entry.name)["served"] == "frames made for it");
     }
 }
 
-TEST_CASE("Every study leaves a table and a picture of its name, and the report embeds the pictures") {
+TEST_CASE("Every study leaves a table and a frame of its name, and the report embeds the frames") {
     const auto out = quickRun().folder.path() / "out";
     const std::string html = textOf(out / "report.html");
     for (const auto& entry : profile::allStudies()) {

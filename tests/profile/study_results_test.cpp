@@ -109,7 +109,7 @@ TEST_CASE("Error budgets are ranked by the time from upload to published, which 
     CHECK(front >= 2);
 }
 
-TEST_CASE("The spheres and the query of a budget are of the first picture, whichever was measured last") {
+TEST_CASE("The spheres and the query of a budget are of the first frame, whichever was measured last") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device(instance, "llvmpipe");
     profile::Settings settings;
@@ -147,7 +147,7 @@ TEST_CASE("Turns and queries have a wall time and a CPU time of their own, neith
     }
 }
 
-TEST_CASE("Larger pictures cost more of every fitted step, and the exponents are said") {
+TEST_CASE("Larger frames cost more of every fitted step, and the exponents are said") {
     size_t fitted = 0;
     for (const std::string finding : quickRun().study("scaling")["findings"]) {
         fitted += finding.find(" grows as x^") != std::string::npos ? 1 : 0;
@@ -227,7 +227,7 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
         REQUIRE(of.size() == 2);
         CHECK(of.rbegin()->second["error"].get<double>() < 0.5 * of.begin()->second["error"].get<double>());
         CHECK(of.rbegin()->second["protrusion_mm"].get<double>() > 1.0);
-        CHECK(of.rbegin()->second["share_in_contact"].get<double>() >= 0.9); // else the turn is of free space
+        CHECK(of.rbegin()->second["share_in_contact"].get<double>() >= 0.9); // else the tick is of free space
     }
     CHECK(rows.at("covers that fathom spheres makes").rbegin()->second["error"].get<double>() <
           0.5 * rows.at("covering spheres").rbegin()->second["error"].get<double>());

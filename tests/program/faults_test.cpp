@@ -56,7 +56,7 @@ void replaceText(const Stage& stage, const std::string& from, const std::string&
 
 } // namespace
 
-TEST_CASE("a truncated, missing or wrong picture in a good recording skips its frame alone and is named") {
+TEST_CASE("a truncated, missing or wrong frame in a good recording skips its frame alone and is named") {
     withFour(
         [](const Stage& s) {
             const std::string whole = s.read("rec/depth/000001.png");
@@ -152,7 +152,7 @@ TEST_CASE(
     CHECK(replay.at(0.16).tool.position.z == doctest::Approx(0.56));
 }
 
-TEST_CASE("pictures of odd sizes run, from one pixel on") {
+TEST_CASE("frames of odd sizes run, from one pixel on") {
     for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{17u, 1u}, std::pair{7u, 5u},
                                         std::pair{33u, 17u}, std::pair{257u, 3u}}) {
         const uint32_t across = width; // clang 14 cannot capture a binding
@@ -178,7 +178,7 @@ TEST_CASE("colour of another size with extrinsics is looked up through the regis
  "extrinsics_topic_tf": {"Depth": {"t": [0, 0, 0], "q_xyzw": [0, 0, 0, 1]}, "Color": {"t": [0.015, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})");
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.1, {0.0, 0.0, 0.56}}});
     const Replay replay = stage.replay();
-    // 15 mm to the right at 600 mm: 3 columns of colour pixels, one and a half of depth, leave the picture.
+    // 15 mm to the right at 600 mm: 3 columns of colour pixels, one and a half of depth, leave the frame.
     CHECK(replay.frames.at(0).valid == kWidth * kHeight);
     CHECK(replay.frames.at(0).forbidden >= 62 * kHeight);
     CHECK(replay.frames.at(0).forbidden <= 63 * kHeight);

@@ -52,7 +52,7 @@ std::string textOf(const std::filesystem::path& file) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// A stage with two pictures.
+// A stage with two frames.
 struct Short : Stage {
     Short() {
         recording({bumpImage(), bumpImage()});

@@ -11,7 +11,7 @@ using namespace fathom;
 
 namespace {
 
-// count pictures, each different from the one before.
+// count frames, each different from the one before.
 std::vector<Image> lockstepFrames(uint32_t count) {
     std::vector<Image> all;
     for (uint32_t i = 0; i < count; ++i) {
@@ -130,8 +130,8 @@ TEST_CASE("a hand path of a file counts from the run's start, also when the firs
           "is seen yet") {
     Stage stage;
     stage.recording(lockstepFrames(4));
-    stage.write("rec/depth/000000.png", "no picture");
-    stage.write("rec/depth/000001.png", "no picture");
+    stage.write("rec/depth/000000.png", "no frame");
+    stage.write("rec/depth/000001.png", "no frame");
     stage.hand({{0.0, {0.0, 0.0, 0.40}}, {0.1, {0.0, 0.0, 0.41}}});
     const ProgramRun run = runFathom(stage.command());
     REQUIRE(run.exitCode == 0);
@@ -154,7 +154,7 @@ TEST_CASE("the built-in path waits for the first set") {
     Stage stage;
     stage.recording(lockstepFrames(3));
     const Replay whole = stage.replay({}, {}, "a");
-    stage.write("rec/depth/000000.png", "no picture");
+    stage.write("rec/depth/000000.png", "no frame");
     const ProgramRun run = runFathom(stage.command({}, "b"));
     REQUIRE(run.exitCode == 0);
     const Replay late = readReplay(stage / "b", run);

@@ -45,7 +45,7 @@ TEST_CASE("The intrinsics that a scene names for a live camera are told of, too,
     }
 }
 
-TEST_CASE("Pictures behind links that lead out of a recording's folder are used and told of in one line") {
+TEST_CASE("Frames behind links that lead out of a recording's folder are used and told of in one line") {
     namespace fs = std::filesystem;
     Stage stage;
     stage.scene(SceneText{});

@@ -31,7 +31,7 @@ Depths recompute(const Replay& replay, const std::vector<Leaf>& leaves) {
     std::vector<SavedSphere> set;
     std::vector<double> allowance;
     int frame = -1;
-    Pose start = replay.ticks.front().tool; // the first turn ends where it starts: the tool is in the free
+    Pose start = replay.ticks.front().tool; // the first tick ends where it starts: the tool is in the free
     for (const Tick& tick : replay.ticks) {
         if (tick.frame >= 0 && tick.frame != frame) {
             frame = tick.frame;
@@ -67,7 +67,7 @@ constexpr const char* kGripperText =
 
 } // namespace
 
-TEST_CASE("a tool pushed, dragged and turned over a bump never enters a sphere of the set in force") {
+TEST_CASE("a tool pushed, dragged and turned over a bump never enters a sphere of the active set") {
     Stage stage;
     std::vector<Image> images;
     for (uint32_t i = 0; i < 12; ++i) {
@@ -111,7 +111,7 @@ TEST_CASE("a region that appears over the tool lets it out: never deeper than it
     checkPromise(replay, kGripper, depths);
     CHECK(depths.touched > 50);
     CHECK(depths.inside > 0.015);
-    CHECK(replay.haptic().at("escape_ticks").get<int>() >= 20); // 20 mm at 1 mm a turn
+    CHECK(replay.haptic().at("escape_ticks").get<int>() >= 20); // 20 mm at 1 mm per tick
     for (size_t i = 1; i < replay.ticks.size(); ++i) {
         const Tick &before = replay.ticks[i - 1], &now = replay.ticks[i];
         CAPTURE(now.t);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The recordings beside the repository through the whole program: the promise holds, and classify marks
-// exactly the pixels that a plain count of the pictures finds, which are those (to 2 %) that were measured
+// exactly the pixels that a plain count of the frames finds, which are those (to 2 %) that were measured
 // when the data was collected.
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"

@@ -10,7 +10,7 @@
 
 using namespace fathom;
 
-TEST_CASE("A recording that is ended by SIGINT is whole: each picture that its index names is replayed") {
+TEST_CASE("A recording that is ended by SIGINT is whole: each frame that its index names is replayed") {
     const Stage stage;
     const std::string scene = "apps/scenes/demo.yaml", folder = (stage / "pictures").string();
     const pid_t engine = startFathom({"record", scene, "--out", folder}, stage / "said");

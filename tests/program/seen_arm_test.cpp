@@ -28,8 +28,8 @@ std::string sceneText(const std::string& selfFilter) {
 }
 
 struct Seen {
-    double points = 0.0;      // a picture
-    int images = 0, with = 0; // pictures with any region
+    double points = 0.0;      // a frame
+    int images = 0, with = 0; // frames with any region
     double moved = 0.0;       // [m] of the tip
 };
 

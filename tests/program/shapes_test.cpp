@@ -33,7 +33,7 @@ Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
     CHECK(least > -1e-5);
     CHECK(least < 1e-4); // it did get there
     CHECK(replay.haptic().at("max_force_N").get<double>() > 5.0);
-    // Nothing of the picture is asked for: no pass, no sphere, no query.
+    // Nothing of the frame is asked for: no pass, no sphere, no query.
     CHECK(replay.timeColumns == std::vector<std::string>{"upload_ms", "publish_ms"});
     CHECK(replay.summary.at("contact").at("where") == "none");
     CHECK(replay.frames.at(0).spheres == 0);
@@ -145,6 +145,6 @@ TEST_CASE("a base frame 100 km away gives the same forces but for what float64 p
     }
     MESSAGE("largest difference: ", worst, " N or N m");
     // A position 1e5 m away is rounded to 1.5e-11 m, which a spring of 1000 N/m makes 1.5e-8 N; a turn
-    // corrects what the turns before it left.
+    // corrects what the ticks before it left.
     CHECK(worst < 1e-6);
 }

@@ -9,7 +9,7 @@ using namespace fathom;
 
 namespace {
 
-// The valve's picture, a still hand.
+// The valve's frame, a still hand.
 void prepare(const Stage& stage, const std::string& colour) {
     SceneText scene;
     scene.camera = "source: {simulated: tank, pictures: 3, colour: " + colour + "}, near: 0.1, far: 3.0";
@@ -18,7 +18,7 @@ void prepare(const Stage& stage, const std::string& colour) {
     stage.hand({{0.0, {0.0, 0.0, 0.2}}, {0.1, {0.0, 0.0, 0.2}}});
 }
 
-// Of the picture's own colours: grey would do for the marks alone.
+// Of the frame's own colours: grey would do for the marks alone.
 uint32_t yellowPixels(const std::filesystem::path& overlay) {
     const ReadImage image = readImage(overlay);
     return static_cast<uint32_t>(std::ranges::count_if(image.pixels, [](uint32_t p) {
@@ -50,7 +50,7 @@ TEST_CASE("A camera that sends YUYV gives the fixtures and the overlay of one th
     CHECK(yellowPixels(packed.out / "overlay.png") == doctest::Approx(yellow).epsilon(0.2));
 }
 
-TEST_CASE("Its pictures go through a run by the clock, and their colours into its overlay") {
+TEST_CASE("Its frames go through a run by the clock, and their colours into its overlay") {
     const Stage stage;
     prepare(stage, "yuyv");
     const ProgramRun run = runFathom(stage.command({"--realtime"}));

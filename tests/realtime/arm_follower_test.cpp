@@ -140,7 +140,7 @@ TEST_CASE("An arm that stays far behind is held until the tool is where it is") 
     CHECK(follower.exchange(2.2, setpoint(0.05, 0, 0), 0.0).state == ArmState::Follows);
 }
 
-TEST_CASE("A haptic turn with a real arm behind it wishes what it did, and holds when its "
+TEST_CASE("A haptic tick with a real arm behind it wishes what it did, and holds when its "
           "thread is gone") {
     FakeRun fake(2, pressingPath(1.0));
     ArmRig rig;

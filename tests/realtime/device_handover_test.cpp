@@ -17,7 +17,7 @@ struct FakeDevice {
     int passes = 0, images = 0;
 };
 
-// Both threads as a run has them: passes here, pictures on the window's thread.
+// Both threads as a run has them: passes here, frames on the window's thread.
 struct Shared {
     DeviceHandover handover;
     std::unique_ptr<FakeDevice> device = std::make_unique<FakeDevice>();
@@ -47,7 +47,7 @@ struct Shared {
         windowOver.store(true);
     }
 
-    // Refuses every fifth device, and loses every third picture.
+    // Refuses every fifth device, and loses every third frame.
     void window() {
         FakeDevice* mine = device.get();
         for (int frame = 1, offers = 0; !windowOver.load(); ++frame) {

@@ -18,15 +18,15 @@ namespace {
 
 struct Fade {
     double full = 0.0;    // [N] before
-    double untouched = 0; // [s] after the last picture until the force is less than before
+    double untouched = 0; // [s] after the last frame until the force is less than before
     double gone = -1.0;   // [s] after it until there is none; -1 = there is always some
-    double back = -1.0;   // [s] after a picture has come again until the force is full; -1 = not tried
+    double back = -1.0;   // [s] after a frame has come again until the force is full; -1 = not tried
     double deepest = 0.0; // [m] penetration
     bool told = true;     // the state was `fading` while the scene was too old, and only then
 };
 
 // No force leaps, and none is left under a scene of 0.61 s: where a machine left turns out before that, as
-// little as the slew limit leaves of the turn before. Returns how many turns had such a scene.
+// little as the slew limit leaves of the tick before. Returns how many ticks had such a scene.
 size_t checkFades(const FakeRun& fake) {
     const double step = fake.options.slewForce * fake.options.period;
     size_t old = 0, leaps = 0, forced = 0;
@@ -44,7 +44,7 @@ size_t checkFades(const FakeRun& fake) {
     return old;
 }
 
-// A hand that presses 10 mm into a wall; pictures every 33 ms, then none for `stall` seconds. By the cycle's
+// A hand that presses 10 mm into a wall; frames every 33 ms, then none for `stall` seconds. By the cycle's
 // own clock.
 Fade stallCamera(double stall, bool comesBack) {
     HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
@@ -104,7 +104,7 @@ TEST_CASE("Drill: a camera that stalls for 100 ms changes no force") {
 }
 
 TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 600 ms, and it is back 0.5 s after "
-          "the next picture") {
+          "the next frame") {
     const Fade fade = stallCamera(1.0, true);
     CHECK(fade.untouched >= 0.1);
     CHECK(fade.gone > 0.5); // no step: it fades over half a second
@@ -179,7 +179,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Drill: with every CPU busy no turn penetrates, no force leaps or outlives its scene, periods "
+TEST_CASE("Drill: with every CPU busy no tick penetrates, no force leaps or outlives its scene, periods "
           "without a turn are counted, the end is zero force") {
     std::atomic<bool> done{false};
     std::vector<std::thread> load;
@@ -248,7 +248,7 @@ TEST_CASE(
 
 TEST_CASE(
     "Drill: a GPU that somebody else finds lost is made anew while the camera is gone, and the scene ages "
-    "until a picture comes") {
+    "until a frame comes") {
     FakeRun fake(60, pressingPath(3.0));
     int refusals = 0, renewedAt = -1;
     fake.feed.onRenew = [&] { renewedAt = refusals; };
@@ -262,7 +262,7 @@ TEST_CASE(
     fake.go();
     REQUIRE(fake.run->failure() == nullptr);
     CHECK(fake.feed.renewed == 1);
-    CHECK(renewedAt == 1); // while pictures were asked for in vain
+    CHECK(renewedAt == 1); // while frames were asked for in vain
     CHECK(fake.feed.published == 60);
     double least = 1e9;
     fake.during(0.5, 2.0, [&](const StepRecord& r) { least = std::min(least, forceOf(r)); });

@@ -20,7 +20,7 @@ struct FakeSet {
     RegionGrid grid;
 };
 
-// `frames` pictures of a wall whose top lies at z = 0 and heaves by half a millimetre.
+// `frames` frames of a wall whose top lies at z = 0 and heaves by half a millimetre.
 class FakeFeed final : public FrameFeed {
 public:
     FakeFeed(LeasePool<FakeSet>& pool, uint32_t frames)

@@ -21,7 +21,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Pictures that come without a pause, each `age` after it was taken.
+// Frames that come without a pause, each `age` after it was taken.
 class LiveFeed final : public FrameFeed {
 public:
     explicit LiveFeed(FakeFeed& feed)
@@ -45,7 +45,7 @@ private:
 
 } // namespace
 
-TEST_CASE("A haptic turn allocates nothing, with contact sets, guidance and a trace") {
+TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a trace") {
     FakeRun fake(2, wipingPath(2.0));
     Channels channels(4096);
     RunClock clock;
@@ -114,7 +114,7 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
     CHECK(loop.update().sourceEnded);
 }
 
-TEST_CASE("Pictures of a live source keep the time they were taken at, and the loop paces none of them") {
+TEST_CASE("Frames of a live source keep the time they were taken at, and the loop paces none of them") {
     FakeRun fake(8, pressingPath(1.0));
     LiveFeed live(fake.feed);
     Channels channels(16);
@@ -136,7 +136,7 @@ TEST_CASE("Pictures of a live source keep the time they were taken at, and the l
     CHECK(loop.update().live);
 }
 
-TEST_CASE("A live camera whose stamps go back gives pictures no older than the one before") {
+TEST_CASE("A live camera whose stamps go back gives frames no older than the one before") {
     FakeRun fake(10, pressingPath(1.0));
     LiveFeed live(fake.feed);
     live.age = [](uint32_t index) { return std::chrono::milliseconds(index == 5 ? 3600000 : 1); };
@@ -186,7 +186,7 @@ TEST_CASE(
     CHECK(fake.sink.unknown == 1); // not to be audited
 }
 
-TEST_CASE("Sets that no turn can obey any more go back to the frame cadence") {
+TEST_CASE("Sets that no tick can obey any more go back to the frame cadence") {
     FakeRun fake(400, pressingPath(1.0));
     Channels channels(16);
     RecordDrain drain(channels, fake.sink);
@@ -209,7 +209,7 @@ TEST_CASE("Sets that no turn can obey any more go back to the frame cadence") {
     CHECK(drain.newest()->fixtures.generation == 399);
 }
 
-TEST_CASE("A spooled camera gives the very pictures of its source, once, and leaves no file behind") {
+TEST_CASE("A spooled camera gives the very frames of its source, once, and leaves no file behind") {
     SimulatedCameraOptions options;
     options.width = 70;
     options.height = 50;
@@ -244,7 +244,7 @@ TEST_CASE("A spooled camera gives the very pictures of its source, once, and lea
     CHECK((*kept)->yuyv.size() == 70 * 50 / 2);
     CHECK(std::ranges::equal((*kept)->yuyv, (*sent)->yuyv));
 
-    stop = true; // asked to stop: the first picture is still there
+    stop = true; // asked to stop: the first frame is still there
     SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
                       [](uint64_t) {});
     CHECK(one.next().has_value());

@@ -36,7 +36,7 @@ TEST_CASE("A hand whose numbers are none has no force in those turns, that is sa
             (row.record.t < 0.4 ? before : after) = forceOf(row.record);
         }
         CHECK((ticks > 0) == (broken != Broken::Nothing));
-        CHECK(log.count("the hand's sample is not finite: no force in such turns") ==
+        CHECK(log.count("the hand's sample is not finite: no force in such ticks") ==
               (broken != Broken::Nothing ? 1 : 0));
         CHECK(before > 5.0);
         CHECK(after == doctest::Approx(before).epsilon(0.2)); // the wall heaves

@@ -21,7 +21,7 @@ ArmPosture posture(double value) {
     return p;
 }
 
-// Pictures of a live camera that arrive late: taken at 20, 40, 60 ... ms of the run.
+// Frames of a live camera that arrive late: taken at 20, 40, 60 ... ms of the run.
 struct LateFeed final : FrameFeed {
     explicit LateFeed(const RunClock& runClock)
         : clock(runClock) {}
@@ -40,15 +40,15 @@ struct LateFeed final : FrameFeed {
 
 } // namespace
 
-TEST_CASE("The self-filter is given the posture of the moment a picture was taken, not the newest") {
+TEST_CASE("The self-filter is given the posture of the moment a frame was taken, not the newest") {
     Channels channels(1024);
     RunClock clock;
     LateFeed feed(clock);
     FrameLoop loop(feed, channels, clock, 0.02, nullptr);
     REQUIRE(loop.first());
-    CHECK(feed.shownAt.empty()); // no turn yet
+    CHECK(feed.shownAt.empty()); // no tick yet
     clock.start(0.0);
-    for (int i = 0; i < 200; ++i) { // the arm has gone on long before the pictures arrive
+    for (int i = 0; i < 200; ++i) { // the arm has gone on long before the frames arrive
         channels.postures.add(clock.timeAt(0.002 * i), posture(i));
     }
     std::atomic<bool> stop{false};

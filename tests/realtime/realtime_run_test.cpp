@@ -26,7 +26,7 @@ void sleepFor(double seconds) {
 void checkEnded(const FakeRun& fake) {
     CHECK(fake.hand.last.force == dvec3(0.0));
     CHECK(fake.hand.last.torque == dvec3(0.0));
-    CHECK(fake.hand.writes == fake.sink.rows.size() + 1); // every turn, then zero
+    CHECK(fake.hand.writes == fake.sink.rows.size() + 1); // every tick, then zero
     CHECK(fake.run->recordsLost() == 0);
     CHECK(fake.sink.unknown == 0);
     CHECK(fake.sink.audit.maxPenetration() <= kPenetrationLimit);
@@ -136,7 +136,7 @@ TEST_CASE("A camera that is gone is asked again while the forces fade, and the r
     size_t fading = 0;
     fake.during(0.7, 1.5, [&](const StepRecord& r) { fading += r.state == StepState::Fading ? 1 : 0; });
     CHECK(fading > 50);
-    CHECK(fake.run->framesLost() < 10); // pictures that never were are not lost
+    CHECK(fake.run->framesLost() < 10); // frames that never were are not lost
 }
 
 TEST_CASE("When the source has ended, its last frame stays in force and does not age") {

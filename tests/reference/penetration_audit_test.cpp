@@ -55,7 +55,7 @@ Pose at(double x, double y = 0.0, double z = 0.0) {
     return {{x, y, z}, {1, 0, 0, 0}};
 }
 
-// The definition, taken literally: every leaf against every sphere, every turn.
+// The definition, taken literally: every leaf against every sphere, every tick.
 class BruteForce {
 public:
     explicit BruteForce(const Tool& tool)
@@ -167,7 +167,7 @@ TEST_CASE("a tool that backs out of a region it was caught in uses its allowance
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     PenetrationAudit audit(tool);
-    for (int i = 0; i < 20; ++i) { // from 10 mm deep outwards, 1 mm a turn
+    for (int i = 0; i < 20; ++i) { // from 10 mm deep outwards, 1 mm per tick
         audit.tick(scene.set, scene.grid, at(0.040 + 0.001 * i), at(0.041 + 0.001 * i));
     }
     CHECK(audit.maxPenetration() == 0.0);
@@ -192,7 +192,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the allowance of a new set is the depth at the pose its first turn starts from, not where it ends") {
+    "the allowance of a new set is the depth at the pose its first tick starts from, not where it ends") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene first = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     const Scene second = sceneOf({{{0.005, 0, 0}, 0.04}}, 2); // the region came 5 mm nearer
@@ -277,7 +277,7 @@ TEST_CASE("the audit of 256 leaves over 60 thousand spheres is timed in free wat
             audit.tick(scene.set, scene.grid, at(1e-5 * i, 0, height), at(1e-5 * (i + 1), 0, height));
         }
         const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
-        MESSAGE("audit at ", height, " m above the wall: ", took.count() / kTurns, " us a turn");
+        MESSAGE("audit at ", height, " m above the wall: ", took.count() / kTurns, " us per tick");
         CHECK(audit.maxPenetration() == 0.0);
     }
 }

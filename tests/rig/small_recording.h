@@ -22,7 +22,7 @@ struct PixelBox { // [from, to)
     uint32_t u0, v0, u1, v1;
 };
 
-// One pair of pictures. Depth in millimetres.
+// One pair of frames. Depth in millimetres.
 struct Image {
     uint32_t width, height;
     std::vector<uint16_t> depth;
@@ -44,7 +44,7 @@ inline constexpr uint32_t kWidth = 64, kHeight = 48;
 inline constexpr double kFocal = 60.0, kCx = 31.5, kCy = 23.5;
 std::string lensJson(uint32_t width, uint32_t height);
 
-// Writes pictures as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's
+// Writes frames as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's
 // size.
 void writeRecording(const std::filesystem::path& folder, const std::vector<Image>& images);
 

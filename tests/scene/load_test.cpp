@@ -11,7 +11,7 @@ namespace {
 
 const char* const kEverything = R"(
 camera:
-  source: {recorded: pictures/../valve}
+  source: {recorded: frames/../valve}
   near: 0.2
   far: 2.5
   base_T_camera: {xyz: [1,2,3], quat_xyzw: [0,0,2,0]}

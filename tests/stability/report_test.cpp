@@ -109,7 +109,7 @@ TEST_CASE(
     CHECK(nlohmann::json::parse(toJson({}, "d"))["cases"].empty());
 }
 
-TEST_CASE("The report and the plots appear in the output folder, one picture for each pair of axes") {
+TEST_CASE("The report and the plots appear in the output folder, one frame for each pair of axes") {
     const ScratchFolder folder;
     const auto results = someResults();
     writeReport(folder.path(), results, "device | with a bar");

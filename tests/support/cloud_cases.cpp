@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras, scenes and pictures of the tests of the frame passes.
+// Cameras, scenes and frames of the tests of the frame passes.
 #include "devices/recorded/recorded_camera.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"

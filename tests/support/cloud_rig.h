@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set-up shared by the tests of the frame passes: a rig on the test device, and the pictures, cameras and
+// Set-up shared by the tests of the frame passes: a rig on the test device, and the frames, cameras and
 // scenes that the tests are run on.
 #pragma once
 
@@ -33,7 +33,7 @@ Scene classesScene(uint32_t count);
 FixtureClass forbiddenClass(const std::string& name, double radius);
 FixtureClass guidanceClass(const std::string& name);
 
-// Steps, slopes, speckles, dropouts and a colour picture of bright, dark, grey, black and white pixels.
+// Steps, slopes, speckles, dropouts and a colour image of bright, dark, grey, black and white pixels.
 Image stressImage(const CameraInfo& camera, uint64_t seed);
 // Depth by a function of the pixel [m], 0 = none; colour one and the same.
 Image drawnImage(const CameraInfo& camera, const std::function<double(int, int)>& depth,
@@ -49,7 +49,7 @@ struct Shot {
 };
 Shot simulatedShot(const std::string& scene, SimulatedCameraOptions options, uint32_t frame = 0);
 
-// Scenes, cameras and pictures between them: all sizes, lenses, units and options that the passes must take.
+// Scenes, cameras and frames between them: all sizes, lenses, units and options that the passes must take.
 struct CloudCase {
     std::string name;
     Scene scene;

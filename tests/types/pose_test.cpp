@@ -28,7 +28,7 @@ TEST_CASE("a pose times its inverse is the identity and half-way interpolation h
     CHECK(rotationLog(mid.rotation).z == doctest::Approx(0.5));
 }
 
-TEST_CASE("ray and project invert each other through the freiburg1 lens over the whole picture") {
+TEST_CASE("ray and project invert each other through the freiburg1 lens over the whole frame") {
     const Intrinsics lens{640, 480, 517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     double worst = 0.0;
     for (uint32_t v = 0; v < lens.height; v += 13) {

@@ -42,7 +42,7 @@ void fly(const WindowRig& rig) {
     rig.key("f");
     waitTicks(rig, 500);
     rig.key("r");
-    REQUIRE(rig.awaitNotice("pictures recorded"));
+    REQUIRE(rig.awaitNotice("frames recorded"));
 }
 
 } // namespace

@@ -123,7 +123,7 @@ TEST_CASE("Forces armed in contact ramp up slowly, tick by tick") {
     const auto armed = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > armed + 3000; }));
     rig.key("r");
-    REQUIRE(rig.awaitNotice("pictures recorded"));
+    REQUIRE(rig.awaitNotice("frames recorded"));
     const auto felt = feltIn(rig.folder() / "recording-1" / "wrench.csv", 1, 7);
     const double most = std::max_element(felt.begin(), felt.end(), [](const Felt& a, const Felt& b) {
                             return a.force < b.force;
@@ -266,7 +266,7 @@ TEST_CASE("Replay plays a recording made with R with the force that the hand fel
     }
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > begun + 1500; }));
     rig.key("r");
-    REQUIRE(rig.awaitNotice("pictures recorded"));
+    REQUIRE(rig.awaitNotice("frames recorded"));
     const std::filesystem::path folder = rig.folder() / "recording-1";
     const auto out = rig.folder() / "out";
     const ProgramRun run =

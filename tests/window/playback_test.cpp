@@ -28,7 +28,7 @@ std::filesystem::path recordAPush(WindowRig& rig) {
     const auto pushed = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > pushed + 1500; }));
     rig.key("r");
-    REQUIRE(rig.awaitNotice("pictures recorded"));
+    REQUIRE(rig.awaitNotice("frames recorded"));
     return rig.folder() / "recording-1";
 }
 

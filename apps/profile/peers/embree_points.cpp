@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Embree: the centres as user geometry, Morton build (RTC_BUILD_QUALITY_LOW, its way for scenes that are made
-// anew each frame), one point query a leaf.
+// anew each frame), one point query per leaf.
 #include "apps/profile/peers/found_set.h"
 #include "apps/profile/peers/peers.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PCL: kd-tree (FLANN) over the centres, one radius search a leaf. Unsorted, which is its fast way.
+// PCL: kd-tree (FLANN) over the centres, one radius search per leaf. Unsorted, which is its fast way.
 #include "apps/profile/peers/found_set.h"
 #include "apps/profile/peers/peers.h"
 

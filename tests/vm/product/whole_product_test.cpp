@@ -194,7 +194,7 @@ TEST_CASE("A recording of a live camera has every frame at 30 per second") {
                                          "v4l2:auto,frames=60,rate=30,intrinsics=" + stage.file("lens.json"),
                                          "--out", stage.file("rec")});
     INFO(record.err);
-    CHECK(record.out.find("60 pictures") != std::string::npos);
+    CHECK(record.out.find("60 frames") != std::string::npos);
     CHECK(record.exitCode == 0);
     CHECK(record.out.find("0 skipped, 0 lost") != std::string::npos);
     MESSAGE(record.out);

@@ -215,7 +215,7 @@ TEST_CASE("A recording with a live hand has every frame at 30 per second and the
     CHECK(record.wait() == 0);
     const std::string said = stage.text("record.log");
     INFO(said);
-    CHECK(said.find("90 pictures") != std::string::npos);
+    CHECK(said.find("90 frames") != std::string::npos);
     CHECK(said.find("0 skipped, 0 lost") != std::string::npos);
     // The hand's path: from the knob's start to its pushed position, in time order, as long as the frames.
     std::ifstream rows(stage.file("rec/hand.csv"));
