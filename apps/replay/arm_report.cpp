@@ -8,8 +8,7 @@ namespace fathom {
 
 namespace {
 
-// A joint at its speed limit went exactly that far, but for the rounding of a difference of two angles; so
-// did a finger that is closed to its limit.
+// Tolerance for joints and fingers exactly at a limit: a difference of two angles is rounded.
 constexpr double kRounding = 1e-12;
 
 // No comma, quote or line break in a column's name.
@@ -66,8 +65,7 @@ double ArmReport::violation(const TickRecord& tick) const {
 
 void ArmReport::add(const TickRecord& tick) {
     const ArmRecord& arm = tick.arm;
-    const bool moved =
-        tick.state != TickState::Off; // before the first set the arm is held: no turn to tell of
+    const bool moved = tick.state != TickState::Off; // held before the first set
     const double wrong = violation(tick);
     row_.add(tick.t);
     for (size_t k = 0; k < rig_.model.count(); ++k) {

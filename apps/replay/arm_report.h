@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a run leaves of its arm: arm.csv, one row per tick, and the section `arm` of summary.json.
+// Reports the arm of a run: arm.csv with one row per tick, and the section `arm` of summary.json.
 #pragma once
 
 #include "apps/replay/csv.h"
@@ -13,22 +13,22 @@
 
 namespace fathom {
 
-// One thread. The limits are checked here once more, from the joints alone. arm.csv: t_s, a column per joint
-// [rad], [m], grasp, residual_m, manipulability, at_limits, limit_violation, singular, grasp_held; where a
-// real arm follows also real_arm (its state) and measured_ with every joint's name.
+// One thread. Checks the limits again, independently of the engine, from the joints alone. Columns of
+// arm.csv: t_s, one per joint [rad] or [m], grasp, residual_m, manipulability, at_limits, limit_violation,
+// singular, grasp_held. With a real arm also real_arm (its state) and measured_<joint> per joint.
 class ArmReport {
 public:
-    // realArm: what follows, in words; empty = nothing does.
+    // realArm: description of the real arm that follows; empty = none.
     ArmReport(const std::filesystem::path& file, const ArmRig& rig, const std::string& realArm = "");
 
     void add(const TickRecord& tick);
     void commit() { file_.commit(); }
-    // links: of ToolAudit::linkPenetration(); empty = not audited.
+    // links: from ToolAudit::linkPenetration(); empty = not audited.
     ReplaySummary::Arm summary(const std::vector<double>& links);
 
 private:
-    // [rad], [m] by which joints or fingers lie beyond their limits or joints went faster than they can; 0 =
-    // all obeyed.
+    // Largest excess over a position limit [rad], [m] or over the travel that the speed limit allows in the
+    // tick; 0 = all limits obeyed.
     double violation(const TickRecord& tick) const;
     void addDriven(const TickRecord& tick);
 
@@ -37,7 +37,7 @@ private:
     CsvRow row_;
     ReplaySummary::Arm sums_;
     std::vector<float> residuals_, tipLags_;
-    std::array<uint64_t, kArmStates> ticks_{}; // by state of a real arm
+    std::array<uint64_t, kArmStates> ticks_{}; // ticks in each state of a real arm
 };
 
 } // namespace fathom

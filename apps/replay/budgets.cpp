@@ -10,7 +10,7 @@ namespace {
 constexpr double kTurnP50 = 30.0, kTurnP99 = 80.0; // [us]
 const char* const kTurnOf = "the budget is of 256 in contact with 60 k spheres";
 
-// [ms] latency of a frame, upload to published.
+// [ms] Budget of the frame latency, from upload to publication.
 std::optional<double> frameBudget(const Intrinsics& depth, double forbiddenShare, DeviceKind device) {
     const bool cpu = device == DeviceKind::Cpu;
     if (!cpu && device != DeviceKind::Discrete) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The time budgets that the project aims at, and what a run made of them.
+// Compares the measured times of a run with the project's time budgets.
 #pragma once
 
 #include "apps/replay/summary.h"
@@ -18,10 +18,10 @@ struct BudgetFigure {
     bool holds() const { return measured <= budget; }
 };
 
-// Frame latency p50 (upload to published) where a budget exists for the frame's size and the device:
-// 640x480 up to a tenth of the pixels forbidden, 640x480 and 1280x720 beyond that; CPU devices and discrete
-// ones. The haptic tick's p50 and p99 always, with the tool's leaves and for how many the budget is. Figures
-// that were not measured are left out.
+// One entry per budget whose figure was measured. Frame latency p50 (upload to publication) has a budget for
+// 640x480 with up to a tenth of the pixels forbidden, for 640x480 and 1280x720 with more, and only on CPU
+// devices and discrete GPUs. The haptic tick always has budgets for p50 and p99, which also state the tool's
+// number of leaves and the number that the budget assumes.
 std::vector<BudgetFigure> budgetFigures(const ReplaySummary& summary, const Intrinsics& depth,
                                         DeviceKind device, size_t leaves);
 

@@ -12,8 +12,8 @@ void Digest::add(const void* bytes, size_t count) noexcept {
     const auto* byte = static_cast<const unsigned char*>(bytes);
     for (size_t i = 0; i < count; ++i) {
         low_ ^= byte[i];
-        // (high, low) * (2^88 + 0x13b) modulo 2^128; the carry out of low * 0x13b is taken from its two
-        // halves.
+        // (high, low) * (2^88 + 0x13b) modulo 2^128. The carry out of low * 0x13b comes from the two halves
+        // of low.
         const uint64_t carry = ((low_ >> 32) * kPrimeLow + (((low_ & 0xffffffffu) * kPrimeLow) >> 32)) >> 32;
         high_ = high_ * kPrimeLow + carry + (low_ << kPrimeHighShift);
         low_ *= kPrimeLow;

@@ -11,15 +11,15 @@
 
 namespace fathom {
 
-// Equal runs give equal digests; it finds differences, it does not keep out an adversary. Parameters as
-// published by Fowler, Noll and Vo (prime 2^88 + 0x13b).
+// Detects differences between runs; not a protection against forgery. Parameters as published by Fowler, Noll
+// and Vo (prime 2^88 + 0x13b).
 class Digest {
 public:
     void add(const void* bytes, size_t count) noexcept;
-    void add(uint64_t value) noexcept; // 8 bytes, least significant first, on every machine
-    void add(double value) noexcept;   // its bit pattern; every NaN counts as the same one, as in the text
-    void add(const TickRecord& tick) noexcept; // the columns of one row, in their order
-    std::string hex() const;                   // 32 digits
+    void add(uint64_t value) noexcept;         // 8 bytes, least significant first, on every machine
+    void add(double value) noexcept;           // its bit pattern; all NaNs count as equal, as in the CSV text
+    void add(const TickRecord& tick) noexcept; // the columns of one row, in order
+    std::string hex() const;                   // 32 hexadecimal digits
 
 private:
     uint64_t high_ = 0x6c62272e07bb0142u, low_ = 0x62b821756295c58du;

@@ -14,7 +14,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostTurns = 20000.0; // of the fastest rate that a scene may ask for
+constexpr double kMostTurns = 20000.0; // buffer size at the highest rate that a scene may request
 
 size_t turnsOf(double seconds, double period) {
     return static_cast<size_t>(std::clamp(std::ceil(seconds / period), 1.0, kMostTurns));
@@ -38,7 +38,7 @@ void FaultTrace::step(const TickRow& row, const PublishedFrame* obeyed, bool kno
 }
 
 void FaultTrace::keep(const TickRow& row) {
-    if (row.record.t < newest_) { // another run on a clock of its own
+    if (row.record.t < newest_) { // a new run, whose clock starts again
         seen_ = 0;
         quietUntil_ = 0.0;
     }
@@ -52,7 +52,7 @@ void FaultTrace::write(double t) const {
         HapticsCsv file(path);
         for (uint64_t i = seen_ - std::min<uint64_t>(seen_, ring_.size()); i < seen_; ++i) {
             const TickRecord& tick = ring_[i % ring_.size()];
-            if (tick.t >= t - kSeconds) { // periods without a turn make it reach farther back
+            if (tick.t >= t - kSeconds) { // the buffer reaches further back after missed periods
                 file.add(tick);
             }
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What led to a tick with a number that is none: the ticks of the last two seconds, as a file of their own
-// that is there whether or not the run comes to its end.
+// Saves the ticks that led to a tick with a non-finite number: the last two seconds, in a separate file that
+// exists even if the run never ends properly.
 #pragma once
 
 #include "apps/replay/tick_record.h"
@@ -11,12 +11,12 @@
 
 namespace fathom {
 
-// Hands everything on to one sink, on the writer thread, as all sinks; allocates when it is made. At a turn
-// that is not finite, and at most once a minute after, it leaves fault-T.csv, T the time of that tick [s] in
-// the run, with the columns of haptics.csv. One that cannot be written is a warning: the run goes on.
+// Forwards everything to one sink on the writer thread. Allocates in the constructor only. At a non-finite
+// tick, at most once per minute, writes fault-T.csv with the columns of haptics.csv, where T is the tick's
+// run time [s]. If the file cannot be written, logs a warning and the run continues.
 class FaultTrace final : public RunSink {
 public:
-    // period: of a tick [s]. `next` outlives this.
+    // period: tick period [s]. `next` must outlive this.
     FaultTrace(std::filesystem::path folder, double period, RunSink& next);
 
     void frame(const PublishedFrame& frame, const Fixtures& set) override { next_.frame(frame, set); }
@@ -24,8 +24,8 @@ public:
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
-    static constexpr double kSeconds = 2.0; // that are kept
-    static constexpr double kQuiet = 60.0;  // [s] between files
+    static constexpr double kSeconds = 2.0; // [s] of ticks in a file
+    static constexpr double kQuiet = 60.0;  // [s] minimum time between files
 
 private:
     void keep(const TickRow& row);
@@ -34,7 +34,7 @@ private:
     std::filesystem::path folder_;
     RunSink& next_;
     std::vector<TickRecord> ring_;
-    uint64_t seen_ = 0; // turns; the newest lies at (seen_ - 1) % size
+    uint64_t seen_ = 0; // ticks so far; the newest is at (seen_ - 1) % size
     double newest_ = 0.0, quietUntil_ = 0.0;
 };
 

@@ -8,12 +8,12 @@
 
 namespace fathom {
 
-// The path below --out: fixtures/NNNNNN.ply, the frame index with at least six digits.
+// File name relative to --out: fixtures/NNNNNN.ply, the frame index with at least six digits.
 std::filesystem::path fixturesFileName(int64_t frame);
 
 // One vertex per region sphere, in the order of the set: double x y z (base frame [m], float position plus
-// origin in float64), double radius [m], int class (row of Scene::fixtures), int held (1: not seen in this
-// frame). Always little-endian. Throws Error that names the file.
+// origin in float64), double radius [m], int class (row of Scene::fixtures), int held (1 = not observed in
+// this frame). Always little-endian. Throws Error that names the file.
 void writeFixturesPly(const std::filesystem::path& file, const Fixtures& set);
 
 } // namespace fathom

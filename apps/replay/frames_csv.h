@@ -15,7 +15,7 @@ class FramesCsv {
 public:
     // Each pass has a column `<pass>_ms`. Every call throws Error that names the file.
     FramesCsv(const std::filesystem::path& file, std::vector<std::string> passes);
-    // A pass missing in the frame is written as unknown; a pass without a column is an Error.
+    // Writes a pass without a time in this frame as unknown. Throws Error for a pass without a column.
     void add(const FrameRecord& frame);
     void commit();
 

@@ -14,7 +14,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kClockSlack = 1e-9; // [s] a frame due at the time of a tick is active in that tick
+constexpr double kClockSlack = 1e-9; // [s] tolerance: a frame due exactly at a tick is active in that tick
 
 double micros(std::chrono::steady_clock::time_point since) {
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - since).count();
@@ -33,7 +33,7 @@ LockstepReplay::LockstepReplay(Session& session, const ReplayOptions& options, R
     , audit_(session.tool, session.arm.get()) {}
 
 void LockstepReplay::fetch() {
-    if (session_.arm) { // a frame that shows the arm is taken now, a frame before it is due
+    if (session_.arm) { // a frame that shows the arm is rendered now, before it is due
         taken_ = cycle_ ? cycle_->place().arm : session_.arm->startPosture();
         if (session_.scene.source.showsArm) {
             session_.camera->showArm(session_.arm->toolAt(taken_).leaves());
@@ -48,8 +48,8 @@ void LockstepReplay::fetch() {
     }
 }
 
-// Applies the pilot's edit from this frame on: gates with its set, shapes now, at most one frame after they
-// were placed.
+// Applies the pilot's edit from this frame on. New gates take effect with the frame's set, new shapes at
+// once: at most one frame late.
 void LockstepReplay::takeEdit(uint32_t image) {
     const SceneEdit* edit = session_.newEdit(image);
     if (edit == nullptr) {
@@ -65,8 +65,7 @@ void LockstepReplay::takeEdit(uint32_t image) {
 void LockstepReplay::processNext() {
     takeEdit((*next_)->index);
     readColours(**next_, lastColour_);
-    if (session_.cycles.plan()
-            .selfFilter) { // the arm as the frame shows it, or as it is when the frame is due
+    if (session_.cycles.plan().selfFilter) { // posture when rendered, or when due
         const bool now = cycle_ && !session_.scene.source.showsArm;
         session_.cycles.frames().setArm(session_.arm->inImage(now ? cycle_->place().arm : taken_));
     }
@@ -175,10 +174,12 @@ void LockstepReplay::tick(double t) {
 ReplayRecorder::Ending LockstepReplay::run() {
     fetch();
     session_.requireFrame(next_.has_value());
-    // The built-in path waits for the first set; a CSV tells the time from the run's start.
+    // The built-in path starts when the first set is ready; the times of a CSV path count from the start of
+    // the run.
     const bool builtIn = session_.options.operatorCsv.empty() && session_.scene.hand.builtIn;
     pathStart_ = builtIn ? nextTime_ : 0.0;
-    processNext(); // early: the built-in path needs the first set; it is in force from its own time on
+    processNext(); // early, because the built-in path needs the first set; the set is active only from its
+                   // own time on
     path_.emplace(session_.path());
     hand_ = openPathHand(*path_, session_.scene, options_.hand);
     cycle_.emplace(session_.tool, shapes_, haptics_, hand_->read(0.0).deviceThandle, nullptr,

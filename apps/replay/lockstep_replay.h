@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lockstep: all cadences on one thread, on the run's own clock. haptics.csv has no measured times in it.
+// Lockstep replay: all threads of a realtime run become steps on one thread with a simulated clock, so
+// haptics.csv contains no measured times.
 #pragma once
 
 #include "apps/replay/replay_command.h"
@@ -16,29 +17,30 @@
 
 namespace fathom {
 
-// Tick i is at i / rate_hz. Frame j is at j / 30 s whatever its stamp, and active from the first tick at or
-// after that. Each step is preceded by one contact query at its start pose, whose answer is offered
-// contact.delay ticks later. The run ends when the frames (plus 1/30 s) and the hand path have ended.
+// Tick i is at i / rate_hz. Frame j is at j / 30 s regardless of its time stamp, and is active from the first
+// tick at or after that. Before each step, one contact query runs at the step's start pose; its answer
+// arrives contact.delay ticks later. The run ends when both the frames (plus 1/30 s) and the hand path have
+// ended.
 class LockstepReplay {
 public:
-    // trace: null = none.
+    // trace: records when each cadence runs; null = no trace.
     LockstepReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    CadenceTrace* trace = nullptr);
 
-    // Runs to the end and hands over what only the loop knows.
+    // Runs to the end; returns the results that only the loop knows.
     ReplayRecorder::Ending run();
 
     static constexpr double kFramePeriod = 1.0 / 30.0; // [s]
 
 private:
-    // A published set, kept for the audit while a contact set may come from it.
+    // A published set. Kept for the audit as long as a contact set may refer to it.
     struct Kept {
         Fixtures fixtures;
         RegionGrid grid;
     };
 
-    void fetch();       // the next usable frame from the camera, stamped with its lockstep time
-    void processNext(); // through the frame cycle
+    void fetch();       // gets the next usable frame and stamps it with its lockstep time
+    void processNext(); // runs the frame cycle on next_
     void takeEdit(uint32_t image);
     void takeDueFrames(double t);
     bool ended(double t) const;
@@ -60,17 +62,17 @@ private:
     ToolAudit audit_;
 
     std::optional<Frame> next_;        // fetched, not yet due
-    ArmPosture taken_;                 // of the arm, when next_ was fetched
+    ArmPosture taken_;                 // arm posture when next_ was fetched
     std::optional<FrameReport> ready_; // processed, not yet due
-    double nextTime_ = 0.0;            // [s] of next_ or ready_
+    double nextTime_ = 0.0;            // [s] time of next_ or ready_
     double pathStart_ = 0.0;           // [s]
-    bool published_ = false;           // some set is active
+    bool published_ = false;           // a set is active
     std::vector<uint32_t> lastColour_;
 
     std::deque<std::unique_ptr<Kept>> kept_;
-    std::deque<std::unique_ptr<ContactSet>> answers_; // asked, not yet due; oldest first
+    std::deque<std::unique_ptr<ContactSet>> answers_; // query answers that are not due yet, oldest first
     ActiveContacts<std::unique_ptr<ContactSet>> contacts_;
-    SceneUpdate scene_; // of the newest frame that is due
+    SceneUpdate scene_; // from the newest frame that is due
     uint64_t ticks_ = 0, framesDone_ = 0;
 };
 

@@ -24,7 +24,7 @@ bool isFixtureFile(const std::filesystem::path& file) {
            std::all_of(stem.begin(), stem.end(), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
-// Of an earlier run: FaultTrace.
+// Left by FaultTrace in an earlier run.
 bool isFaultFile(const std::filesystem::path& file) {
     constexpr std::string_view kStart = "fault-";
     const std::string stem = file.stem().string();
@@ -88,8 +88,7 @@ void OutputFile::write(const void* bytes, size_t count) {
 
 void OutputFile::commit() {
     flush();
-    // close() is where a network file system reports a full disk. It is not tried again: the descriptor is
-    // gone.
+    // A network file system reports a full disk at close(). No retry: the descriptor is closed either way.
     if (::close(std::exchange(descriptor_, -1)) != 0 || ::rename(temporary_.c_str(), path_.c_str()) != 0) {
         const int reason = errno;
         ::unlink(temporary_.c_str());

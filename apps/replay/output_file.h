@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A file that appears whole or not at all: buffered writes to a temporary name beside it, renamed by
-// commit().
+// A file that is written completely or not at all: writes go to a temporary file in the same folder, which
+// commit() renames.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,9 @@
 
 namespace fathom {
 
-// Holds one megabyte at most, whatever is written. One thread. Every failure (no such folder, not writable,
-// disk full, a folder, device or pipe at `path`) throws Error that names the file. Destroyed without
-// commit(), it leaves what stood at `path` before untouched.
+// Buffers at most one megabyte. One thread. Every failure (missing folder, no permission, disk full, `path`
+// is a folder, device or pipe) throws Error that names the file. Without commit(), the destructor leaves an
+// older file at `path` unchanged.
 class OutputFile {
 public:
     explicit OutputFile(std::filesystem::path path);
@@ -23,7 +23,7 @@ public:
 
     void write(const void* bytes, size_t count);
     void write(std::string_view text) { write(text.data(), text.size()); }
-    // Flushes, closes and renames over `path`. Nothing may be written after.
+    // Flushes, closes and renames over `path`. No writes after this.
     void commit();
 
     const std::filesystem::path& path() const { return path_; }
@@ -38,8 +38,8 @@ private:
     std::vector<char> buffer_;
 };
 
-// Makes `folder` (and fixtures/ in it when asked for) and takes away the frame and fault files of an earlier
-// run, so that no set of another run stands beside this one's. Throws Error that names the folder.
+// Creates `folder` (and fixtures/ in it if requested) and deletes the frame and fault files of an earlier
+// run, so that sets of two runs never mix. Throws Error that names the folder.
 void prepareOutputFolder(const std::filesystem::path& folder, bool withFixtures);
 
 } // namespace fathom

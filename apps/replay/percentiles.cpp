@@ -10,7 +10,7 @@ namespace fathom {
 
 namespace {
 
-// The double of the shortest decimal that names the float, so that 12.3f is reported as 12.3.
+// The double nearest to the shortest decimal text of the float, so that 12.3f is reported as 12.3.
 double shortest(float value) {
     char digits[40];
     const auto written = std::to_chars(digits, digits + sizeof digits, value);

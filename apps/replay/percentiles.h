@@ -7,14 +7,13 @@
 
 namespace fathom {
 
-// In the unit of the values; empty when there was none.
+// In the unit of the values; empty when there were no values.
 struct Percentiles {
     std::optional<double> p50, p99, p999, max;
 };
 
-// Nearest rank: the p-th percentile of n values is the one of rank ceil(p n), counted from 1 in ascending
-// order: always a value that occurred. Values that are not finite are left out. Takes the vector over and
-// reorders it.
+// Nearest rank: the p-th percentile of n values is the value of rank ceil(p n) in ascending order, counted
+// from 1, so it is always one of the values. Ignores values that are not finite. Consumes the vector.
 Percentiles percentilesOf(std::vector<float> values);
 
 } // namespace fathom

@@ -44,7 +44,7 @@ Progress::Progress(std::FILE* out, bool terminal)
     , terminal_(terminal) {}
 
 void Progress::update(const ProgressCounts& counts) noexcept {
-    // The clock is read only once in a while: ticks are microseconds apart.
+    // Reads the clock only every kCallsAClockReading calls, because ticks are microseconds apart.
     if (!terminal_ || (shown_ && ++calls_ % kCallsAClockReading != 0)) {
         return;
     }
@@ -59,7 +59,7 @@ void Progress::update(const ProgressCounts& counts) noexcept {
         std::fflush(out_);
         shown_ = true;
     } catch (...) {
-        terminal_ = false; // no memory for a line of text: go on without it
+        terminal_ = false; // out of memory: continue without progress
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One line on the terminal that follows the run and goes away at its end.
+// A progress line on the terminal during a run, removed at its end.
 #pragma once
 
 #include <chrono>
@@ -10,16 +10,16 @@
 namespace fathom {
 
 struct ProgressCounts {
-    uint64_t framesDone = 0, framesTotal = 0; // total 0 = not known
+    uint64_t framesDone = 0, framesTotal = 0; // total 0 = unknown
     uint64_t ticksDone = 0;
-    double runSeconds = 0.0; // [s] of the run done so far, by its own clock
+    double runSeconds = 0.0; // [s] run time so far, on the run's own clock
 };
 
 // "frame 12 of 60, 31 frames/s, 8.4 k ticks/s, 2.1 s of run, 1.40 x real time".
 std::string progressText(const ProgressCounts& counts, double wallSeconds);
 
-// Silent unless `out` is a terminal. Rewrites its line ten times a second at most, so that update() can be
-// called each tick. Never throws: nobody's run fails because a terminal is gone.
+// Writes only when `out` is a terminal, and at most ten times per second, so update() may be called every
+// tick. Never throws: a closed terminal must not fail a run.
 class Progress {
 public:
     explicit Progress(std::FILE* out = stderr);
@@ -29,7 +29,7 @@ public:
     ~Progress() { finish(); }
 
     void update(const ProgressCounts& counts) noexcept;
-    void finish() noexcept; // takes the line away; safe to repeat
+    void finish() noexcept; // removes the line; may be called repeatedly
 
 private:
     using Clock = std::chrono::steady_clock;

@@ -51,7 +51,7 @@ RealtimeReplay::RealtimeReplay(Session& session, const ReplayOptions& options, R
 
 RealtimeReplay::~RealtimeReplay() = default;
 
-// Camera thread. The first frame comes before the run is made: the scene is that frame's.
+// Camera thread. The first frame comes before the run exists; the scene then already has that frame's shapes.
 void RealtimeReplay::takeShapes(const std::vector<Shape>& shapes) {
     if (run_) {
         run_->setShapes(shapes);
@@ -75,7 +75,7 @@ RealtimeOptions RealtimeReplay::runOptions(CadenceTrace* trace) {
     return o;
 }
 
-// On all CPUs: nothing else runs yet.
+// Uses all CPUs, because no other thread runs yet.
 void RealtimeReplay::spool() {
     if (session_.scene.source.showsArm) {
         log::warn("the simulated camera's frames are taken beforehand: they do not show the arm");
@@ -114,7 +114,7 @@ ReplayRecorder::Ending RealtimeReplay::run() {
     return ending();
 }
 
-// The tool begins where the scene's path does, wherever the hand happens to be.
+// The tool starts where the scene's path starts, wherever the hand is.
 void RealtimeReplay::runLive(const HandPath& path) {
     LiveHand& hand = *session_.liveHand;
     awaitHand(hand, signals_.asked());

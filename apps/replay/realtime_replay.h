@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `replay --realtime`: the session's cycles on threads, by the wall clock; the caller's thread writes and
-// audits.
+// `replay --realtime`: runs the session's cycles on their threads against the wall clock. The calling thread
+// writes the files and audits.
 #pragma once
 
 #include "apps/binding/stop_signals.h"
@@ -21,37 +21,38 @@
 
 namespace fathom {
 
-// Figures that only a real-time run has.
+// Figures that only a realtime run has.
 struct RealtimeFigures {
-    Percentiles wokenLateMicros; // [us] wake-ups after they were due, compute time apart
-    Percentiles exposureMs;      // [ms] live camera: from start of exposure to the published set
-    bool live = false;           // the camera is
-    uint64_t framesLost = 0;     // by a live camera, or that one would have thrown away
-    uint64_t periodsMissed = 0;  // without a step
-    uint64_t framesInPlace = 0;  // whose depth the device read in place
-    uint64_t staleTicks = 0;     // with a scene old enough for forces to fade
-    uint64_t recordsLost = 0;    // because the writer was too slow
-    uint32_t renewals = 0;       // times that a lost device was opened again
-    bool stopped = false;        // by a signal
+    Percentiles wokenLateMicros; // [us] delay of wake-ups after their due time, without the step itself
+    Percentiles exposureMs;      // [ms] live camera: start of exposure to published set
+    bool live = false;           // the camera is live
+    uint64_t framesLost = 0;     // frames that a live camera dropped, or would have dropped
+    uint64_t periodsMissed = 0;  // periods without a tick
+    uint64_t framesInPlace = 0;  // frames whose depth the device read without a copy
+    uint64_t staleTicks = 0;     // ticks whose scene was so old that forces fade
+    uint64_t recordsLost = 0;    // records lost because the writer was too slow
+    uint32_t renewals = 0;       // times a lost device was opened again
+    bool stopped = false;        // ended by a signal
 };
 
-// Times are of the run's clock: t = 0 when the first frame has been processed and the path opened; frame j is
-// captured at (index j - index 0) / 30 s by the clock (ReplayOptions::frameRate). Ends when frames (plus
-// one such period) and hand path both have, or on a signal of StopSignals: then every file is complete, too.
+// Times are on the run's clock: t = 0 when the first frame is processed and the path is open. Frame j is
+// captured at (index j - index 0) / 30 s (ReplayOptions::frameRate). The run ends when the frames (plus one
+// such period) and the hand path have ended, or on a signal of StopSignals; all files are complete in both
+// cases.
 class RealtimeReplay final : private RunSink {
 public:
-    // The session must have been built on a thread confined to placement.rest, because the workers of a
-    // software device inherit it. Renders the frames of a simulated camera in advance (SpooledCamera), so
-    // that a run does not measure rendering. trace may be null.
+    // Build the session on a thread confined to placement.rest, because the workers of a software device
+    // inherit its CPUs. Renders the frames of a simulated camera in advance (SpooledCamera), so that the run
+    // does not measure rendering. trace may be null.
     RealtimeReplay(Session& session, const ReplayOptions& options, ReplayRecorder& recorder,
                    const ThreadPlacement& placement, CadenceTrace* trace);
     ~RealtimeReplay() override;
 
-    // Runs to the end and hands over what only the run knows. Throws BadInput when no frame is usable.
+    // Runs to the end; returns the results that only the run knows. Throws BadInput when no frame is usable.
     ReplayRecorder::Ending run();
 
     const RealtimeFigures& figures() const { return figures_; }
-    // Throws what ended the run early, if anything did: after the files are written.
+    // Rethrows the failure that ended the run early, if any. Call it after the files are written.
     void rethrowFailure() const;
 
 private:
@@ -79,12 +80,12 @@ private:
     HapticOptions haptics_;
     ToolAudit audit_;
     bool audited_ = true;                 // every step so far was audited
-    FaultTrace faults_;                   // before this as a sink
-    std::unique_ptr<ViewPublisher> view_; // null = no observers
+    FaultTrace faults_;                   // receives every tick first
+    std::unique_ptr<ViewPublisher> view_; // null = no view socket
     std::unique_ptr<Feed> feed_;
     std::unique_ptr<RealtimeRun> run_;
     std::optional<HapticCycle> cycle_;
-    std::optional<WatchedHand> watched_; // of a live hand
+    std::optional<WatchedHand> watched_; // only with a live hand
     std::vector<float> wokenLateMicros_;
     RealtimeFigures figures_;
 };

@@ -19,7 +19,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kPenetrationLimit = 1e-5; // [m] the stated limit of all runs
+constexpr double kPenetrationLimit = 1e-5; // [m] limit of the penetration in every run
 
 void printPart(const char* name, const Percentiles& p, const char* unit) {
     if (p.p50) {
@@ -135,8 +135,7 @@ ReplaySummary runLockstep(const ReplayOptions& options, const GlobalOptions& glo
 
 ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& global) {
     const ThreadPlacement placement = ThreadPlacement::ofThisProcess();
-    const CpuConfinement confined(
-        placement.rest); // before the device: a software device's workers inherit it
+    const CpuConfinement confined(placement.rest); // inherited by a software device's workers
     Session session(options, global);
     if (options.frameRate > 0.0 && session.camera->live()) {
         throw BadInput("replay", "--picture-rate", std::to_string(options.frameRate),
@@ -167,7 +166,7 @@ ReplaySummary runRealtime(const ReplayOptions& options, const GlobalOptions& glo
     return summary;
 }
 
-// SCENE may be the folder of a recording: its own scene, frames and hand, where no other is asked for.
+// SCENE may be the folder of a recording. Its own scene, frames and hand are then the defaults.
 ReplayOptions withFolder(ReplayOptions options) {
     const std::filesystem::path folder = options.scene;
     if (!std::filesystem::is_directory(folder)) {

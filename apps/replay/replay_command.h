@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom replay SCENE`: the main job headless. Frames in, hand motion in, wrench out.
+// `fathom replay SCENE`: runs the engine without a window on recorded frames and hand motion, and writes the
+// results to files.
 #pragma once
 
 #include "apps/session/session.h"
@@ -13,15 +14,15 @@ namespace fathom {
 struct ReplayOptions : SessionOptions {
     ReplayOptions() { realtime = false; }
 
-    bool hand = false;        // close the loop with the simulated hand
+    bool hand = false;        // closes the loop with a simulated hand
     std::string viewEndpoint; // socket for observers (devices/bridge); empty = none
-    double seconds = 0.0;     // that a run with a live device lasts at least
-    double frameRate = 0.0;   // [Hz] of a camera that is not live, by the clock; 0 = 30
+    double seconds = 0.0;     // [s] minimum length of a run with a live device
+    double frameRate = 0.0;   // [Hz] frame rate of a camera that is not live; 0 = 30
     bool saveFixtures = false;
     std::filesystem::path out;
 };
 
-// result: 0, or 1 when a stated limit does not hold.
+// result: exit code, 0, or 1 when a documented limit is violated.
 void addReplayCommand(CLI::App& app, const GlobalOptions& global, int& result);
 
 } // namespace fathom

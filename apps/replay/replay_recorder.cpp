@@ -12,8 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMomentMargin =
-    1.05; // a frame is copied for this much more force, not for every tick of a rising one
+constexpr double kMomentMargin = 1.05; // a rising force copies the frame once per 5 %
 
 std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
     prepareOutputFolder(out, withFixtures);

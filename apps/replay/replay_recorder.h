@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Takes everything a replay produces, as it comes, and leaves the files of the output contract.
+// Collects the results of a replay and writes the files of `replay --out`.
 #pragma once
 
 #include "apps/replay/arm_report.h"
@@ -20,27 +20,29 @@
 
 namespace fathom {
 
-// One thread. Files appear at finish(); an exception before it leaves those of an earlier run untouched.
+// One thread. finish() makes the files appear; after an exception before that, files of an earlier run are
+// unchanged.
 class ReplayRecorder {
 public:
-    // fixture sets are saved as fixtures/NNNNNN.ply when saveFixtures. Throws Error that names what cannot be
-    // written. realArm: what follows the arm, in words; empty = nothing does.
+    // saveFixtures: also saves fixture sets as fixtures/NNNNNN.ply. realArm: description of the real arm that
+    // follows; empty = none. Throws Error that names the file or folder that cannot be written.
     ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
                    bool saveFixtures, const ArmRig* arm = nullptr, const std::string& realArm = "");
 
-    // A used frame, at t [s] of the run, with the set it made; unchanged frames too.
+    // A processed frame at t [s] of the run with its set; also when the set is unchanged.
     void frame(const FrameReport& report, double t, const Fixtures& set);
     void tick(const TickRecord& tick);
-    // overlay.png shows the strongest moment of the run: true when the last tick was it so far, by a clear
-    // margin or on a new frame; then moment() wants what the hand felt (copied) and saw.
+    // overlay.png shows the moment of the largest force. True when the last tick is the largest so far, by a
+    // clear margin or in a new frame; then call moment() with that tick's set and image.
     bool wantsMoment() const;
     void moment(const Fixtures& set, std::span<const uint32_t> colour);
     void query(double micros) { queryMicros_.push_back(static_cast<float>(micros)); }
 
-    // What only the caller knows.
+    // Results that only the caller knows.
     struct Ending {
         Ending() = default;
-        // All that session and cycle know at the end of a run; audit, times and last frame stay empty.
+        // Takes all that session and cycle know at the end of a run; the caller adds audit, times and last
+        // frame.
         Ending(const Session& session, const HapticCycle& cycle);
 
         std::optional<Percentiles> exposureMs; // [ms] live cameras: start of exposure to published set
@@ -54,12 +56,12 @@ public:
         std::string title;                          // scene and source
         double forceLimit = 0.0, torqueLimit = 0.0; // [N], [N m]
         CameraInfo camera;
-        std::span<const uint32_t> colour; // of the last frame, for runs without any force; may be empty
+        std::span<const uint32_t> colour; // of the last frame, used when no force occurred; may be empty
         const Fixtures* lastSet = nullptr;
         std::span<const Sphere> leaves;
-        std::vector<double> linkPenetration; // [m] of ToolAudit; empty = no arm, or not audited
+        std::vector<double> linkPenetration; // [m] from ToolAudit; empty = no arm or no audit
     };
-    // Writes all files and returns what summary.json says.
+    // Writes all files and returns the content of summary.json.
     ReplaySummary finish(const Ending& ending);
 
     const std::filesystem::path& folder() const { return out_; }
@@ -90,7 +92,7 @@ private:
         std::vector<uint32_t> colour;
     } moment_;
     uint64_t frameCount_ = 0;
-    std::vector<ClassSums> sums_; // rows of the scene
+    std::vector<ClassSums> sums_; // one per fixture row of the scene
     std::vector<ReplaySummary::GuidanceRow> guidance_;
     std::vector<float> gpuMs_, uploadMs_, latencyMs_, queryMicros_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A turn of the engine as a row of haptics.csv.
+// Converts a step record of the engine to a row of haptics.csv.
 #pragma once
 
 #include "apps/replay/tick_record.h"
@@ -7,7 +7,7 @@
 
 namespace fathom {
 
-// stepMicros: compute time of the tick [us]; late: it ended more than one period after its start was due.
+// stepMicros: compute time of the step [us]. late: it ended more than one period after its due start.
 TickRecord tickOf(const StepRecord& tick, const ArmPosture& armStart, double stepMicros, bool late);
 
 } // namespace fathom

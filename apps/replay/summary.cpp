@@ -169,7 +169,7 @@ std::string toJson(const ReplaySummary& summary) {
     json["device"] = summary.device;
     json["lockstep"] = summary.lockstep;
     json["digest"] = summary.digest;
-    // A device name or a class may hold bytes that are no UTF-8; a summary must not fail for that.
+    // A device or class name may contain invalid UTF-8, which must not fail the summary.
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// summary.json: the whole run in one object, and the plain values it is made from.
+// summary.json: the whole run in one object, and the values from which it is written.
 #pragma once
 
 #include "apps/replay/percentiles.h"
@@ -15,12 +15,12 @@ namespace fathom {
 
 class TickTotals;
 
-// An empty optional and a number that is not finite are both written as null: what was not measured is
+// An empty optional and a number that is not finite are both written as null, because an unmeasured value is
 // unknown, not zero.
 struct ReplaySummary {
     struct Frames {
-        uint64_t count = 0;   // used, static ones included
-        uint64_t skipped = 0; // count + skipped = lines read
+        uint64_t count = 0;   // processed frames, static ones included
+        uint64_t skipped = 0; // count + skipped = lines of associations.txt
         Percentiles gpuMs, uploadMs, latencyMs;
         std::optional<Percentiles> exposureMs; // live cameras: start of exposure to published set
     } frames;
@@ -29,15 +29,15 @@ struct ReplaySummary {
         uint64_t ticks = 0, late = 0;
         Percentiles stepMicros;
         uint64_t stalledTicks = 0, trappedTicks = 0, escapeTicks = 0;
-        uint64_t notFiniteTicks = 0;                          // without force, because some number was none
-        std::optional<double> maxPenetration, maxEscapeDepth; // [m], of the penetration audit
+        uint64_t notFiniteTicks = 0; // ticks without force because a number was not finite
+        std::optional<double> maxPenetration, maxEscapeDepth;       // [m] from the penetration audit
         double maxForce = 0.0, maxTorque = 0.0, maxForceStep = 0.0; // [N], [N m], [N]
         std::optional<double> stiffness, rotationalStiffness;       // [N/m], [N m/rad]
         std::optional<double> marginPassiveMin, marginUncoupledMin;
-        std::optional<double> solvesMean; // linearisations a turn
-        uint64_t infeasible = 0;          // turns with an infeasible solve
+        std::optional<double> solvesMean; // linearisations per tick
+        uint64_t infeasible = 0;          // ticks with an infeasible solve
 
-        // Fills what follows from the ticks alone; leaves audit and stiffness as they are.
+        // Fills in what the ticks alone determine; audit and stiffness stay as they are.
         void take(TickTotals totals);
     } haptic;
 
@@ -47,17 +47,17 @@ struct ReplaySummary {
         std::string where = "none"; // cpu, gpu, none
     } contact;
 
-    struct FixtureRow { // in order of the scene
+    struct FixtureRow { // in scene order
         std::string name;
         std::string role;                                           // forbidden, guidance
-        std::optional<double> pointsMean, spheresMean, patchesMean; // over used frames, zeros included
+        std::optional<double> pointsMean, spheresMean, patchesMean; // per frame, zeros included
     };
     std::vector<FixtureRow> fixtures;
 
-    struct GuidanceRow { // of the last frame with at least min_count
+    struct GuidanceRow { // from the last frame with at least min_count points
         std::string name;
-        std::optional<dvec3> position; // [m] base frame, plain mean
-        std::optional<dvec3> normal;   // unit, towards the camera; empty when not planar
+        std::optional<dvec3> position; // [m] base frame, mean of the points
+        std::optional<dvec3> normal;   // unit vector towards the camera; empty when the points are not planar
         std::optional<Pose> target;    // base_T_tool
         uint64_t count = 0;
     };
@@ -66,37 +66,37 @@ struct ReplaySummary {
     struct Arm {
         struct Joint {
             std::string name;
-            double lower, upper, speed;  // limits [rad], [m]; [rad/s], [m/s]
-            double least, most, fastest; // of the run
+            double lower, upper, speed;  // limits: [rad] or [m], [rad/s] or [m/s]
+            double least, most, fastest; // reached in the run
         };
         std::vector<Joint> joints; // base to tip
         struct Link {
             std::string name;
             uint64_t leaves = 0;
-            std::optional<double> penetration; // [m] deepest beyond the allowance; empty = not audited
+            std::optional<double> penetration; // [m] largest depth beyond the allowance; empty = not audited
         };
         std::vector<Link> links;
         uint64_t leaves = 0;
-        double limitViolation = 0.0; // [rad], [m] worst, of places and speeds
-        Percentiles residual;        // [m] what the arm could not follow
+        double limitViolation = 0.0; // largest violation of a position or speed limit [rad], [m]
+        Percentiles residual;        // [m] part of the hand's motion that the arm cannot follow
         uint64_t limitedTicks = 0, singularTicks = 0, graspHeldTicks = 0;
         struct Driven { // a real arm that follows
             std::string description, lastState;
-            std::vector<std::pair<std::string, uint64_t>> turns; // in each state of armStateName()
-            uint64_t damaged = 0, reopened = 0;                  // frames; times that the line came back
-            double oldest = 0.0;                                 // [s] of the feedback that was used
-            Percentiles tipLag; // [m] measured tip from the tool, while it follows
+            std::vector<std::pair<std::string, uint64_t>> turns; // ticks in each state of armStateName()
+            uint64_t damaged = 0, reopened = 0; // damaged frames; times that the line reopened
+            double oldest = 0.0;                // [s] largest age of the feedback used
+            Percentiles tipLag; // [m] distance of the measured tip from the tool while the arm follows
         };
-        std::optional<Driven> driven; // empty = nothing follows
+        std::optional<Driven> driven; // empty = no real arm
     };
     std::optional<Arm> arm; // empty = the tool moves freely
 
     std::string device;
     bool lockstep = true;
-    std::string digest; // hex
+    std::string digest; // hexadecimal
 };
 
-// The text of summary.json: keys and their order as the contract of `replay --out` has them.
+// The text of summary.json. Keys and their order are part of the contract of `replay --out`.
 std::string toJson(const ReplaySummary& summary);
 // Throws Error that names the file.
 void writeSummary(const std::filesystem::path& file, const ReplaySummary& summary);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The penetration audit of a run's tool: a free one by its poses, an arm by the leaves of all its links.
+// Audits the penetration of a run's tool: a free tool from its poses, an arm from the leaves of all links.
 #pragma once
 
 #include "engine/cycle/arm_rig.h"
@@ -11,20 +11,20 @@
 
 namespace fathom {
 
-// Not for the haptic thread. Places an arm's leaves from its joints by itself.
+// Not for the haptic thread. Computes the positions of an arm's leaves from its joints.
 class ToolAudit {
 public:
     // arm: null = the tool moves freely. Both must outlive this.
     ToolAudit(const Tool& tool, const ArmRig* arm);
 
-    // As PenetrationAudit::tick().
+    // Like PenetrationAudit::tick().
     void tick(const Fixtures& set, const RegionGrid& grid, const ToolState& start, const ToolState& end,
               std::span<const uint32_t> behind);
 
-    void retake() { audit_.retake(); } // as PenetrationAudit::retake()
+    void retake() { audit_.retake(); } // like PenetrationAudit::retake()
     const PenetrationAudit& figures() const { return audit_; }
-    // [m] deepest of each link's leaves beyond the allowance, in the order of ArmModel::links; empty without
-    // an arm.
+    // [m] largest depth of each link's leaves beyond the allowance, in the order of ArmModel::links; empty
+    // without an arm.
     std::vector<double> linkPenetration() const;
 
 private:
@@ -32,7 +32,7 @@ private:
 
     const ArmRig* arm_;
     PenetrationAudit audit_;
-    std::vector<dvec3> start_, end_; // [m] base frame
+    std::vector<dvec3> start_, end_; // [m] base frame: the leaves before and after a step
 };
 
 } // namespace fathom
