@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Records a live hand with the frames, as a path that `replay --operator` plays with them.
+// Records the path of a live hand in step with the frames; `replay --operator` plays it.
 #pragma once
 
 #include "devices/live_hand.h"
@@ -14,9 +14,9 @@
 
 namespace fathom {
 
-// Reads the hand at 1 kHz on its own thread and sends it zero force. Lockstep shows frame j at j / 30 s, so
-// samples between two frames are written between those times. A replay then sees the same hand at the same
-// frame, even if the frames came irregularly.
+// Reads the hand at 1 kHz on its own thread and sends it zero force. A lockstep replay shows frame j at j /
+// 30 s, so samples between two captures are written at times between those two. The replay then has the same
+// hand pose at the same frame even when frames came irregularly.
 class HandLog {
 public:
     // Throws Error when the file cannot be written.
@@ -25,7 +25,7 @@ public:
     HandLog& operator=(const HandLog&) = delete;
     ~HandLog();
 
-    // The next frame of the recording, captured at `captureTime` [s] of CLOCK_MONOTONIC.
+    // Call for every recorded frame. captureTime [s] of CLOCK_MONOTONIC.
     void frame(double captureTime);
     // Writes the samples since the last frame, at most one frame period, and ends. Throws Error when the disk
     // is full.

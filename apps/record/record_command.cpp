@@ -46,7 +46,7 @@ double copyFrames(Camera& camera, RecordingWriter& writer, HandLog* hand, double
     return first ? last - *first : 0.0;
 }
 
-// Frames and hand share one clock only when the frames are live.
+// A live hand needs live frames: otherwise they have no common clock.
 std::unique_ptr<HandLog> openHandLog(const RecordOptions& options, Scene scene, const Camera& camera) {
     if (options.handDevice.empty()) {
         return nullptr;
@@ -72,7 +72,7 @@ int runRecord(const RecordOptions& options) {
     try {
         length = copyFrames(*camera, writer, hand.get(), options.seconds, signals.asked());
     } catch (const DeviceLost& e) {
-        gone = e.what(); // frames until then are kept
+        gone = e.what(); // frames up to then are kept
     }
     writer.finish();
     if (hand) {

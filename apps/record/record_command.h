@@ -10,7 +10,7 @@ class App;
 
 namespace fathom {
 
-// result: the exit code; 1 when a live camera lost frames.
+// result: exit code; 1 when a live camera lost frames.
 void addRecordCommand(CLI::App& app, const GlobalOptions& global, int& result);
 
 } // namespace fathom
