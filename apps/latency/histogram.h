@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Times of a long run in a fixed amount of memory: a bin a microsecond, as cyclictest counts them.
+// A histogram of times in constant memory, one bin per microsecond, like cyclictest.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +8,10 @@
 
 namespace fathom {
 
-// One thread. Values are [us]; less than 0 counts as 0, what is not finite is left out.
+// One thread. Values in [us]. Negative values count as 0; values that are not finite are ignored.
 class Histogram {
 public:
-    static constexpr size_t kBins =
-        20'000; // up to 20 ms; what is over lies in the last one, max() stays exact
+    static constexpr size_t kBins = 20'000; // 20 ms; the last bin counts all larger values, max() stays exact
 
     Histogram()
         : bins_(kBins) {}
@@ -20,12 +19,12 @@ public:
     void add(double micros) noexcept;
 
     uint64_t count() const { return count_; }
-    double max() const { return max_; } // [us] the largest value itself; 0 when there is none
-    double mean() const;                // [us]; 0 when there is none
-    // [us] where the bin ends that holds the value of rank ceil(share x count); never more than max(). 0 when
-    // there is none.
+    double max() const { return max_; } // [us] the exact largest value; 0 when empty
+    double mean() const;                // [us]; 0 when empty
+    // [us] Upper edge of the bin that contains the value of rank ceil(share x count), at most max(). 0 when
+    // empty.
     double percentile(double share) const;
-    // Values in [from, to) [us]; to beyond the bins counts all that is over.
+    // Number of values in [from, to) [us]. If `to` is beyond the bins, all larger values count.
     uint64_t between(size_t from, size_t to) const;
     const std::vector<uint64_t>& bins() const { return bins_; }
 

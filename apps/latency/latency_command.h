@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom latency SCENE`: what this machine gives the haptic thread.
+// `fathom latency SCENE`: measures how reliably this machine runs the haptic thread.
 #pragma once
 
 #include "apps/latency/latency_run.h"
@@ -10,8 +10,7 @@ class App;
 
 namespace fathom {
 
-// result: 1 when a soak's stated limits do not hold.
-// windowLoad: measures the load `window`.
+// result: exit code, 1 when a soak test misses its limits. windowLoad: measures the load `window`.
 void addLatencyCommand(CLI::App& app, const GlobalOptions& global, WindowLoad windowLoad, int& result);
 
 } // namespace fathom

@@ -12,9 +12,8 @@ namespace fathom {
 
 namespace {
 
-constexpr double kWholeShare =
-    0.98; // of the time that was asked: the clock starts a little after the first frame
-constexpr size_t kLeastLooks = 20; // at memory: two a tenth
+constexpr double kWholeShare = 0.98; // of the requested time, because the clock starts after the first frame
+constexpr size_t kLeastLooks = 20;   // memory samples: two in each tenth of the run
 constexpr std::array<size_t, 14> kSteps{0, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000};
 
 void printTimes(std::ostream& out, const char* name, const Histogram& h) {

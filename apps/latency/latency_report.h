@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a latency run tells: lines, histograms side by side, JSON.
+// Reports a latency run: text lines, a table of histograms, JSON.
 #pragma once
 
 #include "apps/latency/latency_run.h"
@@ -9,17 +9,16 @@
 
 namespace fathom {
 
-inline constexpr double kMostGrowth =
-    8.0; // [MiB] of resident memory over a soak: what allocators keep and give back
+inline constexpr double kMostGrowth = 8.0; // [MiB] allowed growth of resident memory in a soak
 
 void printLatency(std::ostream& out, const LatencyPart& part);
-// A row a range of 1-2-5 steps, a column per part and kind; rows that nothing fell in at either end are left
-// out.
+// One row per range in 1-2-5 steps, one column per part and kind. Skips empty rows at both ends.
 void printHistograms(std::ostream& out, std::span<const LatencyPart> parts);
-// Throws Error when it cannot be written.
+// Throws Error when the file cannot be written.
 void writeLatency(const std::filesystem::path& file, std::span<const LatencyPart> parts, double rateHz,
                   const std::string& device);
-// As long as was asked [s] and with frames, no frame lost, no record lost, memory looked at and flat.
+// True when the part ran for the requested time [s], processed frames, lost no frame and no record, and
+// memory was measured and did not grow.
 bool soakHolds(const LatencyPart& part, double asked);
 
 } // namespace fathom

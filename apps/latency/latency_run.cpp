@@ -15,10 +15,10 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMemorySamples = 100.0; // over a part
-constexpr double kSettled = 0.05;        // of a part: buffers reach their size
+constexpr double kMemorySamples = 100.0; // samples per part
+constexpr double kSettled = 0.05;        // of a part: until buffers have their final size
 
-// The first frame only, or all of them. A lost device ends the measurement.
+// Sends the first frame only, or all of them. A lost device ends the measurement.
 class MeasuredFeed final : public SessionFeed {
 public:
     MeasuredFeed(Session& session, bool moving)
@@ -142,7 +142,7 @@ LatencyPart LatencyRun::run(const std::string& load, bool moving) {
     HapticCycle cycle(session_.tool, shapesOf(session_.scene), haptics_,
                       path.waypoints().front().deviceThandle, nullptr, session_.arm.get());
     HistogramSink sink(part, options_.seconds, stop_);
-    run.run(cycle, hand, 2.0 * options_.seconds, sink, sink.stop); // the sink ends it
+    run.run(cycle, hand, 2.0 * options_.seconds, sink, sink.stop); // the sink stops it earlier
     if (run.failure()) {
         std::rethrow_exception(run.failure());
     }
@@ -166,7 +166,7 @@ LatencyPart LatencyRun::frames() {
 
 LatencyPart LatencyRun::window() {
     GlobalOptions global = global_;
-    global.holdClock = false; // this session already holds it
+    global.holdClock = false; // this session already locks the clock
     return windowLoad_(options_, global);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Measures the threads of a real-time run: how late the haptic thread wakes, how long its step takes, whether
-// memory stays flat.
+// Measures the threads of a realtime run: how late the haptic thread wakes, how long its step takes, and
+// whether memory grows.
 #pragma once
 
 #include "apps/global_options.h"
@@ -20,35 +20,33 @@ namespace fathom {
 
 // One part of a measurement: one load for some seconds.
 struct LatencyPart {
-    std::string
-        load; // idle: one frame, then none; frames: 30 a second; window: frames, and the window drawing
-    double seconds = 0.0;       // that it really took
-    Histogram late;             // [us] wake-ups after they were due
-    Histogram tick;             // [us] compute time of a step
-    uint64_t frames = 0;        // published
-    uint64_t framesLost = 0;    // that a live camera would have dropped
-    uint64_t periodsMissed = 0; // without a step
+    std::string load;     // idle: a single frame; frames: 30 per second; window: frames and a drawing window
+    double seconds = 0.0; // measured duration
+    Histogram late;       // [us] delay of wake-ups after their due time
+    Histogram tick;       // [us] compute time of a step
+    uint64_t frames = 0;  // published frames
+    uint64_t framesLost = 0;    // frames that a live camera would have dropped
+    uint64_t periodsMissed = 0; // periods without a tick
     uint64_t recordsLost = 0;
-    double armTravel = 0.0;     // [rad], [m] that all joints went, added up; 0 without an arm or in a window
-    std::vector<double> memory; // [MiB] resident, about 100 over the part, after its first 5 %
-    // [MiB] growth from the first tenth of the samples to the last, by the maximum of each; 0 when there are
-    // too few.
+    double armTravel = 0.0;     // [rad], [m] total travel of all joints; 0 without an arm or in a window
+    std::vector<double> memory; // [MiB] resident memory: about 100 samples, after the first 5 %
+    // [MiB] Growth of memory: largest sample of the last tenth minus largest of the first. 0 with too few
+    // samples.
     double memoryGrowth() const;
-    void take(const RealtimeRun& run); // its counts, after the run
+    void take(const RealtimeRun& run); // reads the counts of a finished run
 };
 
 struct LatencyOptions {
     std::filesystem::path scene;
-    std::string source; // as of operate; empty = the scene's camera
+    std::string source; // like operate's --source; empty = the scene's camera
     double seconds = 10.0;
 };
 
-// Measures one part in the operator's window. From outside: the window depends on this folder, not the
-// reverse.
+// Measures one part in the operator's window. Passed in, because the window depends on this folder and not
+// the reverse.
 using WindowLoad = std::function<LatencyPart(const LatencyOptions& options, const GlobalOptions& global)>;
 
-// The scene's hand path drives through the regions, again and again. The loads idle and frames share one
-// session.
+// Repeats the scene's hand path through the regions. The loads idle and frames share one session.
 class LatencyRun {
 public:
     // Throws BadInput, Error, DeviceLost.
@@ -59,7 +57,7 @@ public:
     LatencyPart frames();
     LatencyPart window();
 
-    std::string device() const; // that computes the frames
+    std::string device() const; // name of the device that computes the frames
     std::string placement() const;
     double rateHz() const;
 
@@ -71,12 +69,12 @@ private:
     WindowLoad windowLoad_;
     const std::atomic<bool>& stop_;
     ThreadPlacement placement_;
-    CpuConfinement confined_; // before the device: the workers of a software device inherit it
+    CpuConfinement confined_; // before the device opens: the workers of a software device inherit it
     Session session_;
     HapticOptions haptics_;
 };
 
-// [MiB] resident memory of this process; 0 when the system does not report it.
+// Resident memory of this process [MiB]; 0 when the system does not report it.
 double residentMemory();
 
 } // namespace fathom
