@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands that follow a path.
+// Hands that follow a prescribed path.
 #pragma once
 
 #include "devices/simulated/hand_path.h"
@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// Repeats a path that ends where it began; follows any other once.
+// Repeats a path that ends where it starts; follows any other path once.
 class PathHand final : public HapticDevice {
 public:
     explicit PathHand(HandPath path);
@@ -22,7 +22,8 @@ private:
     bool closed_;
 };
 
-// A hand on the path; feels: one that the wrench moves (hand.loop of the scene), else the path alone.
+// A hand on the path. feels: the wrench moves the hand (hand.loop of the scene); otherwise it follows the
+// path exactly.
 std::unique_ptr<HapticDevice> openPathHand(const HandPath& path, const Scene& scene, bool feels);
 
 } // namespace fathom

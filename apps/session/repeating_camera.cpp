@@ -18,7 +18,7 @@ std::optional<Frame> RepeatedCamera::next() {
     if (!frame) {
         skipped_ += source_->skipped();
         if (ended_.size() > 1) {
-            ended_.erase(ended_.begin()); // its leases ended a whole round ago
+            ended_.erase(ended_.begin()); // its leases ended one round earlier
         }
         ended_.push_back(std::move(source_));
         source_ = open_();
@@ -32,7 +32,7 @@ std::optional<Frame> RepeatedCamera::next() {
     content.index += offset_;
     content.sourceNumber += offset_;
     next_ = content.index + 1;
-    // The lease moves into the new frame's end.
+    // The new frame owns the lease until it ends.
     auto* lease = new Frame(std::move(*frame));
     return Frame(content, [lease] { delete lease; });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cameras that never end, from sources that do: a pilot's session lasts longer than any recording.
+// Endless cameras made from finite sources, because a pilot's session lasts longer than a recording.
 #pragma once
 
 #include "devices/camera.h"
@@ -12,8 +12,8 @@
 
 namespace fathom {
 
-// Opens the source again when it has ended. Index and source number go on counting. info() and description()
-// may be asked from any thread.
+// Reopens the source when it has ended. Frame index and source number keep counting. Any thread may call
+// info() and description().
 class RepeatedCamera final : public Camera {
 public:
     // Throws what open() throws.
@@ -29,18 +29,18 @@ public:
 private:
     std::function<std::unique_ptr<Camera>()> open_;
     std::unique_ptr<Camera> source_;
-    CameraInfo info_; // of the first one, for readers on other threads
+    CameraInfo info_; // of the first source; constant, because other threads read it
     std::string description_;
-    std::vector<std::unique_ptr<Camera>> ended_; // kept while a lease may live
+    std::vector<std::unique_ptr<Camera>> ended_; // kept while frames still lease their memory
     uint32_t skipped_ = 0, offset_ = 0, next_ = 0;
 };
 
-// Takes `count` frames beforehand and shows them to and fro: for a camera that is simulated, so slower than
-// the clock. Memory: 6 bytes per pixel and frame.
+// Stores `count` frames and plays them forwards and backwards. For simulated cameras, which render slower
+// than real time. Memory: 6 bytes per pixel and frame.
 class ShuttleCamera final : public Camera {
 public:
-    // Fewer frames when the source ends or `stop`. progress(taken) after each. Throws Error when there is
-    // none.
+    // Stores fewer frames when the source ends or `stop` is set. Calls progress(frames so far) after each.
+    // Throws Error when there are none.
     ShuttleCamera(std::unique_ptr<Camera> source, size_t count, const std::atomic<bool>& stop,
                   const std::function<void(size_t)>& progress);
 
@@ -52,7 +52,7 @@ public:
 private:
     struct Image {
         std::vector<uint16_t> depth;
-        std::vector<uint32_t> colours; // as the source sent them
+        std::vector<uint32_t> colours; // in the source's format
         std::optional<Pose> baseTcamera;
     };
     CameraInfo info_;

@@ -19,15 +19,15 @@ namespace fathom {
 namespace {
 
 constexpr const char* kSpare = ""; // the name of a spare class; a scene file's names are never empty
-constexpr size_t kShuttled = 48;   // frames of a simulated camera that never ends
-constexpr uint32_t kReaders = 2;   // feed, start of the run
+constexpr size_t kShuttled = 48;   // frames of a simulated camera, repeated for ever
+constexpr uint32_t kReaders = 2;   // the camera feed, and the start of the run
 
 FixtureClass spareClass(Role role) {
     FixtureClass spare;
     spare.name = kSpare;
     spare.role = role;
     spare.hue = Band{0.0, 0.0};
-    spare.box = Box{dvec3(1e6), dvec3(1e6)}; // no point is there
+    spare.box = Box{dvec3(1e6), dvec3(1e6)}; // far away, where no point can be
     return spare;
 }
 
@@ -60,8 +60,7 @@ std::optional<std::filesystem::path> given(const std::string& source) {
     return source.empty() ? std::nullopt : std::optional<std::filesystem::path>(source);
 }
 
-// A simulated camera renders slower than real time, so its frames are rendered first and then shown to and
-// fro.
+// Renders the frames of a simulated camera in advance, because rendering is slower than real time.
 std::unique_ptr<Camera> shuttle(const Scene& scene, const std::atomic<bool>& stop) {
     if (scene.source.showsArm) {
         std::fprintf(
@@ -92,7 +91,7 @@ std::unique_ptr<Camera> openAny(const Scene& scene, const SessionOptions& option
     return std::make_unique<RepeatedCamera>([scene, source] { return openCamera(scene, source); });
 }
 
-// Lockstep has its own clock, on which the frames of a live camera have no time.
+// Rejects a live camera in lockstep, where its frames would have no time on the simulated clock.
 std::unique_ptr<Camera> cameraFor(Scene& scene, const SessionOptions& options,
                                   const std::atomic<bool>& stop) {
     auto camera = openAny(scene, options, stop);
@@ -118,9 +117,9 @@ Scene withSpareClasses(Scene scene) {
     auto shapes =
         std::stable_partition(rows.begin(), rows.end(), [](const FixtureClass& f) { return f.isPoints(); });
     if (std::any_of(rows.begin(), shapes, isSpare)) {
-        return scene; // a recording has them already
+        return scene; // a recording already has them
     }
-    // One forbidden and one guiding: together they put every pass into the plan.
+    // One forbidden and one guidance class: together they bring every pass into the plan.
     for (Role role : {Role::Forbidden, Role::Guidance}) {
         if (static_cast<size_t>(shapes - rows.begin()) < shared::kMaxClasses) {
             shapes = rows.insert(shapes, spareClass(role)) + 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every run needs, built in order from one set of options: scene, hand, camera, arm, tool, device, plan,
-// cycles.
+// The objects of every run, built in order from one set of options: scene, hand, camera, arm, tool, device,
+// plan, cycles.
 #pragma once
 
 #include "apps/binding/arm_thread.h"
@@ -29,28 +29,28 @@ struct SessionOptions {
     std::string recording;   // folder that the window plays back; empty = none
     std::string operatorCsv; // hand path; empty = the scene's
     std::string handDevice;  // live hand (apps/binding/open_hand.h); empty = none
-    std::string arm;         // serial line of the scene's real arm; empty = none
-    std::string query;       // cpu, gpu; empty = the scene's
-    std::string pilot;       // one of the scene's pilots; empty = the one that the file names
+    std::string arm;         // serial port of the scene's real arm; empty = none
+    std::string query;       // device of the contact query: cpu or gpu; empty = the scene's
+    std::string pilot;       // name of one of the scene's pilots; empty = the scene's default
     bool realtime = true;    // false: lockstep, which rejects a live camera
     // The camera restarts when it ends, and spare classes let the pilot add fixtures while forces are on.
     bool endless = false;
 };
 
-// The window's share of a session: what it draws with.
+// Vulkan requirements of the window that shares the device.
 struct SessionWindow {
     gpu::Drawing drawing = gpu::Drawing::None;
-    std::span<const char* const> extensions; // of the instance
+    std::span<const char* const> extensions; // instance extensions
 };
 
 inline const std::atomic<bool> kNeverStop{false};
 
-// The scene with spare classes of points behind its own. A class that the pilot picks by colour takes one of
-// them, so no buffer or pipeline changes while forces are on. A spare class marks no pixel. Shapes come after
-// all classes, so that classes keep their rows when shapes are added or removed.
+// Adds spare classes of points after the scene's own. A class that the pilot picks by colour takes one of
+// them, so no buffer or pipeline changes while forces are on. A spare class selects no pixel. Shapes come
+// after all classes, so that classes keep their rows when shapes are added or removed.
 Scene withSpareClasses(Scene scene);
 
-// Contact thread: answers over the newest fixture set.
+// Contact thread: answers queries over the newest fixture set.
 class SessionAnswers final : public ContactAnswers {
 public:
     explicit SessionAnswers(DeviceCycles& cycles)
@@ -61,49 +61,53 @@ private:
     DeviceCycles& cycles_;
 };
 
-// Members are destroyed from the last to the first: owners stand before their borrowers.
+// Members are destroyed in reverse order, so owners are declared before their users.
 struct Session {
-    // stop: ends the rendering of a simulated camera's frames early. Throws BadInput, Error, DeviceLost.
+    // stop: aborts the rendering of a simulated camera. Throws BadInput, Error, DeviceLost.
     Session(const SessionOptions& options, const GlobalOptions& global, const SessionWindow& window = {},
             const std::atomic<bool>& stop = kNeverStop);
 
     SessionOptions options;
     Scene scene;
-    SceneEdits edits;                   // of a recording that the window made
-    std::unique_ptr<ClockKeeper> clock; // once there is a device
-    std::unique_ptr<LiveHand> liveHand; // null = none
+    SceneEdits edits;                   // from a recording of the window
+    std::unique_ptr<ClockKeeper> clock; // created after the device
+    std::unique_ptr<LiveHand> liveHand; // null = no live hand
     std::unique_ptr<Camera> camera;
     std::unique_ptr<ArmRig> arm;        // null = the tool moves freely
-    std::unique_ptr<ArmThread> realArm; // null = no real arm follows
-    Tool tool;                          // on an arm: what its tip carries
+    std::unique_ptr<ArmThread> realArm; // null = no real arm
+    Tool tool;                          // with an arm: the tool at its tip
     gpu::Instance instance;
     DeviceCycles cycles;
-    std::vector<std::string> passNames;       // also while the device is lost
-    std::unique_ptr<DeviceHandover> handover; // between frame thread and window; null = nothing draws
+    std::vector<std::string> passNames; // also valid while the device is lost
+    std::unique_ptr<DeviceHandover>
+        handover; // shares the device between frame thread and window; null = no window
     SessionAnswers answers;
 
     // Null when the plan has no contact query.
     ContactAnswers* contacts() { return cycles.plan().query != Plan::Query::None ? &answers : nullptr; }
-    std::string title() const; // scene and source
-    std::string where() const; // of the contact query: cpu, gpu, none
-    // Throws BadInput unless the source gave a first frame.
+    std::string title() const; // Scene and source, for titles.
+    std::string where() const; // Device of the contact query: cpu, gpu, none.
+    // Throws BadInput when the source gave no first frame.
     void requireFrame(bool first) const;
-    // Waits for the real arm and starts the scene's arm where it stands; returns that posture.
+    // Waits for the real arm, makes its posture the start of the scene's arm and returns it.
     ArmPosture awaitArm(const std::atomic<bool>& stop);
-    // Raw hand path: the CSV of the options, that of the scene, or the built-in path over the first fixture
-    // set. The first call needs a fixture set; later calls return the same path.
+    // Raw hand path: the CSV of the options, the scene's, or the built-in path over the first fixture set.
+    // The first call needs a fixture set; later calls return the same path.
     HandPath path();
 
-    // What the pilot changed from this frame on; null when nothing changed since the last call.
+    // The pilot's recorded edit that becomes active at this frame; null when nothing changed since the last
+    // call.
     const SceneEdit* newEdit(uint32_t image);
-    bool heldStill() const { return edit_ != nullptr && edit_->still; } // all fixtures, in that frame
+    bool heldStill() const {
+        return edit_ != nullptr && edit_->still;
+    } // all fixtures are frozen in that frame
 
 private:
-    std::vector<HandWaypoint> approach_; // base frame; kept because its fixture set may be gone later
+    std::vector<HandWaypoint> approach_; // base frame; kept because the fixture set may be gone later
     const SceneEdit* edit_ = nullptr;
 };
 
-// The CPUs of the haptic thread and of all others, in one line.
+// One line: the CPUs of the haptic thread and those of all others.
 std::string describe(const ThreadPlacement& placement);
 
 } // namespace fathom

@@ -38,8 +38,8 @@ uint64_t SessionFeed::setScene(const Scene& scene) {
     return ++requested_;
 }
 
-// Applies the edits of a recording and of the window. True when the frame makes no set: all fixtures are
-// held.
+// Applies the edits of a recording and of the window. True when all fixtures are frozen, so that the frame
+// makes no set.
 bool SessionFeed::takeEdits(uint32_t index) {
     FrameCycle& frames = session_.cycles.frames();
     if (const SceneEdit* edit = session_.newEdit(index)) {
@@ -77,8 +77,8 @@ FrameReport SessionFeed::process() {
     }
 }
 
-// Where a window draws on the device, it leaves the old one first, and is on the new one before forces
-// return.
+// Opens a lost device again. A window that draws on it must release the old device first, and must be on the
+// new one before forces return.
 void SessionFeed::renew(const std::atomic<bool>& stop) {
     DeviceHandover* handover = session_.handover.get();
     if (handover != nullptr && !handover->awaitRelease(stop)) {
@@ -112,7 +112,7 @@ void SessionFeed::publish(double t, PublishedFrame& out) {
 }
 
 void SessionFeed::publishNew(PublishedFrame& out) {
-    if (lost()) { // the window found out
+    if (lost()) { // the window detected the loss
         throw DeviceLost(session_.handover->why());
     }
     out.still = takeEdits(out.report.index);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Camera and passes of a session as the frame thread of a run sees them, and what the window may change
-// meanwhile.
+// The camera and passes of a session, as the frame thread calls them, with changes from the window.
 #pragma once
 
 #include "apps/session/session.h"
@@ -13,11 +12,10 @@
 
 namespace fathom {
 
-// The frame thread calls the FrameFeed functions; any other thread may call the rest.
+// The frame thread calls the functions of FrameFeed; any other thread may call the rest.
 class SessionFeed : public FrameFeed {
 public:
-    // onShapes: called on the frame thread with the shapes of a recorded edit, from its frame on; may be
-    // null.
+    // onShapes: called on the frame thread with the new shapes of a recorded edit; may be null.
     explicit SessionFeed(Session& session, std::function<void(const std::vector<Shape>&)> onShapes = nullptr);
 
     std::optional<uint32_t> fetch() override;
@@ -28,14 +26,15 @@ public:
     bool lost() const override { return session_.handover && session_.handover->lost(); }
     void renew(const std::atomic<bool>& stop) override;
 
-    // A run begins. If its first frame finds the device lost, the run starts on the set from before.
+    // Call at the start of a run. If the device is lost at its first frame, the run starts with the previous
+    // set.
     void begin() { begins_ = true; }
-    // Applies from the next frame on, whose PublishedFrame::edit is at least the number returned. The scene
-    // keeps its classes of points.
+    // Takes effect from the next frame on. Frames with a PublishedFrame::edit of at least the returned number
+    // use it. The classes of points must stay the same.
     uint64_t setScene(const Scene& scene);
-    // While frozen, frames are taken and shown but the active set stays, for all fixtures.
+    // While frozen, frames are captured and shown, but the active set stays the same for all fixtures.
     void freeze(bool frozen) { frozen_.store(frozen); }
-    // Passes are on the device: whoever shares its queue waits.
+    // True while passes run on the device: whoever shares its queue waits.
     bool busy() const { return busy_.load(std::memory_order_acquire); }
 
 private:
@@ -46,13 +45,13 @@ private:
     Session& session_;
     std::function<void(const std::vector<Shape>&)> onShapes_;
     std::optional<Frame> next_;
-    double taken_ = 0.0; // [s] on a live camera's clock
+    double taken_ = 0.0; // [s] capture time of a live camera
     ColourCopy colours_;
     std::atomic<bool> busy_{false}, frozen_{false}, edited_{false};
     std::mutex sceneMutex_; // guards pending_ and requested_; the haptic thread never takes it
     Scene pending_;
-    uint64_t requested_ = 0; // number of the newest change
-    uint64_t applied_ = 0;   // number of the newest change that frames obey
+    uint64_t requested_ = 0; // number of the newest requested change
+    uint64_t applied_ = 0;   // number of the newest change that frames use
     bool published_ = false, begins_ = false;
 };
 
