@@ -11,21 +11,21 @@ namespace fathom {
 namespace {
 
 const double kPi = std::acos(-1.0);
-constexpr double kStep = 0.01;          // [s] between waypoints
-constexpr double kFastest = 0.24;       // [m/s] peak of a free move
-constexpr double kPushSpeed = 0.10;     // [m/s] peak of a push
-constexpr double kPushDepth = 0.020;    // [m] inside the region
-constexpr double kPushStart = 0.060;    // [m] before the touch
-constexpr double kClear = 0.030;        // [m] clearance around the stance
-constexpr double kRoom = 0.100;         // [m] in front of the nearest region: first candidate of the stance
+constexpr double kStep = 0.01;       // [s] between waypoints
+constexpr double kFastest = 0.24;    // [m/s] peak speed of a free move
+constexpr double kPushSpeed = 0.10;  // [m/s] peak speed of a push
+constexpr double kPushDepth = 0.020; // [m] beyond the touch
+constexpr double kPushStart = 0.060; // [m] start of a push, before the touch
+constexpr double kClear = 0.030;     // [m] clearance around the stance
+constexpr double kRoom = 0.100; // [m] distance of the first candidate of the stance from the nearest region
 constexpr double kBackStep = 0.020;     // [m]
-constexpr int kMostBackSteps = 200;     // 4 m: far behind the near limit of any camera
+constexpr int kMostBackSteps = 200;     // 4 m: more than the near limit of any camera
 constexpr double kBeforeTarget = 0.060; // [m]
 constexpr double kGapCap = 0.050;       // [m] longest step of the search
 constexpr double kTurn = 4.0;           // [degree]
 constexpr double kTurnTime = 1.4;       // [s]
-constexpr double kHoldTime = 2.2;       // [s] at a guidance target,
-constexpr double kButtonTime = 1.5;     // [s] at the end of it with the button
+constexpr double kHoldTime = 2.2;       // [s] at a guidance target, with
+constexpr double kButtonTime = 1.5;     // [s] the button down at the end of it
 constexpr uint32_t kGuidanceButton = 1;
 
 struct Goal {
@@ -34,7 +34,7 @@ struct Goal {
     dvec3 point{0.0}; // base frame
 };
 
-// Free moves of the tool: straight, with the orientation of the base frame.
+// Tests free moves of the tool: straight lines with the orientation of the base frame.
 class FreeSpace {
 public:
     FreeSpace(const Tool& tool, const Fixtures& set, const RegionGrid& grid)
@@ -46,9 +46,9 @@ public:
         return leastGap(tool_, set_, grid_, {position, dquat(1.0, 0.0, 0.0, 0.0)}, kGapCap, fixture);
     }
 
-    // Length of the move from a towards b at whose end a leaf first touches; empty when the move is free.
-    // Steps of the gap's length cannot pass a region. A shortest step keeps grazing moves progressing; it is
-    // halved when it ends inside.
+    // Length of the move from a to b up to the first contact of a leaf; empty when the move is free. Each
+    // step is as long as the current gap, so it cannot skip a region. A minimum step keeps grazing moves
+    // progressing; it is halved when it ends inside.
     std::optional<double> touch(const dvec3& a, const dvec3& b, int fixture = -1) const {
         const double length = glm::length(b - a);
         const dvec3 direction = length > 0.0 ? (b - a) / length : dvec3(0.0);
@@ -97,7 +97,7 @@ public:
         const Pose pose = path_.back().deviceThandle;
         append(duration, buttons, [&](double) { return pose; });
     }
-    // There and back on both sides about an axis through the tool's origin.
+    // Rotates to both sides and back, about an axis through the tool's origin.
     void step(const dvec3& axis, double angle, double duration) {
         const dvec3 position = path_.back().deviceThandle.position;
         append(duration, 0, [&](double s) {
@@ -109,7 +109,7 @@ public:
 private:
     static double minimumJerk(double s) { return s * s * s * (10.0 + s * (-15.0 + 6.0 * s)); }
 
-    // A waypoint's buttons hold from its time on, so the waypoint at the start also gets them.
+    // A waypoint's buttons are valid from its time on, so the waypoint at the start gets them, too.
     template <class PoseAt>
     void append(double duration, uint32_t buttons, const PoseAt& poseAt) {
         path_.back().buttons = buttons;
@@ -170,8 +170,8 @@ std::vector<Goal> goalsOf(const Scene& scene, const Fixtures& set) {
     return goals;
 }
 
-// The point `distance` before `end` on the ray from the camera, or farther back until it is clear and the
-// move from `from` is free.
+// The point `distance` before `end` on the ray from the camera, or closer to the camera until it is clear and
+// the move from `from` is free.
 dvec3 standBefore(const FreeSpace& space, const dvec3& end, const dvec3& direction, double distance,
                   const dvec3* from) {
     dvec3 point = end - distance * direction;

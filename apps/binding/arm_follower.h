@@ -24,7 +24,7 @@ public:
 
     static constexpr double kSetpointStale = 0.1; // [s] an older setpoint holds the arm
     static constexpr double kBehindTime = 0.5;    // [s]
-    static constexpr double kBehindOver = 0.25;   // of the allowed lag: below it the arm follows again
+    static constexpr double kBehindOver = 0.25; // share of the allowed lag below which the arm follows again
 
 private:
     ArmState stateOf(bool asked) const noexcept;
@@ -32,7 +32,7 @@ private:
     ArmDevice& device_;
     ArmAxes axes_;
     ArmCommand command_;
-    double lagging_ = 0.0; // [s] since when; 0 = not
+    double lagging_ = 0.0; // [s] time since when it lags; 0 = it does not
     bool behind_ = false;
 };
 

@@ -20,7 +20,8 @@ inline constexpr const char* kArmHelp =
 
 class ArmThread;
 
-// rig: of the scene. Throws BadInput when the scene has no arm or no driver, and like ArmThread.
+// rig: the arm of the scene. Throws BadInput when the scene has no arm or no driver, and whatever ArmThread
+// throws.
 std::unique_ptr<ArmThread> openRealArm(const Scene& scene, const ArmRig* rig, const std::string& port);
 
 // One thread constructs, homes and starts it; afterwards the haptic thread uses only link().

@@ -20,7 +20,7 @@ namespace fathom {
 namespace {
 
 constexpr double kBeat = 0.1 * LineGuard::kSilence; // [s]
-constexpr auto kPatience = std::chrono::seconds(1); // wait for its end
+constexpr auto kPatience = std::chrono::seconds(1); // time that it has to end
 
 } // namespace
 
@@ -78,7 +78,7 @@ void ArmWatchdog::alive(double now) noexcept {
     if (now >= next_) {
         next_ = now + kBeat;
         ::send(socket_, &kGuardAlive, 1,
-               MSG_NOSIGNAL | MSG_DONTWAIT); // a hanging watchdog fills its socket
+               MSG_NOSIGNAL | MSG_DONTWAIT); // a watchdog that hangs lets its socket fill up
     }
 }
 

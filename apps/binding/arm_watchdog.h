@@ -27,7 +27,7 @@ public:
     // Ends the process and waits for it, so that the port is free.
     ~ArmWatchdog();
 
-    // True when it runs and would stop the arm. False at first, and after it was killed.
+    // True when it runs and would stop the arm. False until it is ready, and after it was killed.
     bool stands() noexcept;
     bool ended() const noexcept { return ended_; }
     // now [s]: any monotonic clock. Before each exchange with the arm.

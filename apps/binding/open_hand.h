@@ -23,7 +23,7 @@ std::unique_ptr<LiveHand> openLiveHand(const std::string& name, Scene& scene);
 // The axes that it senses and drives, in one line: "x y z sensed, x y z driven; torque is shown, not felt".
 std::string axesOf(const std::string& preset);
 
-// Waits until the device gives poses (plugged in, homed), or until `stop` and returns false. Logs once what
+// Waits until the device sends poses (plugged in and homed); false when `stop` is set first. Logs once what
 // it waits for.
 bool awaitHand(LiveHand& hand, const std::atomic<bool>& stop);
 

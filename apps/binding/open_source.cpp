@@ -80,7 +80,7 @@ std::unique_ptr<Camera> openDry(const Scene& scene, const std::optional<std::fil
         break;
     }
     CameraRequest request = parseCameraRequest(scene.source.value);
-    if (!request.intrinsics.empty()) { // like all paths in a scene file
+    if (!request.intrinsics.empty()) { // relative to the scene file, like all its paths
         const std::filesystem::path folder = scene.file.parent_path(), file = folder / request.intrinsics;
         if (!staysInside(request.intrinsics) || !liesInside(file, folder)) {
             warnOutside(scene.file, request.intrinsics.string());

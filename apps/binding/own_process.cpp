@@ -13,8 +13,8 @@ namespace fathom {
 
 namespace {
 
-constexpr int kAbove = 10;  // descriptors that no action of the child overwrites
-constexpr size_t kMost = 8; // per child
+constexpr int kAbove = 10;  // lowest number of the copies, above all target numbers
+constexpr size_t kMost = 8; // descriptors per child
 
 // Inherited descriptors have no FD_CLOEXEC. Ours have it, and one may have the number of a standard error
 // that was closed.

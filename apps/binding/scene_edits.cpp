@@ -13,7 +13,8 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostEdits = 100'000;
-constexpr const char* kSpareName = "(spare "; // in a recording's scene files; without a name during the run
+constexpr const char* kSpareName =
+    "(spare "; // name of a spare class in a recording's scene files; during the run its name is empty
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const TextLine& line, const char* column,
                          std::string_view value, const std::string& allowed) {

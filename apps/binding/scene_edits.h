@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Changes by the pilot while the window recorded: complete scenes, each valid from a frame on, so that a
-// replay uses the same fixtures as the hand.
+// Fixture changes that the pilot made during a recording. Each is a complete scene, valid from one frame on,
+// so that a replay uses the same fixtures as the hand felt.
 #pragma once
 
 #include "engine/scene/plan.h"
@@ -40,7 +40,7 @@ public:
     bool empty() const { return edits_.empty(); }
     // The edit that is active at this frame. There must be edits.
     const SceneEdit& at(uint32_t image) const;
-    void takeUncertainty(const Camera& camera); // of all scenes; apps/binding/open_source.h
+    void takeUncertainty(const Camera& camera); // in all scenes; see apps/binding/open_source.h
 
 private:
     std::vector<SceneEdit> edits_;

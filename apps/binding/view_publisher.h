@@ -35,13 +35,13 @@ public:
 private:
     void tellRegions() noexcept;
     void tellFixtures();
-    bool shapesAreOthers(); // than those sent
+    bool shapesAreOthers(); // true when the shapes differ from those sent
 
     static constexpr uint32_t kPollEvery = 16; // ticks
 
     ViewSocket endpoint_;
     const Fixtures* set_ = nullptr;
-    uint64_t told_ = 0; // generation of the last sent set
+    uint64_t told_ = 0; // generation of the last set that was sent
     uint32_t ticks_ = 0;
     fathom_door_state state_{};
     fathom_door_regions regions_{};

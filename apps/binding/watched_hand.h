@@ -11,7 +11,7 @@ namespace fathom {
 // read() and write(): haptic thread. told(): one other thread.
 class WatchedHand final : public HapticDevice {
 public:
-    // Outlives this, and is present now.
+    // `hand` outlives this and is connected now.
     explicit WatchedHand(LiveHand& hand)
         : hand_(hand)
         , name_(hand.description()) {}
