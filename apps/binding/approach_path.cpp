@@ -24,8 +24,8 @@ constexpr double kBeforeTarget = 0.060; // [m]
 constexpr double kGapCap = 0.050;       // [m] longest step of the search
 constexpr double kTurn = 4.0;           // [degree]
 constexpr double kTurnTime = 1.4;       // [s]
-constexpr double kHoldTime = 2.2;       // [s] at a guidance target, with
-constexpr double kButtonTime = 1.5;     // [s] the button down at the end of it
+constexpr double kHoldTime = 2.2;       // [s] at a guidance target
+constexpr double kButtonTime = 1.5;     // [s] of that, at the end, with the button down
 constexpr uint32_t kGuidanceButton = 1;
 
 struct Goal {

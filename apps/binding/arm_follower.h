@@ -32,7 +32,7 @@ private:
     ArmDevice& device_;
     ArmAxes axes_;
     ArmCommand command_;
-    double lagging_ = 0.0; // [s] time since when it lags; 0 = it does not
+    double lagging_ = 0.0; // [s] when it began to lag; 0 = it does not
     bool behind_ = false;
 };
 

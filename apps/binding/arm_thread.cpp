@@ -19,7 +19,7 @@ constexpr auto kPause = std::chrono::milliseconds(2);
 constexpr double kNoAnswer = 5.0, kHomingTime = 300.0; // [s]
 constexpr auto kWatchdogStart = std::chrono::seconds(5);
 constexpr double kRetry = 0.5;     // [s] between attempts to reopen the port or restart the watchdog
-constexpr double kLastWords = 0.2; // [s] for which stop commands are sent at the end
+constexpr double kLastWords = 0.2; // [s] stop commands at the end
 constexpr double kQuiet = 2.0;     // [s] minimum time between two log lines
 constexpr double kOutside = 0.02;  // [rad], [m] tolerance of the joint limits for calibration errors
 

@@ -20,7 +20,7 @@ namespace fathom {
 namespace {
 
 constexpr double kBeat = 0.1 * LineGuard::kSilence; // [s]
-constexpr auto kPatience = std::chrono::seconds(1); // time that it has to end
+constexpr auto kPatience = std::chrono::seconds(1); // time for it to end
 
 } // namespace
 

@@ -13,8 +13,8 @@ namespace fathom {
 namespace {
 
 constexpr size_t kMostEdits = 100'000;
-constexpr const char* kSpareName =
-    "(spare "; // name of a spare class in a recording's scene files; during the run its name is empty
+// Name of a spare class in a recording's scene files; during the run its name is empty.
+constexpr const char* kSpareName = "(spare ";
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const TextLine& line, const char* column,
                          std::string_view value, const std::string& allowed) {

@@ -98,9 +98,7 @@ struct Session {
     // The pilot's recorded edit that becomes active at this frame; null when nothing changed since the last
     // call.
     const SceneEdit* newEdit(uint32_t image);
-    bool heldStill() const {
-        return edit_ != nullptr && edit_->still;
-    } // all fixtures are frozen in that frame
+    bool heldStill() const { return edit_ != nullptr && edit_->still; } // all fixtures frozen
 
 private:
     std::vector<HandWaypoint> approach_; // base frame; kept because the fixture set may be gone later
