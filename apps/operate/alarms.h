@@ -25,7 +25,7 @@ const char* levelName(Level level);
 const char* levelSign(Level level);
 ImU32 levelColour(Level level);
 
-// Conditions that are not in a step record.
+// Conditions that a step record does not contain.
 struct Health {
     bool gpuGone = false;       // lost and not reopened yet
     bool handGone = false;      // the haptic device is disconnected or silent
@@ -50,7 +50,7 @@ private:
     void set(bool on, Level level, const char* key, const std::string& words, double t);
     void stepScene(const StepRecord& tick, const HapticOptions& haptics, bool deviceGone);
     std::vector<Alarm> alarms_;
-    bool waits_ = false;     // for the first frame after the GPU was lost
+    bool waits_ = false;     // true until the first frame after the GPU was lost
     int64_t lostFrame_ = -1; // newest frame at that time
 };
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kLeastWidth = 640;
 constexpr size_t kLeastOutline = 24;  // [pixels]
-constexpr int kHatch = 12, kLine = 2; // [pixels] of the regions
+constexpr int kHatch = 12, kLine = 2; // [pixels] pattern of the regions
 constexpr int kUnknownHatch = 9;
 
 struct Tint {
@@ -92,7 +92,7 @@ void CameraGround::paintRegions(const Fixtures& set) {
             }
         }
     }
-    for (size_t i = 0; i < set.spheres.size(); ++i) { // the points of the regions
+    for (size_t i = 0; i < set.spheres.size(); ++i) { // marks the points inside regions
         const auto p = view_.ofBase(regionCentre(set, i));
         if (p && p->x >= 0.0 && p->y >= 0.0 && p->x < view_.width() && p->y < view_.height()) {
             uint32_t& target = pixels_[static_cast<size_t>(p->y) * static_cast<size_t>(view_.width()) +

@@ -102,7 +102,7 @@ void Canvas::finishFrame(Console& console, std::span<const Layer> layers, const 
         if (onDevice_) {
             onDevice_->painter->uploadFonts();
         } else {
-            ImGui::GetIO().Fonts->Build(); // the next frame measures text
+            ImGui::GetIO().Fonts->Build(); // so that the next frame measures text with the new font
         }
     }
 }

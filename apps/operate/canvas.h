@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window draws with: surface, painter, fonts and screenshots.
+// Draws the window's frames: surface, painter, fonts and screenshots.
 #pragma once
 
 #include "apps/operate/console.h"
@@ -11,7 +11,7 @@
 
 namespace fathom::operate {
 
-// Thread: the window's. Window and instance outlive it; a device outlives what is open on it.
+// Window thread. Window and instance outlive it; a device outlives the objects open on it.
 class Canvas {
 public:
     // shots: folder of screenshots. Uses no device before open().
@@ -31,8 +31,8 @@ public:
     void finishFrame(Console& console, std::span<const Layer> layers, const std::function<bool()>& busy);
 
     const Letters& letters() const { return letters_; }
-    struct Counts {                      // totals over all devices
-        uint64_t drawn = 0, yielded = 0; // frames
+    struct Counts {                      // Totals over all devices.
+        uint64_t drawn = 0, yielded = 0; // window frames drawn, and skipped for passes
         uint32_t swapchains = 0;
     };
     Counts counts() const;
@@ -46,7 +46,7 @@ private:
     std::filesystem::path shots_;
     double scale_;
     std::unique_ptr<OnDevice> onDevice_; // null: no device
-    Counts before_;                      // of devices that were dropped
+    Counts before_;                      // counts from devices that were dropped
     Letters letters_;
 };
 

@@ -29,7 +29,7 @@ struct Pick {
     bool taken = false;  // a pixel was chosen
     uint32_t u = 0, v = 0;
     FixtureClass gates; // the class to add
-    int row = -1;       // of the class whose gates are edited; -1 = a new class
+    int row = -1;       // row of the class whose gates are edited; -1 = a new class
     bool fresh = false; // the preview has not been computed yet
 };
 
@@ -37,10 +37,10 @@ struct Pick {
 struct TimeLine {
     bool on = false, playing = false;
     bool dragged = false;    // the pilot drags the marker
-    double t = 0.0;          // [s] shown
+    double t = 0.0;          // [s] position
     double duration = 0.0;   // [s]
-    double speed = 1.0;      // of playing
-    uint32_t image = 0;      // frame shown, from 0
+    double speed = 1.0;      // playback speed
+    uint32_t image = 0;      // current frame, from 0
     uint32_t images = 0;     // number of frames
     bool wholeMemory = true; // points held from earlier frames are included
 };
@@ -49,22 +49,22 @@ struct Console {
     bool forces = false, guidance = false, clutch = false, frozen = false;
     bool grasp = false;        // the jaws of an arm close
     bool spaceIsLarge = false; // the 3D view is the large one
-    bool paused = false;       // traces
+    bool paused = false;       // the traces
     bool recording = false;
     bool quit = false, screenshot = false, exportCsv = false, acknowledge = false;
-    bool remake = false; // the swapchain
+    bool remake = false; // recreate the swapchain
     bool undo = false, redo = false, save = false, addPicked = false;
     uint32_t shots = 0; // screenshots written
-    int treeLevel = -1; // shown in the 3D view; -1 = none
+    int treeLevel = -1; // tree level shown in the 3D view; -1 = none
     double textScale = 1.0;
     Tab tab = Tab::Fixtures, shownTab = Tab::Help;
     Orbit orbit;
     TimeLine timeLine;
     Pick pick;
-    ShapeKind placing = ShapeKind::None; // the next click on the cloud puts one there
-    std::optional<dvec3> placedFrom;     // start of a line or an axis [m, base]: the next click is its end
+    ShapeKind placing = ShapeKind::None; // shape that the next click on the cloud places
+    std::optional<dvec3> placedFrom;     // start of a line or an axis [m, base]; the next click is its end
     bool panels = false;                 // arrows and Enter go to the panels, not to the tool
-    std::optional<ImVec2> cursor;        // [pixels] of the keyboard, while it aims
+    std::optional<ImVec2> cursor;        // keyboard cursor [pixels], while it is in use
     bool aims() const { return (pick.active && !pick.taken) || placing != ShapeKind::None; }
 
     std::string pilotWanted; // name of a pilot to switch to; empty = no request
@@ -78,7 +78,7 @@ struct Console {
     std::string notice;       // one line about the last action
     double noticeUntil = 0.0; // [s] of ImGui's clock
     void notify(std::string text);
-    // The settings that a scene file stores. chosenTextScale: 0 = as in the file.
+    // Takes over the settings that a scene file stores. chosenTextScale: 0 = as in the file.
     void takeSettings(const Scene& scene, double chosenTextScale);
     Scene::Window settings() const;
 

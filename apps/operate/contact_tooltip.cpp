@@ -13,7 +13,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr float kNear = 18.0f;   // [pixels] of a contact point
+constexpr float kNear = 18.0f;   // [pixels] mouse distance from a contact point
 constexpr double kLasting = 0.1; // [s] since the last tick in which it stopped the tool
 
 // The region sphere of a contact; shapes and surfaces are drawn anyway.

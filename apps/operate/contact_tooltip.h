@@ -7,8 +7,8 @@
 
 namespace fathom::operate {
 
-// Inside an ImGui frame. Records the newest block as the place "contact" and stores the text in
-// console.hovered; the text is empty when no present block is under the mouse.
+// Call inside an ImGui frame. Records the newest block as the place "contact" and puts the text into
+// console.hovered, which is empty when no current block is under the mouse.
 void drawContactTooltip(Console& console, ImDrawList& list, const MarksInput& input);
 
 } // namespace fathom::operate

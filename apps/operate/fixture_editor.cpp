@@ -12,8 +12,8 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kHueReach = 12.0;  // [degree] on each side of the picked hue
-constexpr double kToneReach = 0.28; // of saturation and lightness
-constexpr uint32_t kPatch = 2;      // [pixels] around the click, averaged
+constexpr double kToneReach = 0.28; // half width of the saturation and lightness bands
+constexpr uint32_t kPatch = 2;      // [pixels] average colour within this distance of the click
 constexpr size_t kMostHistory = 64;
 
 // The colour of a depth pixel as the gates use it: without the water's attenuation.

@@ -25,13 +25,13 @@ public:
 
     // Sets the gates around the colour of this pixel, and computes the preview.
     void pickAt(Console& console, const SceneSnapshot& snapshot, glm::uvec2 pixel);
-    // Computes selection and hue histogram for the present gates.
+    // Computes selection and hue histogram for the current gates.
     void preview(Console& console, const SceneSnapshot& snapshot);
     // Puts the picked class into a spare row (false when none is left), or the edited gates into their row.
     bool takePicked(Console& console);
     // Adds an authored shape at a point of the base frame with the normal of the surface.
     bool place(ShapeKind kind, const dvec3& base, const dvec3& normal);
-    void change(size_t row, const FixtureClass& to); // one undo step
+    void change(size_t row, const FixtureClass& to); // makes one undo step
     void remove(size_t row);
     bool undo();
     bool redo();
@@ -39,14 +39,14 @@ public:
     void keep(const Scene::Window& window, const std::string& pilot);
     // Replaces `fixtures:`, `pilot:` and `window:` in the scene file, keeps the rest, and returns a message.
     std::string save() const;
-    // Text of the scene file with the present fixtures. spares: includes spare rows, so that each class keeps
+    // Text of the scene file with the current fixtures. spares: includes spare rows, so that each class keeps
     // its row number.
     std::string text(bool spares = false) const;
     // Shows the fixtures of another moment without calling onChange. Clears the history.
     void showFixtures(const Scene& scene);
 
     const std::vector<uint8_t>& selection() const { return selection_; } // size of the depth image
-    uint64_t selectionNumber() const { return selectionNumber_; }        // changes with it
+    uint64_t selectionNumber() const { return selectionNumber_; } // increases when the selection changes
     size_t selectedPoints() const { return selected_; }
     const std::array<float, 72>& hues() const {
         return hues_;

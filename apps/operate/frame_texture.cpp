@@ -26,7 +26,7 @@ VkImageCreateInfo imageInfo(VkFormat format, VkExtent2D size, VkImageUsageFlags 
 
 FrameTexture::FrameTexture(const gpu::Device& device, VkFormat format, VkExtent2D size,
                            VkImageUsageFlags usage)
-    : FrameTexture() { // delegated, so that the destructor runs when a later step throws
+    : FrameTexture() { // delegates, so that the destructor runs when a later step throws
     device_ = &device;
     size_ = size;
     const VkImageCreateInfo info = imageInfo(format, size, usage);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// An image on the device with its own memory: the render target of the window, and images from the CPU.
+// An image on the device with its own memory: the render target of the window, and images uploaded from the
+// CPU.
 #pragma once
 
 #include "engine/gpu/buffer.h"

@@ -44,7 +44,7 @@ void bar(const HudInput& input, const char* name, double value, double limit, co
     words(input.letters.small, share > 0.98 ? colour::kWarning : colour::kQuiet, right);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
-    const float limitAt = width * 0.9f; // space beyond the limit keeps its mark visible
+    const float limitAt = width * 0.9f; // leaves room beyond the limit, so that its mark stays visible
     list.AddRectFilled(at, {at.x + width, at.y + height}, IM_COL32(34, 43, 57, 255), 3.0f);
     list.AddRectFilled(at, {at.x + limitAt * static_cast<float>(std::clamp(share, 0.0, 1.1)), at.y + height},
                        colour, 3.0f);

@@ -33,13 +33,13 @@ struct HudInput {
     std::string title;
     double unknownShare = 0.0; // share of the image without depth
     double windowHz = 0.0;
-    bool driven = false;               // by a device or a path; otherwise by mouse and keyboard
+    bool driven = false;               // a device or path drives the hand; otherwise mouse and keyboard
     const MeasuredArm* arm = nullptr;  // null = no real arm
     bool handGone = false;             // the haptic device is disconnected
     std::vector<std::string> armHolds; // measured_arm.h
 };
 
 void drawHeadLine(Console& console, const HudInput& input, ImVec2 at, ImVec2 size);
-void drawGauges(Console& console, const HudInput& input); // inside the open ImGui window
+void drawGauges(Console& console, const HudInput& input); // call inside the open ImGui window
 
 } // namespace fathom::operate

@@ -35,7 +35,7 @@ namespace {
 
 struct Range {
     int first, last; // GLFW codes
-    ImGuiKey to;     // of the first
+    ImGuiKey to;     // ImGui's key for `first`
 };
 
 constexpr Range kRanges[] = {
@@ -51,7 +51,7 @@ constexpr Range kRanges[] = {
     {GLFW_KEY_RIGHT_CONTROL, GLFW_KEY_RIGHT_CONTROL, ImGuiKey_RightCtrl},
     {GLFW_KEY_RIGHT_ALT, GLFW_KEY_RIGHT_ALT, ImGuiKey_RightAlt},
     {GLFW_KEY_RIGHT_SUPER, GLFW_KEY_RIGHT_SUPER, ImGuiKey_RightSuper},
-    {GLFW_KEY_SPACE, GLFW_KEY_SPACE, ImGuiKey_F24}, // ImGui's own Space would press the chosen item
+    {GLFW_KEY_SPACE, GLFW_KEY_SPACE, ImGuiKey_F24}, // ImGui's own Space would press the selected item
     {GLFW_KEY_ESCAPE, GLFW_KEY_ESCAPE, ImGuiKey_Escape},
     {GLFW_KEY_ENTER, GLFW_KEY_ENTER, ImGuiKey_Enter},
     {GLFW_KEY_TAB, GLFW_KEY_TAB, ImGuiKey_Tab},
@@ -105,7 +105,7 @@ bool keyPressed(int key, bool repeat) {
     return ImGui::IsKeyPressed(imguiKey(key), repeat);
 }
 
-// ImGui ignores what has not changed. Mouse buttons are repeated for dropQueuedKeys().
+// ImGui ignores unchanged keys. Mouse buttons are sent again for dropQueuedKeys().
 void passKeys(GLFWwindow* window, const KeysDown& down, bool control, bool shift) {
     ImGuiIO& io = ImGui::GetIO();
     io.AddKeyEvent(ImGuiMod_Ctrl, control);

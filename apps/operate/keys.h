@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys by their GLFW codes, whatever ImGui's version: since 1.87 ImGui has key codes of its own.
+// Keys by their GLFW codes for every version of ImGui, which has its own key codes since 1.87.
 #pragma once
 
 #include <array>
@@ -10,11 +10,11 @@ namespace fathom::operate {
 
 using KeysDown = std::array<bool, 512>; // by GLFW code
 
-// Of the current ImGui frame.
+// In the current ImGui frame.
 bool keyDown(int key);
 bool keyPressed(int key, bool repeat = false);
 
-// Passes this frame's keys to ImGui. Enter presses the chosen item there, because Space turns forces off.
+// Passes this frame's keys to ImGui. Enter presses the selected item there, because Space turns forces off.
 void passKeys(GLFWwindow* window, const KeysDown& down, bool control, bool shift);
 
 // Drops the key presses that ImGui has queued for a later frame.

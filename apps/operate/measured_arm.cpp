@@ -22,7 +22,7 @@ MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const S
     }
     ArmPosture posture = run.measured()->posture;
     const ArmPosture& tool = row.record.arm.posture;
-    posture.grasp = std::isfinite(posture.grasp) ? posture.grasp : tool.grasp; // jaws that are not driven
+    posture.grasp = std::isfinite(posture.grasp) ? posture.grasp : tool.grasp; // jaws without a drive
     measured.age = std::max(0.0, row.record.t - run.measured()->t);
     measured.spheres = armSpheres(arm, posture);
     measured.tip = arm->tipAt(posture).position;

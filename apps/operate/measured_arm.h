@@ -12,23 +12,23 @@ namespace fathom::operate {
 
 struct MeasuredArm {
     bool real = false;  // a real arm follows the tool
-    bool known = false; // measured now; otherwise the values are the last ones
+    bool known = false; // measured recently; otherwise the values are the last ones
     ArmState state = ArmState::Held;
     std::vector<double> joints;  // [rad], [m]; empty = never measured
-    std::vector<Sphere> spheres; // of every link, base frame
+    std::vector<Sphere> spheres; // spheres of every link, base frame
     dvec3 tip{0.0};              // base frame
-    double apart = 0.0;          // [m] largest distance of a sphere from its setpoint
+    double apart = 0.0;          // [m] largest distance of a sphere from its place at the setpoint
     std::string worst;           // joint with the largest error
-    double error = 0.0;          // of that joint, measured minus setpoint [rad], or [m] for a sliding joint
+    double error = 0.0;          // measured minus setpoint of that joint: [rad], or [m] for a sliding joint
     bool slides = false;
-    double age = 0.0; // [s] since it was measured
+    double age = 0.0; // [s] age of the measurement
 
-    // Drawn in the views only when off its setpoint: otherwise it would hide things.
+    // Drawn in the views only when the arm is off its setpoint; otherwise it would only cover things.
     bool isOff() const { return !joints.empty() && (!known || apart > kOff); }
     static constexpr double kOff = 0.01; // [m]
 };
 
-// arm: null = no arm in the scene. wanted: its spheres at the setpoint.
+// arm: null = no arm in the scene. wanted: the arm's spheres at the setpoint.
 MeasuredArm measuredArm(const ArmRig* arm, const RunView& run, std::span<const Sphere> wanted);
 
 // Reasons why the arm itself stops the tool in this tick, one phrase each: joints at their limits or at full

@@ -49,7 +49,7 @@ void addOperateCommand(CLI::App& app, const GlobalOptions& global) {
                 throw BadInput("operate", name, *value, "nothing beside a recording");
             }
         }
-        options->armed = options->path && !options->offscreen.empty(); // no key could arm them
+        options->armed = options->path && !options->offscreen.empty(); // offscreen no key can arm forces
         if (options->recording.empty()) {
             operate::OperatorRun(*options, global).run();
         } else {

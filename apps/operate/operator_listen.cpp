@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What becomes of keys and clicks: the hand, fixtures, files.
+// Applies the keys and clicks of a window frame: hand, fixtures, files.
 #include "apps/operate/operator_run.h"
 #include "apps/operate/scene_files.h"
 #include "apps/operate/view_click.h"
@@ -16,7 +16,7 @@ void OperatorRun::listen() {
     if (const auto at = steering_->step(console_, large, depth)) {
         clickInView(console_, *editor_, screen_, view_.scene(), *at);
     }
-    if (std::exchange(forcesOff_, false)) { // whatever else this frame's keys asked for
+    if (std::exchange(forcesOff_, false)) { // overrides all other keys of this frame
         console_.forces = console_.guidance = false;
     }
     hand_->setForces(console_.forces);
@@ -31,7 +31,7 @@ void OperatorRun::listen() {
     }
 }
 
-// What keys hold down beside the device's own buttons.
+// Buttons that keys hold down, added to the device's own.
 uint32_t OperatorRun::buttonsOf(const Console& console) const {
     const auto& arm = session_.scene.arm;
     const uint32_t grasp = arm ? arm->grasp.button : 0;
@@ -39,7 +39,7 @@ uint32_t OperatorRun::buttonsOf(const Console& console) const {
            (console.grasp ? grasp : 0);
 }
 
-// The first name that nothing has.
+// The first unused folder name.
 std::filesystem::path OperatorRun::freshRecording() {
     std::filesystem::path folder;
     do {
@@ -63,8 +63,8 @@ void OperatorRun::startRecording() {
     }
 }
 
-// Starts and stops as the console says. What is recorded may still be written a while after that, and a disk
-// that is full ends it: the window goes on meanwhile.
+// Starts and stops recording as the console requests. After a stop, queued frames are still written while the
+// window continues; a full disk stops the recording.
 void OperatorRun::followRecorder() {
     const bool writing = recorder_.writing();
     if (console_.recording && recordingTo_.empty() && !writing) {

@@ -13,7 +13,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 60.0; // [s] of the window, at best
+constexpr double kFramePeriod = 1.0 / 60.0; // [s] shortest period of the window
 
 double seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -39,7 +39,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     : options_(options)
     , placement_(ThreadPlacement::ofThisProcess())
     , window_(options.offscreen, title(options))
-    , confined_(placement_.rest) // before the device: a software device's workers inherit it
+    , confined_(placement_.rest) // before the device opens: inherited by a software device's workers
     , session_(options, global,
                {window_.offscreen() ? gpu::Drawing::Offscreen : gpu::Drawing::Surface, window_.extensions()},
                signals_.asked())
@@ -58,7 +58,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     startThreads();
     console_.forces = options_.armed;
     window_.onForcesOff = [this] {
-        hand_->setForces(false); // at once, whatever the rest of this frame does
+        hand_->setForces(false); // at once, before the rest of this frame
         forcesOff_ = true;
     };
 }
@@ -95,7 +95,7 @@ void OperatorRun::run() {
         lastFrame_ = now;
         frame();
     }
-    if (window_.offscreen() && !options_.shots.empty()) { // no key can ask for one
+    if (window_.offscreen() && !options_.shots.empty()) { // no key can request one offscreen
         console_.screenshot = true;
         window_.beginFrame(0.0);
         frame();
@@ -126,14 +126,13 @@ void OperatorRun::frame() {
     log_.write(console_, view_, extras());
 }
 
-// Both threads find out by themselves that the device is lost; only this one knows when nothing is drawn on
-// it any more.
+// Window and frame thread each detect a lost device; only the window knows when it no longer draws on it.
 void OperatorRun::show() {
     DeviceHandover& device = *session_.handover;
     try {
         canvas_->finishFrame(console_, screen_.layers(), [this] { return feed_.busy(); });
         if (canvas_->isOpen()) {
-            device.accept(); // once it has been drawn on
+            device.accept(); // once it has drawn
         } else if (device.offered()) {
             reopen();
         }
@@ -145,17 +144,17 @@ void OperatorRun::show() {
         device.release();
     }
     const bool gone = device.gone();
-    if (std::exchange(toldGone_, gone) != gone) { // in words, where no GPU is needed
+    if (std::exchange(toldGone_, gone) != gone) { // as text, which needs no GPU
         window_.setTitle(title(options_) + (gone ? ": GPU is gone, forces fade" : ""));
     }
 }
 
-// After a frame: one that is open has names of things on the device that it began with.
+// Only between frames, because an open ImGui frame refers to textures of the old device.
 void OperatorRun::reopen() {
     try {
         canvas_->open(session_.cycles.device());
         screen_.redraw();
-    } catch (const Error& e) { // a driver that is being started anew may say anything
+    } catch (const Error& e) { // a driver that restarts may report any error
         session_.handover->lose(e.what());
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A pilot's session: the threads of a real-time run, and the window on the main thread.
+// A pilot's session: the threads of a realtime run, and the window on the main thread.
 #pragma once
 
 #include "apps/binding/stop_signals.h"
@@ -22,7 +22,7 @@
 
 namespace fathom::operate {
 
-// The run never waits for the window: its haptic, contact, camera and writer threads are those of `replay
+// The run never waits for the window: it has the same haptic, contact, camera and writer threads as `replay
 // --realtime`, and the window reads what the writer published. When the GPU is lost, the camera thread opens
 // it again (DeviceHandover) while hand and keys keep working.
 class OperatorRun {
@@ -30,25 +30,26 @@ public:
     // Throws BadInput (scene, display, device), Error, DeviceLost.
     OperatorRun(const OperateOptions& options, const GlobalOptions& global);
 
-    // Until the window is closed, the time is up, a signal or a failure, which is thrown.
+    // Runs until the window is closed, the time is up, a signal arrives or something fails. Throws the
+    // failure.
     void run();
 
-    // After run(): what there was to see.
+    // After run(): the final state of the view.
     const RunView& view() const { return view_; }
     const RealtimeRun& engine() const { return *engine_; }
 
 private:
     static HapticOptions softly(const Scene& scene, const Tool& tool);
-    HapticDevice& device(); // that drives
+    HapticDevice& device(); // the device that drives the tool
     void makeHand(const Pose& start, const Pose* tool);
     void makeEngine(const Pose& start, const Pose* tool);
     void forgetFrames();
     void startThreads();
     void followPilot();
     void frame();
-    void show();   // what has been drawn, where there is a device
-    void reopen(); // on another device
-    void listen(); // what the frame's keys and clicks asked for
+    void show();   // shows the drawn frame if there is a device
+    void reopen(); // opens the canvas on another device
+    void listen(); // applies the keys and clicks of this frame
     uint32_t buttonsOf(const Console& console) const;
     std::filesystem::path freshRecording();
     void startRecording();
@@ -67,7 +68,7 @@ private:
     Session session_;
     HapticOptions haptics_;
     SessionFeed feed_;
-    std::unique_ptr<ViewPublisher> observers_; // null = no observers
+    std::unique_ptr<ViewPublisher> observers_; // null = no view socket
     Recorder recorder_;
     PublishedSink published_;
     FaultTrace faults_;
@@ -88,12 +89,11 @@ private:
     TracesPanel traces_;
     Alarms alarms_;
     StateLog log_;
-    bool toldGone_ = false, forcesOff_ = false; // forcesOff_: asked for since the last listen()
+    bool toldGone_ = false, forcesOff_ = false; // forcesOff_: requested since the last listen()
     double started_ = 0.0, windowHz_ = 0.0, lastFrame_ = 0.0;
-    uint32_t recordings_ = 0; // tried names
-    std::string recordingTo_; // folder, until all is on disk; empty = none
-    std::unique_ptr<RunThread>
-        thread_; // the last member, so it ends before what it uses; its last wrench is zero
+    uint32_t recordings_ = 0;           // number of the last folder name tried
+    std::string recordingTo_;           // recording folder until all is on disk; empty = none
+    std::unique_ptr<RunThread> thread_; // last member, so it ends before what it uses and sends a zero wrench
 };
 
 } // namespace fathom::operate

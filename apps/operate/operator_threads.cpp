@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The threads of the run, and what they run on: made at first, and again for another pilot.
+// Creates the threads of the run and the objects that they use: at the start, and again for another pilot.
 #include "apps/binding/raw_path.h"
 #include "apps/operate/operator_run.h"
 #include "engine/types/error.h"
@@ -15,7 +15,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr double kSoftStart = 1.5; // [s]
-constexpr int kNiceness = 5;       // the window's thread steps back behind camera and contacts
+constexpr int kNiceness = 5;       // lowers the window thread's priority below camera and contacts
 
 } // namespace
 
@@ -32,8 +32,8 @@ HapticDevice& OperatorRun::device() {
     return options_.path ? static_cast<HapticDevice&>(*path_) : *pilot_;
 }
 
-// The hand: `start` is the raw pose of one that the window moves; tool: where the tool stays, null = where
-// the path begins. A live hand is taken from wherever it is, also while it is not there yet.
+// Creates the hand. start: raw pose of a hand that the window moves. tool: where the tool stays; null = at
+// the start of the path. A live hand may be at any pose, and may not be connected yet.
 void OperatorRun::makeHand(const Pose& start, const Pose* tool) {
     const HandPath path = session_.path();
     const LiveHand* live = session_.liveHand.get();
@@ -45,8 +45,7 @@ void OperatorRun::makeHand(const Pose& start, const Pose* tool) {
     steering_ = std::make_unique<Steering>(raw, session_.scene.hand);
     raw = live != nullptr ? hand_->read(0.0).deviceThandle : raw;
     const std::vector<Shape> shapes = editor_ ? editor_->shapes() : shapesOf(session_.scene);
-    const bool anywhere =
-        live != nullptr || (session_.arm && !options_.path); // the hand need not begin there
+    const bool anywhere = live != nullptr || (session_.arm && !options_.path); // the hand may start elsewhere
     cycle_ =
         std::make_unique<HapticCycle>(session_.tool, shapes, haptics_, raw,
                                       tool != nullptr || anywhere ? &place : nullptr, session_.arm.get());
@@ -56,14 +55,14 @@ void OperatorRun::makeEngine(const Pose& start, const Pose* tool) {
     RealtimeOptions o;
     o.placement = placement_;
     o.hapticPeriod = haptics_.period;
-    o.staleAfter = std::numeric_limits<double>::infinity(); // the window tells of it
+    o.staleAfter = std::numeric_limits<double>::infinity(); // the window reports it
     if (session_.realArm) {
         if (engine_ == nullptr) {
             session_.awaitArm(signals_.asked());
         }
         o.arm = &session_.realArm->link();
     }
-    if (observers_) { // the set that they were told of goes with the run before
+    if (observers_) { // their set belongs to the previous run
         observers_->forget();
         observers_->setShapes(editor_ ? editor_->shapes() : shapesOf(session_.scene));
     }
@@ -92,10 +91,11 @@ void OperatorRun::startThreads() {
     });
     thread_->resume();
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)),
-                  kNiceness); // after the others began
+                  kNiceness); // after the other threads started, so that they do not inherit it
 }
 
-// The clock of a run begins anew. Another device remembers nothing anyway.
+// Drops the memory of earlier frames, because a new run has a new clock. A lost device needs nothing: the
+// next one has no memory.
 void OperatorRun::forgetFrames() {
     try {
         if (!session_.handover->lost()) {
@@ -106,8 +106,8 @@ void OperatorRun::forgetFrames() {
     }
 }
 
-// Springs, limits and scale are those of a whole run: forces go off, the tool stays where it is, and a new
-// run begins there.
+// Springs, limits and scale are constant during a run. So this turns forces off, keeps the tool where it is,
+// and starts a new run there.
 void OperatorRun::followPilot() {
     const std::string name = std::exchange(console_.pilotWanted, "");
     if (name.empty() || !session_.scene.choosePilot(name)) {
@@ -119,7 +119,7 @@ void OperatorRun::followPilot() {
     hand_->setForces(false);
     thread_->pause();
     if (thread_->ended()) {
-        return; // it failed: the window ends
+        return; // the run failed: the window ends
     }
     forgetFrames();
     view_.refresh();

@@ -19,7 +19,7 @@ namespace {
 constexpr uint64_t kLongWait = 2'000'000'000; // [ns]
 
 VkRenderPass makePass(VkDevice device) {
-    // Loads the attachment, which holds the images below.
+    // Loads the attachment, which already contains the images below.
     const VkAttachmentDescription colour{.format = kDrawn,
                                          .samples = VK_SAMPLE_COUNT_1_BIT,
                                          .loadOp = VK_ATTACHMENT_LOAD_OP_LOAD,

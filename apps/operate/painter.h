@@ -18,18 +18,18 @@ struct ImDrawData;
 namespace fathom::operate {
 
 struct PixelRect {
-    int x = 0, y = 0, width = 0, height = 0; // [pixels] of the window
+    int x = 0, y = 0, width = 0, height = 0; // [pixels] in the window
 };
 
-// A CPU image, stretched to a rectangle. Empty pixels: unchanged.
+// A CPU image, stretched to a rectangle. Empty pixels: same image as before.
 struct Layer {
     std::span<const uint32_t> pixels; // 0xAABBGGRR, width x height
     uint32_t width = 0, height = 0;
     PixelRect where; // not drawn when empty
 };
 
-// Thread: the window's. Needs an ImGui context during its lifetime. Every call throws DeviceFailed when the
-// device is lost; then destroy it, before the device.
+// Window thread. Needs an ImGui context during its lifetime. Every call throws DeviceFailed when the device
+// is lost; then destroy the painter before the device.
 class Painter {
 public:
     // swapchain null: offscreen. Uploads the font atlas of ImGui.

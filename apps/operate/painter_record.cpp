@@ -126,7 +126,7 @@ void Painter::screenshot(const std::filesystem::path& file) {
     for (uint32_t v = 0; v < size.height; ++v) {
         uint32_t* row = image.row(static_cast<int>(v));
         for (uint32_t u = 0; u < size.width; ++u) {
-            row[u] = 0xff000000u | pixels[v * size.width + u]; // both 0xAARRGGBB
+            row[u] = 0xff000000u | pixels[v * size.width + u]; // both are 0xAARRGGBB
         }
     }
     image.endPixels();

@@ -11,7 +11,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMostLead = 90.0; // [frames] however long points are held
+constexpr double kMostLead = 90.0; // [frames] processed before the shown one, however long points are held
 
 } // namespace
 

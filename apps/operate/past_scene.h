@@ -9,7 +9,7 @@
 
 namespace fathom::operate {
 
-// Thread: the window's, the only user of the session's frame cycle.
+// Window thread, the only user of the session's frame cycle.
 class PastScene {
 public:
     // Throws BadInput when the source cannot seek.
@@ -39,7 +39,7 @@ private:
     uint32_t images_, lead_;
     uint32_t asked_ = 0, shown_ = 0;
     bool any_ = false, whole_ = false;
-    const SceneEdit* edit_ = nullptr; // active
+    const SceneEdit* edit_ = nullptr; // the active edit
     const Scene* newScene_ = nullptr;
 };
 

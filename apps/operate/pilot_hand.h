@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hands for the operator's window: mouse and keyboard in place of a device, and the gate in front of any hand
-// that ticks forces off whatever the device says.
+// Hands for the operator's window: mouse and keyboard as a device, and a gate that turns forces off for any
+// device.
 #pragma once
 
 #include "devices/live_hand.h"
@@ -31,8 +31,8 @@ private:
     double before_ = 0.0;
 };
 
-// Opens the dead-man of any device while forces are off, and adds buttons to those of the device. Forces are
-// off at first. Any thread may call what the haptic thread does not (read() and write()).
+// Opens the dead-man of any device while forces are off, and adds buttons to the device's own. Forces are off
+// at first. read() and write(): haptic thread; the rest: any thread.
 class GatedHand final : public HapticDevice {
 public:
     // live: the same hand when it may disconnect; null = it is always connected.

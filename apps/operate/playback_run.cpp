@@ -17,7 +17,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kDrawPeriod = 1.0 / 60.0;               // [s] of the window, at best
+constexpr double kDrawPeriod = 1.0 / 60.0;               // [s] shortest period of the window
 constexpr double kFirstRetry = 0.1, kLongestRetry = 2.0; // [s]
 
 double playedSeconds() {
@@ -29,7 +29,8 @@ std::optional<HandPath> handOf(const std::filesystem::path& folder) {
     return std::filesystem::exists(file) ? std::optional(HandPath(readHandCsv(file))) : std::nullopt;
 }
 
-// Without what was felt: the device's pose as the hand's map gives it, clutch and all; no tool.
+// A log with the device's pose only, computed from the raw hand by the hand map and clutch; no tool, no
+// wrench.
 TickLog mappedHand(const HandPath& hand, const Scene& scene) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     TickLog log;
@@ -45,7 +46,7 @@ TickLog mappedHand(const HandPath& hand, const Scene& scene) {
     return log;
 }
 
-// What is known of each tick, the hand from its own file where wrench.csv is without poses.
+// The recorded ticks. If wrench.csv has no poses, the hand comes from its own file.
 TickLog turnsOf(const std::filesystem::path& folder, const std::optional<HandPath>& hand,
                 const Scene& scene) {
     TickLog log = readTickLog(folder);
@@ -136,7 +137,7 @@ void PlaybackRun::frame(double dt) {
 
 void PlaybackRun::loseDevice(const std::string& why) {
     log::warn("GPU is gone ({}): it is looked for", why);
-    ImGui::EndFrame(); // nothing where it had ended
+    ImGui::EndFrame(); // does nothing when the frame has already ended
     canvas_->drop();
     retry_ = kFirstRetry;
     retryAt_ = playedSeconds() + retry_;
@@ -149,7 +150,7 @@ void PlaybackRun::lookForDevice() {
     try {
         session_.cycles.renew();
         canvas_->open(session_.cycles.device());
-    } catch (const Error& e) { // a driver that is being started anew may say anything
+    } catch (const Error& e) { // a driver that restarts may report any error
         log::debug("GPU: {}", e.what());
         retry_ = std::min(2.0 * retry_, kLongestRetry);
         retryAt_ = playedSeconds() + retry_;
@@ -173,7 +174,7 @@ void PlaybackRun::draw(double dt) {
                        screen_.unknownShare(),
                        windowHz_,
                        true};
-    alarms_ = Alarms(); // of this moment, none is latched
+    alarms_ = Alarms(); // alarms of this moment only, none latched
     alarms_.step(console_, view_, haptics_, editor_.scene());
     const bool known = log_.poses && view_.anyTurn();
     const auto arm = armSpheres(known ? session_.arm.get() : nullptr, view_.step().record.arm.posture);
@@ -191,7 +192,7 @@ void PlaybackRun::listen() {
         clickInView(console_, editor_, screen_, view_.scene(), *at);
     }
     panel_.listen(console_);
-    console_.recording = console_.frozen = false; // of a run only
+    console_.recording = console_.frozen = false; // not available in playback
     if (console_.exportCsv) {
         console_.exportCsv = false;
         try {
@@ -227,7 +228,7 @@ uint32_t PlaybackRun::buttonsAt(double t) const {
     return hand_ ? hand_->at(t).buttons : kDeadManOpen;
 }
 
-// The ten seconds before this moment, so that traces and blocks are as they were.
+// Loads the ten seconds before this moment, so that traces and blocks show what they showed then.
 void PlaybackRun::showMoment() {
     constexpr double kSame = 1e-9; // [s]
     view_.rewind();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window on a recording: any moment of it, by a time line, with what was seen, done and felt then.
+// The window on a recording: shows any moment of it, with the frame, the hand and the forces of that time.
 #pragma once
 
 #include "apps/binding/stop_signals.h"
@@ -16,15 +16,15 @@
 
 namespace fathom::operate {
 
-// Frames go through the passes again, with the fixtures as they are in the panel; hand, tool and wrench
-// are those of the files. Where a folder has no wrench.csv the hand is shown as its map has it, without tool.
-// Everything on one thread. A GPU that is lost is opened again, the moment that is looked at stays.
+// Processes the frames again with the fixtures in the panel; hand, tool and wrench come from the files.
+// Without wrench.csv it shows the hand through the hand map, and no tool. One thread. Opens a lost GPU again
+// and keeps the shown moment.
 class PlaybackRun {
 public:
     // options.recording names the folder. Throws BadInput, Error, DeviceLost.
     PlaybackRun(const OperateOptions& options, const GlobalOptions& global);
 
-    // Until the window is closed, the time is up or a signal.
+    // Runs until the window is closed, the time is up or a signal arrives.
     void run();
 
 private:
@@ -32,7 +32,7 @@ private:
     void frame(double dt);
     void draw(double dt);
     void loseDevice(const std::string& why);
-    void lookForDevice(); // now and then, while there is none
+    void lookForDevice(); // retries from time to time while there is no device
     void listen();
     void followTime(double dt);
     void showMoment();
@@ -48,7 +48,7 @@ private:
     std::optional<HandPath> hand_;
     TickLog log_;
     PastScene past_;
-    Recorder nothing_; // never started: the sink behind the sink
+    Recorder nothing_; // never started: the next sink of sink_
     SnapshotSink sink_;
     RunView view_;
     FixtureEditor editor_;
@@ -59,7 +59,7 @@ private:
     Alarms alarms_;
     Console console_;
     StateLog state_;
-    double retryAt_ = 0.0, retry_ = 0.0; // [s] when a device is looked for next; pause after that one
+    double retryAt_ = 0.0, retry_ = 0.0; // [s] time of the next attempt to open a device; pause after it
     double started_ = 0.0, shown_ = -1.0, windowHz_ = 0.0;
 };
 

@@ -14,8 +14,8 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kFramePeriod = 1.0 / 30.0; // [s] of a replay
-constexpr size_t kMostNumbers = 60;         // frames that a tick may have used
+constexpr double kFramePeriod = 1.0 / 30.0; // [s] in a replay
+constexpr size_t kMostNumbers = 60;         // frames whose index is kept: a tick may use an older frame
 
 void put(std::ostream& out, const dvec3& v) {
     out << "," << v.x << "," << v.y << "," << v.z;
@@ -74,7 +74,7 @@ void Recorder::stop() {
         return;
     }
     orFail([this] {
-        if (images_ > 0) { // the ticks since the last frame
+        if (images_ > 0) { // writes the ticks since the last frame
             flushTicks(lastCapture_, lastCapture_ + kFramePeriod,
                        static_cast<double>(images_ - 1) * kFramePeriod, 1.0);
         }
@@ -144,7 +144,7 @@ void Recorder::edit(uint64_t number, RecordedScene scene) {
     }
 }
 
-// The file of the start is written with the first edit.
+// The first edit also writes the scene file of the start.
 void Recorder::addEdit(const PublishedFrame& frame) {
     const auto takesEffect = [&] { return !upcoming_.empty() && upcoming_.front().first <= frame.edit; };
     if (!takesEffect() && frame.still == still_) {
@@ -194,13 +194,13 @@ void Recorder::flushTicks(double from, double to, double start, double scale) {
         ticks_.pop_front();
     }
     hand_.flush();
-    wrench_.flush(); // before the touches of its ticks
+    wrench_.flush(); // a tick is flushed before its touches
     touches_.flush();
 }
 
 void Recorder::putTick(const TickRow& row, double t) {
     if (!(t > lastWritten_)) {
-        return; // times in hand.csv must ascend
+        return; // times in hand.csv must be ascending
     }
     lastWritten_ = t;
     const Pose& hand = row.hand.deviceThandle;

@@ -18,7 +18,7 @@ namespace fathom::operate {
 
 // The fixtures of a recording at its start or after an edit.
 struct RecordedScene {
-    std::string text;           // of a scene file
+    std::string text;           // text of a scene file
     std::vector<uint32_t> held; // rows of frozen classes
 };
 
@@ -55,18 +55,18 @@ public:
 
 private:
     template <class Job>
-    void orFail(const Job& job); // with mutex_ held
+    void orFail(const Job& job); // call with mutex_ held
     void openFiles(const std::filesystem::path& folder);
     void addImage(const PublishedFrame& frame, const Fixtures& set);
     void addEdit(const PublishedFrame& frame);
     void putEdit(uint64_t image, bool still);
     void flushTicks(double from, double to, double start, double scale);
     void putTick(const TickRow& row, double t);
-    int64_t imageOf(int64_t frame) const; // of this recording; -1 = from before it
+    int64_t imageOf(int64_t frame) const; // frame index in this recording; -1 = from before it
 
     std::atomic<bool> recording_{false};
     std::atomic<uint64_t> lost_{0}, images_{0};
-    mutable std::mutex mutex_; // guards all below; window and writer thread
+    mutable std::mutex mutex_; // guards all members below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
     std::deque<TickRow> ticks_; // since the last frame
@@ -75,7 +75,7 @@ private:
     double lastCapture_ = -1.0, lastWritten_ = -1.0;
     LineFile hand_, wrench_, touches_, edits_;
     std::filesystem::path folder_;
-    RecordedScene edited_;                                    // active
+    RecordedScene edited_;                                    // the active fixtures
     std::deque<std::pair<uint64_t, RecordedScene>> upcoming_; // by number of the change
     uint32_t scenes_ = 0;                                     // files scene-N.yaml
     bool still_ = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A thread for runs one after another: each run starts with resume() and ends with pause() or by itself.
+// A thread that runs one run after another: each starts with resume() and ends with pause() or by itself.
 #pragma once
 
 #include <atomic>
@@ -10,11 +10,11 @@
 
 namespace fathom::operate {
 
-// One thread calls everything; any thread may call ended(). The thread lives as long as this, so that threads
-// which a later run makes inherit the priority of the first.
+// One thread calls everything; any thread may call ended(). The thread lives as long as this object, so that
+// threads created by a later run inherit the priority of the first.
 class RunThread {
 public:
-    // body: one run, until `stop` is set; returns what made it fail, null = nothing.
+    // body: one run, until `stop` is set. Returns its failure, null = none.
     explicit RunThread(std::function<std::exception_ptr(const std::atomic<bool>& stop)> body);
     ~RunThread() { end(); }
 
@@ -22,7 +22,7 @@ public:
     void pause(); // returns when the run has ended
     void end();   // pauses, then ends the thread
 
-    bool ended() const { return ended_.load(); } // by itself, or by a failure
+    bool ended() const { return ended_.load(); } // the run ended by itself or failed
     std::exception_ptr failure() const { return failure_; }
 
 private:

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kSameBlock = 0.25; // [s] without a touch end a block
 constexpr size_t kMostBlocks = 12;
-constexpr size_t kMostTicks = 1'000'000; // whose times are kept; bounds the memory of a session of hours
+constexpr size_t kMostTicks = 1'000'000; // ticks whose times are kept; bounds the memory of long sessions
 
 } // namespace
 

@@ -16,19 +16,19 @@ struct TraceSample {
     double t = 0.0;         // [s]
     glm::vec3 force{0.0f};  // [N] base axes
     glm::vec3 torque{0.0f}; // [N m]
-    int64_t frame = -1;     // whose set was used
+    int64_t frame = -1;     // frame whose set was used
     StepState state = StepState::Off;
     bool guided = false, late = false;
 };
 
-struct Rates { // of the last second
+struct Rates { // over the last second
     double hapticHz = 0.0, worstPeriodMs = 0.0, cameraHz = 0.0;
 };
 
 // A block: a contact that keeps the tool from following the hand over consecutive ticks.
 struct Block {
     Touch touch;                    // the newest one
-    int64_t sinceFrame = 0;         // whose set was used when it began
+    int64_t sinceFrame = 0;         // frame whose set was used when the block began
     double since = 0.0, last = 0.0; // [s]
     double deepest = 0.0;           // [m] largest distance of the hand beyond it
     double beyond = 0.0;            // [m] now
@@ -48,7 +48,7 @@ public:
     explicit RunView(SnapshotSink& sink)
         : sink_(sink) {}
 
-    // Playback: rewind() discards all ticks; take() adds recorded ones.
+    // For playback: rewind() discards all ticks, take() adds recorded ones.
     void rewind();
     void take(const TickRow& row);
 
@@ -59,7 +59,7 @@ public:
     const TickRow& step() const { return tick_; }
     const std::optional<Measured>& measured() const {
         return measured_;
-    } // the last measurement; empty = never
+    } // last measurement; empty = never measured
     bool anyTurn() const { return ticks_ > 0; }
     uint64_t ticks() const { return ticks_; }
     const std::deque<TraceSample>& trace() const { return trace_; }
@@ -69,9 +69,9 @@ public:
     Rates rates() const;
     // Of the last million ticks, unordered.
     const std::vector<float>& stepMicros() const { return micros_; }
-    const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // likewise
+    const std::vector<float>& wokenLateMicros() const { return wokenLate_; } // also of the last million ticks
     uint64_t lateTurns() const { return late_; }
-    const std::vector<double>& passMs() const { return passMs_; } // of the last frame with passes
+    const std::vector<double>& passMs() const { return passMs_; } // of the last frame that was processed
 
 private:
     void noteBlocks(const TickRow& row);

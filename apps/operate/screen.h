@@ -11,17 +11,17 @@
 
 namespace fathom::operate {
 
-// Everything is read during the call only.
+// Valid during the call only.
 struct ScreenInput {
     const RunView& run;
     const Tool& tool;
     const HudInput& hud;
-    bool freshImage = false;     // since the previous call
+    bool freshImage = false;     // a new frame since the previous call
     std::span<const Sphere> arm; // base frame; empty = none
     const MeasuredArm& measured;
 };
 
-// Thread: the window's.
+// Window thread.
 class Screen {
 public:
     // Draws into the open ImGui frame, and composes the images below it.
@@ -31,7 +31,7 @@ public:
     void redraw() { redraw_ = true; } // the next draw() composes both images; call it after a lost device
     const ViewPort& large() const { return *large_; }
     double unknownShare() const { return camera_.unknownShare(); }
-    // The pixel of the colour image under a point of the window; empty outside the camera view.
+    // The pixel of the colour image at a point of the window; empty outside the camera view.
     std::optional<glm::uvec2> colourPixelAt(ImVec2 at) const;
 
 private:

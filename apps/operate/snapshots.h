@@ -13,11 +13,11 @@ namespace fathom::operate {
 // One frame and its fixture set.
 struct SceneSnapshot {
     bool any = false;
-    FrameReport report; // passMs empty: the same frame again, or frozen
+    FrameReport report; // passMs is empty for a repeated frame and while frozen
     double t = 0.0;     // [s] capture time in the run
     Fixtures set;
     std::vector<uint32_t> colour;
-    uint64_t number = 0; // counts frames
+    uint64_t number = 0; // number of the frame
 };
 
 // Called on the writer thread. A slow window gets the newest frame only; ticks that do not fit are counted in
@@ -34,7 +34,7 @@ public:
     void step(const TickRow& row, const PublishedFrame* obeyed, bool known,
               std::span<const uint32_t> behind) override;
 
-    TripleBuffer<SceneSnapshot>& scene() { return scene_; } // the window reads
+    TripleBuffer<SceneSnapshot>& scene() { return scene_; } // read by the window
     SpscQueue<TickRow>& ticks() { return ticks_; }
 
 private:

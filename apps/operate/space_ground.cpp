@@ -12,7 +12,7 @@ namespace fathom::operate {
 
 namespace {
 
-constexpr double kMostPixels = 2.5e6; // of all spheres in an image
+constexpr double kMostPixels = 2.5e6; // limit for all spheres of an image together
 constexpr double kNearest = 0.02;     // [m]
 
 uint32_t dimmed(uint32_t colour) {
@@ -124,7 +124,7 @@ void splat(const Intrinsics& lens, const dvec3& c, double radius, Put&& put) {
 
 } // namespace
 
-// Solid and of one colour, to be distinct from regions and points.
+// Opaque and in one colour, to differ from regions and points.
 void SpaceGround::splatArm(std::span<const Sphere> arm) {
     for (const Sphere& sphere : arm) {
         const dvec3 c = view_.cameraTbase.apply(sphere.centre);
@@ -181,7 +181,8 @@ void SpaceGround::shadeRegions() {
     }
 }
 
-// The engine's tree is on the device; these are the same blocks of pixels, bounded around their centroid.
+// The engine's tree exists on the device only. These are the same blocks of pixels, bounded around their
+// centroid.
 void SpaceGround::boundBlocks(const Fixtures& set, int level) {
     const uint32_t edge = 4u << (2 * level);
     const uint32_t width = set.camera.depth.width, pixels = set.camera.depth.pixels();

@@ -51,7 +51,7 @@ json consoleOf(const Console& c) {
             {"places", c.places}};
 }
 
-// A real arm; null without one. Joints [rad], [m] are null while they are not measured.
+// The real arm; null without one. Joints [rad], [m] are null while they are not measured.
 json armOf(const MeasuredArm* arm) {
     if (arm == nullptr || !arm->real) {
         return nullptr;

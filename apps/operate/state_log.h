@@ -16,14 +16,14 @@ namespace fathom::operate {
 
 struct StateExtras {
     std::string mode;
-    uint64_t begun = 0, windowFrames = 0, yielded = 0; // frames: begun, drawn, skipped for passes
+    uint64_t begun = 0, windowFrames = 0, yielded = 0; // window frames: begun, drawn, skipped for passes
     uint32_t swapchains = 0, width = 0, height = 0, validationMessages = 0;
     bool deviceThere = true;
     uint32_t renewals = 0; // times that the device was recreated
     double unknownShare = 0.0;
     std::vector<std::string> alarms;  // shown alarms: level, key
-    const Scene* scene = nullptr;     // active
-    size_t shapes = 0, selected = 0;  // selected: points of the preview
+    const Scene* scene = nullptr;     // the active scene
+    size_t shapes = 0, selected = 0;  // selected: number of points in the preview
     const MeasuredArm* arm = nullptr; // null = no real arm
     std::string hand;                 // the live device; empty = none
     bool handThere = true;
@@ -34,9 +34,9 @@ struct StateExtras {
 
 class StateLog {
 public:
-    // An empty name writes nothing. Throws Error that names the file.
+    // An empty file name disables the log. Throws Error that names the file.
     explicit StateLog(const std::filesystem::path& file);
-    // Writes when the next line is due, or when `now`.
+    // Writes when the next line is due, or at once if `now`.
     void write(const Console& console, const RunView& run, const StateExtras& extras, bool now = false);
 
 private:

@@ -15,7 +15,7 @@ namespace {
 constexpr double kSpeed = 0.12, kTurning = 0.9;        // [m/s], [rad/s] while a key is down
 constexpr double kWheel = 0.008;                       // [m] per notch
 constexpr float kCursor = 240.0f, kSlowCursor = 30.0f; // [pixels/s] without and with Shift
-constexpr double kClick = 4.0;                         // [pixels] that a click may move
+constexpr double kClick = 4.0; // [pixels] a click may move this far before it is a drag
 
 bool pressed(int key) {
     return keyPressed(key);

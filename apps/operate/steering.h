@@ -19,10 +19,10 @@ std::span<const KeyHelp> keyHelp();
 
 class Steering {
 public:
-    Steering(const Pose& start, const Scene::Hand& hand); // raw
+    Steering(const Pose& start, const Scene::Hand& hand); // start: raw device pose
 
-    // Handles the input of one window frame. large: the view for mouse drags. toolDepth [m]: of the tool
-    // along the axis of that view. Returns where the large view was clicked, by the mouse without a drag or
+    // Handles the input of one window frame. large: the view for mouse drags. toolDepth [m]: depth of the
+    // tool along that view's axis. Returns where the large view was clicked, by the mouse without a drag or
     // by Enter at the keyboard cursor.
     std::optional<ImVec2> step(Console& console, const ViewPort& large, double toolDepth);
     const Pose& pose() const { return raw_; }

@@ -12,7 +12,7 @@ using gpu::check;
 
 namespace {
 
-// Values are passed unchanged: any 8-bit format without sRGB conversion is accepted.
+// The images already contain display values, so any 8-bit format without sRGB conversion is accepted.
 VkSurfaceFormatKHR chooseFormat(VkPhysicalDevice device, VkSurfaceKHR surface) {
     uint32_t count = 0;
     check(vkGetPhysicalDeviceSurfaceFormatsKHR(device, surface, &count, nullptr), "surface formats");
@@ -84,7 +84,7 @@ bool Swapchain::good(VkResult result, const char* call) {
 }
 
 void Swapchain::destroyImages() {
-    device_.waitForDrawing(); // a pending present still waits for its semaphore
+    device_.waitForDrawing(); // waits for pending presents, which still use their semaphores
     for (VkSemaphore semaphore : filled_) {
         vkDestroySemaphore(device_.handle(), semaphore, nullptr);
     }
@@ -162,7 +162,7 @@ VkImage Swapchain::acquire(VkSemaphore ready) {
     if (result == VK_NOT_READY || result == VK_TIMEOUT) {
         return VK_NULL_HANDLE;
     }
-    // A suboptimal image can still be filled.
+    // A suboptimal image can still be drawn to.
     return good(result, "vkAcquireNextImageKHR") ? images_[index_] : VK_NULL_HANDLE;
 }
 

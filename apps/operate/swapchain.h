@@ -8,7 +8,7 @@
 
 namespace fathom::operate {
 
-// The surface belongs to the caller and outlives this, unless leave() is called first. Thread: the window's.
+// The caller owns the surface, which outlives this unless leave() is called first. Window thread.
 class Swapchain {
 public:
     // Throws Error when the device cannot present on this surface.
@@ -23,20 +23,20 @@ public:
     // The surface is lost: call leave(), then moveTo() with a new one.
     bool surfaceLost() const { return surfaceLost_; }
     void leave();                   // destroys everything on the surface
-    void moveTo(VkSurfaceKHR next); // throws as the constructor
-    // The next image to fill, and signals `ready`; null on a timeout or when the images are lost.
+    void moveTo(VkSurfaceKHR next); // throws like the constructor
+    // Returns the next image to draw to, and signals `ready`; null on a timeout or when the images are lost.
     VkImage acquire(VkSemaphore ready);
     VkSemaphore filled() const { return filled_[index_]; } // must be signalled before show()
     void show();
 
     VkExtent2D size() const { return size_; }
-    VkFormat format() const { return format_.format; } // of the images
-    uint32_t remade() const { return remade_; }        // times that fit() made images
+    VkFormat format() const { return format_.format; } // format of the images
+    uint32_t remade() const { return remade_; }        // number of times that fit() recreated the images
 
 private:
     bool good(VkResult result, const char* call); // false: images or surface are lost
     void destroyImages();
-    bool create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size); // false: as good()
+    bool create(const VkSurfaceCapabilitiesKHR& can, VkExtent2D size); // false: like good()
 
     gpu::Device& device_;
     VkSurfaceKHR surface_;

@@ -28,7 +28,7 @@ struct Letters {
     ImFont* body = nullptr;
     ImFont* small = nullptr;
     ImFont* bold = nullptr;
-    ImFont* large = nullptr; // values of the head line
+    ImFont* large = nullptr; // for the values at the top
 };
 
 // Fills the font atlas of the current context; uses ImGui's own font where DejaVu is not installed.

@@ -13,22 +13,22 @@ namespace fathom::operate {
 
 // One recorded tick. Values missing in older recordings are NaN.
 struct Moment {
-    double t = 0.0; // [s] of the recording
+    double t = 0.0; // [s] in the recording
     Wrench wrench;  // on the hand, base axes
     uint32_t contacts = 0;
     StepState state = StepState::Off;
     double guidance = 0.0;  // w
-    int guidanceClass = -1; // StepRecord's
+    int guidanceClass = -1; // as in StepRecord
     double sceneAge = kNotKnown, marginPassive = kNotKnown, marginUncoupled = kNotKnown;
     int64_t frame = -1; // frame of the recording whose set was used
     Pose device, tool;  // base_T_tool
-    ArmPosture arm;     // all zero without one
+    ArmPosture arm;     // all zero without an arm
     size_t firstTouch = 0;
-    uint32_t touchCount = 0; // in TickLog::touches
+    uint32_t touchCount = 0; // range in TickLog::touches
 };
 
 struct TickLog {
-    std::vector<Moment> moments; // times ascend
+    std::vector<Moment> moments; // in ascending time
     std::vector<Touch> touches;
     bool poses = false; // device and tool poses are recorded
 

@@ -15,7 +15,7 @@ class TimeLinePanel {
 public:
     TimeLinePanel(const TickLog& log, double duration);
 
-    // Thread: the window's; inside an ImGui frame. Changes console.timeLine only.
+    // Window thread, inside an ImGui frame. Changes console.timeLine only.
     void listen(Console& console) const; // handles keys
     void draw(Console& console, const Letters& letters, ImVec2 at, ImVec2 size) const;
 
@@ -25,11 +25,11 @@ private:
 
     static constexpr size_t kColumns = 1024;
     struct Column {
-        float force = 0.0f; // [N] largest
+        float force = 0.0f; // [N] largest force
         bool contact = false, guided = false, any = false;
     };
     std::vector<Column> columns_;
-    std::vector<double> times_; // [s] of ticks
+    std::vector<double> times_; // [s] times of the ticks
     float most_ = 0.0f;         // [N]
 };
 

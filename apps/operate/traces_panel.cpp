@@ -21,7 +21,7 @@ struct Plot {
     ImDrawList& list;
     ImVec2 at, size;
     double from, to;  // [s]
-    double low, high; // of the values
+    double low, high; // range of the values
     float x(double t) const { return at.x + size.x * static_cast<float>((t - from) / (to - from)); }
     float y(double v) const {
         return at.y + size.y * static_cast<float>(1.0 - std::clamp((v - low) / (high - low), 0.0, 1.0));

@@ -20,11 +20,11 @@ struct MarksInput {
     const ViewPort& port;
     const RunView& run;
     const Tool& tool;
-    const Scene& scene; // names
+    const Scene& scene; // for the names
     std::span<const Shape> shapes;
-    std::span<const Sphere> arm; // base frame; empty = the tool moves freely
-    const MeasuredArm& measured; // of a real arm
-    bool names = true;           // text at guidance and force; off in an inset
+    std::span<const Sphere> arm; // the arm in the base frame; empty = the tool moves freely
+    const MeasuredArm& measured; // the real arm
+    bool names = true;           // labels at guidance and force; off in the small view
 };
 
 // The spheres of every link in the base frame; empty without an arm.

@@ -20,7 +20,7 @@ std::string obstacle(const Block& block, const Scene& scene, const Fixtures& set
         const uint32_t width = std::max(1u, set.camera.depth.width),
                        pixels = std::max(1u, set.camera.depth.pixels());
         const uint32_t pixel = touch.source % pixels;
-        const char* kept = touch.source >= 2 * pixels ? "), frozen" // FrozenClasses moves them there
+        const char* kept = touch.source >= 2 * pixels ? "), frozen" // FrozenClasses' range
                            : touch.source >= pixels   ? "), held: not seen now"
                                                       : ")";
         return name + ", region sphere of pixel (" + std::to_string(pixel % width) + ", " +

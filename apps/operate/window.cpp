@@ -22,7 +22,7 @@ namespace fathom::operate {
 namespace {
 
 constexpr int kWidth = 1280, kHeight = 720;
-constexpr uint32_t kLeast = 320, kMost = 8192; // [pixels] offscreen
+constexpr uint32_t kLeast = 320, kMost = 8192; // [pixels] range of offscreen sizes
 
 VkExtent2D sizeFrom(const std::string& text) {
     VkExtent2D size{};
@@ -71,7 +71,7 @@ Window::Window(const std::string& offscreen, const std::string& title) {
     ImGui::GetIO().IniFilename = nullptr; // settings are stored in the scene file
     if (window_ != nullptr) {
         ImGui_ImplGlfw_InitForVulkan(window_, true);
-        glfwSetKeyCallback(window_, key); // in place of ImGui's: holdTaps() passes the keys
+        glfwSetKeyCallback(window_, key); // replaces ImGui's callback: holdTaps() passes the keys
     }
     before_ = seconds();
 }
@@ -92,8 +92,8 @@ void Window::holdTaps() {
     bool control = live_[GLFW_KEY_LEFT_CONTROL] || live_[GLFW_KEY_RIGHT_CONTROL];
     bool shift = live_[GLFW_KEY_LEFT_SHIFT] || live_[GLFW_KEY_RIGHT_SHIFT];
     std::vector<Tap> later;
-    std::vector<int> seen;   // keys of taps so far
-    std::optional<int> mods; // of this frame: presses with other modifiers wait for the next one
+    std::vector<int> seen;   // keys tapped so far
+    std::optional<int> mods; // modifiers of this frame; presses with others wait for the next one
     for (const Tap& tap : taps_) {
         const auto key = static_cast<size_t>(tap.key);
         const bool now = std::find(seen.begin(), seen.end(), tap.key) != seen.end();
@@ -155,9 +155,8 @@ void Window::beginFrame(double patience) {
     if (window_ != nullptr) {
         const double until = seconds() + patience;
         glfwPollEvents();
-        while (seconds() < until) { // handles events at once and keeps the frame rate
-            constexpr double kLook =
-                0.002; // [s] waiting on the connection itself would share it with the swapchain
+        while (seconds() < until) {         // handles events at once and keeps the frame rate
+            constexpr double kLook = 0.002; // [s] polls, because the swapchain uses the same X connection
             std::this_thread::sleep_for(std::chrono::duration<double>(std::min(kLook, until - seconds())));
             glfwPollEvents();
         }

@@ -15,7 +15,7 @@ struct GLFWwindow;
 
 namespace fathom::operate {
 
-// Thread: main, as GLFW requires. Owns the ImGui context.
+// Main thread, as GLFW requires. Owns the ImGui context.
 class Window {
 public:
     // offscreen: "WxH", or empty for a window of 1280x720. Throws BadInput without a display or for a bad
@@ -25,7 +25,7 @@ public:
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    std::span<const char* const> extensions() const; // that the instance needs
+    std::span<const char* const> extensions() const; // instance extensions
     VkSurfaceKHR makeSurface(const gpu::Instance& instance) const;
     bool offscreen() const { return window_ == nullptr; }
 
@@ -50,7 +50,7 @@ private:
     struct Tap {
         int key = 0, mods = 0;
     };
-    std::vector<Tap> taps_; // since the last frame
+    std::vector<Tap> taps_; // key presses since the last frame
     KeysDown live_{};       // as GLFW reports them
     KeysDown shown_{};      // down in the last frame
     double before_ = 0.0;

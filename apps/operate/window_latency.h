@@ -6,7 +6,7 @@
 
 namespace fathom::operate {
 
-// A run in the operator's window, or offscreen where there is no display.
+// Runs the operator's window, or draws offscreen where there is no display.
 LatencyPart measureWindow(const LatencyOptions& options, const GlobalOptions& global);
 
 } // namespace fathom::operate
