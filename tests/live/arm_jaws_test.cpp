@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Jaws of an arm behind a serial line, closed and opened by the button of a hand.
+// The jaws of an arm on a serial line, closed and opened by a button of the hand.
 #include "tests/rig/arm_stage.h"
 
 #include <chrono>
@@ -15,7 +15,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kOpen = 18.0, kClosed = 2.0; // [mm]
 
-// The hand stands still and its button is down from half a second to three seconds.
+// The hand stays still; its button is down from 0.5 s to 3 s.
 void setUpJaws(const Stage& stage) {
     setUp(stage, std::string(kReach) + ", jaws: {open: 0.018, closed: 0.002}",
           {{0.0, {0, 0, 0}}, {0.5, {0, 0, 0}, {1, 0, 0, 0}, 8}, {3.0, {0, 0, 0}}, {5.0, {0, 0, 0}}});
@@ -37,7 +37,7 @@ ReachSimulator openArm() {
     return arm;
 }
 
-// The program drives an arm whose jaws begin open.
+// Runs the program with an arm whose jaws are open at first.
 struct JawsAtWork {
     JawsAtWork() {
         setUpJaws(stage);
@@ -54,8 +54,7 @@ struct JawsAtWork {
 
 } // namespace
 
-TEST_CASE(
-    "Jaws close over the line while the button is down, no faster than the scene says, and open again") {
+TEST_CASE("A button of the hand closes the jaws at the speed of the scene, and its release opens them") {
     JawsAtWork work;
     ArmBench& bench = work.bench;
     ReachSimulator& arm = work.arm;
@@ -63,17 +62,17 @@ TEST_CASE(
     const auto begun = Clock::now();
     REQUIRE(bench.wait([&] { return arm.position[1] < kClosed + 1.0; }));
     CHECK(std::chrono::duration<double>(Clock::now() - begun).count() >
-          0.6); // 14 of 16 mm, a second the whole
+          0.6); // [s] for 14 of the 16 mm that take 1 s
     REQUIRE(bench.wait([&] { return arm.position[1] > kOpen - 0.5; }));
     const ProgramRun run = work.running.get();
     REQUIRE_MESSAGE(run.exitCode == 0, run.err);
     const auto q = bench.with([&] { return jointsOf(arm); });
-    for (size_t j = 0; j < 3; ++j) { // nothing else moved
+    for (size_t j = 0; j < 3; ++j) { // the other joints stay
         CHECK(std::abs(q[j] - kStart[j]) < 0.01);
     }
 }
 
-TEST_CASE("Jaws that close on something hold still with the whole arm, and the log says so") {
+TEST_CASE("When the jaws close on an object, the whole arm holds and the log reports an overload") {
     JawsAtWork work;
     ArmBench& bench = work.bench;
     ReachSimulator& arm = work.arm;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults under a pressing hand, from outside: what the files of the run say the hand felt.
+// Causes faults while the hand presses on a region, and checks the forces in the files of the run.
 #include "tests/rig/played_device.h"
 #include "tests/rig/stage.h"
 
@@ -18,20 +18,20 @@ using namespace fathom;
 namespace {
 
 const PixelBox kWholeWall{0, 0, kWidth, kHeight};
-constexpr double kSlewStep = 2.0; // [N] a turn may change a force by: the default of a scene
+constexpr double kSlewStep = 2.0; // [N] largest change of a force per tick: the default of a scene
 using Clock = std::chrono::steady_clock;
 
 void waitMillis(int count) {
     std::this_thread::sleep_for(std::chrono::milliseconds(count));
 }
 
-int exitCodeOf(pid_t engine) { // -1 = a signal ended it
+int exitCodeOf(pid_t engine) { // -1 = ended by a signal
     int status = 0;
     ::waitpid(engine, &status, 0);
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-// Until an observer at the door has been told of a tick that pushes the hand with this much [N].
+// Waits as an observer on the view socket for a tick with more than this force [N] on the hand.
 bool awaitForce(const std::filesystem::path& path, double force) {
     DeviceSocket endpoint;
     union {
@@ -61,7 +61,7 @@ bool awaitForce(const std::filesystem::path& path, double force) {
     return false;
 }
 
-// A red wall 0.6 m away and a hand that presses 20 mm deeper than the tool can go.
+// A red wall 0.6 m away, and a hand that presses 20 mm deeper than the tool can go.
 void setUpPressing(const Stage& stage, size_t images, double seconds) {
     stage.recording(std::vector<Image>(images, Image(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.3, {0.0, 0.0, 0.57}}, {seconds, {0.0, 0.0, 0.57}}});
@@ -75,7 +75,7 @@ double largestStep(const std::vector<Tick>& ticks) {
     return largest;
 }
 
-// When the longest time begins and ends that ticks are off, by the run's clock [s].
+// Start and end [s] of the longest stretch of ticks that are off, on the run's clock.
 std::pair<double, double> longestOff(const std::vector<Tick>& ticks) {
     std::pair<double, double> longest{0.0, 0.0};
     std::optional<double> off;
@@ -99,10 +99,10 @@ std::map<std::string, std::string> filesOf(const std::filesystem::path& folder) 
 } // namespace
 
 TEST_CASE(
-    "Numbers that are none in a realtime run leave the ticks before them as a file, and force comes back") {
+    "Non-finite samples in a realtime run write the ticks before them to a file, and the force returns") {
     Stage stage;
     setUpPressing(stage, 2, 2.0);
-    const double beyond = 1e308; // a number, but not its square
+    const double beyond = 1e308; // finite, but its square is not
     stage.hand({{0.0, {0.0, 0.0, 0.5}},
                 {0.3, {0.0, 0.0, 0.57}},
                 {0.9, {0.0, 0.0, 0.57}},
@@ -133,12 +133,12 @@ TEST_CASE(
     CHECK(glm::length(replay.ticks.back().force) > 1.0);
 }
 
-TEST_CASE("A device that is unplugged while it presses leaves no force and the tool where it was, and force "
-          "comes back with it") {
+TEST_CASE("A device that is unplugged while it presses gets no force, the tool stays, and the force returns "
+          "with it") {
     Stage stage;
     stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kWholeWall, kRed)));
     SceneText scene;
-    scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
+    scene.hand = "path: start.csv"; // the tool starts 20 mm before the region
     stage.scene(scene);
     stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
     std::optional<PlayedDevice> device;
@@ -151,7 +151,7 @@ TEST_CASE("A device that is unplugged while it presses leaves no force and the t
     }
     bool felt = device->pushUntil(-8.0 - 1e-9, -4.0);
     const auto unplugged = Clock::now();
-    felt = felt && device->fz < -1.0; // in contact to the last
+    felt = felt && device->fz < -1.0; // in contact until the end
     device.reset();
     waitMillis(600);
     const auto plugged = Clock::now();
@@ -162,8 +162,8 @@ TEST_CASE("A device that is unplugged while it presses leaves no force and the t
     CHECK(exitCodeOf(engine) == 0);
     const Replay replay = readReplay(stage / "out", {});
     REQUIRE(!replay.ticks.empty());
-    // Off from 0.2 s after it was gone at the latest until it came back, by the clocks of the test and of the
-    // run, of which neither knows where the other began.
+    // Off for at least as long as it was unplugged, minus the 0.2 s that the loss may take. Only the length
+    // is compared, because the clocks of test and run have different origins.
     const auto [off, on] = longestOff(replay.ticks);
     CHECK(on - off >= std::chrono::duration<double>(plugged - unplugged).count() - 0.2);
     std::optional<dvec3> held;
@@ -172,7 +172,7 @@ TEST_CASE("A device that is unplugged while it presses leaves no force and the t
     double moved = 0.0, strongest = 0.0;
     for (const Tick& tick : replay.ticks) {
         if (tick.t < off && tick.state != "fading") {
-            before = tick; // to the last tick that pushed with all its force
+            before = tick; // the last tick with the full force
         }
         if (tick.t < off || tick.t > on) {
             continue;
@@ -197,8 +197,8 @@ TEST_CASE("A device that is unplugged while it presses leaves no force and the t
     }
 }
 
-TEST_CASE(
-    "A realtime replay that is killed leaves the files of the run before it, and the next one succeeds") {
+TEST_CASE("A realtime replay that is killed leaves the files of the run before unchanged, and the next one "
+          "succeeds") {
     Stage stage;
     setUpPressing(stage, 3, 0.4);
     REQUIRE(runFathom(stage.command({"--realtime"})).exitCode == 0);
@@ -212,7 +212,7 @@ TEST_CASE(
     CHECK(exitCodeOf(engine) == -1);
     size_t partial = 0;
     for (const auto& file : filesOf(stage / "out")) {
-        const std::string& name = file.first; // a binding could not be captured
+        const std::string& name = file.first; // lambdas cannot capture structured bindings
         CAPTURE(name);
         if (before.count(name) == 1) {
             CHECK((file.second == before.at(name)));
@@ -230,8 +230,8 @@ TEST_CASE(
     CHECK((after.at("haptics.csv") != before.at("haptics.csv")));
 }
 
-TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts the periods, says how old the "
-          "scene is, and no force leaps") {
+TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts the periods, logs the age of "
+          "the scene, and no force steps beyond the slew limit") {
     Stage stage;
     setUpPressing(stage, 70, 3.2);
     const pid_t engine = startFathom(
@@ -262,9 +262,9 @@ TEST_CASE("A realtime replay that is stopped for 1.2 s while it presses counts t
     const size_t number = said.rfind(' ', count - 1);
     const double missed = std::stod(said.substr(number));
     CHECK(missed >= 1100);
-    // A turn a period, or told of: from the first turn to the last.
+    // Every period is a tick or is counted as missed, from the first tick to the last.
     CHECK(static_cast<double>(ticks.size()) + missed >= 0.99 * ticks.back().t * 1000.0);
-    // A machine may let the camera come first, and then no tick sees an old scene.
+    // On a busy machine the frame may come first; then no tick has an old scene.
     CHECK((said.find("ms old: forces fade") != std::string::npos) == stale);
-    CHECK(glm::length(replay.at(resumed + 1.0).force) > 5.0); // it is back
+    CHECK(glm::length(replay.at(resumed + 1.0).force) > 5.0); // the force is back
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that come faster or slower than 30 a second.
+// Frame rates above and below 30 per second.
 #include "tests/rig/refusal.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@ void prepare(const Stage& stage) {
     }
     stage.recording(images);
     stage.scene({});
-    stage.hand({{0.0, {0.0, 0.0, 0.2}}, {0.1, {0.0, 0.0, 0.2}}}); // shorter than the frames last
+    stage.hand({{0.0, {0.0, 0.0, 0.2}}, {0.1, {0.0, 0.0, 0.2}}}); // ends before the frames do
 }
 
 } // namespace
 
-TEST_CASE("Frames come as many a second as are asked for, each no earlier than it is due") {
+TEST_CASE("Frames come at the requested rate, and none before it is due") {
     for (const double rate : {90.0, 15.0}) {
         CAPTURE(rate);
         Stage stage;
@@ -38,14 +38,14 @@ TEST_CASE("Frames come as many a second as are asked for, each no earlier than i
         for (const FrameRow& frame : replay.frames) {
             CHECK(frame.t >= frame.index / rate - 1e-6);
         }
-        // However busy the machine is: not at 30 a second.
+        // Nearer to the requested rate than to 30 per second, also on a busy machine.
         const double half = 0.5 * (1.0 / rate + 1.0 / 30.0) * (kFrames - 1);
         CHECK((replay.frames.back().t < half) == (rate > 30.0));
         CHECK(replay.ticks.back().t >= replay.frames.back().t);
     }
 }
 
-TEST_CASE("A rate of frames without a clock, or none that a camera has, is refused in one line") {
+TEST_CASE("A frame rate without --realtime, or one that no camera has, is rejected in one line") {
     Stage stage;
     prepare(stage);
     checkRefused(stage, {"together with --realtime"}, {"--picture-rate", "90"});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// An arm whose engine is killed, stopped or left without its guardian while it moves.
+// A real arm whose engine is killed or stopped, or whose watchdog process is killed, while it moves.
 #include "tests/rig/arm_stage.h"
 #include "tests/support/sanitized.h"
 
@@ -15,7 +15,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// A replay on the stage that goes on meanwhile; what it says goes to the file "said".
+// A realtime replay of the stage in the background; its output goes to the file "said".
 class Engine {
 public:
     explicit Engine(const Stage& stage)
@@ -33,13 +33,13 @@ public:
         signal(SIGKILL);
         wait();
     }
-    int wait() { // exit code; -1 for one that a signal ended
+    int wait() { // exit code; -1 = ended by a signal
         int status = 0;
         ::waitpid(id_, &status, 0);
         id_ = -1;
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
-    pid_t watchdog() const { // -1 = none
+    pid_t watchdog() const { // -1 = none runs
         const auto tasks = "/proc/" + std::to_string(id_) + "/task";
         for (const auto& task : std::filesystem::directory_iterator(tasks)) {
             std::ifstream children(task.path() / "children");
@@ -58,8 +58,7 @@ private:
     pid_t id_ = -1;
 };
 
-// An ECA keeps its speed until it is told another: left alone while it is homed, it goes to its stop, which
-// is a quarter of a minute away.
+// An ECA keeps its last commanded speed. During homing it would move on to its stop, which takes 15 s here.
 void setUpEca(const Stage& stage, EcaSimulator& arm) {
     setUp(stage, kEca, pushing(30.0));
     stage.write("scene.yaml",
@@ -70,19 +69,19 @@ void setUpEca(const Stage& stage, EcaSimulator& arm) {
     arm.angle.fill(1.5);
 }
 
-// A Reach goes on to its last setpoint, 0.05 rad ahead: this one takes so long for it.
+// A Reach moves on to its last setpoint, 0.05 rad ahead. This one is so slow that this takes 10 s.
 void setUpSlowReach(const Stage& stage, ReachSimulator& arm) {
     setUp(stage, kReach, {{0.0, {0, 0, 0}}, {0.3, {0, 0, 0}}, {10.0, {0, 0, 0.1}}, {30.0, {0, 0, 0.1}}});
     setStart(arm);
     arm.speed.fill(0.005);
 }
 
-// What an arm goes on by until its guardian has told it: 0.2 s of silence, and a second for a machine that
-// has other things to do.
+// [s] longest motion after the engine ends: the watchdog waits for 0.2 s of silence, and a busy machine may
+// add a second.
 constexpr double kUntold = 1.2;    // [s]
 constexpr double kEcaHoming = 0.1; // [rad/s]
 
-// Until the joint has rested for 0.3 s.
+// Waits until the joint has been at rest for 0.3 s.
 bool comesToRest(ArmBench& bench, const double& joint) {
     double before = -1e9;
     for (int still = 0, i = 0; i < 3000; ++i) {
@@ -99,7 +98,7 @@ bool comesToRest(ArmBench& bench, const double& joint) {
 
 } // namespace
 
-TEST_CASE("An ECA that is homed stands still once its engine is killed or crashes, far from its stop") {
+TEST_CASE("An ECA stops far from its end stop when the engine is killed or crashes while homing it") {
     for (const int signal : {SIGKILL, SIGSEGV}) {
         CAPTURE(signal);
         const Stage stage;
@@ -110,14 +109,14 @@ TEST_CASE("An ECA that is homed stands still once its engine is killed or crashe
         REQUIRE(bench.wait([&] { return arm.angle[0] < 1.45; }));
         const double killed = bench.with([&] { return arm.angle[0]; });
         engine.signal(signal);
-        CHECK(engine.wait() == (kSanitized && signal == SIGSEGV ? 1 : -1)); // the sanitizer ends a crash
+        CHECK(engine.wait() == (kSanitized && signal == SIGSEGV ? 1 : -1)); // sanitizers exit on a crash
         CHECK(comesToRest(bench, arm.angle[0]));
         CHECK(killed - arm.angle[0] < kUntold * kEcaHoming);
     }
 }
 
-TEST_CASE("A Reach stands still before its last setpoint once its engine is killed, also on a line that came "
-          "back") {
+TEST_CASE("A Reach stops before its last setpoint when the engine is killed, also after the line was "
+          "unplugged and back") {
     for (const bool replugged : {false, true}) {
         CAPTURE(replugged);
         const Stage stage;
@@ -134,7 +133,7 @@ TEST_CASE("A Reach stands still before its last setpoint once its engine is kill
             bench.unplug();
             bench.plug();
             REQUIRE(bench.wait([&] { return engine.watchdog() > 0 && engine.watchdog() != first; }));
-            CHECK(::kill(first, 0) != 0); // it left the line
+            CHECK(::kill(first, 0) != 0); // it has ended, so the line is free
             const double then = bench.with([&] { return shoulder; });
             REQUIRE(bench.wait([&] { return std::abs(shoulder - then) > 0.01; }));
         }
@@ -145,7 +144,8 @@ TEST_CASE("A Reach stands still before its last setpoint once its engine is kill
     }
 }
 
-TEST_CASE("An engine that is stopped loses the arm to its guardian, and has it again when it goes on") {
+TEST_CASE(
+    "The watchdog stops the arm when the engine is stopped, and the engine resumes it when it continues") {
     const Stage stage;
     EcaSimulator arm;
     setUpEca(stage, arm);
@@ -161,7 +161,7 @@ TEST_CASE("An engine that is stopped loses the arm to its guardian, and has it a
     CHECK(bench.wait([&] { return arm.angle[0] < rest - 0.02; }));
 }
 
-TEST_CASE("A guardian that is killed gets a successor, and the arm goes on") {
+TEST_CASE("A watchdog process that is killed is replaced, and the arm resumes") {
     const Stage stage;
     ReachSimulator arm;
     setUpSlowReach(stage, arm);
@@ -173,7 +173,7 @@ TEST_CASE("A guardian that is killed gets a successor, and the arm goes on") {
     REQUIRE(bench.wait([&] { return std::abs(shoulder - start) > 0.001; }));
     const pid_t first = engine.watchdog();
     REQUIRE(first > 0);
-    ::kill(first, SIGTERM); // that is the engine's business
+    ::kill(first, SIGTERM); // ignored: only the engine ends it
     ::kill(first, SIGKILL);
     REQUIRE(bench.wait([&] { return engine.watchdog() > 0 && engine.watchdog() != first; }));
     const double then = bench.with([&] { return shoulder; });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom latency` on a small recording. How late a thread wakes is the machine's affair and no test's.
+// `fathom latency` on a small recording. Checks the counts only: wake-up times depend on the machine.
 #include "tests/rig/stage.h"
 
 #include <csignal>
@@ -12,7 +12,7 @@ using namespace fathom;
 
 namespace {
 
-// latency on four frames over and over, with `more` options.
+// Runs latency on four repeated frames, with `more` options.
 std::vector<std::string> latencyCommand(const Stage& stage, const std::vector<std::string>& more) {
     stage.recording(std::vector<Image>(4, bumpImage()));
     stage.scene({});
@@ -32,7 +32,7 @@ nlohmann::json onlyPart(const Stage& stage) {
 
 } // namespace
 
-TEST_CASE("latency measures with and without frames, and tells of every tick") {
+TEST_CASE("latency measures with and without frames, and accounts for every tick") {
     const Stage stage;
     const ProgramRun run =
         runFathom(latencyCommand(stage, {"--seconds", "0.7", "--load", "idle", "--load", "frames"}));
@@ -46,7 +46,7 @@ TEST_CASE("latency measures with and without frames, and tells of every tick") {
         const auto ticks = part.at("turn").at("count").get<uint64_t>();
         CHECK(ticks > 5);
         CHECK(part.at("woken_late").at("count") == ticks);
-        // Every period had a turn or is told of: 0.7 s and what passed until the writer asked it to end.
+        // Every period is a tick or is counted as missed: 0.7 s, plus the time until the writer ends the run.
         CHECK(ticks + part.at("periods_missed").get<uint64_t>() >= 690);
         CHECK(part.at("records_lost") == 0);
     }
@@ -55,7 +55,7 @@ TEST_CASE("latency measures with and without frames, and tells of every tick") {
     CHECK(run.out.find("frames late") != std::string::npos);
 }
 
-TEST_CASE("latency measures beside a window, which is drawn without a display where there is none") {
+TEST_CASE("latency measures with a window, which draws offscreen without a display") {
     ::unsetenv("DISPLAY");
     const Stage stage;
     const ProgramRun run = runFathom(latencyCommand(stage, {"--seconds", "0.7", "--load", "window"}));
@@ -63,7 +63,7 @@ TEST_CASE("latency measures beside a window, which is drawn without a display wh
     REQUIRE(run.exitCode == 0);
     const auto part = onlyPart(stage);
     CHECK(part.at("load") == "window");
-    CHECK(part.at("seconds").get<double>() >= 0.7); // however late the ticks were
+    CHECK(part.at("seconds").get<double>() >= 0.7); // even when ticks were late
     const auto ticks = part.at("turn").at("count").get<uint64_t>();
     CHECK(ticks > 5);
     CHECK(part.at("woken_late").at("count") == ticks);
@@ -71,7 +71,7 @@ TEST_CASE("latency measures beside a window, which is drawn without a display wh
     CHECK(run.out.find("window turn") != std::string::npos);
 }
 
-TEST_CASE("A soak ends with exit code 0 where it kept what it asks, and with 1 where it missed any of it") {
+TEST_CASE("A soak test exits with code 0 when it meets its limits, and with 1 when it misses one") {
     const Stage stage;
     const ProgramRun run = runFathom(latencyCommand(stage, {"--soak", "0.02"}));
     CAPTURE(run.err);
@@ -85,7 +85,7 @@ TEST_CASE("A soak ends with exit code 0 where it kept what it asks, and with 1 w
     CHECK(run.out.find(holds ? "soak         kept: asked are 1.2 s" : "MISSED") != std::string::npos);
 }
 
-TEST_CASE("A soak that is ended before its time has missed it: exit code 1") {
+TEST_CASE("A soak test that is interrupted exits with code 1") {
     const Stage stage;
     const pid_t child = startFathom(latencyCommand(stage, {"--soak", "60"}), stage / "said");
     std::this_thread::sleep_for(std::chrono::seconds(2));
@@ -99,7 +99,7 @@ TEST_CASE("A soak that is ended before its time has missed it: exit code 1") {
     CHECK(said.find("soak         MISSED: asked are 3600.0 s") != std::string::npos);
 }
 
-TEST_CASE("latency refuses a load that it does not know and a length that is none, in one line") {
+TEST_CASE("latency rejects an unknown load and an invalid length in one line") {
     for (const char* bad : {"--load=party", "--seconds=0", "--soak=-1"}) {
         const ProgramRun run = runFathom({"latency", "apps/scenes/demo.yaml", bad});
         CHECK(run.exitCode == 2);

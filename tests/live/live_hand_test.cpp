@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `replay --realtime` with a live hand behind a door, and an observer at the view door.
+// `replay --realtime` with a live hand on a bridge socket, and an observer on the view socket.
 #include "tests/rig/played_device.h"
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
@@ -47,7 +47,7 @@ private:
     pid_t id_;
 };
 
-// Looks on until the engine leaves.
+// Reads the view socket until the engine closes it.
 struct Observer {
     explicit Observer(std::filesystem::path path)
         : thread([this, endpoint = std::move(path)] { look(endpoint); }) {}
@@ -88,7 +88,7 @@ struct Observer {
     }
     std::map<uint64_t, uint32_t> parts, total;
     std::set<uint64_t> generations;
-    std::vector<fathom_door_fixture> rows; // of the newest set
+    std::vector<fathom_door_fixture> rows; // in the newest set
     uint64_t states = 0, strange = 0;
     float radius = 0.0f;
     double lastTool = 0.0;
@@ -97,8 +97,8 @@ struct Observer {
 
 } // namespace
 
-TEST_CASE(
-    "a live hand behind a door drives a realtime replay, and an observer sees poses, wrench and fixtures") {
+TEST_CASE("A live hand on a bridge socket drives a realtime replay, and an observer gets poses, wrench and "
+          "fixtures") {
     Stage stage;
     const PixelBox corner{2, 2, 10, 10};
     stage.recording(
@@ -125,8 +125,8 @@ TEST_CASE(
     for (const Tick& tick : replay.ticks) {
         moved = std::max(moved, glm::distance(tick.device.position, replay.ticks.front().device.position));
     }
-    CHECK(moved > 0.005); // the example's handle goes 15 mm per second
-    CHECK(moved < 0.05);  // from where the scene's path begins, without a leap
+    CHECK(moved > 0.005); // the example bridge moves its handle at 15 mm/s
+    CHECK(moved < 0.05);  // starts where the scene's path starts, without a jump
 
     CHECK(observer.states > 50);
     CHECK(observer.strange == 0);
@@ -147,28 +147,28 @@ TEST_CASE(
     CHECK(yellow.fixture == 1);
     CHECK(yellow.flags == FATHOM_DOOR_SEEN);
     CHECK(yellow.points > 10);
-    CHECK(std::abs(yellow.base_T_position[2] - 0.6) < 0.15); // at the surface, or its standoff before it
-    CHECK(yellow.base_T_position[0] < 0.0);                  // of the corner
+    CHECK(std::abs(yellow.base_T_position[2] - 0.6) < 0.15); // surface, or standoff before it
+    CHECK(yellow.base_T_position[0] < 0.0);                  // in the left half of the image
     CHECK_FALSE(std::filesystem::exists(stage / "view.door"));
 }
 
-TEST_CASE("a device pressed into a region feels at most its limit, and nothing once the program is ended or "
-          "killed") {
+TEST_CASE("A device pressed into a region gets at most its force limit, and no force after the program ends "
+          "or is killed") {
     Stage stage;
     stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
     SceneText scene;
-    scene.hand = "path: start.csv"; // the tool begins 20 mm before the region
+    scene.hand = "path: start.csv"; // the tool starts 20 mm before the region
     stage.scene(scene);
     stage.write("start.csv", handCsv({{0.0, {0.0, 0.0, 0.53}}}));
-    std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
+    std::signal(SIGHUP, SIG_DFL); // the parent process may ignore it
     PlayedDevice device(stage / "hand.door");
     const pid_t engine = startFathom(
         stage.command({"--realtime", "--hand-device", (stage / "hand.door").string(), "--seconds", "60"}));
-    for (int i = 0; i < 60000 && device.silent; ++i) { // until the first wrench: turns run
+    for (int i = 0; i < 60000 && device.silent; ++i) { // until the first wrench: the ticks run
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     CHECK(std::abs(device.fz) < 1e-9);
-    const bool full = device.pushUntil(-8.0 - 1e-9, -7.9); // 15 mm at 3000 N/m, cut to the preset's 8 N
+    const bool full = device.pushUntil(-8.0 - 1e-9, -7.9); // 15 mm at 3000 N/m, limited to the preset's 8 N
     device.push(0.0);
     CHECK(device.feels(-1e-3, 1e-3));
     const bool again = device.pushUntil(-8.0 - 1e-9, -4.0);
@@ -193,8 +193,8 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
         signal = SIGSEGV;
     }
     ::kill(engine, signal);
-    // 10 ms of silence at the most, and the rest for a busy machine; a run that is asked to end may take
-    // longer, and so does a crash that a sanitizer writes a report of first, while the other threads go on.
+    // 10 ms of silence at most, plus time for a busy machine. A run that ends by itself may take longer, and
+    // so may a crash under a sanitizer, which writes its report while other threads continue.
     const bool atOnce = signal == SIGKILL || (signal == SIGSEGV && !kSanitized);
     CHECK(device.feels(0.0, 0.0, atOnce ? 200 : 20000));
     int status = 0;
@@ -207,11 +207,11 @@ TEST_CASE("a device pressed into a region feels at most its limit, and nothing o
         const auto summary = nlohmann::json::parse(stage.read("out/summary.json"));
         CHECK(summary["haptic"]["max_penetration_m"].get<double>() <= 1e-5);
     } else {
-        CHECK((WIFSIGNALED(status) || (kSanitized && signal == SIGSEGV))); // the sanitizer ends a crash
+        CHECK((WIFSIGNALED(status) || (kSanitized && signal == SIGSEGV))); // sanitizers exit then
     }
 }
 
-TEST_CASE("A device that goes away during a run is told of when it goes and when it is back") {
+TEST_CASE("The log reports when a device disconnects during a run and when it is back") {
     Stage stage;
     stage.recording(std::vector<Image>(3, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
     stage.scene({});
@@ -228,7 +228,7 @@ TEST_CASE("A device that goes away during a run is told of when it goes and when
         }
         return found;
     };
-    for (int i = 0; i < 60000 && device->silent; ++i) { // until the first wrench: turns run
+    for (int i = 0; i < 60000 && device->silent; ++i) { // until the first wrench: the ticks run
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     device.reset();
@@ -242,7 +242,7 @@ TEST_CASE("A device that goes away during a run is told of when it goes and when
     CHECK(WEXITSTATUS(status) == 0);
 }
 
-TEST_CASE("a live hand without realtime, with a path, or where nobody listens, is refused in one line") {
+TEST_CASE("A live hand without --realtime, with a path or without a bridge is rejected in one line") {
     Stage stage;
     stage.recording({Image(kWidth, kHeight, 600).paint(kAll, kRed)});
     stage.scene({});

@@ -14,7 +14,7 @@ using namespace fathom;
 
 namespace {
 
-// 4 s of frames and of a hand that presses into the bump all the time.
+// 4 s of frames and of a hand that presses into the bump throughout.
 void setPressing(const Stage& stage, const std::string& where = "cpu") {
     stage.recording(std::vector<Image>(120, bumpImage()));
     SceneText scene;
@@ -29,11 +29,11 @@ double deepest(const Replay& replay) {
 
 } // namespace
 
-TEST_CASE("A GPU that is lost or out of memory is opened again while the hand goes on, and frames follow") {
+TEST_CASE("A GPU that is lost or out of memory is opened again while the hand continues, and frames resume") {
     for (const bool lost : {true, false}) {
         CAPTURE(lost);
         Stage stage;
-        setPressing(stage, lost ? "gpu" : "cpu"); // where contacts are asked for
+        setPressing(stage, lost ? "gpu" : "cpu"); // device of the contact query
         const Losing losing(lost ? 400 : 30, lost ? "lost" : "memory", 2);
         const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}));
         CAPTURE(run.err);
@@ -44,14 +44,15 @@ TEST_CASE("A GPU that is lost or out of memory is opened again while the hand go
         const Replay replay = readReplay(stage / "out", run);
         CHECK(deepest(replay) <= 1e-5);
         REQUIRE(!replay.frames.empty());
-        CHECK(replay.frames.back().index == 119); // to the end
-        CHECK(replay.frames.size() == 119);       // all but the one that went down with the device
+        CHECK(replay.frames.back().index == 119); // up to the last one
+        CHECK(replay.frames.size() == 119);       // all except the one lost with the device
         CHECK(replay.frames.back().spheres == replay.frames.front().spheres);
         CHECK(replay.ticks.back().t > 3.9);
     }
 }
 
-TEST_CASE("A GPU that is lost when a frame's regions are out already leaves no tick with regions untold of") {
+TEST_CASE(
+    "A GPU that is lost after a frame's set is published leaves no tick with a set that frames.csv lacks") {
     Stage stage;
     setPressing(stage);
     const Losing losing(30, "lost", 0, "TIMES");
@@ -71,8 +72,8 @@ TEST_CASE("A GPU that is lost when a frame's regions are out already leaves no t
     CHECK(replay.ticks.back().t > 3.9);
 }
 
-TEST_CASE(
-    "A GPU that never comes back leaves the hand with the last regions until its path ends, without force") {
+TEST_CASE("A GPU that never comes back leaves the hand without force, outside the last regions, until its "
+          "path ends") {
     Stage stage;
     setPressing(stage);
     const Losing losing(30, "lost", 1000000);
@@ -83,15 +84,15 @@ TEST_CASE(
     CHECK(deepest(replay) <= 1e-5);
     CHECK(replay.frames.back().index < 30);
     CHECK(replay.ticks.back().t > 3.9);
-    CHECK(glm::length(replay.ticks.back().force) == 0.0); // faded
+    CHECK(glm::length(replay.ticks.back().force) == 0.0); // faded out
     const bool touched = std::any_of(replay.ticks.begin(), replay.ticks.end(),
                                      [](const Tick& tick) { return glm::length(tick.force) > 1.0; });
     CHECK(touched);
     CHECK(run.out.find("made anew") == std::string::npos);
 }
 
-TEST_CASE(
-    "In lockstep a lost GPU ends the run with exit code 3 and one line, and leaves the old results alone") {
+TEST_CASE("In lockstep a lost GPU ends the run with exit code 3 and one line, and leaves the old results "
+          "unchanged") {
     Stage stage;
     setPressing(stage);
     REQUIRE(runFathom(stage.command({"--device", "llvmpipe"})).exitCode == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `replay --realtime --arm LINE`: the program drives an arm that is simulated behind a serial line, with its
+// `replay --realtime --arm PORT`: the program drives a simulated arm on a serial line, with line and motor
 // faults.
 #include "tests/rig/arm_stage.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 struct Driven {
     ProgramRun run;
-    nlohmann::json arm; // summary.json arm.driven; null where the run left none
+    nlohmann::json arm; // arm.driven of summary.json; null when there is none
     nlohmann::json haptic;
     std::vector<std::pair<double, std::string>> states; // arm.csv: t, real_arm
 
@@ -48,7 +48,7 @@ Driven readDriven(const Stage& stage, const ProgramRun& run) {
     return driven;
 }
 
-// Runs the program while `meanwhile` plays with the arm.
+// Runs the program while `meanwhile` changes the arm.
 template <class Meanwhile>
 Driven drive(const Stage& stage, Meanwhile&& meanwhile) {
     auto running = std::async(std::launch::async, [&] {
@@ -65,7 +65,7 @@ void checkHeld(const Driven& driven) {
 
 } // namespace
 
-TEST_CASE("The program drives an arm behind a serial line up to a region, and leaves it standing still") {
+TEST_CASE("The program drives an arm on a serial line up to a region, and leaves it at rest") {
     for (const LineFaults& faults : {LineFaults{}, LineFaults{0.001, 0.001, true, 0.01}}) {
         const Stage stage;
         setUp(stage, kReach, pushing(4.5));
@@ -83,7 +83,7 @@ TEST_CASE("The program drives an arm behind a serial line up to a region, and le
         MESSAGE("tip at " << z << " m of 0.54, tip behind the tool p99 "
                           << driven.arm.at("tip_lag_m").at("p99").get<double>() * 1e3 << " mm, "
                           << driven.arm.at("frames_damaged") << " frames damaged");
-        CHECK(z > tipDepth({kStart[0], kStart[1], kStart[2]}) + 0.1); // it went there
+        CHECK(z > tipDepth({kStart[0], kStart[1], kStart[2]}) + 0.1); // it moved
         CHECK(z < 0.541);
         if (faults.noise == 0.0) {
             CHECK(z > 0.535); // and rests on the region, 57 mm before the hand
@@ -93,11 +93,11 @@ TEST_CASE("The program drives an arm behind a serial line up to a region, and le
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(300));
         CHECK(bench.with([&] { return jointsOf(arm); }) == q);
-        CHECK(bench.with([&] { return arm.position[1]; }) == 7.0); // nobody moves the jaws
+        CHECK(bench.with([&] { return arm.position[1]; }) == 7.0); // the jaws stay
     }
 }
 
-TEST_CASE("An ECA is homed against its stops first and then driven, its encoders wrapping where they like") {
+TEST_CASE("An ECA is homed against its stops and then driven, wherever its encoders wrap around") {
     const Stage stage;
     setUp(stage, kEca, pushing(4.5));
     stage.write("scene.yaml",
@@ -125,7 +125,7 @@ TEST_CASE("An ECA is homed against its stops first and then driven, its encoders
     CHECK(bench.with([&] { return -0.9 - arm.angle[1]; }) == q[0]);
 }
 
-TEST_CASE("A line that falls silent holds tool and arm, and both go on when it speaks again") {
+TEST_CASE("A line that falls silent holds tool and arm, and both resume when it is back") {
     const Stage stage;
     setUp(stage, kReach, pushing(6.0));
     ReachSimulator arm;
@@ -133,7 +133,7 @@ TEST_CASE("A line that falls silent holds tool and arm, and both go on when it s
     ArmBench bench(arm, stage / "line");
     std::array<double, 3> atCut{}, after{};
     const Driven driven = drive(stage, [&] {
-        REQUIRE(bench.wait([&] { return tipDepth(jointsOf(arm)) > 0.45; })); // on its way
+        REQUIRE(bench.wait([&] { return tipDepth(jointsOf(arm)) > 0.45; })); // it is moving
         LineFaults cut;
         cut.cut = true;
         bench.faults(cut);
@@ -154,9 +154,9 @@ TEST_CASE("A line that falls silent holds tool and arm, and both go on when it s
     CHECK(spokeAgain > 100);
     CHECK(driven.run.err.find("silent: the arm and the tool are held, forces fade out") != std::string::npos);
     for (size_t k = 0; k < 3; ++k) {
-        CHECK(std::abs(after[k] - atCut[k]) < 0.06); // at most the setpoint that it had, 0.05 rad ahead
+        CHECK(std::abs(after[k] - atCut[k]) < 0.06); // at most to the last setpoint, 0.05 rad ahead
     }
-    // The tool stood still in those turns, without force after 200 of them.
+    // The tool is still in these ticks, and without force after 200 of them.
     const std::vector<Tick> ticks = readTicks(stage / "out/haptics.csv");
     REQUIRE(ticks.size() == driven.states.size());
     uint64_t inARow = 0, still = 0;
@@ -172,10 +172,10 @@ TEST_CASE("A line that falls silent holds tool and arm, and both go on when it s
         }
     }
     CHECK(still > 50);
-    CHECK(bench.with([&] { return tipDepth(jointsOf(arm)); }) > tipDepth(after) + 0.01); // it went on
+    CHECK(bench.with([&] { return tipDepth(jointsOf(arm)); }) > tipDepth(after) + 0.01); // it resumed
 }
 
-TEST_CASE("An arm that is unplugged ends the run with exit code 3; one that comes back goes on") {
+TEST_CASE("An arm that is unplugged ends the run with exit code 3; one that comes back resumes") {
     for (const bool back : {false, true}) {
         CAPTURE(back);
         const Stage stage;
@@ -205,9 +205,9 @@ TEST_CASE("An arm that is unplugged ends the run with exit code 3; one that come
     }
 }
 
-TEST_CASE("A motor that draws too much stays held until forces were off and on") {
+TEST_CASE("A motor that draws too much holds the arm until forces are turned off and on") {
     std::vector<HandRow> hand = pushing(6.0);
-    hand[2].buttons = 2; // dead-man open for half a second
+    hand[2].buttons = 2; // dead-man open for 0.5 s
     hand.insert(hand.begin() + 3, {3.3, {0, 0, 0.18}});
     const Stage stage;
     setUp(stage, kReach, hand);
@@ -225,7 +225,7 @@ TEST_CASE("A motor that draws too much stays held until forces were off and on")
     CHECK(driven.turns("overloaded") > 300);
     bool released = true;
     int goneOn = 0;
-    for (const auto& [t, state] : driven.states) { // latched: it never goes by itself
+    for (const auto& [t, state] : driven.states) { // latched: it never resumes by itself
         released = state == "overloaded" ? false : released || t > 2.7;
         CHECK((state != "follows" || released));
         goneOn += t > 3.3 && state == "follows" ? 1 : 0;

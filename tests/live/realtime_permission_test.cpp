@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the kernel permits real-time priority and locked memory: what it reports of the threads and memory of
-// a live run.
+// Threads and memory of a live run where the kernel permits real-time priority and locked memory.
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 
@@ -18,7 +17,7 @@ using namespace fathom;
 
 namespace {
 
-// Whether a thread of ours gets real-time priority, and this process may lock its memory.
+// True when a thread of this process gets real-time priority and the process may lock its memory.
 bool permitted() {
     int fault = 0;
     std::thread([&] {
@@ -30,7 +29,8 @@ bool permitted() {
     return fault == 0 && locks;
 }
 
-// Scheduling of one thread: fields 40 and 41 of its stat (proc(5)), which are counted from its closed name.
+// Scheduling of one thread: fields 40 and 41 of its stat file (proc(5)), counted after the closing bracket of
+// its name.
 struct Scheduling {
     int priority = 0, policy = 0;
 };
@@ -43,7 +43,7 @@ Scheduling schedulingOf(const std::filesystem::path& task) {
     return words.size() > 38 ? Scheduling{std::stoi(words[37]), std::stoi(words[38])} : Scheduling{};
 }
 
-// Priorities of the process's threads that are SCHED_FIFO. Threads come and go meanwhile.
+// Priorities of the process's SCHED_FIFO threads. Threads may start and end meanwhile.
 std::vector<int> realTimePriorities(pid_t process) {
     std::vector<int> priorities;
     std::error_code gone;
@@ -96,5 +96,5 @@ TEST_CASE(
     CHECK(said.find("refused") == std::string::npos);
     REQUIRE(priorities.size() == 1);
     CHECK(priorities[0] == 80);        // as fathom-limits.conf says
-    CHECK((locked > 0 || kSanitized)); // a sanitizer locks nothing
+    CHECK((locked > 0 || kSanitized)); // under a sanitizer no memory is locked
 }

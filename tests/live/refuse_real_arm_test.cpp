@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `--arm` refuses, before anything moves.
+// What `--arm` rejects before the arm moves.
 #include "tests/rig/arm_stage.h"
 
 #include <doctest/doctest.h>
@@ -7,7 +7,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("An arm that does not answer, stands outside of its limits or is not described is refused") {
+TEST_CASE("An arm that does not answer, is outside its limits or is not described is rejected") {
     const auto refused = [](const std::string& driver, const std::vector<std::string>& more, int exitCode,
                             const std::string& part) {
         const Stage stage;

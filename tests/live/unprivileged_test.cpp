@@ -7,7 +7,7 @@
 
 using namespace fathom;
 
-TEST_CASE("Without permission for priority and locked memory a live run says so in one line, and runs") {
+TEST_CASE("Without permission for priority and locked memory a live run reports it in one line, and runs") {
     Stage stage;
     stage.recording(std::vector<Image>(10, bumpImage()));
     stage.scene({});
@@ -16,7 +16,7 @@ TEST_CASE("Without permission for priority and locked memory a live run says so 
     RunSetting setting;
     setting.unprivileged = true;
     const ProgramRun run = runFathom(stage.command({"--realtime", "--device", "llvmpipe"}), setting);
-    if (run.exitCode == 126) { // it lies where nobody else may look
+    if (run.exitCode == 126) { // the program's folder is private to this user
         MESSAGE("SKIPPED ALOUD: the program cannot be started as another user here");
         return;
     }
@@ -25,7 +25,7 @@ TEST_CASE("Without permission for priority and locked memory a live run says so 
     REQUIRE(run.errorLines().size() == 1);
     for (const char* part : {"haptic thread: refused ", "real-time priority (Operation not permitted)",
                              "locked memory (Cannot allocate memory)", "man fathom, PERMISSIONS"}) {
-        const bool silent = kSanitized && std::string(part).rfind("locked", 0) == 0; // it locks nothing
+        const bool silent = kSanitized && std::string(part).rfind("locked", 0) == 0; // then nothing is locked
         CHECK((run.err.find(part) != std::string::npos || silent));
     }
     CHECK(readReplay(stage / "out", run).ticks.size() > 100);

@@ -15,7 +15,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Goes at once where it is told, unless `stuck`.
+// Reaches every commanded position at once, unless `stuck`.
 struct FakeArm final : ArmDevice {
     ArmFeedback state;
     ArmCommand last;
@@ -57,7 +57,7 @@ ArmSetpoint setpoint(double a, double b, double c, double grasp = 0.0) {
 
 } // namespace
 
-TEST_CASE("Joints become axes and axes joints, by sign and zero, and the grasp becomes the way of the jaws") {
+TEST_CASE("Joints map to axes and back, by sign and zero, and the grasp maps to the travel of the jaws") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
     const ArmStatus told = follower.exchange(1.0, setpoint(0.1, 0.2, 0.3, 0.25), 0.0);
@@ -72,7 +72,7 @@ TEST_CASE("Joints become axes and axes joints, by sign and zero, and the grasp b
     CHECK(told.lag < 1e-9);
 }
 
-TEST_CASE("An arm without jaws of ours tells no grasp, and its jaws stay where they are") {
+TEST_CASE("An arm without driven jaws reports no grasp, and its jaws stay where they are") {
     FakeArm arm;
     arm.state.position[4] = 0.011;
     ArmAxes axes = threeAxes();
@@ -85,8 +85,7 @@ TEST_CASE("An arm without jaws of ours tells no grasp, and its jaws stay where t
     CHECK(arm.state.position[4] == 0.011);
 }
 
-TEST_CASE(
-    "It stands still where it is told to, where nobody has wished lately and where nothing means anything") {
+TEST_CASE("The arm holds on command, when the setpoint is old and while its positions are not valid") {
     FakeArm arm;
     ArmFollower follower(arm, threeAxes());
     ArmSetpoint held = setpoint(1, 1, 1);
@@ -95,7 +94,7 @@ TEST_CASE(
     CHECK(arm.last.hold);
     CHECK(follower.exchange(1.1, setpoint(1, 1, 1), 0.2).state == ArmState::Held);
     CHECK(arm.last.hold);
-    arm.state.homed = false; // lost in the middle of a run: it is never homed there
+    arm.state.homed = false; // lost during a run, when the arm is never homed
     const ArmStatus lost = follower.exchange(1.2, setpoint(1, 1, 1), 0.0);
     CHECK(lost.state == ArmState::NotHomed);
     CHECK_FALSE(lost.known);
@@ -127,7 +126,7 @@ TEST_CASE("An arm that stays far behind is held until the tool is where it is") 
     arm.stuck = true;
     ArmState state = ArmState::Follows;
     double heldAt = 0.0;
-    for (double now = 1.0; now < 2.0; now += 0.01) { // 0.5 rad of 0.35 behind
+    for (double now = 1.0; now < 2.0; now += 0.01) { // lags by 0.5 rad, more than the allowed 0.35
         state = follower.exchange(now, setpoint(0.5, 0, 0), 0.0).state;
         heldAt = heldAt == 0.0 && state == ArmState::Behind ? now : heldAt;
     }
@@ -135,13 +134,13 @@ TEST_CASE("An arm that stays far behind is held until the tool is where it is") 
     CHECK(state == ArmState::Behind);
     CHECK(arm.last.hold);
     arm.stuck = false;
-    CHECK(follower.exchange(2.0, setpoint(0.2, 0, 0), 0.0).state == ArmState::Behind); // not near enough yet
+    CHECK(follower.exchange(2.0, setpoint(0.2, 0, 0), 0.0).state == ArmState::Behind); // not close enough yet
     follower.exchange(2.1, setpoint(0.05, 0, 0), 0.0);
     CHECK(follower.exchange(2.2, setpoint(0.05, 0, 0), 0.0).state == ArmState::Follows);
 }
 
-TEST_CASE("A haptic tick with a real arm behind it wishes what it did, and holds when its "
-          "thread is gone") {
+TEST_CASE("The haptic tick sends its posture as the setpoint of a real arm, and holds when the arm's thread "
+          "stops") {
     FakeRun fake(2, pressingPath(1.0));
     ArmRig rig;
     rig.model = makeArm(4, 4);
@@ -170,7 +169,7 @@ TEST_CASE("A haptic tick with a real arm behind it wishes what it did, and holds
     REQUIRE(link.setpoint.refresh());
     CHECK_FALSE(link.setpoint.front().hold);
     CHECK(link.setpoint.front().posture.q == row.record.arm.posture.q);
-    std::this_thread::sleep_for(std::chrono::milliseconds(150)); // no word from the arm's thread
+    std::this_thread::sleep_for(std::chrono::milliseconds(150)); // no update from the arm's thread
     loop.step(clock.now());
     REQUIRE(channels.ticks.pop(row));
     CHECK(row.armStatus.state == ArmState::Silent);

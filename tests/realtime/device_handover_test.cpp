@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Two threads share a device that either of them loses again and again: neither uses a lost device.
+// Two threads share a device that each of them loses repeatedly; neither uses a lost device.
 #include "engine/run/device_handover.h"
 
 #include <doctest/doctest.h>
@@ -12,12 +12,13 @@ namespace {
 
 constexpr int kLosses = 200;
 
-// Plain numbers: what is not ordered by the handover is a race, and what is used after its end a fault.
+// Plain integers: a missing synchronisation is a data race, and a use after destruction a fault that
+// sanitizers find.
 struct FakeDevice {
     int passes = 0, images = 0;
 };
 
-// Both threads as a run has them: passes here, frames on the window's thread.
+// Both threads of a run: passes here, drawing on the window's thread.
 struct Shared {
     DeviceHandover handover;
     std::unique_ptr<FakeDevice> device = std::make_unique<FakeDevice>();
@@ -47,7 +48,7 @@ struct Shared {
         windowOver.store(true);
     }
 
-    // Refuses every fifth device, and loses every third frame.
+    // Rejects every fifth device, and loses it at every third frame.
     void window() {
         FakeDevice* mine = device.get();
         for (int frame = 1, offers = 0; !windowOver.load(); ++frame) {
@@ -77,7 +78,8 @@ struct Shared {
 
 } // namespace
 
-TEST_CASE("A device that either thread loses is destroyed after both are off it, and another one is shared") {
+TEST_CASE(
+    "A device that either thread loses is destroyed after both have left it, and another one is shared") {
     Shared shared;
     std::thread window([&] { shared.window(); });
     shared.camera();
@@ -88,24 +90,24 @@ TEST_CASE("A device that either thread loses is destroyed after both are off it,
     CHECK(shared.foundByWindow > 0);
 }
 
-TEST_CASE("A run that is to stop waits for no window, and the device that it leaves is the one it found") {
+TEST_CASE("A run that is to stop does not wait for the window, and leaves its device to the next run") {
     DeviceHandover handover;
     const std::atomic<bool> stop{true};
     handover.lose("first");
     handover.lose("second");
     CHECK(handover.why() == "first");
     CHECK(handover.lost());
-    CHECK_FALSE(handover.awaitRelease(stop)); // the window has not let go
+    CHECK_FALSE(handover.awaitRelease(stop)); // the window has not released it
     CHECK(handover.wanted());
     handover.release();
     CHECK_FALSE(handover.wanted());
     CHECK_FALSE(handover.offer(stop));
-    CHECK(handover.offered()); // of use to a run that follows
+    CHECK(handover.offered()); // for a later run
     CHECK_FALSE(handover.lost());
     CHECK(handover.gone());
     handover.accept();
     CHECK_FALSE(handover.gone());
     handover.accept();
-    handover.release(); // nothing to do
+    handover.release(); // no effect
     CHECK_FALSE(handover.gone());
 }

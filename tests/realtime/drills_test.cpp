@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Faults that come from outside, each with its figure: what the hand feels until when, and how it comes back.
-// docs/robustness.md names them all.
+// Drills: faults from outside, with the force that the hand feels, when it is gone and when it returns.
+// docs/robustness.md lists them all.
 #include "engine/types/error.h"
 
 #include <doctest/doctest.h>
@@ -17,16 +17,17 @@ using namespace fathom::testing;
 namespace {
 
 struct Fade {
-    double full = 0.0;    // [N] before
-    double untouched = 0; // [s] after the last frame until the force is less than before
-    double gone = -1.0;   // [s] after it until there is none; -1 = there is always some
-    double back = -1.0;   // [s] after a frame has come again until the force is full; -1 = not tried
+    double full = 0.0;    // [N] before the fault
+    double untouched = 0; // [s] from the last frame until the force decreases
+    double gone = -1.0;   // [s] from the last frame until there is no force; -1 = always some
+    double back = -1.0;   // [s] from the next frame until the force is full; -1 = not tested
     double deepest = 0.0; // [m] penetration
-    bool told = true;     // the state was `fading` while the scene was too old, and only then
+    bool told = true;     // the state was `fading` exactly while the scene was too old
 };
 
-// No force leaps, and none is left under a scene of 0.61 s: where a machine left turns out before that, as
-// little as the slew limit leaves of the tick before. Returns how many ticks had such a scene.
+// No force steps beyond the slew limit, and none is left when the scene is 0.61 s old. Where periods were
+// missed before that, at most what the slew limit leaves of the last force. Returns the number of ticks with
+// such a scene.
 size_t checkFades(const FakeRun& fake) {
     const double step = fake.options.slewForce * fake.options.period;
     size_t old = 0, leaps = 0, forced = 0;
@@ -44,8 +45,7 @@ size_t checkFades(const FakeRun& fake) {
     return old;
 }
 
-// A hand that presses 10 mm into a wall; frames every 33 ms, then none for `stall` seconds. By the cycle's
-// own clock.
+// A hand presses 10 mm into a wall; frames come every 33 ms, then none for `stall` seconds. Simulated time.
 Fade stallCamera(double stall, bool comesBack) {
     HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
     rig.show(wallSet(1));
@@ -103,11 +103,11 @@ TEST_CASE("Drill: a camera that stalls for 100 ms changes no force") {
     CHECK(fade.told);
 }
 
-TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 600 ms, and it is back 0.5 s after "
+TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 610 ms, and it is back 0.51 s after "
           "the next frame") {
     const Fade fade = stallCamera(1.0, true);
     CHECK(fade.untouched >= 0.1);
-    CHECK(fade.gone > 0.5); // no step: it fades over half a second
+    CHECK(fade.gone > 0.5); // not a step: it fades over 0.5 s
     CHECK(fade.gone <= 0.61);
     CHECK(fade.back > 0.3);
     CHECK(fade.back <= 0.51);
@@ -115,8 +115,7 @@ TEST_CASE("Drill: a camera that stalls for 1 s takes the force away by 600 ms, a
     CHECK(fade.told);
 }
 
-TEST_CASE(
-    "Drill: a camera that stalls for 1 s under threads is told of when forces fade and when it is back") {
+TEST_CASE("Drill: a camera that stalls for 1 s under threads logs when forces fade and when they return") {
     for (const double stall : {0.0, 1.0}) {
         CAPTURE(stall);
         FakeRun fake(stall > 0.0 ? 30 : 15, pressingPath(stall > 0.0 ? 2.2 : 0.5));
@@ -141,7 +140,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Drill: a camera that stalls for ever leaves no force, and the tool still obeys the last regions") {
+TEST_CASE("Drill: a camera that stalls forever leaves no force, and the tool still obeys the last regions") {
     const Fade fade = stallCamera(20.0, false);
     CHECK(fade.gone <= 0.61);
     CHECK(fade.deepest < 1e-5);
@@ -149,18 +148,18 @@ TEST_CASE("Drill: a camera that stalls for ever leaves no force, and the tool st
 }
 
 TEST_CASE(
-    "Drill: a clock that leaps, as after a suspended machine, fades or holds the force and never leaps it") {
+    "Drill: a clock that jumps, as after a suspended machine, fades or holds the force and never steps it") {
     for (const double leap : {0.05, 5.0, 3600.0, -0.5}) {
         CAPTURE(leap);
         HapticRig rig(handScene(), at(0.0, 0.0, 0.03));
         rig.show(wallSet(1));
-        rig.age = false; // a camera that goes on
+        rig.age = false; // the camera continues
         rig.ticks(10);
         rig.hand = at(0.0, 0.0, 0.0);
         double before = forceOf(rig.ticks(200));
         const double full = before;
         CHECK(full > 5.0);
-        rig.age = true; // what is in force was captured before the leap
+        rig.age = true; // the active set was captured before the jump
         rig.time += leap;
         double largestStep = 0.0;
         for (int i = 0; i < 700; ++i) {
@@ -175,12 +174,12 @@ TEST_CASE(
             CHECK(rig.gap() > -1e-5);
         }
         CHECK(largestStep <= rig.options.slewForce * rig.options.period + 1e-9);
-        CHECK(before == doctest::Approx(full).epsilon(0.01)); // it is back
+        CHECK(before == doctest::Approx(full).epsilon(0.01)); // the full force is back
     }
 }
 
-TEST_CASE("Drill: with every CPU busy no tick penetrates, no force leaps or outlives its scene, periods "
-          "without a turn are counted, the end is zero force") {
+TEST_CASE("Drill: with every CPU busy no tick penetrates, no force steps or outlives its scene, missed "
+          "periods are counted, the end is zero force") {
     std::atomic<bool> done{false};
     std::vector<std::thread> load;
     for (unsigned i = 0; i < 2 * std::max(2u, std::thread::hardware_concurrency()); ++i) {
@@ -190,7 +189,7 @@ TEST_CASE("Drill: with every CPU busy no tick penetrates, no force leaps or outl
         });
     }
     FakeRun fake(45, wipingPath(2.5));
-    fake.feed.beforePublish = [](uint32_t index) { // a camera that stalls as well: until no force may be left
+    fake.feed.beforePublish = [](uint32_t index) { // the camera stalls as well, until no force may be left
         if (index == 20) {
             std::this_thread::sleep_for(std::chrono::milliseconds(1000));
         }
@@ -207,13 +206,13 @@ TEST_CASE("Drill: with every CPU busy no tick penetrates, no force leaps or outl
         missed += row.missed;
     }
     CHECK(missed == fake.run->periodsMissed());
-    CHECK(fake.sink.rows.size() + missed >= 2495); // every period had a turn or is told of
+    CHECK(fake.sink.rows.size() + missed >= 2495); // every period is a tick or is counted as missed
     CHECK(checkFades(fake) > 0);
     MESSAGE("turns " << fake.sink.rows.size() << ", periods without one " << missed);
 }
 
 TEST_CASE(
-    "Drill: a GPU that is lost or out of memory is made anew while the force fades, and comes back with it") {
+    "Drill: a GPU that is lost or out of memory is opened again while the force fades, and both return") {
     for (const bool lost : {true, false}) {
         FakeRun fake(75, pressingPath(3.0));
         int refusals = 2;
@@ -234,7 +233,7 @@ TEST_CASE(
         CHECK(fake.feed.renewed == 1);
         CHECK(fake.feed.published == 75);
         CHECK(fake.sink.audit.maxPenetration() <= 1e-5);
-        // Retries after 0.1, 0.2 and 0.4 s: for longer than the force takes to fade.
+        // Retries after 0.1, 0.2 and 0.4 s, which takes longer than the fade.
         double least = 1e9, last = 0.0;
         for (const TickRow& row : fake.sink.rows) {
             const double force = glm::length(row.record.wrench.force);
@@ -247,8 +246,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "Drill: a GPU that somebody else finds lost is made anew while the camera is gone, and the scene ages "
-    "until a frame comes") {
+    "Drill: a GPU lost while the camera is gone is opened again, and the scene ages until a frame comes") {
     FakeRun fake(60, pressingPath(3.0));
     int refusals = 0, renewedAt = -1;
     fake.feed.onRenew = [&] { renewedAt = refusals; };
@@ -262,16 +260,15 @@ TEST_CASE(
     fake.go();
     REQUIRE(fake.run->failure() == nullptr);
     CHECK(fake.feed.renewed == 1);
-    CHECK(renewedAt == 1); // while frames were asked for in vain
+    CHECK(renewedAt == 1); // while the camera still failed
     CHECK(fake.feed.published == 60);
     double least = 1e9;
     fake.during(0.5, 2.0, [&](const StepRecord& r) { least = std::min(least, forceOf(r)); });
-    CHECK(least < 0.01); // gone is gone, whichever of the two comes back first
+    CHECK(least < 0.01); // no force while frames are missing, whichever device returns first
 }
 
-TEST_CASE(
-    "Drill: a GPU that is lost or out of memory and cannot be made anew ends the run with zero force and "
-    "says which") {
+TEST_CASE("Drill: a GPU that is lost or out of memory and cannot be opened again ends the run with zero "
+          "force and the error") {
     const auto drill = [](const std::function<void()>& fault) {
         FakeRun fake(300, pressingPath(10.0));
         fake.feed.beforePublish = [&fault](uint32_t index) {

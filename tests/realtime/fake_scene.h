@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene without camera or device for the threads of a realtime run: hand-made walls, the CPU query, a hand
-// on a path, a sink that audits.
+// A realtime run without camera and device: hand-made walls, the CPU query, a hand on a path, and a sink that
+// audits.
 #pragma once
 
 #include "devices/simulated/simulated_hand.h"
@@ -20,7 +20,7 @@ struct FakeSet {
     RegionGrid grid;
 };
 
-// `frames` frames of a wall whose top lies at z = 0 and heaves by half a millimetre.
+// `frames` frames of a wall with its top at z = 0; every other frame it is 0.5 mm higher.
 class FakeFeed final : public FrameFeed {
 public:
     FakeFeed(LeasePool<FakeSet>& pool, uint32_t frames)
@@ -29,9 +29,9 @@ public:
 
     std::function<void(uint32_t)> beforeFetch = [](uint32_t) {};
     std::function<void(uint32_t)> beforePublish = [](uint32_t) {};
-    std::function<void()> onRenew; // empty: the device cannot be made anew
+    std::function<void()> onRenew; // empty: the device cannot be opened again
     uint32_t published = 0, renewed = 0;
-    bool deviceLost = false; // by somebody else than publish()
+    bool deviceLost = false; // lost elsewhere than in publish()
     std::vector<double> captured;
 
     bool lost() const override { return deviceLost; }
@@ -112,7 +112,7 @@ public:
     }
     Wrench last{dvec3(1.0), dvec3(1.0)};
     uint64_t writes = 0;
-    std::function<void(double, HandSample&)> spoil = [](double, HandSample&) {}; // of a test that wants it
+    std::function<void(double, HandSample&)> spoil = [](double, HandSample&) {}; // changes samples
 
 private:
     HandPath path_;
@@ -143,7 +143,7 @@ struct AuditingSink final : RunSink {
     }
 };
 
-// Presses 10 mm into the wall and wipes to and fro over it at up to 0.13 m/s.
+// Presses 10 mm into the wall and wipes over it at up to 0.13 m/s.
 inline HandPath wipingPath(double seconds) {
     std::vector<HandWaypoint> waypoints{{0.0, at(0.0, 0.0, 0.03), 0}};
     for (double t = 0.2; t <= seconds; t += 0.01) {
@@ -152,13 +152,13 @@ inline HandPath wipingPath(double seconds) {
     return HandPath(std::move(waypoints));
 }
 
-// Presses and stays.
+// Presses and stays there.
 inline HandPath pressingPath(double seconds) {
     return HandPath(
         {{0.0, at(0.0, 0.0, 0.03), 0}, {0.2, at(0.0, 0.0, 0.0), 0}, {seconds, at(0.0, 0.0, 0.0), 0}});
 }
 
-// Springs that are given stay as they are when this machine makes turns late.
+// With fixed stiffness: automatic springs would soften when this machine is late.
 inline Scene sceneOfGivenSprings() {
     Scene scene = handScene();
     scene.haptics.stiffness = 1000.0;
@@ -185,7 +185,7 @@ struct FakeRun {
         run->run(*cycle, hand, path.duration(), sink, stop);
     }
 
-    // Rows with t in [from, to).
+    // Visits the rows with t in [from, to).
     template <class Visit>
     void during(double from, double to, Visit&& visit) const {
         for (const TickRow& row : sink.rows) {

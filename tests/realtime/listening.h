@@ -9,7 +9,7 @@
 
 namespace fathom::testing {
 
-// What is logged while this lives.
+// Collects the log lines during its lifetime.
 class Listening {
 public:
     Listening()

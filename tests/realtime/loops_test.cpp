@@ -21,7 +21,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Frames that come without a pause, each `age` after it was taken.
+// Frames without pauses; `age` is the age of each when it arrives.
 class LiveFeed final : public FrameFeed {
 public:
     explicit LiveFeed(FakeFeed& feed)
@@ -81,14 +81,14 @@ TEST_CASE("A haptic tick allocates nothing, with contact sets, guidance and a tr
         contacts += row.record.contacts > 0 ? 1 : 0;
         std::this_thread::sleep_for(std::chrono::microseconds(300));
     }
-    CHECK(allocationCount() > beforeAny); // the count counts
+    CHECK(allocationCount() > beforeAny); // the counter works
     CHECK(during == 0);
     CHECK(contacts > 100);
     trace.file().finish();
     std::filesystem::remove(file);
 }
 
-TEST_CASE("Frames are captured a period apart by the clock, and only a slow one counts as lost") {
+TEST_CASE("Frames are captured one period apart by the clock, and only a slow frame counts as lost") {
     FakeRun fake(12, pressingPath(1.0));
     fake.feed.beforePublish = [](uint32_t index) {
         if (index == 6) {
@@ -109,17 +109,17 @@ TEST_CASE("Frames are captured a period apart by the clock, and only a slow one 
         CHECK(fake.feed.captured[i] >= 0.05 * static_cast<double>(i) - 1e-6);
     }
     CHECK(fake.feed.captured[7] >= 0.05 * 6 + 0.23 - 1e-6);
-    CHECK(loop.lost() >= 3); // 230 ms run over four periods of 50
+    CHECK(loop.lost() >= 3); // 230 ms last over four periods of 50 ms
     CHECK(loop.lost() <= 8);
     CHECK(loop.update().sourceEnded);
 }
 
-TEST_CASE("Frames of a live source keep the time they were taken at, and the loop paces none of them") {
+TEST_CASE("Frames of a live source keep their capture time, and the loop does not pace them") {
     FakeRun fake(8, pressingPath(1.0));
     LiveFeed live(fake.feed);
     Channels channels(16);
     RunClock clock;
-    FrameLoop loop(live, channels, clock, 1000.0, nullptr); // paced, it would take hours
+    FrameLoop loop(live, channels, clock, 1000.0, nullptr); // with pacing, this would take hours
     REQUIRE(loop.first());
     clock.start(0.0);
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
@@ -156,13 +156,12 @@ TEST_CASE("A live camera whose stamps go back gives frames no older than the one
     CHECK(loop.update().captureTime == captured[9]);
 }
 
-TEST_CASE(
-    "A turn whose set has not reached the writer waits for it, and goes through at the end in any case") {
+TEST_CASE("A tick whose set has not reached the writer waits for it, and passes at the end in any case") {
     FakeRun fake(2, pressingPath(1.0));
     Channels channels(16);
     RecordDrain drain(channels, fake.sink);
     TickRow row;
-    channels.ticks.push(row); // obeys nothing
+    channels.ticks.push(row); // uses no set
     row.generation = 1;
     row.query = 1;
     channels.ticks.push(row);
@@ -177,16 +176,16 @@ TEST_CASE(
     CHECK(fake.sink.rows.size() == 2);
     CHECK(fake.sink.unknown == 0);
 
-    row.generation = 7; // never comes
+    row.generation = 7; // never arrives
     channels.ticks.push(row);
     drain.drain();
     CHECK(fake.sink.rows.size() == 2);
     drain.drain(true);
     CHECK(fake.sink.rows.size() == 3);
-    CHECK(fake.sink.unknown == 1); // not to be audited
+    CHECK(fake.sink.unknown == 1); // cannot be audited
 }
 
-TEST_CASE("Sets that no tick can obey any more go back to the frame cadence") {
+TEST_CASE("Sets that no tick can use any more go back to the frame cycle") {
     FakeRun fake(400, pressingPath(1.0));
     Channels channels(16);
     RecordDrain drain(channels, fake.sink);
@@ -195,21 +194,21 @@ TEST_CASE("Sets that no tick can obey any more go back to the frame cadence") {
     REQUIRE(frames.first());
     TickRow row;
     for (uint64_t generation = 1; generation < 300; ++generation) {
-        REQUIRE(frames.first()); // the next one
+        REQUIRE(frames.first()); // fetches the next frame
         row.generation = generation;
         channels.ticks.push(row);
         drain.drain();
     }
     CHECK(drain.newest()->fixtures.generation == 300);
     for (int i = 0; i < 99; ++i) {
-        REQUIRE(frames.first()); // nobody obeys them: the writer lets the oldest go
+        REQUIRE(frames.first()); // no tick uses these sets: the writer releases the oldest
         drain.drain();
     }
     CHECK(fake.sink.frames == 399);
     CHECK(drain.newest()->fixtures.generation == 399);
 }
 
-TEST_CASE("A spooled camera gives the very frames of its source, once, and leaves no file behind") {
+TEST_CASE("A spooled camera returns exactly the frames of its source, once, and leaves no file behind") {
     SimulatedCameraOptions options;
     options.width = 70;
     options.height = 50;
@@ -244,7 +243,7 @@ TEST_CASE("A spooled camera gives the very frames of its source, once, and leave
     CHECK((*kept)->yuyv.size() == 70 * 50 / 2);
     CHECK(std::ranges::equal((*kept)->yuyv, (*sent)->yuyv));
 
-    stop = true; // asked to stop: the first frame is still there
+    stop = true; // asked to stop, but the first frame is kept
     SpooledCamera one(std::make_unique<SimulatedCamera>(*analyticScene("tank"), options), folder, stop,
                       [](uint64_t) {});
     CHECK(one.next().has_value());
@@ -257,7 +256,7 @@ TEST_CASE("A spooled camera gives the very frames of its source, once, and leave
     CHECK_THROWS_AS(unspooled(), Error);
 }
 
-TEST_CASE("The haptic thread has a CPU that nothing else is placed on") {
+TEST_CASE("The haptic thread has a CPU that no other thread uses") {
     const ThreadPlacement placement = ThreadPlacement::ofThisProcess();
     REQUIRE(!placement.all.empty());
     REQUIRE(placement.haptic.size() == 1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A hand that gives numbers that are none.
+// A hand with non-finite samples.
 #include "engine/run/realtime_run.h"
 
 #include <doctest/doctest.h>
@@ -11,8 +11,8 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("A hand whose numbers are none has no force in those turns, that is said once, when it begins, and "
-          "the force comes back") {
+TEST_CASE("A hand with non-finite samples gets no force in those ticks, the log reports it once, and the "
+          "force returns") {
     enum class Broken { Nothing, Position, Rotation };
     for (const Broken broken : {Broken::Position, Broken::Rotation, Broken::Nothing}) {
         CAPTURE(static_cast<int>(broken));
@@ -39,7 +39,7 @@ TEST_CASE("A hand whose numbers are none has no force in those turns, that is sa
         CHECK(log.count("the hand's sample is not finite: no force in such ticks") ==
               (broken != Broken::Nothing ? 1 : 0));
         CHECK(before > 5.0);
-        CHECK(after == doctest::Approx(before).epsilon(0.2)); // the wall heaves
+        CHECK(after == doctest::Approx(before).epsilon(0.2)); // the wall moves by 0.5 mm
         CHECK(fake.sink.audit.maxPenetration() <= 1e-5);
     }
 }

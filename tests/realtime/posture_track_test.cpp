@@ -21,7 +21,7 @@ ArmPosture posture(double value) {
     return p;
 }
 
-// Frames of a live camera that arrive late: taken at 20, 40, 60 ... ms of the run.
+// Frames of a live camera that arrive late; captured at 20, 40, 60 ... ms of the run.
 struct LateFeed final : FrameFeed {
     explicit LateFeed(const RunClock& runClock)
         : clock(runClock) {}
@@ -40,7 +40,7 @@ struct LateFeed final : FrameFeed {
 
 } // namespace
 
-TEST_CASE("The self-filter is given the posture of the moment a frame was taken, not the newest") {
+TEST_CASE("The self-filter gets the posture of the capture time, not the newest") {
     Channels channels(1024);
     RunClock clock;
     LateFeed feed(clock);
@@ -48,7 +48,7 @@ TEST_CASE("The self-filter is given the posture of the moment a frame was taken,
     REQUIRE(loop.first());
     CHECK(feed.shownAt.empty()); // no tick yet
     clock.start(0.0);
-    for (int i = 0; i < 200; ++i) { // the arm has gone on long before the frames arrive
+    for (int i = 0; i < 200; ++i) { // the arm has moved on long before the frames arrive
         channels.postures.add(clock.timeAt(0.002 * i), posture(i));
     }
     std::atomic<bool> stop{false};
@@ -56,7 +56,8 @@ TEST_CASE("The self-filter is given the posture of the moment a frame was taken,
     CHECK(feed.shownAt == std::vector<double>{20.0, 30.0, 40.0, 50.0});
 }
 
-TEST_CASE("The posture nearest in time is found, newest and oldest at the ends, none before the first") {
+TEST_CASE(
+    "The nearest posture in time is found, the newest and oldest at the ends, and none before the first") {
     PostureTrack track;
     CHECK_FALSE(track.nearest(at(0)));
     for (int i = 0; i < 7; ++i) {
@@ -71,29 +72,29 @@ TEST_CASE("The posture nearest in time is found, newest and oldest at the ends, 
     CHECK(track.nearest(at(130))->q[kMostJoints - 1] == 3.0);
 }
 
-TEST_CASE("Half a second is kept whatever the rate, and what comes too soon after another is left out") {
+TEST_CASE("The track keeps half a second at any rate, and skips postures that follow too soon") {
     PostureTrack track;
     for (int i = 0; i < 3000; ++i) {
         track.add(at(i), posture(i));
     }
-    CHECK(track.nearest(at(2998))->grasp == 2998.0); // every other millisecond
+    CHECK(track.nearest(at(2998))->grasp == 2998.0); // every other millisecond is kept
     CHECK(track.nearest(at(2600))->grasp == 2600.0);
     const double oldest = track.nearest(at(0))->grasp;
     CHECK(oldest <= 2500.0);
     CHECK(oldest >= 2998.0 - 2.0 * PostureTrack::kKept);
 }
 
-TEST_CASE("A reader beside the writer never gets half of one posture and half of another") {
+TEST_CASE("A reader on another thread never gets parts of two postures") {
     PostureTrack track;
     std::atomic<bool> stop{false};
     std::thread writer([&] {
         for (int i = 1; !stop.load(); ++i) {
-            track.add(at(10.0 * i), posture(i)); // laps the reader
+            track.add(at(10.0 * i), posture(i)); // overwrites while the other thread reads
         }
     });
     uint64_t torn = 0, seen = 0;
     for (int i = 0; i < 20000 || seen < 100; ++i) {
-        if (const auto p = track.nearest(at(5e3))) { // the oldest: the next to be overwritten
+        if (const auto p = track.nearest(at(5e3))) { // the oldest one, which is overwritten next
             ++seen;
             for (double q : p->q) {
                 torn += q != p->grasp;

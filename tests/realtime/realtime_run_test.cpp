@@ -26,7 +26,7 @@ void sleepFor(double seconds) {
 void checkEnded(const FakeRun& fake) {
     CHECK(fake.hand.last.force == dvec3(0.0));
     CHECK(fake.hand.last.torque == dvec3(0.0));
-    CHECK(fake.hand.writes == fake.sink.rows.size() + 1); // every tick, then zero
+    CHECK(fake.hand.writes == fake.sink.rows.size() + 1); // one per tick, then zero
     CHECK(fake.run->recordsLost() == 0);
     CHECK(fake.sink.unknown == 0);
     CHECK(fake.sink.audit.maxPenetration() <= kPenetrationLimit);
@@ -35,7 +35,7 @@ void checkEnded(const FakeRun& fake) {
 } // namespace
 
 TEST_CASE(
-    "A realtime run gives the writer every turn in order, obeys new sets as they come and never penetrates") {
+    "A realtime run sends the writer every tick in order, uses new sets as they come and never penetrates") {
     FakeRun fake(45, wipingPath(1.5));
     const auto file = std::filesystem::temp_directory_path() / "fathom-realtime-run-test.json";
     CadenceTrace trace(file, {"only"});
@@ -86,12 +86,12 @@ TEST_CASE("A contact thread that stalls for 100 ms and for 1 s stalls the tool a
         stalledLate += row.record.stalled && row.record.t > 2.6 ? 1 : 0;
     }
     CHECK(stalled > 20);
-    CHECK(stalledLate * 4 < stalled); // over soon after the answers are back
+    CHECK(stalledLate * 4 < stalled); // ends soon after the answers are back
     CHECK(fake.sink.audit.ticks() > 100);
     CHECK(fake.sink.rows.back().record.frame >= 80);
 }
 
-TEST_CASE("A camera that stalls lets the scene age: forces fade after 100 ms and are back after it") {
+TEST_CASE("A camera that stalls lets the scene age: forces fade after 100 ms and return with it") {
     FakeRun fake(90, pressingPath(3.0));
     fake.feed.beforeFetch = [](uint32_t index) {
         if (index == 24) { // after 0.8 s
@@ -115,11 +115,11 @@ TEST_CASE("A camera that stalls lets the scene age: forces fade after 100 ms and
     CHECK(oldest < 1.6);
     CHECK(fading > 50);
     CHECK(after > 5.0);
-    CHECK(fake.run->framesLost() >= 30); // a live one would have lost about 35
+    CHECK(fake.run->framesLost() >= 30); // a live camera would have lost about 35
     CHECK(fake.run->staleTicks() >= fading);
 }
 
-TEST_CASE("A camera that is gone is asked again while the forces fade, and the run goes on when it is back") {
+TEST_CASE("A camera that is gone is retried while the forces fade, and the run continues when it is back") {
     FakeRun fake(45, pressingPath(2.5));
     int refusals = 0;
     fake.feed.beforeFetch = [&](uint32_t index) {
@@ -136,10 +136,10 @@ TEST_CASE("A camera that is gone is asked again while the forces fade, and the r
     size_t fading = 0;
     fake.during(0.7, 1.5, [&](const StepRecord& r) { fading += r.state == StepState::Fading ? 1 : 0; });
     CHECK(fading > 50);
-    CHECK(fake.run->framesLost() < 10); // frames that never were are not lost
+    CHECK(fake.run->framesLost() < 10); // frames that never existed are not lost
 }
 
-TEST_CASE("When the source has ended, its last frame stays in force and does not age") {
+TEST_CASE("When the source has ended, its last frame stays active and does not age") {
     FakeRun fake(12, pressingPath(1.2));
     fake.go();
     checkEnded(fake);
@@ -161,9 +161,8 @@ TEST_CASE("A path that is shorter than the recording holds its last pose until t
     CHECK(fake.sink.rows.back().record.t > 29.0 / 30.0);
 }
 
-TEST_CASE(
-    "SIGINT, SIGTERM, SIGQUIT and SIGHUP end a run early with zero force and every record handed over") {
-    std::signal(SIGHUP, SIG_DFL); // whoever started this may have it ignored
+TEST_CASE("SIGINT, SIGTERM, SIGQUIT and SIGHUP end a run early with zero force and every record written") {
+    std::signal(SIGHUP, SIG_DFL); // the parent process may ignore it
     for (int signal : {SIGINT, SIGTERM, SIGQUIT, SIGHUP}) {
         CAPTURE(signal);
         FakeRun fake(300, pressingPath(10.0));
@@ -182,7 +181,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A reader of the output that went away does not end a run, nor does a hang-up that is ignored") {
+TEST_CASE("A closed reader of the output does not end a run, nor does an ignored SIGHUP") {
     const auto before = std::signal(SIGHUP, SIG_IGN); // as under nohup
     {
         const StopSignals signals;
@@ -191,10 +190,10 @@ TEST_CASE("A reader of the output that went away does not end a run, nor does a 
         CHECK_FALSE(signals.asked().load());
     }
     CHECK((std::signal(SIGHUP, before) == SIG_IGN));
-    CHECK((std::signal(SIGPIPE, SIG_DFL) == SIG_DFL)); // as it was
+    CHECK((std::signal(SIGPIPE, SIG_DFL) == SIG_DFL)); // restored
 }
 
-TEST_CASE("What a thread throws ends the run with zero force, and is told") {
+TEST_CASE("An exception in any thread ends the run with zero force, and is reported") {
     FakeRun fake(300, pressingPath(10.0));
     fake.feed.beforePublish = [](uint32_t index) {
         if (index == 10) {
@@ -208,7 +207,7 @@ TEST_CASE("What a thread throws ends the run with zero force, and is told") {
     CHECK(fake.sink.rows.back().record.t < 5.0);
 }
 
-TEST_CASE("What the sink throws passes through after the hand has zero force") {
+TEST_CASE("An exception of the sink is passed on after the hand has zero force") {
     FakeRun fake(300, pressingPath(10.0));
     fake.sink.onTurn = [](const TickRow& row) {
         if (row.record.t > 0.3) {
@@ -229,7 +228,7 @@ TEST_CASE("A scene with nothing to collide with runs without a contact thread") 
     CHECK(fake.sink.rows.back().record.frame == 9);
 }
 
-TEST_CASE("A source without any frame is told of before a thread starts") {
+TEST_CASE("A source without a frame is rejected before a thread starts") {
     FakeRun fake(0, pressingPath(0.5));
     RealtimeRun run(fake.feed, &fake.answers, fake.realtime);
     CHECK_FALSE(run.firstFrame());
