@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated arm on a pseudo-terminal in real time, on a thread of its own, for a program to drive.
+// Runs a simulated arm on a pseudo-terminal in real time, on its own thread, for a program to drive.
 #pragma once
 
 #include "tests/devices/pty_line.h"
@@ -16,7 +16,7 @@ namespace fathom::testing {
 
 class ArmBench {
 public:
-    // port: a symbolic link that leads to the line while it is plugged in.
+    // port: a symbolic link to the terminal while it is plugged in.
     ArmBench(ArmSimulator& arm, std::filesystem::path port)
         : arm_(arm)
         , port_(std::move(port)) {
@@ -43,13 +43,13 @@ public:
         const std::lock_guard lock(mutex_);
         line_->faults = faults;
     }
-    // Looks at, or changes, the arm between two of its steps.
+    // Reads or changes the arm between two of its steps.
     template <class Look>
     auto with(Look&& look) {
         const std::lock_guard lock(mutex_);
         return look();
     }
-    // Until `state` says so; false after half a minute.
+    // Waits until `state` is true; false after 30 s.
     bool wait(const std::function<bool()>& state) {
         for (int i = 0; i < 15000; ++i) {
             if (with(state)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scene with an arm in front of a wall, and the log of its simulated arm behind a serial line.
+// A scene with an arm in front of a wall, for a simulated arm on a serial line.
 #pragma once
 
 #include "tests/rig/arm_bench.h"
@@ -21,7 +21,7 @@ inline constexpr const char* kEca =
     "protocol: eca_5e, axes: [{axis: slew, joint: slew, sign: -1, zero: -0.9}, "
     "{axis: shoulder, joint: shoulder, zero: 0.8}, {axis: elbow, joint: elbow, zero: 0.4}]";
 
-// Three links in the plane of the camera's axis, a ball on each joint and on the tip.
+// Three links in the plane of the camera's axis, with a ball on each joint and on the tip.
 inline std::string urdf() {
     const std::string ball = "<collision><geometry><sphere radius='0.02'/></geometry></collision></link>";
     const auto joint = [](const char* name, const char* parent, const char* child, double x) {
@@ -38,7 +38,8 @@ inline std::string urdf() {
            "</robot>";
 }
 
-// A wall 0.6 m away, its region 40 mm thick; the arm beside the camera, its tip 0.12 m before the region.
+// A wall 0.6 m away with a region of 40 mm. The arm is next to the camera, its tip 0.12 m in front of the
+// region.
 inline void setUp(const Stage& stage, const std::string& driver, const std::vector<HandRow>& hand) {
     stage.recording({Image(kWidth, kHeight, 600).paint({0, 0, kWidth, kHeight}, kRed)});
     stage.scene({});
@@ -51,12 +52,12 @@ inline void setUp(const Stage& stage, const std::string& driver, const std::vect
                     driver + "}\n");
 }
 
-// Towards the wall and on, so that the tip would be 57 mm inside its region.
+// Moves towards the wall until the tip would be 57 mm inside its region.
 inline std::vector<HandRow> pushing(double seconds) {
     return {{0.0, {0, 0, 0}}, {0.3, {0, 0, 0}}, {2.8, {0, 0, 0.18}}, {seconds, {0, 0, 0.18}}};
 }
 
-inline double tipDepth(const std::array<double, 3>& q) { // z in the base frame
+inline double tipDepth(const std::array<double, 3>& q) { // [m] z in the base frame
     double angle = 0.0, y = 0.0;
     for (double joint : q) {
         angle += joint;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer that loses a GPU (tests/losing_layer), under the programs that are started while this lives.
+// The layer that loses a GPU (tests/losing_layer), for programs started during its lifetime.
 #pragma once
 
 #include <cstdlib>
@@ -10,13 +10,14 @@ namespace fathom {
 
 class Losing {
 public:
-    // By the number of a call (AT: a submission, TIMES: a reading of the stopwatch); by: "lost" or "memory".
+    // call: number of the call at which the loss occurs (AT counts submissions, TIMES timestamp readings);
+    // by: "lost" or "memory".
     Losing(int call, const std::string& by, int refusedOpenings, const std::string& which = "AT") {
         begin(refusedOpenings);
         set("FATHOM_LOSE_" + which, std::to_string(call));
         set("FATHOM_LOSE_BY", by);
     }
-    // As soon as `trigger` exists, which goes when it is done: again and again.
+    // Loses the device whenever the file `trigger` exists, and deletes it each time.
     Losing(const std::string& trigger, int refusedOpenings) {
         begin(refusedOpenings);
         set("FATHOM_LOSE_FILE", trigger);

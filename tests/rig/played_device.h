@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A haptic device on a bridge socket; a test moves its handle.
+// A haptic device on a bridge socket whose handle the test moves.
 #pragma once
 
 #include "devices/bridge/socket_server.h"
@@ -11,7 +11,7 @@
 
 namespace fathom {
 
-// A device that a test plays: its handle is where `z` says, and what it feels is in `fz`.
+// The handle is at `z`, and the force on it is in `fz`.
 struct PlayedDevice {
     explicit PlayedDevice(const std::filesystem::path& endpoint)
         : server({endpoint, "falcon", "played device", 8.0, 0.0})
@@ -33,7 +33,7 @@ struct PlayedDevice {
         stop = true;
         thread.join();
     }
-    // Over half a second.
+    // Moves the handle within 0.5 s.
     void push(double to) {
         const double from = z;
         for (int i = 1; i <= 50; ++i) {
@@ -41,15 +41,15 @@ struct PlayedDevice {
             std::this_thread::sleep_for(std::chrono::milliseconds(10));
         }
     }
-    // On a machine that is busy the engine may lose the device for a moment; the tool is then where it was
-    // and the handle counts from there. So on and on, until it is felt.
+    // On a busy machine the engine may lose the device for a moment. The tool then stays, and the handle
+    // starts from its new place, so this repeats until the force is in range.
     bool pushUntil(double least, double most) {
         for (int tries = 0; tries < 10; ++tries) {
             push(z + 0.035);
             if (feels(least, most, 2000)) {
                 return true;
             }
-            if (fz < -1e-3) { // not lost: slow, or wrong
+            if (fz < -1e-3) { // not lost: the force is late or wrong
                 return feels(least, most);
             }
         }
@@ -64,11 +64,11 @@ struct PlayedDevice {
         }
         return false;
     }
-    // The machine took its processors away again and again, so that no soft start ever came to its end.
+    // The machine interrupted the engine so often that no soft start ever finished.
     bool hopeless() const { return lettings > 20; }
 
     std::atomic<double> z{0.0}, fz{0.0}, strongest{0.0};
-    std::atomic<int> lettings{0}; // times that a force was let go, as when the engine loses the device
+    std::atomic<int> lettings{0}; // times that the force went to zero, as when the engine loses the device
     std::atomic<bool> stop{false}, silent{true};
     SocketServer server;
     std::thread thread;

@@ -50,7 +50,7 @@ std::vector<std::string> linesOf(const std::filesystem::path& file) {
     return lines;
 }
 
-// Takes the fields of one row from left to right.
+// Reads the fields of one row from left to right.
 class Fields {
 public:
     Fields(const std::filesystem::path& file, size_t line, const std::string& text)

@@ -45,7 +45,7 @@ struct ReadImage {
     std::vector<uint32_t> pixels;
 };
 
-// All throw std::runtime_error with file and place when the file is not as the contract says.
+// Each throws std::runtime_error with file and place when the file violates the contract.
 std::vector<Tick> readTicks(const std::filesystem::path& file);
 std::vector<FrameRow> readFrames(const std::filesystem::path& file,
                                  std::vector<std::string>* timeColumns = nullptr);

@@ -30,7 +30,7 @@ struct Descriptor {
     }
 };
 
-// What the child writes to `write` comes out of `read`.
+// A pipe: the child writes to `write`, the test reads from `read`.
 struct Channel {
     Descriptor read, write;
 
@@ -61,8 +61,8 @@ bool dropPrivileges() {
             (::setgroups(0, nullptr) == 0 && ::setgid(kNobody) == 0 && ::setuid(kNobody) == 0));
 }
 
-// All that a child needs is made before the fork: another thread may hold the allocator then, and a
-// sanitizer's stays locked in the child.
+// Allocates everything before the fork: in the child the allocator may stay locked by another thread or by a
+// sanitizer.
 class Command {
 public:
     explicit Command(const std::vector<std::string>& arguments)
@@ -96,7 +96,7 @@ private:
     std::vector<char*> pointers_;
 };
 
-// Reads both channels to their ends. False when the time limit came first.
+// Reads both channels to their ends. False when the time limit is reached first.
 bool drain(Channel& out, Channel& err, ProgramRun& run, double limit) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
     std::string* texts[2] = {&run.out, &run.err};
@@ -117,7 +117,7 @@ bool drain(Channel& out, Channel& err, ProgramRun& run, double limit) {
             const ssize_t count = ::read(watched[i].fd, bytes, sizeof bytes);
             if (count > 0) {
                 texts[i]->append(bytes, static_cast<size_t>(count));
-            } else if (count == 0 || errno != EINTR) { // a terminal whose other end is closed says EIO
+            } else if (count == 0 || errno != EINTR) { // EIO: the other end is closed
                 watched[i].fd = -1;
                 --open;
             }

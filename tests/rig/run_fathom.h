@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Starts the built program as a child, with the Vulkan layers where they are wanted (validation_wanted.h),
-// and takes what it says: exit code, standard output, standard error.
+// Runs the built program as a child process, with Vulkan validation layers if configured
+// (validation_wanted.h), and returns exit code, standard output and standard error.
 #pragma once
 
 #include <filesystem>
@@ -11,29 +11,29 @@
 namespace fathom {
 
 struct ProgramRun {
-    int exitCode = -1; // -1 = it died of a signal or of our time limit
+    int exitCode = -1; // -1 = ended by a signal or by the time limit
     std::string out, err;
 
-    std::vector<std::string> errorLines() const; // of standard error, without line ends
+    std::vector<std::string> errorLines() const; // lines of standard error
 };
 
 struct RunSetting {
-    bool terminal = false;        // standard error is a terminal (a pseudo one), not a pipe
-    double timeLimit = 240.0;     // [s]; then the child is killed
-    std::filesystem::path folder; // working folder; empty = ours
+    bool terminal = false;        // standard error is a pseudo-terminal instead of a pipe
+    double timeLimit = 240.0;     // [s] then the child is killed
+    std::filesystem::path folder; // working directory; empty = the test's own
     bool unprivileged =
-        false; // as user nobody when the test runs as root; no real-time priority, 64 KiB of locked memory
+        false; // runs as user nobody if the test is root; no real-time priority, 64 KiB of locked memory
 };
 
-// Throws std::runtime_error when no child can be made. Its standard input is empty.
+// Throws std::runtime_error when no child can be created. The child's standard input is empty.
 ProgramRun runFathom(const std::vector<std::string>& arguments, const RunSetting& setting = {});
 
-// Starts it as a child process that the caller must wait for. Its output is appended to the file `said`, or
-// goes to the test's own. Throws std::runtime_error when no child can be made.
+// Starts a child process, which the caller must wait for. Its output is appended to the file `said`, or goes
+// to the test's own output. Throws std::runtime_error when no child can be created.
 pid_t startFathom(const std::vector<std::string>& arguments, const std::filesystem::path& said = {});
 
-// Programs started from now on under a sanitizer ignore memory that third-party libraries keep until the
-// process ends (support/sanitizer_options.cpp).
+// Sanitized programs started from now on ignore memory that third-party libraries never free
+// (support/sanitizer_options.cpp).
 void allowLibraryLeaks();
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings and scene files small enough for a test to write: a wall of one depth, painted where it matters.
+// Small recordings and scene files that tests write: a wall at one depth, with painted areas.
 #pragma once
 
 #include "tests/devices/recorded_folder.h"
@@ -22,7 +22,7 @@ struct PixelBox { // [from, to)
     uint32_t u0, v0, u1, v1;
 };
 
-// One pair of frames. Depth in millimetres.
+// A depth and a colour image. Depth in millimetres.
 struct Image {
     uint32_t width, height;
     std::vector<uint16_t> depth;
@@ -35,30 +35,30 @@ struct Image {
         , colour(w * h, kGrey) {}
     Image& paint(const PixelBox& box, const Paint3& paint);
     Image& set(const PixelBox& box, uint16_t millimetres);
-    // Lifts the box towards the camera as part of a ball: its middle by `millimetres`, its edges by nothing.
+    // Lifts the box towards the camera like part of a ball: its middle by `millimetres`, its edges by
+    // nothing.
     Image& dome(const PixelBox& box, double millimetres);
 };
 
-// The usual lens of these tests: 64x48 pixels, focal length 60 pixels, principal point in the middle.
+// Intrinsics of these tests: 64x48 pixels, focal length 60 pixels, principal point in the middle.
 inline constexpr uint32_t kWidth = 64, kHeight = 48;
 inline constexpr double kFocal = 60.0, kCx = 31.5, kCy = 23.5;
 std::string lensJson(uint32_t width, uint32_t height);
 
-// Writes frames as frames 0.. with stamps i / 30 s, associations.txt and intrinsics.json of the first one's
-// size.
+// Writes frames from 0 with stamps i / 30 s, associations.txt, and intrinsics.json for the size of the first
+// frame.
 void writeRecording(const std::filesystem::path& folder, const std::vector<Image>& images);
 
-// A grey wall 600 mm away with a red bump of 60 mm in the middle, and a yellow square at the left.
+// A grey wall 600 mm away with a red bump of 60 mm in the middle and a yellow square on the left.
 Image bumpImage();
 
-// Scene file sections; what is empty takes the program's own default. `fixtures` is a list of rows, each in
-// braces.
+// Sections of a scene file; an empty one uses the program's default. `fixtures` is a list of rows in braces.
 struct SceneText {
     std::string camera = "near: 0.1, far: 3.0";
     std::vector<std::string> fixtures{kForbidRed};
     std::string tool = "spheres: [[0, 0, 0, 0.01]]";
     std::string hand, haptics, contact, filter;
-    std::string more; // whole lines
+    std::string more; // further lines
 
     static constexpr const char* kForbidRed =
         "name: red, role: forbidden, hue: [345, 20], saturation: [0.4, 1], radius: 0.04";

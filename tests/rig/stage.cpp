@@ -22,7 +22,7 @@ void checkKeys(const json& object, const std::set<std::string>& wanted) {
     CHECK(found == wanted);
 }
 
-// Measured times: above zero and in order, or null where nothing was measured.
+// Checks that measured times are positive and ordered, or null when nothing was measured.
 void checkTimes(const json& times, const std::set<std::string>& keys, bool measured) {
     checkKeys(times, keys);
     CHECK(times.at("p50").is_null() == !measured);
@@ -33,7 +33,7 @@ void checkTimes(const json& times, const std::set<std::string>& keys, bool measu
     }
 }
 
-// The summary's percentiles are those of the column: the value of the rank above the share.
+// Checks the summary's percentiles against the column: nearest rank, rounded up.
 void checkColumn(const json& times, std::vector<double> column) {
     checkKeys(times, {"p50", "p99", "max"});
     REQUIRE(!column.empty());
@@ -87,7 +87,7 @@ void checkFiles(const Replay& replay) {
     }
 }
 
-// What is wrong with a row taken alone; empty = nothing.
+// The fault of a single row; empty = none.
 std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
     const std::set<std::string> states{"off", "free", "contact", "escape", "trapped", "fading"};
     if (!isFinite(tick.device) || !isFinite(tick.tool) || !isFinite(tick.force) || !isFinite(tick.torque)) {
@@ -117,7 +117,7 @@ std::string faultOf(const Tick& tick, const Terms& terms, double allowance) {
     return tick.minGap < -allowance ? "min_gap_m is beyond the allowance" : "";
 }
 
-// What the rows add up to.
+// Totals over the rows.
 struct Sums {
     size_t stalled = 0, trapped = 0, escape = 0;
     double force = 0.0, torque = 0.0, step = 0.0;
@@ -179,7 +179,7 @@ void checkTicks(const Replay& replay, const Terms& terms) {
     CHECK(depth >= 0.0);
 }
 
-// A pass takes time exactly when its frame makes a set; upload, passes and publishing fit into the latency.
+// Passes have times exactly when the frame makes a set; upload, passes and publication fit the latency.
 void checkFrameTimes(const Replay& replay) {
     std::vector<double> upload, passes;
     double longest = 0.0;
@@ -232,7 +232,7 @@ void checkFrames(const Replay& replay) {
     for (const Tick& tick : replay.ticks) {
         CHECK((tick.frame == -1 || used.count(tick.frame) == 1));
     }
-    // A pixel may be in several classes: the sum of the classes is at least what any of them marks.
+    // A pixel may be in several classes, so their sum is at least the number of marked pixels.
     double classPoints = 0.0, classSpheres = 0.0;
     for (const json& row : summary.at("fixtures")) {
         classPoints += row.at("points_mean").is_null() ? 0.0 : row.at("points_mean").get<double>();

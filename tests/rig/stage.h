@@ -17,22 +17,22 @@ struct Replay {
     nlohmann::json summary;
     std::vector<Tick> ticks;
     std::vector<FrameRow> frames;
-    std::vector<std::string> timeColumns; // of frames.csv
+    std::vector<std::string> timeColumns; // columns of pass times in frames.csv
 
     const nlohmann::json& haptic() const { return summary.at("haptic"); }
-    // Of the frame's saved set; empty file = none.
+    // The frame's saved set; an empty path = none.
     std::filesystem::path ply(int frame) const;
     const Tick& at(double t) const; // the first tick at or after t [s]
 };
 
-// What checkContract compares with.
+// Expected values for checkContract.
 struct Terms {
     double rate = 1000.0;                        // [Hz]
     double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m]
-    bool calm = true; // the hand never outruns the tool: no force before the first contact, stall or guidance
+    bool calm = true;                            // no force before the first contact, stall or guidance
 };
 
-// Reads and checks a finished replay: files, keys, columns, counts, times, invariants.
+// Reads a finished replay and checks files, keys, columns, counts, times and invariants.
 Replay readReplay(const std::filesystem::path& out, const ProgramRun& run);
 void checkContract(const Replay& replay, const Terms& terms);
 
@@ -48,7 +48,7 @@ public:
     void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
     std::string read(const std::string& name) const { return folder_.read(name); }
 
-    // Command line of a replay of scene.yaml; rec and hand.csv are used where they are there.
+    // Command line of a replay of scene.yaml, with rec and hand.csv if they exist.
     std::vector<std::string> command(const std::vector<std::string>& more = {},
                                      const std::string& out = "out") const;
     // Runs it, requires exit code 0 and an empty standard error, and checks the contract.
