@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom arm-simulator`, driven by the drivers of both arms over the terminal that it opens.
+// `fathom arm-simulator`, driven by the drivers of both arms through the pseudo-terminal that it opens.
 #include "devices/serial/eca_arm.h"
 #include "devices/serial/reach_arm.h"
 #include "tests/rig/refusal.h"
@@ -16,7 +16,7 @@ using namespace fathom;
 
 namespace {
 
-// The program beside the test, told to end by SIGTERM.
+// Runs the program in the background and ends it with SIGTERM.
 class Simulator {
 public:
     Simulator(const std::string& protocol, std::filesystem::path link, const std::filesystem::path& said)
@@ -34,7 +34,7 @@ public:
         CHECK(WEXITSTATUS(status) == 0);
         CHECK_FALSE(std::filesystem::is_symlink(link_));
     }
-    // Looks every 5 ms; false after half a minute.
+    // Tests the state every 5 ms; false after 30 s.
     static bool until(const std::function<bool()>& state) {
         for (int i = 0; i < 6000; ++i) {
             if (state()) {
@@ -56,7 +56,7 @@ double now() {
 
 } // namespace
 
-TEST_CASE("A simulated Reach goes where its driver tells it, and a simulated ECA finds its stops") {
+TEST_CASE("A simulated Reach moves where its driver commands, and a simulated ECA finds its stops") {
     Stage stage;
     {
         const Simulator simulator("reach_alpha5", stage / "reach", stage / "said");
@@ -82,7 +82,7 @@ TEST_CASE("A simulated Reach goes where its driver tells it, and a simulated ECA
     }));
 }
 
-TEST_CASE("arm-simulator refuses arms that it does not know and links that cannot be, in one line") {
+TEST_CASE("arm-simulator rejects unknown arms and invalid line parameters in one line") {
     Stage stage;
     stage.write("file", "not to be lost");
     checkRefusal({"arm-simulator", "oberon"}, {"arm-simulator", "oberon"});

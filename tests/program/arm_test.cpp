@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The scenes with an arm that ship, run whole: section VII of the paper in its order, the arm in the loop.
-// And what `arm:` refuses.
+// Runs the shipped scenes with an arm in full: the tasks of section VII of the paper in order, with the arm
+// in the loop. Also what the section `arm:` rejects.
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
@@ -56,7 +56,7 @@ struct ArmRun {
     }
 };
 
-// A scene that ships, lockstep, and what holds for every one of them.
+// Replays a shipped scene in lockstep and checks what holds for all of them.
 ArmRun runShipped(const std::string& scene) {
     const TemporaryFolder folder;
     const std::filesystem::path out = folder.path() / "out";
@@ -81,7 +81,7 @@ ArmRun runShipped(const std::string& scene) {
     return result;
 }
 
-// Joints named as those of the arm that ships, a ball on each link: nothing to be covered.
+// An arm with the joint names of the shipped one and a ball on each link, which needs no sphere covering.
 std::string ballArm() {
     const std::string ball = "<collision><geometry><sphere radius='0.02'/></geometry></collision></link>";
     const auto joint = [](const std::string& name, const std::string& parent, const std::string& child,
@@ -97,7 +97,7 @@ std::string ballArm() {
            joint("pinch", "column", "jaw", "0", "0.5") + "</robot>";
 }
 
-// The red bump lies about the arm's first ball: with so large a padding nothing of it is left.
+// The red bump is around the arm's first ball. With a large padding the self-filter removes all of it.
 void stageArmInBump(Stage& stage, const std::string& padding) {
     stage.recording(std::vector<Image>(3, bumpImage()));
     SceneText scene;
@@ -108,7 +108,7 @@ void stageArmInBump(Stage& stage, const std::string& padding) {
     stage.hand({{0.0, {0, 0, 0}}, {0.3, {0, 0.05, 0}}, {1.0, {0, 0, 0}}});
 }
 
-// Spheres in the last set that the window tells of.
+// Number of spheres in the last set that the window reports.
 size_t spheresInWindow(const Stage& stage) {
     const ProgramRun run = runFathom({"operate", (stage / "scene.yaml").string(), "--source",
                                       (stage / "rec").string(), "--device", "llvmpipe", "--offscreen",
@@ -134,25 +134,24 @@ void refused(const std::string& arm, const std::vector<std::string>& parts, cons
 
 } // namespace
 
-TEST_CASE(
-    "First a forbidden region: the arm is held off the valve by every link, and stops where joints do") {
+TEST_CASE("A forbidden region holds off every link of the arm, and the arm stops at its joint limits") {
     const ArmRun run = runShipped("arm_valve");
     const nlohmann::json& arm = run.summary();
-    // Pressed into the region the hand feels it, and the arm stays out.
+    // The hand feels the region that it pushes into, and the arm stays outside.
     CHECK(glm::length(run.replay.at(3.6).force) > 5.0);
     CHECK(run.replay.at(3.6).state == "contact");
-    // Out of reach: the elbow stands at its limit, and the hand is held although nothing is touched.
+    // Out of reach: the elbow is at its limit, which holds the hand without any contact.
     CHECK(run.at(13.0).joints[2] == doctest::Approx(-0.05));
     CHECK(run.at(13.0).limits > 0);
     CHECK(glm::length(run.replay.at(13.0).force) > 5.0);
     CHECK(run.replay.at(13.0).contacts == 0);
     CHECK(run.replay.at(13.0).minGap > 0.005);
     CHECK(arm.at("limited_ticks").get<int>() > 500);
-    // Free again at first it follows to the micrometre.
+    // In the free space at first, the arm follows to the micrometre.
     CHECK(run.at(0.6).residual < 1e-6);
 }
 
-TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and the jaw closes and opens" *
+TEST_CASE("Guidance pulls the arm to the connector, and its jaw closes and opens there" *
           doctest::skip(kSanitized)) {
     const ArmRun run = runShipped("arm_wetmate");
     const auto& target = run.replay.summary.at("guidance").at(0).at("target_m");
@@ -164,12 +163,11 @@ TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and
     CHECK(run.replay.at(4.4).guidance == 1.0);
     CHECK(pulled < before - 0.0015); // guidance leads by at most F_g / K_t = 2 mm
     CHECK(run.at(4.4).grasp == 0.0);
-    // Closed about the connector, as near to it as the pull has an end: 30 mm before its face, where the
-    // target is.
+    // Closed around the connector. The target, where the pull ends, is 30 mm in front of it.
     CHECK(run.at(6.0).grasp == 1.0);
     CHECK(glm::distance(run.replay.at(6.0).tool.position, goal) < 0.003);
-    // Against the valve's region the button is let go at 9.7 s, and the jaw stays closed; away from it, it
-    // opens.
+    // In contact with the valve's region the button is released at 9.7 s and the jaw stays closed; away from
+    // the region it opens.
     CHECK(run.at(9.6).held == 0);
     for (const double t : {9.8, 10.3, 11.0}) {
         CAPTURE(t);
@@ -181,7 +179,7 @@ TEST_CASE("Then guidance, the arm in the loop: it is pulled to the connector and
     CHECK(run.arm.back().grasp == 0.0);
 }
 
-TEST_CASE("The window takes the arm out of what the camera sees, as replay does") {
+TEST_CASE("The window removes the arm from the camera's points, as replay does") {
     for (const std::string padding : {"0.2", "0"}) {
         Stage stage;
         stageArmInBump(stage, padding);
@@ -195,7 +193,7 @@ TEST_CASE("The window takes the arm out of what the camera sees, as replay does"
     }
 }
 
-TEST_CASE("latency runs the arm of a scene that has one") {
+TEST_CASE("latency moves the arm of a scene that has one") {
     Stage stage;
     stageArmInBump(stage, "0.2");
     const ProgramRun run = runFathom({"latency", (stage / "scene.yaml").string(), "--source",
@@ -207,7 +205,7 @@ TEST_CASE("latency runs the arm of a scene that has one") {
     CHECK(part.at("arm_travel").get<double>() > 0.05);
 }
 
-TEST_CASE("A link that is drawn and has no collision shape is told of by plan, and by replay in a line") {
+TEST_CASE("plan, and replay in one line, report a link with a visual but no collision shape") {
     Stage stage;
     stageArmInBump(stage, "0.2");
     std::string urdf = ballArm();
@@ -225,7 +223,8 @@ TEST_CASE("A link that is drawn and has no collision shape is told of by plan, a
     CHECK(run.err.find("arm41.urdf: " + note) != std::string::npos);
 }
 
-TEST_CASE("A wrong arm section is one line that names the field, the value and what is allowed") {
+TEST_CASE(
+    "An invalid arm section is rejected in one line that names the field, the value and what is allowed") {
     const std::string urdf = "urdf: arm41.urdf, ";
     refused("", {"arm.urdf"});
     refused("urdf: nowhere.urdf", {"arm.urdf", "nowhere.urdf", "an existing URDF file"});

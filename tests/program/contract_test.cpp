@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The output of `replay --out`: files, keys, columns, counts. Equal runs are equal to the bit.
+// The output of `replay --out`: files, keys, columns and counts. Equal runs give identical files.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
@@ -10,11 +10,11 @@ using namespace fathom;
 
 namespace {
 
-// Down on the red bump, whose top is 540 mm away and whose region begins at 500, and off again.
+// Down onto the red bump, whose top is 540 mm away and whose region begins at 500 mm, and up again.
 const std::vector<HandRow> kPush{
     {0.0, {0.0, 0.0, 0.45}}, {0.2, {0.0, 0.0, 0.50}}, {0.3, {0.004, 0.0, 0.50}}, {0.5, {0.0, 0.0, 0.44}}};
 
-// Bump, shape, guidance: a little of everything.
+// A scene with a bump, a shape and guidance.
 SceneText fullScene() {
     SceneText scene;
     scene.fixtures = {
@@ -27,21 +27,20 @@ SceneText fullScene() {
 std::vector<Image> images(size_t count) {
     std::vector<Image> all;
     for (size_t i = 0; i < count; ++i) {
-        all.push_back(bumpImage().paint({20, 40, 20 + static_cast<uint32_t>(i), 44}, kRed)); // each its own
+        all.push_back(bumpImage().paint({20, 40, 20 + static_cast<uint32_t>(i), 44}, kRed)); // each differs
     }
     return all;
 }
 
 } // namespace
 
-TEST_CASE(
-    "a replay leaves every file of the contract, and its rows, counts and means agree with one another") {
+TEST_CASE("A replay writes every file of the contract, and its rows, counts and means agree") {
     Stage stage;
     stage.recording(images(4));
     stage.scene(fullScene());
     stage.hand(kPush);
     const Replay replay = stage.replay({"--save-fixtures"});
-    CHECK(replay.ticks.size() == 500); // t = 0 .. 0.499: the hand path is longer than the frames
+    CHECK(replay.ticks.size() == 500); // t = 0 to 0.499 s: the hand path is longer than the frames
     CHECK(replay.frames.size() == 4);
     CHECK(replay.haptic().at("max_force_N").get<double>() > 1.0);
     CHECK(replay.haptic().at("max_torque_Nm").get<double>() > 1e-4);
@@ -51,7 +50,7 @@ TEST_CASE(
     CHECK(fixtures[0].at("class") == "red");
     CHECK(fixtures[1].at("role") == "guidance");
     CHECK(fixtures[2].at("class") == "floor");
-    // 400 red pixels, and i * 4 more in frame i; 140 yellow ones.
+    // 400 red pixels plus i * 4 in frame i; 140 yellow pixels.
     CHECK(fixtures[0].at("points_mean").get<double>() == doctest::Approx(400 + 4 * 1.5));
     CHECK(fixtures[1].at("points_mean").get<double>() == doctest::Approx(140));
     for (const FrameRow& row : replay.frames) {
@@ -60,12 +59,12 @@ TEST_CASE(
         CHECK(row.guidance == 140);
         CHECK(row.spheres > 200);
         CHECK(row.times.at("upload_ms") > 0.0);
-        CHECK(row.times.at("publish_ms") > 0.0); // so each pass took time, too: checkContract
+        CHECK(row.times.at("publish_ms") > 0.0); // so checkContract requires a time for each pass
         CHECK(row.times.count("classify_ms") == 1);
     }
 }
 
-TEST_CASE("the guidance row of the summary is the mean of the class's points, and its target stands off "
+TEST_CASE("The guidance row of the summary is the mean of the class's points, and its target stands off "
           "along the normal") {
     Stage stage;
     stage.recording(images(2));
@@ -87,8 +86,8 @@ TEST_CASE("the guidance row of the summary is the mean of the class's points, an
     CHECK(row.at("target_m")[2].get<double>() == doctest::Approx(0.55).epsilon(1e-4));
 }
 
-TEST_CASE("a guidance class that is never seen has null for its pose, and a scene without forbidden points "
-          "no query") {
+TEST_CASE("A guidance class that is never seen has null for its pose, and a scene without forbidden points "
+          "has no query") {
     Stage stage;
     stage.recording(images(2));
     SceneText scene;
@@ -101,7 +100,7 @@ TEST_CASE("a guidance class that is never seen has null for its pose, and a scen
         CHECK(row.at(key).is_null());
     }
     CHECK(replay.summary.at("contact").at("where") == "none");
-    CHECK(replay.haptic().at("max_force_N") == 0.0); // through the wall, nothing forbids it
+    CHECK(replay.haptic().at("max_force_N") == 0.0); // through the wall, which is not forbidden
     for (const FrameRow& frame : replay.frames) {
         CHECK(frame.spheres == 0);
         CHECK(frame.guidance == 0);
@@ -109,8 +108,8 @@ TEST_CASE("a guidance class that is never seen has null for its pose, and a scen
     }
 }
 
-TEST_CASE("equal runs give equal files and digests, with the query on either processor; another scene gives "
-          "another one") {
+TEST_CASE("Equal runs give equal files and digests with the query on the CPU and on the GPU; another scene "
+          "gives others") {
     Stage stage;
     stage.recording(images(4));
     SceneText scene = fullScene();
@@ -132,7 +131,7 @@ TEST_CASE("equal runs give equal files and digests, with the query on either pro
     CHECK(first.summary.at("digest") != other.summary.at("digest"));
 }
 
-TEST_CASE("a second run into the same folder replaces the files of the first, its saved sets included") {
+TEST_CASE("A second run into the same folder replaces the files of the first, including its saved sets") {
     Stage stage;
     stage.recording(images(4));
     stage.hand(kPush);
@@ -145,11 +144,11 @@ TEST_CASE("a second run into the same folder replaces the files of the first, it
     CHECK(second.frames.size() == 2);
     CHECK(std::filesystem::exists(second.ply(1)));
     CHECK(!std::filesystem::exists(second.ply(3)));
-    CHECK(stage.read("out/notes.txt") == "mine"); // only its own files
+    CHECK(stage.read("out/notes.txt") == "mine"); // prepareOutputFolder deletes only files of fathom
 }
 
-TEST_CASE("relative paths of a scene count from the scene file, those of the command line from the working "
-          "folder") {
+TEST_CASE("Relative paths in a scene start from the scene file, those on the command line from the working "
+          "directory") {
     Stage stage;
     stage.recording(images(1));
     SceneText scene;
@@ -166,14 +165,14 @@ TEST_CASE("relative paths of a scene count from the scene file, those of the com
     checkContract(readReplay(stage / "here/and/there", run), {});
 }
 
-TEST_CASE("the built-in hand path pushes into every forbidden region and visits every target") {
+TEST_CASE("The built-in hand path pushes into every forbidden region and visits every target") {
     Stage stage;
     stage.recording(images(2));
     SceneText scene = fullScene();
     scene.fixtures.pop_back();
     stage.scene(scene);
     const Replay replay = stage.replay();
-    CHECK(replay.ticks.size() >= 4000);                            // at least 2 s a fixture
+    CHECK(replay.ticks.size() >= 4000);                            // at least 2 s per fixture
     CHECK(replay.haptic().at("max_force_N").get<double>() > 10.0); // 20 mm at 1000 N/m
     double mostGuidance = 0.0;
     for (const Tick& tick : replay.ticks) {

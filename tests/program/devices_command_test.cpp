@@ -5,7 +5,7 @@
 
 using namespace fathom;
 
-TEST_CASE("devices names the compute devices, and the number beside one chooses it") {
+TEST_CASE("devices lists the compute devices with numbers, and --device takes such a number") {
     const ProgramRun list = runFathom({"devices"});
     REQUIRE(list.exitCode == 0);
     const size_t at = list.out.find("compute llvmpipe");

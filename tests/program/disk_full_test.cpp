@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A disk that is full: each file is written under a name of its own first, and that name leads to /dev/full
-// here.
+// A full disk: every file is first written under a temporary name, which here is a link to /dev/full.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
@@ -10,7 +9,7 @@ using namespace fathom;
 
 namespace {
 
-// What an earlier run left, and what must still be there.
+// Files of an earlier run, which must stay unchanged.
 const std::map<std::string, std::string> kLeft{{"haptics.csv", "old haptics"},
                                                {"frames.csv", "old frames"},
                                                {"summary.json", "old summary"},
@@ -20,7 +19,7 @@ const std::map<std::string, std::string> kLeft{{"haptics.csv", "old haptics"},
 void setUpFullDisk(const Stage& stage, double seconds, const std::string& full) {
     stage.recording({bumpImage(), bumpImage()});
     SceneText scene;
-    scene.haptics = "rate_hz: 4000"; // a megabyte, which is what waits in memory, in 0.6 s
+    scene.haptics = "rate_hz: 4000"; // a megabyte, the size of the write buffer, in 0.6 s
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {seconds, {0.0, 0.0, 0.53}}});
     std::filesystem::create_directories(stage / "out");
@@ -39,11 +38,10 @@ void checkFull(const Stage& stage, const ProgramRun& run, const std::string& nam
 
 } // namespace
 
-TEST_CASE(
-    "A disk that is full ends a replay in one line that names the file, and the files of the run before "
-    "are as they were") {
+TEST_CASE("A disk that is full ends a replay in one line that names the file, and leaves the files of the "
+          "run before unchanged") {
     for (const bool realtime : {false, true}) {
-        for (const double seconds : {0.1, 1.2}) { // full at the end, or in the middle
+        for (const double seconds : {0.1, 1.2}) { // fails at the end, or in the middle
             CAPTURE(realtime);
             CAPTURE(seconds);
             const Stage stage;
@@ -62,8 +60,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "A disk that is full under a trace is told of in one line, when the replay's own files are written") {
+TEST_CASE("A full disk under a trace is reported in one line after the replay's own files are written") {
     for (const bool realtime : {false, true}) {
         CAPTURE(realtime);
         const Stage stage;
@@ -81,7 +78,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A trace or an output that would take the place of a device or a pipe is refused in one line") {
+TEST_CASE("A trace or an output in place of a device or a pipe is rejected in one line") {
     const Stage stage;
     setUpFullDisk(stage, 0.1, "trace.json");
     std::filesystem::create_symlink("/dev/full", stage / "frames.link");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that are bad, empty, full or odd: skipped and named, or run through.
+// Damaged, empty, full and unusual frames: skipped with a message, or processed.
 #include "tests/rig/stage.h"
 
 #include <algorithm>
@@ -9,8 +9,8 @@ using namespace fathom;
 
 namespace {
 
-// A recording of four frames of which frame `bad` was damaged runs, counts it as skipped and names it in one
-// line.
+// Checks that a recording of four frames with frame `bad` damaged runs, counts it as skipped and names it in
+// one line.
 void checkSkips(const Stage& stage, int bad, const std::vector<std::string>& parts) {
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
     const ProgramRun run = runFathom(stage.command());
@@ -34,7 +34,7 @@ void checkSkips(const Stage& stage, int bad, const std::vector<std::string>& par
     std::vector<uint32_t> wanted{0, 1, 2, 3};
     wanted.erase(wanted.begin() + bad);
     CHECK(used == wanted);
-    if (bad != 3) { // the run lasts until 1/30 s after the last frame that came
+    if (bad != 3) { // the run lasts until 1/30 s after the last good frame
         CHECK(replay.ticks.size() == 134);
     }
 }
@@ -56,7 +56,7 @@ void replaceText(const Stage& stage, const std::string& from, const std::string&
 
 } // namespace
 
-TEST_CASE("a truncated, missing or wrong frame in a good recording skips its frame alone and is named") {
+TEST_CASE("A truncated, missing or wrong frame in a good recording is skipped alone and named") {
     withFour(
         [](const Stage& s) {
             const std::string whole = s.read("rec/depth/000001.png");
@@ -80,7 +80,7 @@ TEST_CASE("a truncated, missing or wrong frame in a good recording skips its fra
         2, {"8-bit", "16-bit grey"});
 }
 
-TEST_CASE("a stamp that goes back or a line that is none skips its frame alone and is named") {
+TEST_CASE("A stamp that goes back, or an invalid line, skips its frame alone and is named") {
     withFour([](const Stage& s) { replaceText(s, "0.066667 depth/000002", "0.010000 depth/000002"); }, 2,
              {"0.01", "goes back"});
     withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png", "noise rgb/000001.png"); }, 1,
@@ -88,7 +88,7 @@ TEST_CASE("a stamp that goes back or a line that is none skips its frame alone a
     withFour([](const Stage& s) { replaceText(s, "0.033333 rgb/000001.png ", ""); }, 1, {"line 3"});
 }
 
-TEST_CASE("frames with no valid depth, with every pixel selected and with none selected run through") {
+TEST_CASE("Frames without valid depth, with every pixel selected and with none selected run through") {
     Stage stage;
     const PixelBox all{0, 0, kWidth, kHeight};
     stage.recording({Image(kWidth, kHeight, 600).paint(all, kRed), Image(kWidth, kHeight, 0).paint(all, kRed),
@@ -111,21 +111,20 @@ TEST_CASE("frames with no valid depth, with every pixel selected and with none s
     CHECK(replay.frames.at(0).patches == 12);
 }
 
-TEST_CASE(
-    "a forbidden point whose pixel drops out is held for hold_s and one whose pixel is deeper goes at once") {
+TEST_CASE("A forbidden point without depth is held for hold_s, and one with a deeper pixel goes at once") {
     Stage stage;
     const PixelBox box{24, 14, 44, 34};
     const auto seen = [&] { return Image(kWidth, kHeight, 800).set(box, 600).paint(box, kRed); };
     std::vector<Image> images{seen()};
     for (int i = 0; i < 4; ++i) {
-        images.push_back(seen().set(box, 0)); // 1..4: no depth there
+        images.push_back(seen().set(box, 0)); // 1 to 4: no depth in the box
     }
-    images.push_back(seen());                      // 5
-    images.push_back(seen().set(box, 300));        // 6: something nearer, and red too: it is forbidden itself
-    images.push_back(Image(kWidth, kHeight, 800)); // 7: gone, the wall behind is seen
+    images.push_back(seen());                      // 5: as before
+    images.push_back(seen().set(box, 300));        // 6: a nearer red surface, which is forbidden, too
+    images.push_back(Image(kWidth, kHeight, 800)); // 7: gone, only the wall behind
     stage.recording(images);
     SceneText scene;
-    scene.more = "hold_s: 0.08\n"; // frames at 1/30 and 2/30 s still hold it, 3/30 s does not
+    scene.more = "hold_s: 0.08\n"; // [s] frames at 1/30 and 2/30 s hold it, at 3/30 s not
     scene.filter = "radius: 0";
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.03, {0.0, 0.0, 0.56}}, {0.27, {0.0, 0.0, 0.56}}});
@@ -146,16 +145,16 @@ TEST_CASE(
     CHECK(held(5) == 0);
     CHECK(held(6) == first);
     CHECK(replay.frames.at(7).spheres == 0);
-    CHECK(replay.at(0.09).state == "contact"); // kept out by what is only remembered
+    CHECK(replay.at(0.09).state == "contact"); // stopped by held points
     CHECK(replay.at(0.09).tool.position.z < 0.551);
-    CHECK(replay.at(0.16).state == "free"); // nothing is there any more
+    CHECK(replay.at(0.16).state == "free"); // nothing is left
     CHECK(replay.at(0.16).tool.position.z == doctest::Approx(0.56));
 }
 
-TEST_CASE("frames of odd sizes run, from one pixel on") {
+TEST_CASE("Frames of odd sizes run, from one pixel on") {
     for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{17u, 1u}, std::pair{7u, 5u},
                                         std::pair{33u, 17u}, std::pair{257u, 3u}}) {
-        const uint32_t across = width; // clang 14 cannot capture a binding
+        const uint32_t across = width; // clang 14 cannot capture a structured binding
         CAPTURE(across);
         Stage stage;
         stage.recording(
@@ -167,7 +166,7 @@ TEST_CASE("frames of odd sizes run, from one pixel on") {
     }
 }
 
-TEST_CASE("colour of another size with extrinsics is looked up through the registration") {
+TEST_CASE("Colour of another size with extrinsics is looked up through the registration") {
     Stage stage;
     const PixelBox all{0, 0, kWidth, kHeight};
     stage.recording({Image(kWidth, kHeight, 600).paint(all, kRed)});
@@ -178,7 +177,7 @@ TEST_CASE("colour of another size with extrinsics is looked up through the regis
  "extrinsics_topic_tf": {"Depth": {"t": [0, 0, 0], "q_xyzw": [0, 0, 0, 1]}, "Color": {"t": [0.015, 0, 0], "q_xyzw": [0, 0, 0, 1]}}})");
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.1, {0.0, 0.0, 0.56}}});
     const Replay replay = stage.replay();
-    // 15 mm to the right at 600 mm: 3 columns of colour pixels, one and a half of depth, leave the frame.
+    // 15 mm to the right at 600 mm: 3 columns of colour pixels, or 1.5 of depth pixels, leave the image.
     CHECK(replay.frames.at(0).valid == kWidth * kHeight);
     CHECK(replay.frames.at(0).forbidden >= 62 * kHeight);
     CHECK(replay.frames.at(0).forbidden <= 63 * kHeight);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The hand: map with scale, rotation and clutch, the closed loop of --hand, dead-man, guidance in both modes.
+// The hand: its map with scale, rotation and clutch, the closed loop of --hand, dead-man, and both guidance
+// modes.
 #include "tests/rig/stage.h"
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace {
 
 const PixelBox kAll{0, 0, kWidth, kHeight};
 
-// A red wall 600 mm away: a 10 mm leaf meets its 40 mm region a little before z = 0.55.
+// A red wall 600 mm away. A leaf of 10 mm meets its region of 40 mm just before z = 0.55.
 void redWall(const Stage& stage, size_t frames = 1) {
     stage.recording(std::vector<Image>(frames, Image(kWidth, kHeight, 600).paint(kAll, kRed)));
 }
@@ -21,7 +22,8 @@ dvec3 vectorOf(const nlohmann::json& list) {
     return {list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()};
 }
 
-// A yellow square on a grey wall; the hand waits 0.3 m before it and asks for guidance from 0.1 s to 1.0 s.
+// A yellow square on a grey wall. The hand waits 0.3 m in front of it and requests guidance from 0.1 s to 1.0
+// s.
 Replay guided(Stage& stage, const std::string& mode) {
     stage.recording({bumpImage(), bumpImage()});
     SceneText scene;
@@ -48,20 +50,20 @@ Replay guided(Stage& stage, const std::string& mode) {
     const Tick& full = replay.at(0.9);
     const dvec3 target = vectorOf(replay.summary.at("guidance").at(0).at("target_m"));
     CHECK(glm::length(full.force) ==
-          doctest::Approx(2.0).epsilon(1e-3)); // far from the target: all that is allowed
+          doctest::Approx(2.0).epsilon(1e-3)); // far from the target, so at the limit
     CHECK(glm::dot(glm::normalize(full.force), glm::normalize(target - full.device.position)) > 0.9999);
     return replay;
 }
 
 } // namespace
 
-TEST_CASE("the hand map turns and scales the hand's path, and stiffens the spring by as much as it slows the "
-          "hand") {
+TEST_CASE("The hand map rotates and scales the hand's path, and multiplies the stiffness by as much as it "
+          "scales down") {
     Stage stage;
     redWall(stage);
     SceneText scene;
     scene.hand =
-        "map: {base_R_device: [0, 0, 0.7071067811865476, 0.7071067811865476], scale: 0.5}"; // x goes to y
+        "map: {base_R_device: [0, 0, 0.7071067811865476, 0.7071067811865476], scale: 0.5}"; // x maps to y
     stage.scene(scene);
     stage.hand({{0.0, {0.0, 0.0, 0.8}}, {0.2, {0.06, 0.02, 0.9}}});
     const Replay replay = stage.replay();
@@ -70,13 +72,13 @@ TEST_CASE("the hand map turns and scales the hand's path, and stiffens the sprin
     CHECK(replay.haptic().at("stiffness_N_per_m").get<double>() == doctest::Approx(2000.0));
 }
 
-TEST_CASE("the clutch re-indexes the hand without moving the tool, and ramps the force down and up again") {
+TEST_CASE("The clutch re-indexes the hand without moving the tool, and ramps the force down and up again") {
     Stage stage;
     redWall(stage);
     SceneText scene;
     scene.hand = "map: {scale: 0.5, clutch: 8}";
     stage.scene(scene);
-    // In contact from 0.2 s on; the clutch is down from 0.3 s to 0.7 s while the hand goes far away.
+    // In contact from 0.2 s on. The clutch is down from 0.3 s to 0.7 s while the hand moves far away.
     stage.hand({{0.0, {0.0, 0.0, 1.0}},
                 {0.2, {0.0, 0.0, 1.11}},
                 {0.3, {0.0, 0.0, 1.11}, {1, 0, 0, 0}, 8},
@@ -99,7 +101,7 @@ TEST_CASE("the clutch re-indexes the hand without moving the tool, and ramps the
     }
 }
 
-TEST_CASE("with --hand the force pushes the hand back: at rest its spring and the coupling are in balance") {
+TEST_CASE("With --hand the force pushes the hand back: at rest its spring and the coupling balance") {
     Stage stage;
     redWall(stage);
     SceneText scene;
@@ -113,7 +115,7 @@ TEST_CASE("with --hand the force pushes the hand back: at rest its spring and th
     CHECK(free.force.z == doctest::Approx(-1000.0 * (0.57 - free.tool.position.z)));
     CHECK(last.force.z < -3.0);
     CHECK(300.0 * (0.57 - last.device.position.z) + last.force.z == doctest::Approx(0.0).epsilon(0.02));
-    // Two springs in a row share what the wall takes from the path.
+    // Two springs in series share the distance between path and wall.
     const double squeezed = 0.57 - last.tool.position.z;
     CHECK(last.device.position.z - last.tool.position.z ==
           doctest::Approx(squeezed * 300.0 / 1300.0).epsilon(0.02));
@@ -122,7 +124,7 @@ TEST_CASE("with --hand the force pushes the hand back: at rest its spring and th
     CHECK(again.summary.at("digest") == closed.summary.at("digest"));
 }
 
-TEST_CASE("an open dead-man takes the force away within 0.2 s while the tool still obeys the region") {
+TEST_CASE("An open dead-man takes the force away within 0.2 s while the tool still obeys the region") {
     Stage stage;
     redWall(stage);
     stage.hand({{0.0, {0.0, 0.0, 0.5}},
@@ -140,7 +142,7 @@ TEST_CASE("an open dead-man takes the force away within 0.2 s while the tool sti
     CHECK(replay.ticks.back().force.z < -15.0);
 }
 
-TEST_CASE("guidance as a target leads the tool towards it, no farther than 2 N of the spring") {
+TEST_CASE("Guidance as a target leads the tool towards it, by at most 2 N of the spring") {
     Stage stage;
     const Replay replay = guided(stage, "target");
     double farthest = 0.0;
@@ -151,7 +153,7 @@ TEST_CASE("guidance as a target leads the tool towards it, no farther than 2 N o
     CHECK(replay.haptic().at("stiffness_N_per_m").get<double>() == doctest::Approx(1000.0));
 }
 
-TEST_CASE("guidance as in the paper pulls the hand itself and leaves the tool where the hand is") {
+TEST_CASE("Guidance as in the paper pulls the hand and leaves the tool where the hand is") {
     Stage stage;
     const Replay replay = guided(stage, "paper");
     for (const Tick& tick : replay.ticks) {
@@ -160,7 +162,7 @@ TEST_CASE("guidance as in the paper pulls the hand itself and leaves the tool wh
     CHECK(replay.haptic().at("stiffness_N_per_m").get<double>() < 999.0); // both springs share the bound
 }
 
-TEST_CASE("guidance to a target inside a forbidden region leads to its border and not through it") {
+TEST_CASE("Guidance to a target inside a forbidden region leads to its border and not through it") {
     Stage stage;
     stage.recording({Image(kWidth, kHeight, 600).paint(kAll, kRed).paint({30, 22, 34, 26}, kYellow)});
     SceneText scene;
@@ -175,8 +177,7 @@ TEST_CASE("guidance to a target inside a forbidden region leads to its border an
     CHECK(replay.ticks.back().tool.position.z < 0.56);
 }
 
-TEST_CASE(
-    "a device that limits force and torque limits them, and what the preset says is what the summary obeys") {
+TEST_CASE("A device preset limits force and torque, and the summary reports the preset's values") {
     Stage stage;
     redWall(stage);
     SceneText scene;
@@ -185,7 +186,7 @@ TEST_CASE(
     stage.hand({{0.0, {0.0, 0.0, 0.5}}, {0.2, {0.0, 0.0, 0.58}}, {0.4, {0.0, 0.0, 0.58}}});
     const Replay preset = stage.replay({}, {1000.0, 8.0, 0.2}, "preset");
     CHECK(preset.haptic().at("max_force_N").get<double>() == doctest::Approx(8.0));
-    CHECK(preset.haptic().at("margin_passive_min").is_null()); // b of the real device is not known
+    CHECK(preset.haptic().at("margin_passive_min").is_null()); // the damping b of the real device is unknown
     scene.haptics = "device: w5d, limits: {force: 3}, stiffness: 500";
     stage.scene(scene);
     const Replay lower = stage.replay({}, {1000.0, 3.0, 0.2}, "lower");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// --hold-clock: the process beside the program that occupies the chosen device, with a driver library that
-// the tests play, and what becomes of a run where it cannot.
+// --hold-clock: a separate process keeps the chosen device busy so that its clock stays high. The tests
+// provide a fake driver library, and check runs where the clock cannot be held.
 #include "tests/rig/run_fathom.h"
 #include "tests/rig/stage.h"
 
@@ -18,7 +18,7 @@ using namespace fathom;
 
 namespace {
 
-// Environment of the programs that are started while it lives.
+// Sets environment variables for programs started during its lifetime.
 class Environment {
 public:
     using Values = std::vector<std::pair<std::string, std::string>>;
@@ -66,7 +66,7 @@ struct Short : Stage {
     }
 };
 
-// As the program says it in its warning.
+// The device's id, from the warning of the program.
 std::string idOfDevice(const Short& stage) {
     const Environment library(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA}});
     const std::string said = runFathom(stage.holding()).err;
@@ -96,7 +96,7 @@ TEST_CASE("The chosen device, and no other, is occupied while the program runs, 
     CHECK(textOf(stage / "log") == "made\nended\n");
 }
 
-TEST_CASE("It is free, too, when the program was killed") {
+TEST_CASE("The device is also free after the program was killed") {
     const Short stage;
     const Environment driver(Environment::Values{{"LD_LIBRARY_PATH", FAKE_CUDA},
                                                  {"FAKE_CUDA_ID", idOfDevice(stage)},
@@ -117,7 +117,7 @@ TEST_CASE("It is free, too, when the program was killed") {
     CHECK(soon([&] { return textOf(stage / "log") == "made\nended\n"; }));
 }
 
-TEST_CASE("Where the clock cannot be held one line says why, and the run is as without it") {
+TEST_CASE("Where the clock cannot be held, one line says why, and the run is otherwise the same") {
     const Short stage;
     const std::string digest = [&] {
         const ProgramRun run = runFathom(stage.command());
@@ -133,7 +133,7 @@ TEST_CASE("Where the clock cannot be held one line says why, and the run is as w
         CHECK(run.out.find(digest) != std::string::npos);
     };
     SUBCASE("no such driver") {
-        stage.write("libcuda.so.1", ""); // nor any that this machine has
+        stage.write("libcuda.so.1", ""); // not the id of any device here
         const Environment library(Environment::Values{{"LD_LIBRARY_PATH", stage.path().string()}});
         check("libcuda.so.1");
     }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// fathom::Lockstep of the shared library against `fathom replay`: the same frames and hand, the same bits.
+// fathom::Lockstep of the shared library against `fathom replay`: the same frames and hand give identical
+// results.
 #include "tests/rig/stage.h"
 
 #include <cmath>
 #include <doctest/doctest.h>
 
-// After all internal headers: its types have the same names, in the inline namespace v0.
+// Included after all internal headers, because its types have the same names, in the inline namespace v0.
 #include <fathom/lockstep.h>
 
 namespace {
@@ -16,7 +17,7 @@ std::vector<fathom::Image> images() {
     std::vector<fathom::Image> all;
     for (int i = 0; i < kFrames; ++i) {
         all.push_back(fathom::bumpImage());
-        all.back().set({2, 2, 8, 8}, static_cast<uint16_t>(600 - i)); // no two are the same
+        all.back().set({2, 2, 8, 8}, static_cast<uint16_t>(600 - i)); // all frames differ
     }
     return all;
 }
@@ -36,7 +37,7 @@ std::string nameOf(fathom::v0::State state) {
 
 } // namespace
 
-TEST_CASE("The library in lockstep gives the forces and poses of a replay, to the last bit") {
+TEST_CASE("The library in lockstep gives exactly the forces and poses of a replay") {
     const fathom::Stage stage;
     stage.recording(images());
     fathom::SceneText text;

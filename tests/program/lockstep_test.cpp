@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of lockstep: when frames and contact answers become active, which cadence waits for which, when a
-// run ends.
+// The rules of lockstep: when frames and contact answers become active, what each step waits for, when a run
+// ends.
 #include "tests/rig/stage.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ using namespace fathom;
 
 namespace {
 
-// count frames, each different from the one before.
+// `count` frames, all different.
 std::vector<Image> lockstepFrames(uint32_t count) {
     std::vector<Image> all;
     for (uint32_t i = 0; i < count; ++i) {
@@ -20,7 +20,7 @@ std::vector<Image> lockstepFrames(uint32_t count) {
     return all;
 }
 
-// The first tick at which a frame's set is obeyed.
+// The first tick that uses the set of a frame.
 size_t firstTick(const Replay& replay, int frame) {
     for (size_t i = 0; i < replay.ticks.size(); ++i) {
         if (replay.ticks[i].frame == frame) {
@@ -36,7 +36,7 @@ size_t dueTick(int frame, double rate) { // first i with i / rate >= frame / 30
 
 } // namespace
 
-TEST_CASE("frame j is in force from the first tick at or after j / 30 s, at any rate") {
+TEST_CASE("Frame j is active from the first tick at or after j / 30 s, at any rate") {
     for (const double rate : {1000.0, 730.0, 120.0, 4000.0}) {
         CAPTURE(rate);
         Stage stage;
@@ -46,7 +46,7 @@ TEST_CASE("frame j is in force from the first tick at or after j / 30 s, at any 
         stage.scene(scene);
         stage.hand({{0.0, {0.0, 0.0, 0.4}}});
         const Replay replay = stage.replay({}, {rate});
-        // Frames 0..4 and 1/30 s after the last: the run ends at 5/30 s.
+        // Frames 0 to 4 and 1/30 s after the last: the run ends at 5/30 s.
         CHECK(replay.ticks.size() == dueTick(5, rate));
         for (int j = 0; j < 5; ++j) {
             CHECK(firstTick(replay, j) == dueTick(j, rate));
@@ -55,7 +55,7 @@ TEST_CASE("frame j is in force from the first tick at or after j / 30 s, at any 
     }
 }
 
-TEST_CASE("stamps do not matter in lockstep: a recording an hour apart runs like one at 30 Hz") {
+TEST_CASE("Lockstep ignores stamps: frames an hour apart run as at 30 Hz") {
     Stage stage;
     stage.recording(lockstepFrames(3));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
@@ -68,8 +68,7 @@ TEST_CASE("stamps do not matter in lockstep: a recording an hour apart runs like
     CHECK(slow.ticks.size() == 100);
 }
 
-TEST_CASE(
-    "contact.delay puts off an answer by as many ticks, so the set that is obeyed and its age lag by them") {
+TEST_CASE("contact.delay delays an answer by as many ticks, and the active set and its age with it") {
     Stage stage;
     stage.recording(lockstepFrames(4));
     SceneText scene;
@@ -80,19 +79,19 @@ TEST_CASE(
     for (int j = 0; j < 4; ++j) {
         CHECK(firstTick(replay, j) == dueTick(j, 1000.0) + 7);
     }
-    for (size_t i = 0; i < 7; ++i) { // no answer yet: held, off, silent
+    for (size_t i = 0; i < 7; ++i) { // no answer yet: held, state off
         CHECK(replay.ticks[i].state == "off");
         CHECK(replay.ticks[i].frame == -1);
         CHECK(std::isnan(replay.ticks[i].minGap));
         CHECK(glm::length(replay.ticks[i].force) == 0.0);
     }
-    // Just before frame 2's answer the obeyed set is frame 1, taken at 1/30 s.
+    // Just before the answer over frame 2, the active set is that of frame 1, captured at 1/30 s.
     const Tick& tick = replay.ticks[dueTick(2, 1000.0) + 6];
     CHECK(tick.frame == 1);
     CHECK(tick.sceneAge == doctest::Approx(tick.t - 1.0 / 30.0));
 }
 
-TEST_CASE("the shorter source keeps its last frame in force, which does not age and adds no row") {
+TEST_CASE("When the frames end first, the last one stays active, does not age and adds no row") {
     Stage stage;
     stage.recording(lockstepFrames(3));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.7, {0.0, 0.0, 0.41}}});
@@ -103,14 +102,14 @@ TEST_CASE("the shorter source keeps its last frame in force, which does not age 
         if (tick.t > 2.0 / 30.0) {
             CHECK(tick.frame == 2);
             CHECK(tick.sceneAge < 1.0 / 30.0);
-            CHECK(tick.state == "free"); // not faded for its age
+            CHECK(tick.state == "free"); // no fading, because the source has ended
         } else {
             CHECK(tick.sceneAge == doctest::Approx(tick.t - std::floor(tick.t * 30.0 + 1e-9) / 30.0));
         }
     }
 }
 
-TEST_CASE("the shorter hand path holds its last pose until the frames have ended") {
+TEST_CASE("When the hand path ends first, it holds its last pose until the frames have ended") {
     Stage stage;
     stage.recording(lockstepFrames(9));
     stage.hand({{0.0, {0.0, 0.0, 0.40}}, {0.05, {0.01, 0.02, 0.42}, {0.8, 0.0, 0.6, 0.0}}});
@@ -126,8 +125,8 @@ TEST_CASE("the shorter hand path holds its last pose until the frames have ended
     }
 }
 
-TEST_CASE("a hand path of a file counts from the run's start, also when the first frames are bad and nothing "
-          "is seen yet") {
+TEST_CASE("A hand path from a file counts from the start of the run, also when the first frames are bad and "
+          "nothing is seen yet") {
     Stage stage;
     stage.recording(lockstepFrames(4));
     stage.write("rec/depth/000000.png", "no frame");
@@ -145,12 +144,12 @@ TEST_CASE("a hand path of a file counts from the run's start, also when the firs
     for (const Tick& tick : replay.ticks) {
         if (tick.frame < 0) {
             CHECK(glm::length(tick.force) == 0.0);
-            CHECK(tick.tool.position == replay.ticks.front().tool.position); // held
+            CHECK(tick.tool.position == replay.ticks.front().tool.position); // held in place
         }
     }
 }
 
-TEST_CASE("the built-in path waits for the first set") {
+TEST_CASE("The built-in path waits for the first set") {
     Stage stage;
     stage.recording(lockstepFrames(3));
     const Replay whole = stage.replay({}, {}, "a");
@@ -159,11 +158,11 @@ TEST_CASE("the built-in path waits for the first set") {
     REQUIRE(run.exitCode == 0);
     const Replay late = readReplay(stage / "b", run);
     CHECK(whole.ticks.size() >= 2000);
-    CHECK(late.ticks.size() > whole.ticks.size() + 30); // 1/30 s later, by a path of about the same length
+    CHECK(late.ticks.size() > whole.ticks.size() + 30); // 1/30 s later, about the same length
     CHECK(late.at(0.03).device.position == late.ticks.front().device.position);
 }
 
-TEST_CASE("poses.txt moves the camera: the region moves with it") {
+TEST_CASE("poses.txt moves the camera, and the region with it") {
     Stage stage;
     stage.recording({bumpImage(), bumpImage(), bumpImage()});
     // 0.3 m/s along x, interpolated at the depth stamps 0, 1/30 and 2/30 s.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Paths in a scene and links in a recording that lead out of their folders are used, with a warning.
+// Paths in a scene and links in a recording that lead outside their folders are used, with a warning.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
@@ -7,7 +7,8 @@
 
 using namespace fathom;
 
-TEST_CASE("A path that leads out of the scene's folder is used and told of in one line; one inside is not") {
+TEST_CASE(
+    "A path outside the scene's folder is used and reported in one line; a path inside is not reported") {
     Stage stage;
     stage.recording({bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.4}}});
@@ -30,7 +31,7 @@ TEST_CASE("A path that leads out of the scene's folder is used and told of in on
     }
 }
 
-TEST_CASE("The intrinsics that a scene names for a live camera are told of, too, where they lead out") {
+TEST_CASE("Intrinsics of a live camera outside the scene's folder are reported, too") {
     Stage stage;
     for (const std::string path : {"../../lens.json", "lens.json"}) {
         SceneText scene;
@@ -45,14 +46,14 @@ TEST_CASE("The intrinsics that a scene names for a live camera are told of, too,
     }
 }
 
-TEST_CASE("Frames behind links that lead out of a recording's folder are used and told of in one line") {
+TEST_CASE("Frames behind links to outside a recording's folder are used and reported in one line") {
     namespace fs = std::filesystem;
     Stage stage;
     stage.scene(SceneText{});
     stage.recording({bumpImage(), bumpImage(), bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.1, {0.0, 0.0, 0.4}}});
     fs::rename(stage / "rec/rgb", stage / "elsewhere");
-    for (const fs::path& to : {fs::path("pictures"), stage / "elsewhere"}) { // within, and out of it
+    for (const fs::path& to : {fs::path("pictures"), stage / "elsewhere"}) { // inside, and outside
         fs::remove_all(stage / "rec/pictures");
         fs::copy(stage / "elsewhere", stage / "rec/pictures");
         fs::remove(stage / "rec/rgb");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recomputes the penetration promise from the saved sets and the tool poses of haptics.csv alone: every leaf
-// against every sphere of the active set. A leaf may stay as deep as it was when a new set covered it, never
-// deeper.
+// Recomputes the penetration from the saved sets and the tool poses of haptics.csv alone: every leaf against
+// every sphere of the active set. A leaf may stay as deep as it was when a new set covered it, never deeper.
 #include "tests/rig/stage.h"
 
 #include <algorithm>
@@ -18,8 +17,8 @@ struct Leaf {
 };
 
 struct Depths {
-    double beyond = 0.0, inside = 0.0; // [m] beyond the allowance, within it
-    size_t touched = 0;                // pairs that touched when their set came into force
+    double beyond = 0.0, inside = 0.0; // [m] largest depth beyond the allowance, and within it
+    size_t touched = 0;                // pairs that overlap when their set becomes active
 };
 
 double depthOf(const Leaf& leaf, const Pose& tool, const SavedSphere& sphere) {
@@ -31,7 +30,7 @@ Depths recompute(const Replay& replay, const std::vector<Leaf>& leaves) {
     std::vector<SavedSphere> set;
     std::vector<double> allowance;
     int frame = -1;
-    Pose start = replay.ticks.front().tool; // the first tick ends where it starts: the tool is in the free
+    Pose start = replay.ticks.front().tool; // the first tick stays there, in free space
     for (const Tick& tick : replay.ticks) {
         if (tick.frame >= 0 && tick.frame != frame) {
             frame = tick.frame;
@@ -67,11 +66,11 @@ constexpr const char* kGripperText =
 
 } // namespace
 
-TEST_CASE("a tool pushed, dragged and turned over a bump never enters a sphere of the active set") {
+TEST_CASE("A tool pushed, dragged and rotated over a bump never enters a sphere of the active set") {
     Stage stage;
     std::vector<Image> images;
     for (uint32_t i = 0; i < 12; ++i) {
-        images.push_back(bumpImage().set({30 + i % 3, 20, 32 + i % 3, 22}, 0)); // a flickering hole
+        images.push_back(bumpImage().set({30 + i % 3, 20, 32 + i % 3, 22}, 0)); // a hole that flickers
     }
     stage.recording(images);
     SceneText scene;
@@ -79,20 +78,20 @@ TEST_CASE("a tool pushed, dragged and turned over a bump never enters a sphere o
     stage.scene(scene);
     stage.hand({{0.0, {-0.01, 0.0, 0.44}},
                 {0.1, {-0.01, 0.0, 0.52}},
-                {0.3, {0.03, 0.01, 0.55}, {0.9689, 0.2474, 0.0, 0.0}}, // 0.5 rad about x
+                {0.3, {0.03, 0.01, 0.55}, {0.9689, 0.2474, 0.0, 0.0}}, // rotated by 0.5 rad about x
                 {0.5, {0.0, -0.03, 0.53}, {0.9689, 0.0, -0.2474, 0.0}},
                 {0.6, {0.0, 0.0, 0.44}}});
     const Replay replay = stage.replay({"--save-fixtures"});
     Depths depths;
     checkPromise(replay, kGripper, depths);
-    CHECK(replay.haptic().at("max_force_N").get<double>() > 15.0); // it did push
+    CHECK(replay.haptic().at("max_force_N").get<double>() > 15.0); // so it pushed
     CHECK(replay.haptic().at("max_torque_Nm").get<double>() > 1e-3);
 }
 
-TEST_CASE("a region that appears over the tool lets it out: never deeper than it was, and slowly") {
+TEST_CASE("A region that appears over the tool lets it out slowly and never deeper than it was") {
     Stage stage;
-    // The whole wall turns red under a tool that hovers 30 mm before it: 20 mm deep in the new region. Then a
-    // step of the wall towards the tool, and back.
+    // The whole wall turns red under a tool 30 mm in front of it, which is then 20 mm deep in the new region.
+    // Later the wall steps towards the tool and back.
     const PixelBox all{0, 0, kWidth, kHeight};
     std::vector<Image> images{{kWidth, kHeight, 600}, {kWidth, kHeight, 600}};
     for (int i = 0; i < 4; ++i) {
@@ -120,11 +119,11 @@ TEST_CASE("a region that appears over the tool lets it out: never deeper than it
             CHECK(now.minGap >= before.minGap - 1e-9);
         }
     }
-    CHECK(replay.at(0.19).minGap > -1e-6); // out again before the step
+    CHECK(replay.at(0.19).minGap > -1e-6); // outside again before the step
     CHECK(replay.ticks.back().minGap > -1e-6);
 }
 
-TEST_CASE("the promise holds with answers that come late and with a reach so short that the tool stalls") {
+TEST_CASE("There is no penetration with late answers and a reach so short that the tool stalls") {
     Stage stage;
     stage.recording({bumpImage(), bumpImage().dome({26, 16, 42, 32}, 12.0), bumpImage(), bumpImage()});
     SceneText scene;

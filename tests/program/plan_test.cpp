@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom plan`: what is in, what is left out, and why; and that a replay runs just that. Progress on a
-// terminal alone.
+// `fathom plan`: what a scene needs, what it does not, and why; and that a replay runs exactly that. Also
+// progress, which only a terminal shows.
 #include "tests/rig/stage.h"
 
 #include <doctest/doctest.h>
@@ -17,7 +17,7 @@ struct Item {
     std::string why;
 };
 
-// Items by "kind name"; every one must say in or out and why.
+// Items by "kind name". Each must be in or out and give the reason.
 std::map<std::string, Item> planOf(const Stage& stage) {
     const ProgramRun run =
         runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
@@ -40,14 +40,14 @@ std::map<std::string, Item> planOf(const Stage& stage) {
         const size_t mib = line.find("MiB"),
                      why = line.find_first_not_of(' ', mib == std::string::npos ? gap : mib + 3);
         REQUIRE(why != std::string::npos);
-        CHECK((mib == std::string::npos || in == "in")); // what is left out costs no memory
+        CHECK((mib == std::string::npos || in == "in")); // an item that is out uses no memory
         items[kind + " " + line.substr(13, gap - 13)] = {in == "in", line.substr(why)};
     }
     CHECK(items.size() >= 15);
     return items;
 }
 
-// The passes of the plan are the passes that a replay reports times of.
+// Checks that a replay reports times for exactly the passes of the plan.
 void checkRunsThat(const Stage& stage, const std::map<std::string, Item>& plan) {
     std::set<std::string> planned{"upload_ms", "publish_ms"};
     for (const auto& [name, item] : plan) {
@@ -64,7 +64,7 @@ void checkRunsThat(const Stage& stage, const std::map<std::string, Item>& plan) 
 
 } // namespace
 
-TEST_CASE("the plan of a scene with everything has every pass in that it needs and says what each is for") {
+TEST_CASE("The plan of a scene with everything contains every pass and says what each is for") {
     Stage stage;
     stage.recording({bumpImage()});
     SceneText scene;
@@ -84,7 +84,7 @@ TEST_CASE("the plan of a scene with everything has every pass in that it needs a
     checkRunsThat(stage, plan);
 }
 
-TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out, with the reason") {
+TEST_CASE("Without filter, hold, thinning, colour or guidance, each is out of the plan, with the reason") {
     Stage stage;
     stage.recording({bumpImage()});
     SceneText scene;
@@ -108,7 +108,7 @@ TEST_CASE("no filter, no hold, no thinning, no colour, no guidance: each is out,
     checkRunsThat(stage, plan);
 }
 
-TEST_CASE("guidance alone needs no spheres, no tree and no query; shapes alone need no pass at all") {
+TEST_CASE("Guidance alone needs no spheres, tree or query; shapes alone need no pass at all") {
     Stage stage;
     stage.recording({bumpImage()});
     SceneText scene;
@@ -132,7 +132,7 @@ TEST_CASE("guidance alone needs no spheres, no tree and no query; shapes alone n
     checkRunsThat(stage, shapes);
 }
 
-TEST_CASE("a scene that asks for the query on the GPU gets it in the plan and in the run") {
+TEST_CASE("A scene that sets the query to the GPU gets it in the plan and in the run") {
     Stage stage;
     stage.recording({bumpImage()});
     SceneText scene;
@@ -144,7 +144,7 @@ TEST_CASE("a scene that asks for the query on the GPU gets it in the plan and in
     checkRunsThat(stage, plan);
 }
 
-TEST_CASE("every scene file that ships has a plan; the built-in scene needs no recording") {
+TEST_CASE("Every shipped scene file has a plan; the built-in scene needs no recording") {
     for (const char* scene : {"demo", "task1", "task2"}) {
         const ProgramRun run = runFathom({"plan", std::string("apps/scenes/") + scene + ".yaml"});
         CAPTURE(run.err);
@@ -153,7 +153,7 @@ TEST_CASE("every scene file that ships has a plan; the built-in scene needs no r
     }
 }
 
-TEST_CASE("progress shows on a terminal and is gone in the end; elsewhere standard error stays silent") {
+TEST_CASE("Progress appears on a terminal only and is removed at the end") {
     Stage stage;
     stage.recording(std::vector<Image>(3, bumpImage()));
     stage.hand({{0.0, {0.0, 0.0, 0.4}}, {0.5, {0.0, 0.0, 0.41}}});
@@ -168,7 +168,7 @@ TEST_CASE("progress shows on a terminal and is gone in the end; elsewhere standa
     const ProgramRun silent = runFathom(stage.command());
     CHECK(silent.exitCode == 0);
     CHECK(silent.err == "");
-    for (const ProgramRun& run : {seen, silent}) { // the result itself goes to standard output in both
+    for (const ProgramRun& run : {seen, silent}) { // both print the result to standard output
         CHECK(run.out.find("digest") != std::string::npos);
         CHECK(run.out.find("\r") == std::string::npos);
         CHECK(run.out.find((stage / "out").string()) != std::string::npos);

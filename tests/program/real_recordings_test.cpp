@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recordings beside the repository through the whole program: the promise holds, and classify marks
-// exactly the pixels that a plain count of the frames finds, which are those (to 2 %) that were measured
-// when the data was collected.
+// Replays the real recordings, which are stored outside the repository. No penetration, and classify marks
+// exactly the pixels that a direct count finds, which agree to 2 % with those measured when the data was
+// collected.
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
 
@@ -14,9 +14,9 @@ using namespace fathom;
 
 namespace {
 
-constexpr const char* kAnyDepth = "near: 0.001, far: 60"; // as far as any of these cameras sees
+constexpr const char* kAnyDepth = "near: 0.001, far: 60"; // beyond the range of all these cameras
 
-// Inclusive bands; hue in degrees wraps through 0.
+// Inclusive bands. The hue in degrees wraps around at 0.
 struct Gates {
     double hueFrom, hueTo, saturationFrom, saturationTo, lightnessFrom, lightnessTo;
 
@@ -27,8 +27,8 @@ struct Gates {
              << lightnessFrom << ", " << lightnessTo << "]";
         return text.str();
     }
-    // By the definition of hexagonal HSL, in float64: bytes make no number closer to a bound than 1e-9 but
-    // the bound.
+    // Hexagonal HSL in float64: with byte colours no value is closer than 1e-9 to a bound without being equal
+    // to it.
     bool take(uint32_t rgba) const {
         const double r = rgba & 255u, g = rgba >> 8 & 255u, b = rgba >> 16 & 255u;
         const double most = std::max({r, g, b}), least = std::min({r, g, b}), chroma = most - least;
@@ -52,7 +52,7 @@ constexpr Gates kWheel{345, 20, 0.45, 1, 0.05, 0.9}, kLever{110, 165, 0.25, 1, 0
     kDrill{335, 12, 0.55, 1, 0.12, 0.6}, kMustard{38, 60, 0.5, 1, 0.3, 0.85},
     kYellowThings{44, 64, 0.5, 1, 0.2, 0.8}, kCase{345, 14, 0.6, 1, 0.1, 0.7};
 
-// Pixels with depth that the gates take, a frame of associations.txt each.
+// Number of pixels with depth that the gates accept, one per frame of associations.txt.
 std::vector<uint64_t> plainCount(const std::string& recording, const Gates& gates) {
     std::vector<uint64_t> counts;
     std::istringstream index(readWhole(kRecordings / recording / "associations.txt"));
@@ -92,7 +92,7 @@ Replay run(const Stage& stage, const std::string& scene, const std::string& reco
     return replay;
 }
 
-// The classes of a recording, the hand at rest far behind the camera: counts alone.
+// Counts the classes of a recording, with the hand at rest far behind the camera.
 Replay count(const Stage& stage, const std::string& recording, const std::vector<std::string>& rows) {
     SceneText scene;
     scene.camera = kAnyDepth;
@@ -106,7 +106,7 @@ Replay count(const Stage& stage, const std::string& recording, const std::vector
 } // namespace
 
 TEST_CASE(
-    "valve_globe: the red wheel of every frame has the points that were measured, and the hand feels it") {
+    "valve_globe: the red wheel has the measured number of points in every frame, and the hand feels it") {
     if (!haveRecording("valve_globe_d435")) {
         return;
     }
@@ -122,7 +122,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "valve_ball: the green lever of every frame has the points that were measured, and the hand feels it") {
+    "valve_ball: the green lever has the measured number of points in every frame, and the hand feels it") {
     if (!haveRecording("valve_ball_d435")) {
         return;
     }
@@ -138,7 +138,7 @@ TEST_CASE(
     CHECK(double(counts.at(12)) == doctest::Approx(1024).epsilon(0.02));
 }
 
-TEST_CASE("ycb: five stills with the classes that were measured on them") {
+TEST_CASE("ycb: five stills have the measured numbers of points") {
     if (!haveRecording("ycb_posecnn_demo")) {
         return;
     }
@@ -146,7 +146,7 @@ TEST_CASE("ycb: five stills with the classes that were measured on them") {
     const Replay shipped = run(stage, "apps/scenes/ycb.yaml", "ycb_posecnn_demo");
     CHECK(shipped.frames.size() == 5);
     CHECK(shipped.haptic().at("max_force_N").get<double>() >
-          1.0); // guidance: the stills have nothing to do with each other
+          1.0); // guidance: the stills are unrelated images
     CHECK(!shipped.summary.at("guidance").at(0).at("position_m").is_null());
     const Replay counted = count(stage, "ycb_posecnn_demo",
                                  {kDrill.row("red", "forbidden"), kMustard.row("yellow", "guidance")});
@@ -158,7 +158,7 @@ TEST_CASE("ycb: five stills with the classes that were measured on them") {
     CHECK(double(yellow.at(0)) == doctest::Approx(15432).epsilon(0.02));
 }
 
-TEST_CASE("tum_fr1: a distorted lens, yellow things as they were measured") {
+TEST_CASE("tum_fr1: yellow objects through a distorted lens have the measured number of points") {
     if (!haveRecording("tum_fr1_single")) {
         return;
     }
@@ -170,10 +170,10 @@ TEST_CASE("tum_fr1: a distorted lens, yellow things as they were measured") {
     checkCounts(counted, counts, &FrameRow::guidance);
     checkCounts(counted, counts, &FrameRow::forbidden);
     CHECK(double(counts.at(0)) == doctest::Approx(5936).epsilon(0.02));
-    run(stage, (stage / "scene.yaml").string(), "tum_fr1_single"); // the built-in path pushes into them
+    run(stage, (stage / "scene.yaml").string(), "tum_fr1_single"); // the path pushes into the regions
 }
 
-TEST_CASE("realsense_bag: depth that is not registered finds its colour through the extrinsics") {
+TEST_CASE("realsense_bag: unregistered depth finds its colour through the extrinsics") {
     if (!haveRecording("realsense_bag")) {
         return;
     }
@@ -188,8 +188,9 @@ TEST_CASE("realsense_bag: depth that is not registered finds its colour through 
     CHECK(felt.haptic().at("max_force_N").get<double>() > 5.0);
 }
 
-TEST_CASE("pcl_milk_table: everything within a metre forbidden, on either processor the same" *
-          doctest::skip(kSanitized)) {
+TEST_CASE(
+    "pcl_milk_table: everything within a metre is forbidden, with the same result of CPU and GPU query" *
+    doctest::skip(kSanitized)) {
     if (!haveRecording("pcl_milk_table")) {
         return;
     }

@@ -10,7 +10,7 @@
 
 using namespace fathom;
 
-TEST_CASE("A recording that is ended by SIGINT is whole: each frame that its index names is replayed") {
+TEST_CASE("A recording that is ended by SIGINT is complete: every frame of its index is replayed") {
     const Stage stage;
     const std::string scene = "apps/scenes/demo.yaml", folder = (stage / "pictures").string();
     const pid_t engine = startFathom({"record", scene, "--out", folder}, stage / "said");
@@ -27,7 +27,7 @@ TEST_CASE("A recording that is ended by SIGINT is whole: each frame that its ind
     CHECK(index.back() == '\n');
     const auto lines = std::count(index.begin(), index.end(), '\n');
     CHECK(lines >= 3);
-    CHECK(lines < 60); // it was ended: the simulated camera has more
+    CHECK(lines < 60); // it was interrupted: the simulated camera has more frames
     const std::string said = "recorded     " + std::to_string(lines) + " frames";
     CHECK_MESSAGE(stage.read("said").find(said) != std::string::npos, stage.read("said"));
     const ProgramRun run =

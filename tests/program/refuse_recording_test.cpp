@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recordings that are unusable as a whole, hand paths and command lines that cannot be meant, output that
-// cannot be written.
+// Rejected: unusable recordings, invalid hand paths and command lines, and output that cannot be written.
 #include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
@@ -12,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// intrinsics.json with `from` replaced by `to` is refused so.
+// Checks the message for intrinsics.json with `from` replaced by `to`.
 void checkIntrinsics(const std::string& from, const std::string& to, const std::vector<std::string>& parts) {
     Stage stage;
     stage.recording({bumpImage()});
@@ -26,7 +25,7 @@ void checkIntrinsics(const std::string& from, const std::string& to, const std::
 
 } // namespace
 
-TEST_CASE("a recording folder that is missing, empty, a file or without an index is refused") {
+TEST_CASE("A recording folder that is missing, empty, a file or without an index is rejected") {
     Stage stage;
     const std::string folder = (stage / "rec").string();
     checkRefused(stage, {folder, "folder", "missing", "TUM RGB-D"}, {"--source", folder});
@@ -45,7 +44,7 @@ TEST_CASE("a recording folder that is missing, empty, a file or without an index
     checkRefused(stage, {"intrinsics.json", "cannot be read"});
 }
 
-TEST_CASE("a recording of which no frame is usable is refused in one line that names the first fault") {
+TEST_CASE("A recording without a usable frame is rejected in one line that names the first fault") {
     Stage stage;
     stage.recording({bumpImage(), bumpImage(), bumpImage()});
     for (const char* name : {"rec/depth/000000.png", "rec/depth/000001.png", "rec/depth/000002.png"}) {
@@ -60,7 +59,7 @@ TEST_CASE("a recording of which no frame is usable is refused in one line that n
     checkRefused(stage, {"frames", "none of 1", "line 1"});
 }
 
-TEST_CASE("colour of another size than depth without registration is refused") {
+TEST_CASE("Colour of another size than depth without registration is rejected") {
     Stage stage;
     stage.recording({bumpImage(), bumpImage()});
     for (const char* name : {"rec/rgb/000000.png", "rec/rgb/000001.png"}) {
@@ -69,7 +68,7 @@ TEST_CASE("colour of another size than depth without registration is refused") {
     checkRefused(stage, {"intrinsics.json", "32x24", "64x48", "extrinsics_topic_tf"});
 }
 
-TEST_CASE("intrinsics that are zero, negative, no number, missing or too large are refused") {
+TEST_CASE("Intrinsics that are zero, negative, not a number, missing or too large are rejected") {
     checkIntrinsics("\"fx\": 60", "\"fx\": NaN", {"intrinsics.json", "fx", "N", "NaN"});
     checkIntrinsics("\"fx\": 60", "\"fx\": 0", {"intrinsics.json: fx: 0 ", "above 0"});
     checkIntrinsics("\"fy\": 60", "\"fy\": -60", {"intrinsics.json: fy: -60 ", "above 0"});
@@ -85,7 +84,7 @@ TEST_CASE("intrinsics that are zero, negative, no number, missing or too large a
     checkIntrinsics("true", "false", {"intrinsics.json: registered_to_color: false", "extrinsics_topic_tf"});
 }
 
-TEST_CASE("a poses.txt with a number that is none is refused with its line") {
+TEST_CASE("A poses.txt with an invalid number is rejected with its line") {
     Stage stage;
     stage.recording({bumpImage()});
     stage.write("rec/poses.txt", "0 0 0 0 0 0 0 1\n1 0 nan 0 0 0 0 1\n");
@@ -93,7 +92,7 @@ TEST_CASE("a poses.txt with a number that is none is refused with its line") {
 }
 
 TEST_CASE(
-    "a hand path that is missing, empty, malformed or goes back in time is refused with line and column") {
+    "A hand path that is missing, empty, malformed or goes back in time is rejected with line and column") {
     Stage stage;
     stage.recording({bumpImage()});
     const std::string header = "t_s,x,y,z,qw,qx,qy,qz,button\n", path = (stage / "hand.csv").string();
@@ -117,7 +116,7 @@ TEST_CASE(
     refused(header + "1,0,0,0,1,0,0,0,0\n0.5,0,0,0,1,0,0,0,0\n", {"line 3, t_s", "'0.5'", "later"});
 }
 
-TEST_CASE("a command line that cannot be meant is refused with what is allowed") {
+TEST_CASE("An invalid command line is rejected with what is allowed") {
     Stage stage;
     stage.recording({bumpImage()});
     const std::string scene = (stage / "scene.yaml").string(), out = (stage / "out").string();
@@ -134,7 +133,7 @@ TEST_CASE("a command line that cannot be meant is refused with what is allowed")
     checkRefused(stage, {"--device", "99", "0 = "}, {"--device", "99"});
 }
 
-TEST_CASE("an output folder that cannot be written ends with exit code 1 and one line that names it") {
+TEST_CASE("An output folder that cannot be written ends with exit code 1 and one line that names it") {
     Stage stage;
     stage.recording({bumpImage()});
     stage.hand({{0.0, {0.0, 0.0, 0.4}}});
@@ -147,7 +146,7 @@ TEST_CASE("an output folder that cannot be written ends with exit code 1 and one
     checkRefusal(stage.command({}, "out2"), {(stage / "out2/haptics.csv").string(), "cannot create"}, 1);
 }
 
-TEST_CASE("help is no fault: it goes to standard output with exit code 0") {
+TEST_CASE("Help goes to standard output with exit code 0") {
     for (const std::vector<std::string>& words :
          std::vector<std::vector<std::string>>{{"--help"}, {"replay", "--help"}, {"plan", "--help"}}) {
         const ProgramRun run = runFathom(words);

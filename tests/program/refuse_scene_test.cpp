@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scene files that cannot be meant: exit 2 and one line with file, field, value and what is allowed.
+// Invalid scene files: exit code 2 and one line with file, field, value and what is allowed.
 #include "tests/rig/refusal.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@ namespace {
 
 struct Wrong {
     std::function<void(SceneText&)> make;
-    std::vector<std::string> parts; // of the message, besides the scene file
+    std::vector<std::string> parts; // parts of the message, besides the scene file
 };
 
 void checkScenes(const std::vector<Wrong>& cases) {
@@ -55,7 +55,7 @@ Wrong tool(const std::string& text, const std::vector<std::string>& parts) {
 
 } // namespace
 
-TEST_CASE("an unknown key is refused in every section, with the key that was meant") {
+TEST_CASE("An unknown key is rejected in every section, with the nearest known key") {
     checkScenes({
         {[](SceneText& s) { s.more = "camrea: {near: 1}\n"; }, {"camrea", "did you mean 'camera'"}},
         camera("neer: 0.2", {"camera.neer", "did you mean 'near'"}),
@@ -68,8 +68,8 @@ TEST_CASE("an unknown key is refused in every section, with the key that was mea
     });
 }
 
-TEST_CASE("a hue, saturation or radius out of range, negative or not a number is refused with its value and "
-          "range") {
+TEST_CASE(
+    "A hue, saturation or radius that is out of range or not a number is rejected with its value and range") {
     checkScenes({
         fixture("[345, 20]", "[345, 380]", {"fixtures[0].hue[1]", "380", "0 to 360"}),
         fixture("[345, 20]", "[-5, 20]", {"fixtures[0].hue[0]", "-5", "0 to 360"}),
@@ -88,7 +88,7 @@ TEST_CASE("a hue, saturation or radius out of range, negative or not a number is
     });
 }
 
-TEST_CASE("a depth range that is empty, an impossible filter and numbers that are none are refused") {
+TEST_CASE("An empty depth range, an impossible filter and invalid numbers are rejected") {
     checkScenes({
         camera("near: 3, far: 1", {"camera.near", "3", "below camera.far = 1"}),
         camera("near: 5", {"camera.near", "5", "below camera.far = 3"}),
@@ -108,7 +108,7 @@ TEST_CASE("a depth range that is empty, an impossible filter and numbers that ar
     });
 }
 
-TEST_CASE("no tool, a tool without spheres, and a tool file that is missing or broken are refused") {
+TEST_CASE("A missing tool, a tool without spheres and a missing or broken tool file are rejected") {
     checkScenes({
         tool("", {"tool", "missing"}),
         tool("spheres: []", {"tool.spheres", "0 spheres", "1 to 4096"}),
@@ -128,7 +128,7 @@ TEST_CASE("no tool, a tool without spheres, and a tool file that is missing or b
     checkRefused(stage, {"broken.sph", "allowed: "});
 }
 
-TEST_CASE("an unknown device preset, an impossible rate and other impossible haptics are refused") {
+TEST_CASE("An unknown device preset, an impossible rate and other impossible haptics are rejected") {
     checkScenes({
         haptics("device: w5x", {"haptics.device", "w5x", "ideal, w5d, falcon"}),
         haptics("rate_hz: 50", {"haptics.rate_hz", "50", "100 to 10000"}),
@@ -145,7 +145,7 @@ TEST_CASE("an unknown device preset, an impossible rate and other impossible hap
     });
 }
 
-TEST_CASE("plan refuses a bad scene with the same line as replay") {
+TEST_CASE("plan rejects an invalid scene with the same line as replay") {
     Stage stage;
     stage.recording({bumpImage()});
     SceneText scene;
@@ -157,7 +157,7 @@ TEST_CASE("plan refuses a bad scene with the same line as replay") {
     checkRefusal({"plan", file + "x"}, {"scene.yamlx", "file", "cannot be read"});
 }
 
-TEST_CASE("a scene file that is missing, a folder, empty, no YAML or without fixtures is refused") {
+TEST_CASE("A scene file that is missing, a folder, empty, not YAML or without fixtures is rejected") {
     Stage stage;
     std::filesystem::remove(stage / "scene.yaml");
     checkRefused(stage, {"scene.yaml", "file", "cannot be read", "allowed: "});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom register` from outside: what it is given, what it prints, and that a scene takes it.
+// `fathom register` as a program: its input, its output, and that a scene accepts the result.
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
 
@@ -14,8 +14,8 @@ using namespace fathom;
 
 namespace {
 
-// Points of the camera and of the base, which is turned by 90 degrees about z and shifted: base = (-y, x, z)
-// + (1, 2, 3); the last one is off by 4 mm.
+// Points of the camera and of the base, which is rotated by 90 degrees about z and shifted: base = (-y, x, z)
+// + (1, 2, 3). The last point is off by 4 mm.
 constexpr const char* kPoints = "camera_x,camera_y,camera_z,base_x,base_y,base_z\n"
                                 "0,0,1,1,2,4\n"
                                 "0.5,0,1,1,2.5,4\n"
@@ -41,7 +41,7 @@ double numberAfter(const std::string& line, const std::string& word) {
 
 } // namespace
 
-TEST_CASE("register prints the camera's pose and sigma, writes the same lines, and a scene takes them") {
+TEST_CASE("register prints the camera's pose and sigma and writes the same lines, and a scene accepts them") {
     const Stage stage;
     stage.recording({bumpImage()});
     stage.scene({});
@@ -55,7 +55,7 @@ TEST_CASE("register prints the camera's pose and sigma, writes the same lines, a
                       sigma = lineWith(run.out, "registration_sigma:");
     CHECK(stage.read("pose.yaml") == pose + "\n" + sigma + "\n");
     CHECK(std::abs(numberAfter(pose, "xyz: [") - 1.0) < 0.003);
-    CHECK(std::abs(numberAfter(pose, "quat_xyzw: [")) < 0.01); // about z only
+    CHECK(std::abs(numberAfter(pose, "quat_xyzw: [")) < 0.01); // rotation about z only
     const double sigmaMetres = numberAfter(sigma, "registration_sigma: ");
     CHECK(sigmaMetres > 1e-4);
     CHECK(sigmaMetres < 4e-3);
@@ -65,7 +65,7 @@ TEST_CASE("register prints the camera's pose and sigma, writes the same lines, a
     scene.camera = "near: 0.1, far: 3.0, " + pose + ", " + sigma;
     stage.scene(scene);
     const Replay placed = stage.replay({"--save-fixtures"}, {}, "placed");
-    // Each sphere is moved by the pose that was printed, and wider by three of the sigma.
+    // The printed pose moves each sphere, and three times the printed sigma widens it.
     double x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 0;
     REQUIRE(std::sscanf(pose.c_str(),
                         "base_T_camera: {xyz: [%lf, %lf, %lf], quat_xyzw: [%lf, %lf, %lf, %lf]}", &x, &y, &z,
@@ -83,7 +83,7 @@ TEST_CASE("register prints the camera's pose and sigma, writes the same lines, a
     CHECK(wide < 1e-5);
 }
 
-TEST_CASE("register wants exactly one of points, tags and a board, and a writable file") {
+TEST_CASE("register requires exactly one of points, tags and a board, and a writable file") {
     const Stage stage;
     stage.recording({bumpImage()});
     stage.scene({});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The simulated camera draws the arm, moving: with the self-filter no region grows on it, without regions do.
+// A simulated camera renders the moving arm. Without the self-filter regions grow on the arm; with it none
+// do.
 #include "tests/rig/refusal.h"
 #include "tests/rig/stage.h"
 #include "tests/support/sanitized.h"
@@ -12,7 +13,7 @@ using namespace fathom;
 
 namespace {
 
-// Everything between the arm's reach and the panel is forbidden: what grows there grows on the arm.
+// Everything between the arm's reach and the panel is forbidden, so regions there are on the arm.
 std::string sceneText(const std::string& selfFilter) {
     const std::string urdf = std::filesystem::absolute("apps/scenes/arm41.urdf").string();
     return "camera: { source: {simulated: wetmate, arm: true, pictures: 18}, near: 0.1, far: 3.0 }\n"
@@ -28,9 +29,9 @@ std::string sceneText(const std::string& selfFilter) {
 }
 
 struct Seen {
-    double points = 0.0;      // a frame
+    double points = 0.0;      // points per frame
     int images = 0, with = 0; // frames with any region
-    double moved = 0.0;       // [m] of the tip
+    double moved = 0.0;       // [m] travel of the tip
 };
 
 Seen look(const std::string& selfFilter) {
@@ -57,21 +58,21 @@ Seen look(const std::string& selfFilter) {
 
 } // namespace
 
-TEST_CASE("An arm in the camera's sight grows regions on itself, and with the self-filter it does not" *
+TEST_CASE("An arm in the camera's view grows regions on itself, and with the self-filter it does not" *
           doctest::skip(kSanitized)) {
-    auto other = std::async(std::launch::async, [] { return look(""); }); // each draws on one processor
+    auto other = std::async(std::launch::async, [] { return look(""); }); // each renders on one CPU
     const Seen filtered = look("  self_filter: 0.01\n"), plain = other.get();
     MESSAGE("points a picture: " << plain.points << " on the arm without the filter, " << filtered.points
                                  << " with it; it moved " << filtered.moved << " m");
     CHECK(plain.images == 18);
     CHECK(plain.with == 18);
     CHECK(plain.points > 10000.0);
-    // What is left is not on it: flying pixels between its edge and the panel, and the water's snow.
+    // The rest is not on the arm: flying pixels between its edge and the panel, and particles in the water.
     CHECK(filtered.points < 0.006 * plain.points);
     CHECK(filtered.moved > 0.1);
 }
 
-TEST_CASE("Only a simulated camera draws an arm, and only one that there is") {
+TEST_CASE("Only a simulated camera renders an arm, and only in a scene with an arm") {
     Stage stage;
     stage.scene({});
     const auto refused = [&](const std::string& camera, const std::vector<std::string>& parts) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes of authored shapes alone, tools from one leaf to a thousand, a base frame far away.
+// Scenes with authored shapes only, tools of one to a thousand leaves, and a distant base frame.
 #include "tests/rig/stage.h"
 
 #include <cmath>
@@ -13,9 +13,9 @@ using namespace fathom;
 
 namespace {
 
-constexpr double kLeaf = 0.01; // [m] radius of the one leaf of these tools, at the tool's origin
+constexpr double kLeaf = 0.01; // [m] radius of the only leaf, at the tool's origin
 
-// A scene with this one shape, a hand that tries to go where it forbids; gap(centre) is the exact clearance
+// Replays a scene with this one shape and a hand that tries to enter it. gap(centre) is the exact clearance
 // of the leaf.
 Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
                 const std::function<double(const dvec3&)>& gap) {
@@ -31,9 +31,9 @@ Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
         least = std::min(least, gap(tick.tool.position));
     }
     CHECK(least > -1e-5);
-    CHECK(least < 1e-4); // it did get there
+    CHECK(least < 1e-4); // it touched the shape
     CHECK(replay.haptic().at("max_force_N").get<double>() > 5.0);
-    // Nothing of the frame is asked for: no pass, no sphere, no query.
+    // Nothing is needed from the frame: no pass, no sphere, no query.
     CHECK(replay.timeColumns == std::vector<std::string>{"upload_ms", "publish_ms"});
     CHECK(replay.summary.at("contact").at("where") == "none");
     CHECK(replay.frames.at(0).spheres == 0);
@@ -43,7 +43,7 @@ Replay tryShape(const std::string& row, const std::vector<HandRow>& hand,
 
 } // namespace
 
-TEST_CASE("a forbidden box keeps the tool out on its face, round its edge and at its corner") {
+TEST_CASE("A forbidden box keeps the tool outside its faces, edges and corners") {
     const auto gap = [](const dvec3& p) {
         const dvec3 beyond = glm::max(glm::abs(p - dvec3(0.0, 0.0, 0.6)) - dvec3(0.1), dvec3(0.0));
         return glm::length(beyond) - kLeaf;
@@ -58,15 +58,15 @@ TEST_CASE("a forbidden box keeps the tool out on its face, round its edge and at
     CHECK(replay.summary.at("fixtures").at(0).at("role") == "forbidden");
 }
 
-TEST_CASE("a forbidden plane keeps the tool on its side") {
-    // The half-space z <= 0 of the shape, turned over: all beyond z = 0.5.
+TEST_CASE("A forbidden plane keeps the tool on its side") {
+    // The half-space z <= 0 of the shape, rotated: everything beyond z = 0.5 is forbidden.
     tryShape("name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: [1, 0, "
              "0, 0]}",
              {{0.0, {0.0, 0.0, 0.45}}, {0.2, {0.0, 0.0, 0.51}}, {0.4, {0.1, 0.05, 0.505}}},
              [](const dvec3& p) { return 0.5 - p.z - kLeaf; });
 }
 
-TEST_CASE("a keep_in sphere keeps the tool inside") {
+TEST_CASE("A keep_in sphere keeps the tool inside") {
     const Replay replay = tryShape(
         "name: bowl, role: keep_in, shape: sphere, base_T_shape: {xyz: [0, 0, 0.5]}, size: [0.1, 0, 0]",
         {{0.0, {0.0, 0.0, 0.5}}, {0.3, {0.08, 0.0, 0.57}}, {0.6, {-0.05, 0.09, 0.5}}},
@@ -74,15 +74,15 @@ TEST_CASE("a keep_in sphere keeps the tool inside") {
     CHECK(replay.summary.at("fixtures").at(0).at("role") == "keep_in");
 }
 
-TEST_CASE("a forbidden cylinder keeps the tool off its side") {
+TEST_CASE("A forbidden cylinder keeps the tool off its side") {
     tryShape("name: pipe, role: forbidden, shape: cylinder, base_T_shape: {xyz: [0, 0, 0.6], quat_xyzw: [0, "
              "0.7071067811865476, 0, "
-             "0.7071067811865476]}, size: [0.05, 0.4, 0]", // its axis along x
+             "0.7071067811865476]}, size: [0.05, 0.4, 0]", // the axis along x
              {{0.0, {0.0, 0.0, 0.52}}, {0.2, {0.02, 0.0, 0.556}}, {0.5, {0.05, 0.06, 0.58}}},
              [](const dvec3& p) { return std::hypot(p.y, p.z - 0.6) - 0.05 - kLeaf; });
 }
 
-TEST_CASE("a line lets the tool go along it and no way else") {
+TEST_CASE("A line lets the tool move along it only") {
     const Replay replay =
         tryShape("name: rail, role: guidance, shape: line, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: [0, "
                  "0.7071067811865476, 0, 0.7071067811865476]}", // along x
@@ -91,8 +91,7 @@ TEST_CASE("a line lets the tool go along it and no way else") {
     CHECK(replay.ticks.back().tool.position.x == doctest::Approx(0.1).epsilon(0.01));
 }
 
-TEST_CASE(
-    "a tool of a thousand leaves from a .sph file runs, with the same digest whoever answers the query") {
+TEST_CASE("A tool of a thousand leaves from a .sph file runs, with the same digest for CPU and GPU query") {
     Stage stage;
     stage.recording({bumpImage(), bumpImage()});
     std::ostringstream sph;
@@ -116,7 +115,8 @@ TEST_CASE(
     CHECK(cpu.summary.at("digest") == gpu.summary.at("digest"));
 }
 
-TEST_CASE("a base frame 100 km away gives the same forces but for what float64 positions round there") {
+TEST_CASE(
+    "A base frame 100 km away gives the same forces except for the rounding of float64 positions there") {
     Stage stage;
     stage.recording({bumpImage(), bumpImage()});
     const auto runAt = [&](const dvec3& base, const std::string& out) {
@@ -129,7 +129,7 @@ TEST_CASE("a base frame 100 km away gives the same forces but for what float64 p
         stage.scene(scene);
         std::vector<HandRow> rows{
             {0.0, {0.0, 0.0, 0.4375}}, {0.25, {0.0, 0.0, 0.515625}}, {0.5, {0.015625, 0.0, 0.515625}}};
-        for (HandRow& row : rows) { // binary fractions: the sum with the base is exact
+        for (HandRow& row : rows) { // binary fractions, so that adding the base offset is exact
             row.at = {row.at[0] + base.x, row.at[1] + base.y, row.at[2] + base.z};
         }
         stage.hand(rows);
@@ -144,7 +144,7 @@ TEST_CASE("a base frame 100 km away gives the same forces but for what float64 p
                           glm::length(here.ticks[i].torque - there.ticks[i].torque)});
     }
     MESSAGE("largest difference: ", worst, " N or N m");
-    // A position 1e5 m away is rounded to 1.5e-11 m, which a spring of 1000 N/m makes 1.5e-8 N; a turn
-    // corrects what the ticks before it left.
+    // A position 1e5 m away is rounded to 1.5e-11 m, which 1000 N/m turn into 1.5e-8 N; each tick corrects
+    // the error of those before it.
     CHECK(worst < 1e-6);
 }

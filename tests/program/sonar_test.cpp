@@ -9,7 +9,7 @@
 
 using namespace fathom;
 
-TEST_CASE("The sonar scene pushes back before steel and block are touched, and nothing enters a region") {
+TEST_CASE("The sonar scene pushes back before the tool touches steel or block, and nothing enters a region") {
     const auto out = std::filesystem::temp_directory_path() / "fathom-sonar-test";
     std::filesystem::remove_all(out);
     const ProgramRun run = runFathom({"replay", "apps/scenes/sonar.yaml", "--out", out.string()});
@@ -32,7 +32,7 @@ TEST_CASE("The plan of the sonar scene has beams and no thinning, and says why")
     CHECK(run.out.find("beams at equal angles") != std::string::npos);
 }
 
-TEST_CASE("A beam in a scene is checked") {
+TEST_CASE("The beam section of a scene is validated") {
     const auto file = std::filesystem::temp_directory_path() / "fathom-beam.yaml";
     std::ofstream(file) << "camera: {beam: {width_deg: 95}}\n";
     const ProgramRun run = runFathom({"plan", file.string()});

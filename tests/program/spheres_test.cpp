@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom spheres` from outside.
+// `fathom spheres` as a program.
 #include "tests/model/meshes.h"
 #include "tests/rig/run_fathom.h"
 
@@ -24,8 +24,7 @@ struct Folder {
 
 } // namespace
 
-TEST_CASE(
-    "spheres writes a tree, a report that says how it was checked, and compares it with octree and grid") {
+TEST_CASE("spheres writes a tree and a report of its checks, and compares it with octree and grid") {
     const Folder folder;
     const ObjFile mesh(boxMesh(dvec3(0.0), {0.1, 0.04, 0.03}));
     const std::string out = (folder.path / "tool.sph").string(), json = (folder.path / "tool.json").string();
@@ -46,7 +45,7 @@ TEST_CASE(
     CHECK(std::filesystem::file_size(out) > 200);
 }
 
-TEST_CASE("spheres scales a set of spheres as it scales a mesh, and doubts a mesh of three metres") {
+TEST_CASE("spheres scales a set of spheres like a mesh, and warns about a mesh of three metres") {
     const Folder folder;
     const ObjFile large(boxMesh(dvec3(0.0), {3.0, 0.4, 0.4}));
     const std::string whole = (folder.path / "whole.sph").string(),
@@ -76,7 +75,7 @@ TEST_CASE("spheres scales a set of spheres as it scales a mesh, and doubts a mes
     CHECK(spheres > 8);
 }
 
-TEST_CASE("spheres refuses what it cannot use in one line and with exit code 2") {
+TEST_CASE("spheres rejects unusable input in one line and with exit code 2") {
     const Folder folder;
     const std::string out = (folder.path / "tool.sph").string();
     const ObjFile millimetres(boxMesh(dvec3(0.0), {0.3, 0.2, 0.1}), 0.001);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `--validate`, with which this suite runs the program: what the Vulkan layers have against a run is told and
-// fails it.
+// `--validate`, which this suite uses for every run: messages of the Vulkan validation layers are printed and
+// fail the run.
 #include "tests/rig/refusal.h"
 #include "tests/support/validation_wanted.h"
 
@@ -11,7 +11,7 @@ using namespace fathom;
 
 namespace {
 
-// A variable of the environment of the programs that are started while this lives.
+// Sets an environment variable for programs started during its lifetime.
 class Variable {
 public:
     Variable(const char* name, const std::string& value)
@@ -34,14 +34,14 @@ void prepare(const Stage& stage) {
 
 } // namespace
 
-TEST_CASE("A message of the Vulkan layers is told and fails a run that is done otherwise") {
+TEST_CASE("A message of the Vulkan layers is printed and fails a run that is otherwise complete") {
     if (!test::validationWanted()) {
         return;
     }
     const Stage stage;
     prepare(stage);
     const Variable advice("VK_LAYER_ENABLES",
-                          "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"); // of small buffers
+                          "VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT"); // reports small buffers
     const ProgramRun run = runFathom(stage.command());
     CAPTURE(run.err);
     CHECK(run.exitCode == 1);
@@ -52,7 +52,7 @@ TEST_CASE("A message of the Vulkan layers is told and fails a run that is done o
     CHECK(std::filesystem::exists(stage / "out" / "summary.json"));
 }
 
-TEST_CASE("Validation layers that are not installed are told of, never left out") {
+TEST_CASE("Missing validation layers are reported and never skipped") {
     if (!test::validationWanted()) {
         return;
     }

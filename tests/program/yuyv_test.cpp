@@ -9,7 +9,7 @@ using namespace fathom;
 
 namespace {
 
-// The valve's frame, a still hand.
+// The frame of the valve, and a still hand.
 void prepare(const Stage& stage, const std::string& colour) {
     SceneText scene;
     scene.camera = "source: {simulated: tank, pictures: 3, colour: " + colour + "}, near: 0.1, far: 3.0";
@@ -18,7 +18,7 @@ void prepare(const Stage& stage, const std::string& colour) {
     stage.hand({{0.0, {0.0, 0.0, 0.2}}, {0.1, {0.0, 0.0, 0.2}}});
 }
 
-// Of the frame's own colours: grey would do for the marks alone.
+// Counts yellow pixels from the frame itself. The marks alone would also be visible on a grey image.
 uint32_t yellowPixels(const std::filesystem::path& overlay) {
     const ReadImage image = readImage(overlay);
     return static_cast<uint32_t>(std::ranges::count_if(image.pixels, [](uint32_t p) {
@@ -39,18 +39,18 @@ TEST_CASE("A camera that sends YUYV gives the fixtures and the overlay of one th
         const FrameRow &a = plain.frames[i], &b = packed.frames[i];
         CHECK(a.valid == b.valid);
         CHECK(a.forbidden > 1000);
-        // Chroma is shared by two pixels and loses a step: pixels at the gates and at edges change sides.
+        // Two pixels share their chroma, which is also rounded, so pixels near gates and edges change sides.
         const auto forbidden = static_cast<double>(a.forbidden), guidance = static_cast<double>(a.guidance);
         CHECK(static_cast<double>(b.forbidden) == doctest::Approx(forbidden).epsilon(0.05));
         CHECK(static_cast<double>(b.guidance) == doctest::Approx(guidance).epsilon(0.15));
-        CHECK(a.forbidden != b.forbidden); // it was packed
+        CHECK(a.forbidden != b.forbidden); // the colours did go through YUYV
     }
     const uint32_t yellow = yellowPixels(plain.out / "overlay.png");
     CHECK(yellow > 100);
     CHECK(yellowPixels(packed.out / "overlay.png") == doctest::Approx(yellow).epsilon(0.2));
 }
 
-TEST_CASE("Its frames go through a run by the clock, and their colours into its overlay") {
+TEST_CASE("YUYV frames run in a realtime replay, and their colours reach its overlay") {
     const Stage stage;
     prepare(stage, "yuyv");
     const ProgramRun run = runFathom(stage.command({"--realtime"}));
