@@ -23,10 +23,10 @@ bool alarm(const json& s, const std::string& words) {
                        [&](const json& a) { return a.get<std::string>().find(words) != std::string::npos; });
 }
 
-// Until the tool touches, and the hand feels it.
+// Presses until the tool is in contact and the hand feels it.
 bool pressUntilFelt(const WindowRig& rig, PlayedDevice& device) {
     for (int tries = 0; tries < 20; ++tries) {
-        // A force alone may be that of a tool which is on its way after a push.
+        // Requires a contact, because a force alone may come from a tool that is still catching up.
         const bool felt = rig.state()["run"]["contacts"] > 0 && device.feels(-8.0, -0.2, 2000);
         const json state = rig.state();
         if (felt && z(state, "device") > z(state, "tool") + 0.0005) {
@@ -39,14 +39,14 @@ bool pressUntilFelt(const WindowRig& rig, PlayedDevice& device) {
 
 } // namespace
 
-TEST_CASE("A haptic device at its endpoint drives the tool in the window and feels the region; the space bar "
-          "lets it go") {
+TEST_CASE("A haptic device on its socket drives the tool in the window and feels the region; the space bar "
+          "turns forces off") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     const double start = z(rig.state(), "tool");
     const auto endpoint = rig.folder() / "hand.door";
     PlayedDevice device(endpoint);
-    device.z = 0.15; // wherever the handle is, the tool begins where it does without one
+    device.z = 0.15; // the tool starts in the same place for any handle pose
     rig.reopen(rig.folder() / "scene.yaml", {"--hand-device", endpoint.string()});
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 200; }));
     CHECK(rig.state()["hand"]["name"].get<std::string>().find("played device") == 0);
@@ -56,7 +56,7 @@ TEST_CASE("A haptic device at its endpoint drives the tool in the window and fee
     REQUIRE(
         rig.await([&](const json& s) { return z(s, "tool") > start + 0.015; })); // forces are off, it moves
     CHECK(device.fz == 0.0);
-    rig.keyDown("Up"); // keys do not move the tool when a device does
+    rig.keyDown("Up"); // keys do not move the tool while a device does
     rig.keyUp("Up");
     const json rests = rig.atRest();
     REQUIRE(!rests.is_null());
@@ -71,7 +71,7 @@ TEST_CASE("A haptic device at its endpoint drives the tool in the window and fee
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
     const auto ticks = rig.state()["run"]["turns"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 2500; })); // a soft start later
+    REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 2500; })); // soft start over
     CHECK(device.fz == 0.0);
     CHECK(rig.state()["run"]["force_N"] == 0.0);
     CHECK(rig.close() == 0);
@@ -93,11 +93,11 @@ TEST_CASE("A haptic device that disconnects loses its force, is reported, and re
         return s["hand"]["there"] == false && alarm(s, "WARNING active hand") && s["run"]["force_N"] == 0.0;
     }));
     rig.shoot("device-gone");
-    device.emplace(endpoint); // its handle is far from where it was
+    device.emplace(endpoint); // the handle is far from its earlier place
     REQUIRE(rig.await([](const json& s) { return s["hand"]["there"] == true; }));
     CHECK(rig.await([](const json& s) { return alarm(s, "WARNING latched hand"); }));
     CHECK(z(rig.state(), "tool") == doctest::Approx(tool).epsilon(0.005));
-    REQUIRE(pressUntilFelt(rig, *device)); // the pilot had not turned forces off
+    REQUIRE(pressUntilFelt(rig, *device)); // the pilot has not turned forces off
     rig.key("q");
     CHECK(rig.await([](const json& s) { return !alarm(s, "hand"); }));
     CHECK(rig.close() == 0);

@@ -18,7 +18,8 @@ void waitTicks(const WindowRig& rig, int ticks) {
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > now + ticks; }));
 }
 
-// Pushes against the bump, removes the red class, adds a sphere, undoes both, freezes everything for a while.
+// Pushes against the bump, removes the red class, adds a sphere, undoes both and freezes everything for a
+// while.
 void fly(const WindowRig& rig) {
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
@@ -65,7 +66,7 @@ TEST_CASE("Edits during a recording take effect in its replay and on its time li
     for (int i = 0; i < static_cast<int>(spheres.size()); ++i) {
         CAPTURE(i);
         const bool gone = i >= images[1] && i < images[4];
-        const bool held = i >= images[5] && i < images[6]; // no set is made
+        const bool held = i >= images[5] && i < images[6]; // frozen frames make no set
         CHECK((held || (spheres[static_cast<size_t>(i)] == 0) == gone));
     }
     const auto felt = feltIn(folder / "wrench.csv", 1, 7), again = feltIn(out / "haptics.csv", 15, 21);

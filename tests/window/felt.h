@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a hand felt, as the CSV files of a recording and of a replay tell it.
+// Reads the forces that a hand felt from the CSV files of a recording or replay.
 #pragma once
 
 #include <filesystem>
@@ -12,13 +12,13 @@ struct Felt {
     bool contact = false;
 };
 
-// A CSV file's times, sizes of the force (its three components from column `force` on) and contacts.
+// Times, force magnitudes (three components from column `force` on) and contacts of a CSV file.
 std::vector<Felt> feltIn(const std::filesystem::path& file, size_t force, size_t contacts);
 
-// One column of a CSV file, without its name.
+// One column of a CSV file, without the header.
 std::vector<double> columnIn(const std::filesystem::path& file, size_t column);
 
-// [s] of the first row above 1 N, of the first with a contact; -1 = none.
+// [s] times of the first row above 1 N and of the first with a contact; -1 = none.
 double firstRise(const std::vector<Felt>& rows);
 double firstContact(const std::vector<Felt>& rows);
 

@@ -8,7 +8,7 @@
 
 namespace fathom::window {
 
-// ICCCM 4.1.3.1: the state is a property of the window, two longs; what is iconic is not mapped.
+// ICCCM 4.1.3.1: WM_STATE is a property of two longs, and an iconic window is unmapped.
 bool iconify(const std::string& display, const std::string& window, bool iconic) {
     Display* server = XOpenDisplay(display.c_str());
     if (server == nullptr) {
@@ -24,7 +24,7 @@ bool iconify(const std::string& display, const std::string& window, bool iconic)
     }
     XChangeProperty(server, id, state, state, 32, PropModeReplace,
                     reinterpret_cast<const unsigned char*>(values), 2);
-    XCloseDisplay(server); // all of it is sent
+    XCloseDisplay(server); // flushes all requests
     return true;
 }
 

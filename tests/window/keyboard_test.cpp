@@ -11,7 +11,7 @@ using nlohmann::json;
 
 namespace {
 
-// Some frames on, so that what keys did is there.
+// The state some frames later, when keys have taken effect.
 json later(const WindowRig& rig, int by = 4) {
     const auto frames = rig.state()["window"]["frames"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + by; }));
@@ -29,7 +29,7 @@ TEST_CASE("Forces armed and turned off within one frame are off, whatever the or
         CHECK(s["console"]["forces"] == false);
         CHECK(s["console"]["guidance"] == false);
     }
-    rig.key("a"); // alone it arms
+    rig.key("a"); // without the space bar, it arms
     CHECK(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
     closeQuietly(rig);
 }
@@ -37,11 +37,11 @@ TEST_CASE("Forces armed and turned off within one frame are off, whatever the or
 TEST_CASE("Key presses faster than the frame rate all count") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["console"]["tree_level"] == -1; }));
-    rig.xdo("key --delay 50 t t t"); // faster still would be one that is held
+    rig.xdo("key --delay 50 t t t"); // [ms] a shorter delay would count as a held key
     CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 2; }));
     rig.xdo("key --delay 50 t t t t t t");
-    CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 3; })); // at once, and at last
-    CHECK(later(rig, 6 * 2 + 4)["console"]["tree_level"] == 3); // down in one frame, up in the next
+    CHECK(rig.await([](const json& s) { return s["console"]["tree_level"] == 3; })); // last level
+    CHECK(later(rig, 6 * 2 + 4)["console"]["tree_level"] == 3); // each press takes two frames: down and up
     closeQuietly(rig);
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("Key presses with and without Ctrl within one frame all count") {
     const json before = rig.state();
     const double scale = before["console"]["text_scale"];
     const bool guidance = before["console"]["guidance"];
-    rig.xdo("key --delay 0 g ctrl+equal Tab"); // no key twice: faster it would be one that is held
+    rig.xdo("key --delay 0 g ctrl+equal Tab"); // each key once, because a repeated one would count as held
     CHECK(rig.await([&](const json& s) {
         return s["console"]["text_scale"] == scale + 0.125 && s["console"]["large"] == "space" &&
                s["console"]["guidance"] != guidance;
@@ -58,13 +58,13 @@ TEST_CASE("Key presses with and without Ctrl within one frame all count") {
     closeQuietly(rig);
 }
 
-TEST_CASE("F6 gives arrows and Enter to the panels and back; the space bar presses nothing there") {
+TEST_CASE("F6 gives arrows and Enter to the panels and back, and the space bar presses nothing there") {
     WindowRig rig;
     const json before = rig.atRest();
     REQUIRE(!before.is_null());
     rig.key("F6");
     REQUIRE(rig.await([](const json& s) { return s["console"]["panels"] == true; }));
-    // From any first item a few steps reach the row of buttons; Freeze is its last button.
+    // A few steps from any first item reach the row of buttons; Freeze is its last button.
     for (int i = 0; i < 4; ++i) {
         rig.key("Down");
     }
@@ -87,7 +87,7 @@ TEST_CASE("F6 gives arrows and Enter to the panels and back; the space bar press
     }
     rig.key("F6");
     REQUIRE(rig.await([](const json& s) { return s["console"]["panels"] == false; }));
-    rig.keyDown("Up"); // the tool's again
+    rig.keyDown("Up"); // arrows move the tool again
     CHECK(rig.await([&](const json& s) {
         return s["run"]["device"][1].get<double>() < before["run"]["device"][1].get<double>() - 0.005;
     }));
@@ -112,11 +112,11 @@ TEST_CASE("The arrow keys move a cursor and Enter picks the colour under it") {
     rig.key("Return");
     REQUIRE(rig.await([](const json& s) { return s["console"]["picked"] == true; }));
     CHECK(rig.state()["selected"] == 10 * 14);
-    CHECK(rig.state()["fixtures"].size() == 2); // the Enter that took it has not added it
+    CHECK(rig.state()["fixtures"].size() == 2); // the Enter that picked the colour has not added it
     rig.key("Return");
     REQUIRE(rig.await([](const json& s) { return s["fixtures"].size() == 3; }));
     const json after = rig.state();
-    for (int i = 0; i < 3; ++i) { // the arrows were not the tool's
+    for (int i = 0; i < 3; ++i) { // the arrows did not move the tool
         CHECK(after["run"]["device"][i].get<double>() ==
               doctest::Approx(before["run"]["device"][i].get<double>()));
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loss of the GPU, reported by a Vulkan layer to passes or painter: hand and keys keep working, and the state
-// is restored when the GPU is back.
+// Loss of the GPU in the passes or the painter, simulated by a Vulkan layer: hand and keys keep working, and
+// the state is restored when the GPU is back.
 #include "tests/rig/losing.h"
 #include "tests/rig/run_fathom.h"
 #include "tests/window/window_rig.h"
@@ -20,12 +20,12 @@ namespace {
 constexpr int kNever = 1000000;
 
 struct LosingRig {
-    // refused: openings of a device that fail after each loss.
+    // refused: number of attempts to open a device that fail after each loss.
     explicit LosingRig(int refused)
         : losing(trigger(), refused) {}
 
     std::string trigger() const { return (folder.path() / "lose").string(); }
-    // In the next call of this kind (tests/losing_layer).
+    // Loses the device at the next call of this kind (tests/losing_layer).
     void ask(const std::string& call) const {
         folder.write("word", call);
         std::filesystem::rename(folder.path() / "word", trigger());
@@ -39,7 +39,7 @@ struct LosingRig {
         return window.await(
             [&](const json& s) { return s["gpu"]["there"] == true && s["gpu"]["made_anew"] == madeAnew; });
     }
-    // The states since a tick.
+    // The states since that of `tick`.
     std::vector<json> since(const json& tick) const {
         std::vector<json> states;
         std::ifstream in(window.folder() / "state.jsonl");
@@ -64,7 +64,7 @@ bool hasAlarm(const json& s, const std::string& words) {
                        [&](const json& a) { return a.get<std::string>().find(words) != std::string::npos; });
 }
 
-// Armed, and the wheel drives the tool against the bump.
+// Arms forces and pushes the tool against the bump with the wheel.
 void press(const WindowRig& rig) {
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
@@ -97,17 +97,16 @@ void checkGone(const std::vector<json>& states, const json& before) {
 }
 
 void checkEnd(WindowRig& rig) {
-    const int code = rig.close(); // 1: validation had something to say
+    const int code = rig.close(); // 1: the validation layers reported something
     CHECK_MESSAGE(code == 0, rig.output());
     CHECK(rig.output().find("validation:") == std::string::npos);
 }
 
 } // namespace
 
-TEST_CASE(
-    "A GPU that is lost under passes, painter or presentation is opened again while the force fades, and "
-    "window, pilot's settings and recording go on") {
-    LosingRig lost(3); // 0.1, 0.2, 0.4 and 0.8 s: longer than a force takes to fade
+TEST_CASE("A GPU lost in passes, painter or presentation is opened again while the force fades, and window, "
+          "pilot's settings and recording continue") {
+    LosingRig lost(3); // retries after 0.1, 0.2, 0.4 and 0.8 s, which takes longer than the fade
     const WindowRig& rig = lost.window;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     rig.click("hold red");
@@ -135,7 +134,7 @@ TEST_CASE(
         CHECK(after["window"]["swapchains"] > before["window"]["swapchains"]);
         CHECK(after["fixtures"] == before["fixtures"]);
         CHECK(after["shapes"] == 1);
-        CHECK(after["run"]["spheres"] == before["run"]["spheres"]); // held still, too
+        CHECK(after["run"]["spheres"] == before["run"]["spheres"]); // still frozen
         CHECK(after["console"]["recording"] == true);
         CHECK(hasAlarm(after, "WARNING latched gpu"));
         rig.key("q");
@@ -158,8 +157,7 @@ TEST_CASE(
     CHECK_MESSAGE(replay.exitCode == 0, replay.err);
 }
 
-TEST_CASE(
-    "Forces that are off stay off over the loss of a GPU, and the space bar works while there is none") {
+TEST_CASE("Forces that are off stay off when the GPU is lost, and the space bar works without a GPU") {
     LosingRig lost(2);
     const WindowRig& rig = lost.window;
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
@@ -175,7 +173,7 @@ TEST_CASE(
     }
     press(rig);
     lost.lose("drawing");
-    lost.ask("drawing"); // the next one as well, while the window builds on it
+    lost.ask("drawing"); // also fails the next device, while the window opens it
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
     REQUIRE(lost.awaitBack(3));
@@ -188,7 +186,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A GPU that never comes back leaves hand, keys and an orderly end, and the window's title says so") {
+    "A GPU that never comes back leaves hand, keys and an orderly end, and the window's title reports it") {
     LosingRig lost(kNever);
     const WindowRig& rig = lost.window;
     press(rig);
@@ -208,8 +206,8 @@ TEST_CASE(
     CHECK(rig.output().find("GPU is gone") != std::string::npos);
 }
 
-TEST_CASE("Another pilot takes over while there is no GPU, and flies when there is one again") {
-    LosingRig lost(8); // some seconds, also from the new run on
+TEST_CASE("Another pilot takes over while there is no GPU, and gets forces when it is back") {
+    LosingRig lost(8); // lasts some seconds, also into the new run
     WindowRig& rig = lost.window;
     const auto scene = rig.folder() / "pilots.yaml";
     std::ofstream(scene) << rig.sceneText()
@@ -221,7 +219,7 @@ TEST_CASE("Another pilot takes over while there is no GPU, and flies when there 
     REQUIRE(rig.await([](const json& s) { return s["pilot"]["name"] == "anna" && s["run"]["turns"] > 100; }));
     CHECK(rig.state()["gpu"]["there"] == false);
     CHECK(rig.state()["console"]["forces"] == false);
-    rig.key("f"); // the set that it began with stays
+    rig.key("f"); // the set from before remains
     REQUIRE(lost.awaitBack(1));
     REQUIRE(rig.await([](const json& s) { return s["run"]["pictures"] > 10; }));
     rig.key("f");
@@ -231,7 +229,7 @@ TEST_CASE("Another pilot takes over while there is no GPU, and flies when there 
     checkEnd(rig);
 }
 
-TEST_CASE("A recording that is looked at is there again after the loss of a GPU, at the same moment") {
+TEST_CASE("Playback returns after the loss of a GPU at the same moment") {
     LosingRig lost(1);
     WindowRig& rig = lost.window;
     rig.key("r");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Loss of swapchain and surface, reported by a Vulkan layer: the device stays, and nothing else is affected.
+// Loss of swapchain and surface, simulated by a Vulkan layer: the device stays, and everything else
+// continues.
 #include "tests/rig/losing.h"
 #include "tests/window/window_rig.h"
 
@@ -10,9 +11,8 @@ using namespace fathom;
 using namespace fathom::window;
 using nlohmann::json;
 
-TEST_CASE(
-    "Images and surfaces of the window that are lost, in any call and more than once, are made anew on the "
-    "same device") {
+TEST_CASE("Images and surfaces of the window that are lost, in any call and repeatedly, are recreated on the "
+          "same device") {
     const TemporaryFolder folder;
     const std::filesystem::path trigger = folder.path() / "lose";
     const Losing losing(trigger.string(), 0);

@@ -35,7 +35,7 @@ bool silent(WindowRig& rig) {
     return code == 0;
 }
 
-// Puts the tool on the axis of the bump and pushes it at it.
+// Moves the tool to the axis of the bump and pushes it against the bump.
 void pushIntoBump(WindowRig& rig) {
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == true; }));
@@ -73,7 +73,7 @@ TEST_CASE("The window shows the camera image, the forbidden region in red and un
     silent(rig);
 }
 
-TEST_CASE("Forces are off at first, come with A, and go with the space bar") {
+TEST_CASE("Forces are off at first, turned on with A and off with the space bar") {
     WindowRig rig;
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "FORCES OFF" && s["run"]["turns"] > 100; }));
     rig.key("a");
@@ -85,8 +85,8 @@ TEST_CASE("Forces are off at first, come with A, and go with the space bar") {
     silent(rig);
 }
 
-TEST_CASE("Keys and wheel drive the tool to the region's surface, where it stops, says why, and lets go at "
-          "the space bar") {
+TEST_CASE("Keys and wheel drive the tool to the region's surface, where it stops and says why, and the space "
+          "bar removes the force") {
     WindowRig rig;
     pushIntoBump(rig);
     REQUIRE(rig.await([](const json& s) { return s["run"]["contacts"] > 0 && s["run"]["force_N"] > 0.2; }));
@@ -134,21 +134,19 @@ TEST_CASE("Forces armed in contact ramp up slowly, tick by tick") {
                felt.begin();
     };
     CHECK(felt.front().force == 0.0);
-    // Turns: however late they came, they are counted; late ones soften the springs, so the most may be
-    // early.
+    // Counts ticks, which may be late. Late ticks soften the springs, so the largest force may come early.
     CHECK(row(kFull) - row(0.01) > 450);
     silent(rig);
 }
 
-TEST_CASE("Guidance comes with G, is drawn blue, and pulls") {
+TEST_CASE("Guidance is turned on with G, is drawn blue, and pulls") {
     WindowRig rig;
     rig.key("a");
     REQUIRE(rig.await([](const json& s) { return s["mode"] == "ARMED"; }));
     rig.key("g");
     REQUIRE(
         rig.await([](const json& s) { return s["run"]["guidance_w"] > 0.95 && s["run"]["force_N"] > 0.05; }));
-    // A machine that is busy with other things may delay frames for a moment: forces fade, then come
-    // again.
+    // On a busy machine frames may be late, so that forces fade and return.
     bool blue = false;
     for (int tries = 0; tries < 10 && !blue; ++tries) {
         CHECK(rig.await([](const json& s) { return s["mode"] == "GUIDANCE"; }));
@@ -169,7 +167,7 @@ TEST_CASE("A colour is picked by a click, previewed, added, used, undone, redone
     rig.click("camera", 9.0 / 64.0, 23.0 / 48.0); // the yellow square
     REQUIRE(rig.await([](const json& s) { return s["console"]["picked"] == true; }));
     CHECK(rig.state()["selected"] == 10 * 14);
-    CHECK(rig.state()["run"]["spheres"].get<size_t>() == before); // not yet in force
+    CHECK(rig.state()["run"]["spheres"].get<size_t>() == before); // not active yet
     const Screenshot shot = rig.shoot("pick");
     const auto camera = rig.place("camera");
     CHECK(shot.share({camera[0] + camera[2] * 5 / 64, camera[1] + camera[3] * 17 / 48, camera[2] * 8 / 64,
@@ -206,11 +204,11 @@ TEST_CASE("Frozen fixtures keep their set while frames arrive") {
     silent(rig);
 }
 
-TEST_CASE("Tab swaps the views, P pauses the traces, E writes them, Q acknowledges") {
+TEST_CASE("Tab swaps the views, P pauses the traces, E exports them, Q acknowledges") {
     WindowRig rig;
     rig.key("Tab");
     REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
-    CHECK(rig.await([](const json& s) { // the layout of the next frame
+    CHECK(rig.await([](const json& s) { // takes effect in the next frame
         return s["console"]["places"]["space"][2] > s["console"]["places"]["camera"][2];
     }));
     rig.key("t");
@@ -259,7 +257,7 @@ TEST_CASE("Replay plays a recording made with R with the force that the hand fel
     REQUIRE(rig.await([](const json& s) { return s["run"]["force_N"] > 1.0; }));
     const auto begun = rig.state()["run"]["turns"].get<int>();
     bool even = true;              // every tick was on time
-    for (int i = 0; i < 15; ++i) { // 3 s: the soft start ends
+    for (int i = 0; i < 15; ++i) { // 3 s, by which the soft start has ended
         std::this_thread::sleep_for(std::chrono::milliseconds(200));
         const json run = rig.state()["run"];
         even = even && run["haptic_hz"] > 980.0 && run["worst_period_ms"] < 2.0;
@@ -279,7 +277,7 @@ TEST_CASE("Replay plays a recording made with R with the force that the hand fel
     const double last = felt.back().force, replayed = again[again.size() - 200].force;
     MESSAGE("felt " << last << " N, replayed " << replayed << " N, ticks on time: " << even);
     CHECK(last > 1.0);
-    // Late ticks make the springs softer for two seconds (StiffnessWatch); a replay is never late.
+    // Late ticks soften the springs for two seconds (StiffnessWatch); a replay has no late ticks.
     CHECK(replayed > 0.95 * last);
     if (even) {
         CHECK(std::abs(firstRise(felt) - firstRise(again)) < 0.4);

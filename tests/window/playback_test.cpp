@@ -15,7 +15,7 @@ using nlohmann::json;
 
 namespace {
 
-// Two seconds without a hand's motion, then against the bump. Returns the folder.
+// Records two seconds without motion and then a push against the bump. Returns the folder.
 std::filesystem::path recordAPush(WindowRig& rig) {
     rig.key("r");
     REQUIRE(rig.await([](const json& s) { return s["console"]["recording"] == true; }));
@@ -32,7 +32,7 @@ std::filesystem::path recordAPush(WindowRig& rig) {
     return rig.folder() / "recording-1";
 }
 
-// The yellow square is red from this frame on.
+// Paints the yellow square red from this frame on.
 void paintRedFrom(const std::filesystem::path& folder, uint32_t first) {
     const Image image = bumpImage().paint({4, 16, 14, 30}, kRed);
     std::vector<uint8_t> bytes;
@@ -49,7 +49,7 @@ void paintRedFrom(const std::filesystem::path& folder, uint32_t first) {
     }
 }
 
-// Drags the head there; the share of the recording.
+// Drags the marker to a share of the recording.
 void dragTo(WindowRig& rig, double share) {
     const double now = rig.state()["console"]["time_line"]["t"].get<double>() /
                        rig.state()["console"]["time_line"]["duration"].get<double>();
@@ -63,7 +63,7 @@ void dragTo(WindowRig& rig, double share) {
 
 // A moment [s] near the end, while the hand pushes, when no tick fades because a busy machine delayed frames.
 double freshMoment(const std::vector<Felt>& felt, const std::vector<double>& sceneAges) {
-    constexpr double kAbout = 0.06; // [s] to either side: where the line is dragged to is not exact
+    constexpr double kAbout = 0.06; // [s] on each side, because dragging is not exact
     double stale = felt.back().t;   // the earliest late tick after the moment
     for (size_t i = felt.size(); i-- > 0 && felt[i].force > 1.0;) {
         if (sceneAges[i] > 0.09) {
@@ -156,7 +156,7 @@ TEST_CASE("Keys step a recording by frames and ticks, and play it until it is st
     rig.click("play");
     REQUIRE(rig.await([&](const json& s) { return s["console"]["time_line"]["playing"] == false; }));
     const double stopped = lineTime(rig.state());
-    rig.key("Tab"); // the window continues, the recording does not
+    rig.key("Tab"); // the window continues after the end of the recording
     REQUIRE(rig.await([](const json& s) { return s["console"]["large"] == "space"; }));
     CHECK(lineTime(rig.state()) == stopped);
     CHECK(rig.close() == 0);

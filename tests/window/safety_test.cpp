@@ -25,7 +25,7 @@ bool isAdvisory(int r, int g, int b) {
     return std::abs(r - 110) < 24 && std::abs(g - 214) < 24 && std::abs(b - 235) < 24;
 }
 
-// Holds a key until the hand is there.
+// Holds a key until the condition is met.
 void hold(WindowRig& rig, const std::string& key, const std::function<bool(const glm::dvec3& hand)>& there) {
     rig.keyDown(key);
     CHECK(rig.await([&](const json& s) { return there(vec(s["run"]["device"])); }));
@@ -58,7 +58,7 @@ TEST_CASE("An alarm stays until it is acknowledged, and is raised again with its
     CHECK(rig.shoot("alarms-none").share(list, isAdvisory) < 0.0003);
     rig.key("f");
     REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active frozen"); }));
-    rig.click("acknowledge"); // while it lasts: quiet, but there
+    rig.click("acknowledge"); // while the cause lasts: quiet, but shown
     REQUIRE(rig.await([](const json& s) { return alarm(s, "ADVISORY active acknowledged frozen"); }));
     rig.key("f");
     CHECK(rig.await([](const json& s) { return !alarm(s, "frozen"); }));
@@ -72,16 +72,16 @@ TEST_CASE("The space bar turns forces off during text input, when other keys are
     rig.keyDown("ctrl");
     rig.click("radius red");
     rig.keyUp("ctrl");
-    rig.key("g"); // text: no guidance
+    rig.key("g"); // typed as text: no guidance
     rig.key("space");
     REQUIRE(rig.await([](const json& s) { return s["console"]["forces"] == false; }));
-    rig.key("a"); // text: not armed
+    rig.key("a"); // typed as text: not armed
     const auto ticks = rig.state()["run"]["turns"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["run"]["turns"] > ticks + 500; }));
     CHECK(rig.state()["console"]["forces"] == false);
     CHECK(rig.state()["console"]["guidance"] == false);
     CHECK(rig.state()["run"]["force_N"] == 0.0);
-    rig.key("Escape"); // leaves the field
+    rig.key("Escape"); // leaves the text field
     const auto frames = rig.state()["window"]["frames"].get<int>();
     REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 3; }));
     rig.key("a");

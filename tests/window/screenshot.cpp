@@ -39,7 +39,7 @@ Screenshot WindowRig::shoot(const std::string& keep) const {
     shot.height = size->height;
     shot.pixels.resize(static_cast<size_t>(size->width) * size->height);
     REQUIRE(readColourPng(file, *size, shot.pixels) == "");
-    if (const char* kept = std::getenv("FATHOM_KEEP_SCREENSHOTS")) { // a folder: for looking at them
+    if (const char* kept = std::getenv("FATHOM_KEEP_SCREENSHOTS")) { // a folder in which to keep them
         std::filesystem::copy_file(file, std::filesystem::path(kept) / (keep + ".png"),
                                    std::filesystem::copy_options::overwrite_existing);
     }

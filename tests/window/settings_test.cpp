@@ -119,20 +119,20 @@ TEST_CASE("A class is frozen, released by undo and frozen by redo while frames a
     };
     REQUIRE(rig.await([&](const json& s) { return held(s, true); }));
     const json first = rig.state();
-    rig.drag("box max red", {0.2, 0.5}, {0.0, 0.5}); // leaves points out of a class that listens
+    rig.drag("box max red", {0.2, 0.5}, {0.0, 0.5}); // a smaller box drops points, unless the class is frozen
     REQUIRE(rig.await([&](const json& s) { return s["fixtures"][0]["box"] != first["fixtures"][0]["box"]; }));
     const int generation = rig.state()["run"]["generation"];
     REQUIRE(rig.await([&](const json& s) { return s["run"]["generation"] > generation + 5; }));
     CHECK(rig.state()["run"]["spheres"] == first["run"]["spheres"]);
     rig.shoot("held");
-    rig.click("hold red"); // lets it go
+    rig.click("hold red"); // unfreezes it
     const int all = first["run"]["spheres"];
     REQUIRE(rig.await([&](const json& s) { return held(s, false) && s["run"]["spheres"] < all - 20; }));
     rig.key("ctrl+z");
     REQUIRE(rig.await([&](const json& s) { return held(s, true); }));
-    rig.key("ctrl+z"); // the box
+    rig.key("ctrl+z"); // undoes the box
     REQUIRE(rig.await([&](const json& s) { return s["fixtures"][0]["box"] == first["fixtures"][0]["box"]; }));
-    rig.key("ctrl+z"); // the holding
+    rig.key("ctrl+z"); // undoes the freeze
     REQUIRE(rig.await([&](const json& s) { return held(s, false) && s["run"]["spheres"] == all; }));
     rig.key("ctrl+y");
     REQUIRE(rig.await([&](const json& s) { return held(s, true); }));
@@ -148,7 +148,7 @@ TEST_CASE("The box of a class is dragged smaller, takes effect, is undone and sa
     const json box = rig.state()["fixtures"][0]["box"];
     const int generation = rig.state()["run"]["generation"];
     REQUIRE(rig.await([&](const json& s) { return s["run"]["generation"] > generation + 3; }));
-    CHECK(rig.state()["run"]["spheres"] == all); // it is about all of them
+    CHECK(rig.state()["run"]["spheres"] == all); // the box contains all points
     rig.drag("box max red", {0.2, 0.5}, {0.0, 0.5});
     REQUIRE(rig.await([&](const json& s) {
         return s["fixtures"][0]["box"][1][0].get<double>() < box[1][0].get<double>() - 0.04 &&

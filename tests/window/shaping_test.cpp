@@ -32,14 +32,14 @@ TEST_CASE("The colour of an active class is changed: previewed, applied, undone 
     REQUIRE(rig.await([](const json& s) { return s["console"]["picked"] == true && s["selected"] > 200; }));
     clickPixel(rig, 9, 23); // the yellow square
     REQUIRE(rig.await([](const json& s) { return s["selected"] == 10 * 14; }));
-    CHECK(rig.state()["run"]["spheres"].get<size_t>() == spheres); // not yet in force
+    CHECK(rig.state()["run"]["spheres"].get<size_t>() == spheres); // not active yet
     rig.shoot("gates");
     rig.key("Return");
     REQUIRE(rig.await([&](const json& s) {
         return s["run"]["spheres"] > 0 && s["run"]["spheres"].get<size_t>() <= 10 * 14;
     }));
     CHECK(rig.state()["fixtures"].size() == 2);
-    CHECK(rig.state()["fixtures"][0]["name"] == "red"); // its name and radius are as they were
+    CHECK(rig.state()["fixtures"][0]["name"] == "red"); // name and radius are unchanged
     CHECK(rig.state()["fixtures"][0]["radius"] == 0.04);
     rig.key("ctrl+z");
     REQUIRE(rig.await([&](const json& s) { return s["run"]["spheres"].get<size_t>() == spheres; }));
@@ -50,10 +50,10 @@ TEST_CASE("The colour of an active class is changed: previewed, applied, undone 
 
 TEST_CASE("A line runs from a first click to a second; a box is placed on the surface and has three edges") {
     WindowRig rig;
-    rig.xdo("windowsize --sync $W 1600 900"); // the panel has room for all rows
+    rig.xdo("windowsize --sync $W 1600 900"); // so that the panel has room for all rows
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100 && s["window"]["width"] == 1600; }));
     const auto frames = rig.state()["window"]["frames"].get<int>();
-    REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 4; })); // laid out so
+    REQUIRE(rig.await([&](const json& s) { return s["window"]["frames"] > frames + 4; })); // laid out again
     rig.click("place line");
     clickPixel(rig, 8, 40);
     REQUIRE(rig.awaitNotice("click on its end"));
@@ -69,7 +69,7 @@ TEST_CASE("A line runs from a first click to a second; a box is placed on the su
     clickPixel(rig, 54, 8);
     REQUIRE(rig.await([](const json& s) { return s["shapes"] == 2; }));
     const json box = rig.state()["fixtures"][3];
-    // The wall's normal, not the way back to the camera, which is 24 degrees off there.
+    // The normal of the wall, not the direction to the camera, which is 24 degrees off there.
     CHECK(glm::dot(vec(box["shape"]["axis"]), glm::dvec3(0, 0, -1)) > 0.999);
     rig.shoot("shapes");
     rig.click("z box 1", 0.9);

@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-// The figure after `name` in a line of the program's report; -1 = there is none.
+// The number after `name` in a line of the program's report; -1 = none.
 double figureIn(const std::string& text, const std::string& name) {
     const size_t at = text.find(name);
     double value = -1.0;
@@ -22,7 +22,7 @@ double figureIn(const std::string& text, const std::string& name) {
                                                                                                        : -1.0;
 }
 
-bool isGrey(int r, int g, int b) { // the wall
+bool isGrey(int r, int g, int b) { // grey as the wall
     return std::abs(r - g) < 3 && std::abs(g - b) < 3 && r > 100;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("A minimised window draws nothing while the hand continues, and is res
     REQUIRE(rig.await([](const json& s) { return s["run"]["turns"] > 100; }));
     rig.minimise(true);
     json still;
-    REQUIRE(rig.await([&](const json& s) { // no frame for 500 ticks
+    REQUIRE(rig.await([&](const json& s) { // no frame drawn during 500 ticks
         if (still.is_null() || s["window"]["frames"] != still["window"]["frames"]) {
             still = s;
         }

@@ -31,7 +31,7 @@ bool installed(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-// The child takes no memory: another thread may hold the allocator as it is made.
+// Allocates nothing in the child, because another thread may hold the allocator at the fork.
 pid_t start(const std::vector<std::string>& words, int out) {
     std::vector<char*> argv;
     for (const std::string& word : words) {
@@ -75,7 +75,7 @@ void requireDisplay() {
 WindowRig::WindowRig(const std::vector<std::string>& extra) {
     requireDisplay();
     Image image = bumpImage();
-    image.set({50, 36, 64, 48}, 0); // a corner that the camera does not see
+    image.set({50, 36, 64, 48}, 0); // a corner without depth
     writeRecording(folder_.path() / "recording", std::vector<Image>(4, image));
     SceneText scene;
     scene.camera = "source: {recorded: recording}, near: 0.1, far: 3.0";
@@ -150,16 +150,16 @@ WindowRig::~WindowRig() {
 }
 
 nlohmann::json WindowRig::state() const {
-    constexpr std::streamoff kEnd = 1 << 16; // [bytes] some lines
+    constexpr std::streamoff kEnd = 1 << 16; // [bytes] the last lines
     std::ifstream in(folder_.path() / "state.jsonl", std::ios::ate);
     std::string line, last;
     if (in && in.tellg() > kEnd) {
         in.seekg(-kEnd, std::ios::end);
-        std::getline(in, line); // the rest of one
+        std::getline(in, line); // the rest of a cut line
     } else {
         in.seekg(0);
     }
-    while (std::getline(in, line) && !in.eof()) { // the last line may not be whole yet
+    while (std::getline(in, line) && !in.eof()) { // the last line may be incomplete
         last = line;
     }
     return last.empty() ? nlohmann::json() : nlohmann::json::parse(last);
@@ -223,7 +223,7 @@ void WindowRig::xdo(const std::string& words) const {
 void WindowRig::settle() const {
     constexpr int kFrames = 2;
     const nlohmann::json before = state();
-    const auto until = Clock::now() + std::chrono::seconds(2); // a program that ended has no more
+    const auto until = Clock::now() + std::chrono::seconds(2); // a program that has ended writes no more
     while (!before.is_null() && state()["window"]["begun"] < before["window"]["begun"].get<int>() + kFrames &&
            Clock::now() < until) {
         pause(0.01);
@@ -238,7 +238,7 @@ void WindowRig::keyUp(const std::string& name) const {
     xdo("keyup " + name);
 }
 
-// Pressed and released at once, so that the key never repeats: a tap between two frames counts.
+// Presses and releases at once, so that the key never repeats; the window counts taps between two frames.
 void WindowRig::key(const std::string& name) const {
     xdo("key " + name);
 }
@@ -268,7 +268,7 @@ void WindowRig::wheel(int notches) const {
     xdo("click --delay 30 --repeat " + std::to_string(std::abs(notches)) + (notches > 0 ? " 4" : " 5"));
 }
 
-// Any farther, and the tool slides off the bump.
+// Further, and the tool would slide off the bump.
 void WindowRig::push() const {
     xdo("mousemove --window $W 300 300");
     for (int i = 0; i < 32 && state()["run"]["contacts"] == 0; ++i) {

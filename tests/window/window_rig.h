@@ -22,7 +22,7 @@ struct Screenshot {
     uint32_t width = 0, height = 0;
     std::vector<uint32_t> pixels; // 0xAABBGGRR
 
-    // Share of the pixels in a rectangle (fractions 0..1 of it count) that the test accepts.
+    // Share of the pixels that pass the test in a rectangle (in fractions 0..1 of the screenshot).
     double share(const std::array<double, 4>& place,
                  const std::function<bool(int r, int g, int b)>& accepts) const;
 };
@@ -31,7 +31,8 @@ inline bool isRed(int r, int g, int b) {
     return r > 110 && r > 2 * g && r > 2 * b;
 }
 
-// One display, one program. The scene: a wall with a red bump and a yellow square, validation layers on.
+// One display and one program. The scene has a wall with a red bump and a yellow square; validation layers
+// are on.
 class WindowRig {
 public:
     // extra: further arguments of `fathom operate`.
@@ -53,17 +54,17 @@ public:
     void key(const std::string& name) const; // pressed and released
     void keyDown(const std::string& name) const;
     void keyUp(const std::string& name) const;
-    void click(const std::string& place, double u = 0.5, double v = 0.5) const; // at a share of the place
+    void click(const std::string& place, double u = 0.5, double v = 0.5) const; // relative position
     void drag(const std::string& place, glm::dvec2 from, glm::dvec2 to) const;
-    void wheel(int notches) const;            // positive: away
-    void xdo(const std::string& words) const; // xdotool; $W is the window
-    void push() const;            // the wheel, from where the hand begins into the bump by some millimetres
-    void minimise(bool on) const; // as a window manager does
-    Screenshot shoot(const std::string& keep) const; // F12; `keep`: file name among the kept images
+    void wheel(int notches) const;            // positive: away from the user
+    void xdo(const std::string& words) const; // runs xdotool; $W is the window
+    void push() const; // pushes the hand with the wheel from its start some millimetres into the bump
+    void minimise(bool on) const;                    // like a window manager
+    Screenshot shoot(const std::string& keep) const; // F12; `keep`: name of the kept file
 
-    // Ends the program (exit code checked) and starts it anew on this scene or recording.
+    // Ends the program, checks its exit code, and starts it again with this scene or recording.
     void reopen(const std::filesystem::path& scene, const std::vector<std::string>& extra = {});
-    int close(); // asks the program to end; its exit code, -1 for a crash or when it had to be killed
+    int close();                // ends the program; exit code, or -1 when it crashed or had to be killed
     std::string output() const; // stdout and stderr so far
     const std::filesystem::path& folder() const { return folder_.path(); }
     std::string sceneText() const { return folder_.read("scene.yaml"); }
@@ -79,7 +80,7 @@ private:
     pid_t server_ = -1, program_ = -1;
 };
 
-// Closes the window; expects exit code 0 and no validation message.
+// Closes the window and expects exit code 0 and no validation message.
 void closeQuietly(WindowRig& rig);
 
 // Three numbers of a state line.

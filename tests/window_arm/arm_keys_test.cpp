@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A simulated arm in the window: jaws by a key, and its limits as text.
+// A simulated arm in the window: a key for the jaws, and the arm's limits as text.
 #include "tests/window/window_rig.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ TEST_CASE("J closes and opens the jaws of an arm, and the window names the joint
     CHECK(rig.await([](const json& s) { return s["run"]["grasp"] < 0.01; }));
 
     CHECK(rig.state()["run"]["arm_holds"].empty());
-    rig.keyDown("Page_Down"); // towards the camera and past it: the arm folds up
+    rig.keyDown("Page_Down"); // towards and past the camera, so that the arm folds up
     CHECK(rig.await([](const json& s) { return holds(s, " limit"); }));
     rig.keyUp("Page_Down");
     const json still = rig.atRest();

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `operate --arm LINE`: the pilot drives an arm that is simulated behind a serial line, sees it, and sees it
-// fail.
+// `operate --arm PORT`: the pilot drives a simulated arm on a serial line, sees it, and sees its faults.
 #include "tests/rig/arm_stage.h"
 #include "tests/window/window_rig.h"
 
@@ -15,13 +14,13 @@ using nlohmann::json;
 
 namespace {
 
-constexpr double kSurface = 0.54; // [m] where the tip's ball touches the region before the wall
+constexpr double kSurface = 0.54; // [m] z of the tip's ball centre in contact with the region
 
 double apart(const std::array<double, 3>& a, const std::array<double, 3>& b) { // [rad]
     return std::max({std::abs(a[0] - b[0]), std::abs(a[1] - b[1]), std::abs(a[2] - b[2])});
 }
 
-// A window on the stage's scene, whose arm listens at the other end of a line.
+// The window on the stage's scene, with a simulated arm on the line.
 struct ArmWindow {
     Stage stage;
     ReachSimulator arm;
@@ -45,7 +44,7 @@ struct ArmWindow {
         REQUIRE(
             rig.await([](const json& s) { return s["mode"] == "ARMED" && s["run"]["arm"] == "follows"; }));
     }
-    // Drives the tip towards the wall, or back, until the arm itself is there.
+    // Drives the tip towards the wall or back until the arm meets the condition.
     void drive(const char* key, const std::function<bool(double depth)>& there) {
         rig.keyDown(key);
         CHECK(bench->wait([&] { return there(tipDepth(jointsOf(arm))); }));
@@ -54,13 +53,13 @@ struct ArmWindow {
     bool await(const std::function<bool(const json& run)>& wanted) {
         return rig.await([&](const json& s) { return wanted(s["run"]); });
     }
-    // Drives at the wall until there is so much force [N].
+    // Drives towards the wall until the force [N] is reached.
     void push(double force) {
         rig.keyDown("Page_Up");
         CHECK(await([&](const json& run) { return run["force_N"] > force && run["arm"] == "follows"; }));
         rig.keyUp("Page_Up");
     }
-    // The window's word on the arm is what the simulator does, once it rests.
+    // Checks that the window shows the posture of the simulator, once the arm is at rest.
     void meets() {
         CHECK(await([&](const json& run) {
             const json& measured = run["real_arm"]["measured"];
@@ -80,7 +79,7 @@ bool warns(const json& s, const char* words) {
     return std::any_of(alarms.begin(), alarms.end(), [&](const json& a) { return a == words; });
 }
 
-bool isMeasured(int r, int g, int b) { // the colour of a ghost
+bool isMeasured(int r, int g, int b) { // the colour of the measured arm
     return r > 180 && b > 150 && g < 160 && r - g > 70 && b - g > 50;
 }
 
@@ -101,7 +100,7 @@ TEST_CASE("Keys drive an arm to a region and back; forces off hold it, and closi
     REQUIRE(w.await([](const json& run) { return run["arm"] == "held" && run["force_N"] == 0.0; }));
     w.meets();
     const auto held = w.joints();
-    w.rig.keyDown("Page_Up"); // moves no arm
+    w.rig.keyDown("Page_Up"); // does not move the arm
     const auto ticks = w.rig.state()["run"]["turns"].get<int>();
     REQUIRE(w.await([&](const json& run) { return run["turns"] > ticks + 500; }));
     w.rig.keyUp("Page_Up");
@@ -159,7 +158,7 @@ TEST_CASE("Another pilot takes over a real arm at its present posture") {
     w.rig.click("pilot ben");
     REQUIRE(
         w.rig.await([](const json& s) { return s["pilot"]["name"] == "ben" && s["run"]["turns"] > 100; }));
-    CHECK(apart(w.joints(), before) < 0.002); // it came to rest
+    CHECK(apart(w.joints(), before) < 0.002); // it is at rest
     w.meets();
     w.arms();
     w.drive("Page_Down", [&](double depth) { return depth < tipDepth(before) - 0.02; });
