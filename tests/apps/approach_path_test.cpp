@@ -78,11 +78,11 @@ double bruteGap(const Setting& s, const Tool& tool, const Pose& pose, int row = 
     return least;
 }
 
-// Deepest point of the stretch of the path that lies inside the regions of a row.
+// The deepest point of the path within the regions of a row.
 struct Visit {
-    double first = -1.0, last = -1.0; // [s] of the touch
+    double first = -1.0, last = -1.0; // [s] first and last contact
     dvec3 touch{0.0}, deepest{0.0};   // [m] commanded positions
-    double depth = 0.0;               // [m] of the commanded position beyond the touch
+    double depth = 0.0;               // [m] depth of the commanded position beyond the touch
     double turned = 0.0;              // [rad]
 };
 
@@ -125,7 +125,7 @@ TEST_CASE("The approach path pushes 20 mm into each forbidden region in file ord
             CHECK(visit.turned * 180.0 / std::acos(-1.0) == doctest::Approx(4.0).epsilon(0.01));
         }
         CHECK(red.last < yellow.first);
-        // 20 mm before its deepest point, at the base frame's own orientation, the tool just touches.
+        // The tool just touches 20 mm before the deepest point, with the orientation of the base frame.
         for (const auto& [visit, row] : {std::pair{red, 1}, std::pair{yellow, 3}}) {
             const dvec3 back = glm::normalize(visit.touch - visit.deepest);
             CHECK(std::abs(bruteGap(s, tool, {visit.deepest + 0.02 * back, dquat(1, 0, 0, 0)}, row)) < 1e-6);
@@ -205,7 +205,7 @@ TEST_CASE(
         const Visit here = visitOf(near, tool, a, row), there = visitOf(away, tool, b, row);
         CHECK(glm::length(there.deepest - far.position - here.deepest) < 1e-5);
     }
-    CHECK(std::abs(a.back().t - b.back().t) < 0.1); // stretches are whole numbers of waypoints
+    CHECK(std::abs(a.back().t - b.back().t) < 0.1); // paths consist of whole waypoints
 }
 
 TEST_CASE("Without points to visit the approach path rests at a stance, and it skips guidance that is not "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The whole loop of a real arm, its motors simulated: pilot -> proxy in joint space -> serial line -> arm ->
-// joints -> spheres of every link.
+// The closed loop of a real arm with simulated motors: pilot -> proxy in joint space -> serial line -> arm ->
+// joints
+// -> spheres of every link.
 #include "devices/serial/reach_arm.h"
 #include "tests/devices/pty_line.h"
 #include "tests/haptics/arm_rig.h"
@@ -13,9 +14,9 @@ using namespace fathom::testing;
 namespace {
 
 constexpr double kTurn = 0.001; // [s]
-constexpr int kTurnsAStep = 10; // of the line
+constexpr int kTurnsAStep = 10; // steps of the line per tick
 
-// The arm as its encoders say it is.
+// Places the arm at its measured joints.
 ArmFrames measured(const ArmModel& model, const ArmFeedback& feedback) {
     JointVector q{};
     for (size_t k = 0; k < model.count(); ++k) {
@@ -60,31 +61,30 @@ struct Loop {
 
 } // namespace
 
-TEST_CASE("Pilot, proxy, joints, serial line, arm and spheres make a loop that keeps the arm off a region") {
+TEST_CASE("The loop of pilot, proxy, joints, serial line and arm keeps every link off a region") {
     for (const LineFaults& faults : {LineFaults{}, LineFaults{0.002, 0.002, true, 0.02, false}}) {
         Loop loop;
-        addSphere(loop.world.fixtures, {0.12, 0.2, 0.0}, 0.05); // next to the first link
+        addSphere(loop.world.fixtures, {0.12, 0.2, 0.0}, 0.05); // beside the first link
         loop.world.grid.build(loop.world.fixtures.spheres);
         loop.line.faults = faults;
-        loop.run(3.0, {{0.1, 0.95, 0.0}, kUpright}); // the way there is barred to the elbow
+        loop.run(3.0, {{0.1, 0.95, 0.0}, kUpright}); // the region stops the elbow on the way
         const ArmFrames rest = measured(loop.model, loop.driver.feedback());
         const double resting = loop.world.depth(loop.model, rest);
         MESSAGE("noise " << faults.noise << ": proxy " << loop.deepestProxy * 1e6
                          << " um deep, arm on the way " << loop.deepestArm * 1e3 << " mm, at rest "
                          << resting * 1e6 << " um; lag up to " << loop.lag * 1e3 << " mm");
-        CHECK((loop.stale == 0 || faults.noise > 0.0)); // also while it rests on the region
+        CHECK((loop.stale == 0 || faults.noise > 0.0)); // feedback is fresh also while it rests on the region
         CHECK(loop.deepestProxy <= 1e-9);
-        CHECK(loop.deepestArm <
-              2e-3); // the arm's own lag bends its way: that is what a region's margin is for
+        CHECK(loop.deepestArm < 2e-3); // the arm's lag bends its path; the margin of a region covers that
         CHECK(resting < 2e-5);
-        CHECK(resting > -1e-3); // it does rest on the region
+        CHECK(resting > -1e-3); // it rests on the region
         CHECK(glm::distance(loop.model.tip(rest).position, loop.proxy.tip().position) < 1e-4);
 
         const auto before = loop.arm.position;
         loop.run(0.5, {{0.9, 0.0, 0.0}, kUpright}, true);
         for (size_t d = 1; d < before.size(); ++d) {
             CHECK(std::abs(loop.arm.position[d] - before[d]) <
-                  1e-3); // hold: proxy and hand go, the arm stands
+                  1e-3); // hold: proxy and hand move on, the arm stays
         }
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Limits in arm.csv and in the summary, from postures beyond them.
+// Limits in arm.csv and in the summary, with postures that violate them.
 #include "apps/replay/arm_report.h"
 
 #include "tests/apps/scratch_folder.h"
@@ -11,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// One joint of -1 to 1 rad and one finger that opens at 0.5, the upper of its limits.
+// One joint from -1 to 1 rad, and one finger that is open at 0.5, its upper limit.
 ArmRig smallRig() {
     ArmRig rig;
     rig.model.joints.push_back({"turn", false, {}, {0.0, 0.0, 1.0}, -1.0, 1.0, 1.0});

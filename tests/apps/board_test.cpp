@@ -22,8 +22,7 @@ double angleBetween(const dquat& a, const dquat& b) {
     return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a, b))));
 }
 
-// 7 x 4 inner corners on a grey wall, before a depth + colour camera with two lenses, a ray through each
-// sixteenth of a pixel.
+// 7 x 4 inner corners on a grey wall, seen by a depth and a colour camera, with 4 x 4 rays per pixel.
 struct BoardImage {
     CameraInfo info;
     Pose cameraTboard;
@@ -113,7 +112,7 @@ TEST_CASE("Corners of a chessboard are found to 0.2 pixels, in the board's order
     }
 }
 
-TEST_CASE("A chessboard in colour and depth gives the camera's pose to millimetres, noise and all") {
+TEST_CASE("A chessboard in colour and noisy depth gives the camera's pose to millimetres") {
     for (const double noise : {0.0, 0.003}) {
         const BoardImage image(0.3, noise);
         BoardFinder finder(image.info, {kColumns, kRows, kSquare, kTruth * image.cameraTboard});
@@ -129,7 +128,7 @@ TEST_CASE("A chessboard in colour and depth gives the camera's pose to millimetr
     }
 }
 
-TEST_CASE("A board that is covered in part, of another size, without depth or not there gives no corner") {
+TEST_CASE("A board that is partly covered, of another size, without depth or missing gives no corner") {
     CHECK(boardCorners(BoardImage(0.0, 0.0, 0.02).grey(), 640, 480, kColumns, kRows).empty());
     const BoardImage whole(0.0);
     CHECK(boardCorners(whole.grey(), 640, 480, kColumns - 1, kRows + 1).empty());
@@ -147,7 +146,7 @@ TEST_CASE("A board that is covered in part, of another size, without depth or no
     CHECK(BoardFinder(blind.info, {kColumns, kRows, kSquare, Pose{}}).find(blind.frame()).empty());
 }
 
-TEST_CASE("A board's file is one row, and its corners tell one end from the other") {
+TEST_CASE("A board's file is one row, and its corners distinguish its two ends") {
     const testing::ScratchFolder folder;
     const auto read = [&](const std::string& text) {
         std::ofstream(folder.path() / "board.csv") << text;

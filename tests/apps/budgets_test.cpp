@@ -26,7 +26,8 @@ Intrinsics image(uint32_t width, uint32_t height) {
 
 } // namespace
 
-TEST_CASE("a frame over its budget and a tick over its p99 are told, a turn within its p50 holds") {
+TEST_CASE(
+    "A frame over its budget and a tick over its p99 are reported as missed, a tick within its p50 as met") {
     const auto figures = budgetFigures(summaryWith(20000.0), image(640, 480), DeviceKind::Cpu, 8);
     REQUIRE(figures.size() == 3);
     CHECK(figures[0].budget == 8.0);
@@ -35,7 +36,7 @@ TEST_CASE("a frame over its budget and a tick over its p99 are told, a turn with
     CHECK_FALSE(figures[2].holds());
 }
 
-TEST_CASE("the budget follows the share of forbidden pixels, the size and the device") {
+TEST_CASE("The budget depends on the share of forbidden pixels, the size and the device") {
     CHECK(budgetFigures(summaryWith(40000.0), image(640, 480), DeviceKind::Cpu, 8)[0].budget == 20.0);
     CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Discrete, 8)[0].budget == 0.090);
     CHECK(budgetFigures(summaryWith(0.0), image(1280, 720), DeviceKind::Cpu, 8)[0].budget == 60.0);
@@ -43,11 +44,11 @@ TEST_CASE("the budget follows the share of forbidden pixels, the size and the de
     CHECK(budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 8).size() == 2);
 }
 
-TEST_CASE("what was not measured has no budget line") {
+TEST_CASE("A figure that was not measured has no budget line") {
     CHECK(budgetFigures(ReplaySummary{}, image(640, 480), DeviceKind::Cpu, 8).empty());
 }
 
-TEST_CASE("a turn's figure says how many leaves the tool has and for how many the budget is") {
+TEST_CASE("The budget of a tick states the tool's number of leaves and the number that it assumes") {
     const auto figures = budgetFigures(summaryWith(0.0), image(640, 480), DeviceKind::Other, 8);
     REQUIRE(figures.size() == 2);
     CHECK(figures[0].what == "turn p50 (8 leaves; the budget is of 256 in contact with 60 k spheres)");

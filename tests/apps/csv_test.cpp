@@ -47,7 +47,7 @@ TickRecord someTick() {
 
 } // namespace
 
-TEST_CASE("17 significant digits bring every double back, subnormal and largest ones too") {
+TEST_CASE("17 significant digits restore every double, subnormal and largest ones included") {
     CsvRow row;
     uint64_t bits = 1;
     for (int i = 0; i < 20000; ++i) {
@@ -67,7 +67,7 @@ TEST_CASE("17 significant digits bring every double back, subnormal and largest 
     CHECK(row.end() == "0.10000000000000001\n");
 }
 
-TEST_CASE("a value that is not finite is the word nan, inf or -inf whatever its sign bit") {
+TEST_CASE("A value that is not finite is written as nan, inf or -inf, nan without a sign") {
     CsvRow row;
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  inf = std::numeric_limits<double>::infinity();
@@ -79,7 +79,7 @@ TEST_CASE("a value that is not finite is the word nan, inf or -inf whatever its 
     CHECK(row.end() == "nan,nan,inf,-inf,-7\n");
 }
 
-TEST_CASE("haptics.csv has the contract's header and every column in its place") {
+TEST_CASE("haptics.csv has the header of the contract and every column in its place") {
     const ScratchFolder folder;
     HapticsCsv csv(folder.path() / "haptics.csv");
     csv.add(someTick());
@@ -98,7 +98,7 @@ TEST_CASE("haptics.csv has the contract's header and every column in its place")
     CHECK(lines[2] == "0,0,0,0,1,0,0,0,0,0,0,1,0,0,0,0,0,0,0,0,0,0,nan,off,0,-1,nan,0,nan,nan");
 }
 
-TEST_CASE("an empty run gives a header alone") {
+TEST_CASE("An empty run gives a header only") {
     const ScratchFolder folder;
     HapticsCsv(folder.path() / "h.csv").commit();
     FramesCsv(folder.path() / "f.csv", {}).commit();
@@ -120,7 +120,7 @@ TEST_CASE("frames.csv has one column per pass in the order of the plan, whatever
                                              "tree_ms,publish_ms\n5,0.5,100,40,30,7,9,11,0.25,1,nan,3,4\n");
 }
 
-TEST_CASE("the digest is FNV-1a with 128 bits as published") {
+TEST_CASE("The digest is FNV-1a with 128 bits as published") {
     const auto of = [](const std::string& text) {
         Digest digest;
         digest.add(text.data(), text.size());
@@ -131,7 +131,7 @@ TEST_CASE("the digest is FNV-1a with 128 bits as published") {
     CHECK(of("foobar") == "343e1662793c64bf6f0d3597ba446f18");
 }
 
-TEST_CASE("the digest of a run changes with the last bit of any column and with the order of rows, not with "
+TEST_CASE("The digest of a run changes with the last bit of any column and with the order of rows, not with "
           "timings") {
     const auto digestOf = [](const std::vector<TickRecord>& ticks) {
         Digest digest;

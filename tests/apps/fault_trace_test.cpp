@@ -60,7 +60,7 @@ TEST_CASE("A non-finite tick writes the ticks of the two seconds before it and i
     CHECK(run.next.ticks == 5000);
     REQUIRE(folder.files() == 1);
     const auto lines = linesOf(folder.path() / "fault-4.500.csv");
-    REQUIRE(lines.size() == 2001); // the ring's, below the header
+    REQUIRE(lines.size() == 2001); // the buffer's ticks, and the header
     CHECK(lines[0] == HapticsCsv::kHeader);
     CHECK(std::stod(lines[1]) == doctest::Approx(2.501));
     CHECK(std::stod(lines[2000]) == doctest::Approx(4.5));
@@ -70,8 +70,7 @@ TEST_CASE("A non-finite tick writes the ticks of the two seconds before it and i
     CHECK(std::count(lines[2000].begin(), lines[2000].end(), ',') == columns);
 }
 
-TEST_CASE(
-    "A run that was shorter leaves what there was of it, and one with pauses no more than two seconds") {
+TEST_CASE("A shorter run writes all its ticks, and one with pauses at most two seconds") {
     const ScratchFolder folder;
     Traced run(folder.path());
     run.ticks(0.0, 0.1, 0.05);
@@ -95,7 +94,7 @@ TEST_CASE("Non-finite ticks write at most one file per minute, and a run with it
     CHECK(folder.files() == 2);
     run.ticks(0.0, 0.2, 0.1);
     CHECK(folder.files() == 3);
-    CHECK(linesOf(folder.path() / "fault-0.100.csv").size() == 102); // nothing of the run before
+    CHECK(linesOf(folder.path() / "fault-0.100.csv").size() == 102); // no tick of the run before
 }
 
 TEST_CASE("A run with finite ticks writes no file, and a file that cannot be written stops nothing") {

@@ -22,7 +22,7 @@ Fixtures setOf(size_t count) {
         set.spheres.y.push_back(-0.3f);
         set.spheres.z.push_back(1.7f);
         set.spheres.radius.push_back(0.04f);
-        set.spheres.source.push_back(static_cast<uint32_t>(11 + i)); // 12 pixels: from the second on held
+        set.spheres.source.push_back(static_cast<uint32_t>(11 + i)); // 12 pixels: held from the second on
         set.spheres.fixture.push_back(static_cast<uint8_t>(i % 2));
     }
     return set;
@@ -38,7 +38,7 @@ T valueAt(const std::string& bytes, size_t offset) {
 } // namespace
 
 TEST_CASE(
-    "a fixture set is a PLY of doubles in the base frame, with class and held, for 0, 1 and 37 spheres") {
+    "A fixture set is a PLY of doubles in the base frame, with class and held, for 0, 1 and 37 spheres") {
     const ScratchFolder folder;
     for (const size_t count : {size_t{0}, size_t{1}, size_t{37}}) {
         const Fixtures set = setOf(count);
@@ -67,7 +67,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("fixture files are named by six digits of the frame, by more when it needs them") {
+TEST_CASE("Fixture files have the frame index with at least six digits as their name") {
     CHECK(fixturesFileName(0) == "fixtures/000000.ply");
     CHECK(fixturesFileName(123) == "fixtures/000123.ply");
     CHECK(fixturesFileName(1234567) == "fixtures/1234567.ply");

@@ -28,7 +28,7 @@ bool holds(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// A socket whose bridge is gone.
+// Leaves a socket without its bridge.
 void leaveSocket(const fs::path& file) {
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
@@ -82,7 +82,7 @@ TEST_CASE("A camera that cannot be queried shows the reason, and endpoints are l
 }
 
 TEST_CASE("An OpenNI2 camera without a driver is listed with the reason") {
-    if (kSanitized) { // OpenNI2 unloads its drivers with what they have not freed: leaks without a name
+    if (kSanitized) { // OpenNI2 unloads drivers that still have allocations: leaks without a name
         return;
     }
     const testing::ScratchFolder root;

@@ -15,7 +15,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// Its place is the time of the reading; what it is told to push is kept.
+// Its position is the time of the reading; it keeps the force that it receives.
 class Clockwork final : public LiveHand {
 public:
     explicit Clockwork(double& worst)
@@ -49,7 +49,7 @@ void awaitSamples(const HandLog& log, uint64_t more) {
 
 } // namespace
 
-TEST_CASE("Between two recorded frames the hand path keeps its course between their captures") {
+TEST_CASE("A hand path between two recorded frames is scaled to the time between their captures") {
     const ScratchFolder folder;
     double pushed = 0.0;
     std::vector<double> captured;

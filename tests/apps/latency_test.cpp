@@ -22,7 +22,7 @@ TEST_CASE("An empty histogram has no time, one value is every percentile of itse
     h.add(INFINITY);
     CHECK(h.count() == 0);
     h.add(12.25);
-    CHECK(h.percentile(0.0) == 12.25); // a bin ends at 13, but nothing was longer than this
+    CHECK(h.percentile(0.0) == 12.25); // the bin ends at 13, but the largest value is 12.25
     CHECK(h.percentile(1.0) == 12.25);
     CHECK(h.mean() == 12.25);
     h.add(-3.0);
@@ -64,8 +64,8 @@ TEST_CASE("Values beyond the last bin are counted, and the largest is exact") {
     CHECK(h.between(10'000, Histogram::kBins) == 2);
 }
 
-TEST_CASE(
-    "A soak holds when it ran whole, no frame is lost and memory is flat from its first tenth to its last") {
+TEST_CASE("A soak test passes when it ran in full, lost no frame, and memory did not grow from the first "
+          "tenth to the last") {
     LatencyPart part;
     const auto soakHolds = [](const LatencyPart& p) { return fathom::soakHolds(p, 60.0); };
     CHECK_FALSE(soakHolds(part)); // nothing ran
@@ -76,7 +76,7 @@ TEST_CASE(
     for (int i = 0; i < 100; ++i) {
         part.memory.push_back(200.0 + (i == 50 ? 100.0 : 0.0) + (i > 95 ? kMostGrowth : 0.0));
     }
-    CHECK(part.memoryGrowth() == kMostGrowth); // a hump between the ends is no leak
+    CHECK(part.memoryGrowth() == kMostGrowth); // a peak between the ends is not a leak
     CHECK(soakHolds(part));
     part.seconds = 31.0;
     CHECK_FALSE(soakHolds(part)); // interrupted

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the port of a scene corrects per camera, and a recording of processed frames.
+// Which cameras and recordings the port of a scene corrects.
 #include "apps/binding/open_source.h"
 
 #include "devices/recorded/recording_writer.h"
@@ -52,5 +52,5 @@ TEST_CASE("A recording of raw frames is corrected for the port, a recording of p
     CHECK(again->info().depth.fx == doctest::Approx(used.depth.fx).epsilon(1e-9));
     const auto frame = again->next();
     REQUIRE(frame);
-    CHECK((*frame)->depth[24 * 64 + 32] == 1000); // as it was written
+    CHECK((*frame)->depth[24 * 64 + 32] == 1000); // unchanged
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The window's view of ticks, without a window: rates, blocks, modes, alarms, columns of a trace.
+// The window's view of ticks, tested without a window: rates, blocks, modes, alarms, columns of a trace.
 #include "apps/operate/alarms.h"
 #include "apps/operate/hud.h"
 #include "apps/operate/trace_columns.h"
@@ -62,10 +62,10 @@ using Words = std::vector<std::string>;
 
 } // namespace
 
-TEST_CASE("Rates are of the last second, including its longest period") {
+TEST_CASE("Rates cover the last second, including its longest period") {
     ViewedRun run;
     for (int i = 0; i < 500; ++i) {
-        run.step(0.010); // long ago
+        run.step(0.010); // long before
     }
     for (int i = 0; i < 1100; ++i) {
         run.step(i == 800 ? 0.005 : 0.001);
@@ -76,7 +76,7 @@ TEST_CASE("Rates are of the last second, including its longest period") {
     for (int i = 0; i < 20; ++i) {
         run.step(1.0);
     }
-    CHECK(run.view.trace().size() == 11); // ten seconds
+    CHECK(run.view.trace().size() == 11); // covers ten seconds
     run.view.rewind();
     CHECK(run.view.rates().hapticHz == 0.0);
 }
@@ -101,7 +101,7 @@ TEST_CASE(
     for (uint32_t leaf = 10; leaf < 40; ++leaf) {
         run.touch(leaf, 0.001);
     }
-    CHECK(run.view.blocks().size() == 12); // the newest
+    CHECK(run.view.blocks().size() == 12); // keeps the newest
     CHECK(run.view.blocks()[0].touch.leaf == 39);
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("The mode describes the state of the forces") {
     };
     CHECK(mode(StepState::Free) == "FORCES OFF");
     CHECK(mode(StepState::Contact) == "FORCES OFF");
-    CHECK(mode(StepState::Fading) == "FORCES FADING"); // they end over a while
+    CHECK(mode(StepState::Fading) == "FORCES FADING"); // they fade over some time
     run.console.forces = true;
     CHECK(mode(StepState::Off) == "WAITING");
     CHECK(mode(StepState::Free) == "ARMED");
@@ -141,7 +141,7 @@ TEST_CASE("An alarm stays until it is over and acknowledged, and is latched agai
     run.row.record.state = StepState::Trapped;
     run.step();
     run.console.acknowledge = true;
-    CHECK(run.step() == Words{"WARNING active acknowledged trapped"}); // it is not over
+    CHECK(run.step() == Words{"WARNING active acknowledged trapped"}); // the cause remains
     CHECK(run.alarms.worst() == nullptr);
     run.row.record.state = StepState::Free;
     CHECK(run.step().empty());
@@ -162,7 +162,7 @@ TEST_CASE("Alarms are sorted by level, highest first, and an acknowledged one is
     CHECK(run.step({.handGone = true})[0] == "WARNING active finite");
     CHECK(run.alarms.worst()->key == "finite");
     run.alarms.raise(Level::Advisory, "note", "an event", 1.0);
-    CHECK(run.step().end()[-2] == "ADVISORY latched note"); // before what is acknowledged
+    CHECK(run.step().end()[-2] == "ADVISORY latched note"); // before acknowledged alarms
 }
 
 TEST_CASE("The alarm names the cause of an old scene: the camera or a lost GPU") {
@@ -200,7 +200,7 @@ TEST_CASE("Each column of a trace covers the range of its samples and joins its 
     };
     eachColumn(trace, at, force, keep);
     CHECK(columns.size() == 640);
-    CHECK(strokes == 5); // before, at and after the spike; the step; after it
+    CHECK(strokes == 5); // before, at and after the spike; at the step; after it
     CHECK(columns.at(static_cast<int>(4.321 * 64.0)) == std::pair(1.0f, 9.0f));
     CHECK(columns.at(static_cast<int>(4.9 * 64.0)) == std::pair(1.0f, 1.0f));
     CHECK(columns.at(320) == std::pair(1.0f, 2.0f)); // the step, between its last sample and the next
@@ -213,7 +213,7 @@ TEST_CASE("Each column of a trace covers the range of its samples and joins its 
 TEST_CASE("A thinned outline has few points and stays within 0.25 pixels of all of them") {
     for (const double radius : {0.0, 3.0, 30.0, 300.0, 3000.0}) {
         CAPTURE(radius);
-        std::vector<ImVec2> all; // a closed circle, its points about a pixel apart
+        std::vector<ImVec2> all; // a closed circle with points about a pixel apart
         const int count = std::max(3, static_cast<int>(6.28 * radius));
         for (int i = 0; i <= count; ++i) {
             const double angle = 6.283185307179586 * (i % count) / count;

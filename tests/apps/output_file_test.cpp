@@ -9,7 +9,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("a file appears under its name only when committed, and replaces the old file as a whole") {
+TEST_CASE("A file appears under its name only when committed, and replaces the old file as a whole") {
     const ScratchFolder folder;
     const auto path = folder.path() / "a.csv";
     put(path, "before");
@@ -23,7 +23,7 @@ TEST_CASE("a file appears under its name only when committed, and replaces the o
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("a file without commit leaves the old one unchanged and no temporary file") {
+TEST_CASE("A file without commit leaves the old one unchanged and no temporary file") {
     const ScratchFolder folder;
     const auto path = folder.path() / "a.csv";
     put(path, "before");
@@ -32,7 +32,7 @@ TEST_CASE("a file without commit leaves the old one unchanged and no temporary f
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("writes of any size keep their order: none, one byte, beyond the buffer, and a moved file") {
+TEST_CASE("Writes of any size keep their order: none, one byte, beyond the buffer, and after a move") {
     const ScratchFolder folder;
     std::string expected;
     OutputFile first(folder.path() / "a.bin");
@@ -49,7 +49,7 @@ TEST_CASE("writes of any size keep their order: none, one byte, beyond the buffe
     CHECK(textOf(folder.path() / "empty").empty());
 }
 
-TEST_CASE("a missing folder, a folder in the file's place and a full disk are errors that name the file") {
+TEST_CASE("A missing folder, a folder in the file's place and a full disk are errors that name the file") {
     const ScratchFolder folder;
     const auto named = [](const std::string& name, auto&& action) {
         try {
@@ -66,7 +66,7 @@ TEST_CASE("a missing folder, a folder in the file's place and a full disk are er
         file.commit();
     }));
     if (std::filesystem::exists("/dev/full")) {
-        // The temporary name leads to a device that is always full.
+        // The temporary name is a link to a device that is always full.
         std::filesystem::create_symlink("/dev/full", folder.path() / "full.csv.partial");
         CHECK(named("full.csv", [&] {
             OutputFile file(folder.path() / "full.csv");
@@ -78,7 +78,7 @@ TEST_CASE("a missing folder, a folder in the file's place and a full disk are er
     }
 }
 
-TEST_CASE("an output folder is made with its parents and loses the frame and fault files of an earlier run, "
+TEST_CASE("An output folder is made with its parents and loses the frame and fault files of an earlier run, "
           "nothing else") {
     const ScratchFolder folder;
     const auto out = folder.path() / "x" / "y";

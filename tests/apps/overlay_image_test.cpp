@@ -24,7 +24,7 @@ CameraInfo smallCamera() {
     return camera;
 }
 
-// Does the ray through the centre of the enlarged pixel hit the sphere? The definition of a silhouette.
+// True when the ray through the centre of the enlarged pixel hits the sphere, which defines a silhouette.
 bool hits(const ImageView& view, int u, int v, const dvec3& c, double radius) {
     const double x = ((u + 0.5) / view.scale - 0.5 - view.lens.cx) / view.lens.fx;
     const double y = ((v + 0.5) / view.scale - 0.5 - view.lens.cy) / view.lens.fy;
@@ -72,8 +72,8 @@ struct PngImage {
 
 } // namespace
 
-TEST_CASE("the silhouette of random spheres is the set of pixels whose ray hits one, near the camera and "
-          "round it too") {
+TEST_CASE("The silhouette of random spheres is the set of pixels whose ray hits one, also near and around "
+          "the camera") {
     std::mt19937_64 random(11);
     std::uniform_real_distribution<double> place(-0.6, 0.6), size(0.005, 0.3);
     const ImageView view =
@@ -99,12 +99,12 @@ TEST_CASE("the silhouette of random spheres is the set of pixels whose ray hits 
                     wrong += expected != (mask[static_cast<size_t>(v * view.width() + u)] != 0);
                 }
             }
-            CHECK(wrong <= 2); // a ray that grazes a sphere may fall to either side by rounding
+            CHECK(wrong <= 2); // rays that graze a sphere may differ by rounding
         }
     }
 }
 
-TEST_CASE("the outline of a mask is closed inside the image, open at its edge, and surrounds holes") {
+TEST_CASE("The outline of a mask is closed inside the image, open at its edge, and surrounds holes") {
     const int width = 40, height = 30;
     std::vector<uint8_t> mask(width * height);
     CHECK(traceOutline(mask, width, height, 0).empty());
@@ -124,19 +124,19 @@ TEST_CASE("the outline of a mask is closed inside the image, open at its edge, a
     }
     CHECK(lines[0].size() == 4 * 14 + 1);
     CHECK(lines[1].size() == 4 * 6 + 1);
-    CHECK(traceOutline(mask, width, height, 30).size() == 1); // the hole is shorter than that
+    CHECK(traceOutline(mask, width, height, 30).size() == 1); // the hole's outline is shorter than 30
     box(0, 0, width, height, 0);
-    box(0, 5, 6, 11, 1); // against the left edge
+    box(0, 5, 6, 11, 1); // touches the left edge
     lines = traceOutline(mask, width, height, 0);
     REQUIRE(lines.size() == 1);
     CHECK(lines[0].size() == 3 * 6 + 1);
     CHECK(std::min(lines[0].front().x, lines[0].back().x) == 0.0);
     CHECK(lines[0].front() != lines[0].back());
     box(0, 0, width, height, 1);
-    CHECK(traceOutline(mask, width, height, 0).empty()); // all of it is edge
+    CHECK(traceOutline(mask, width, height, 0).empty()); // all of it is at the edge
 }
 
-TEST_CASE("a point projects to the same pixel as the lens says, through distortion and the colour camera's "
+TEST_CASE("A point projects to the pixel that the lens model gives, with distortion and the colour camera's "
           "offset") {
     CameraInfo camera = smallCamera();
     camera.registered = false;
@@ -153,7 +153,7 @@ TEST_CASE("a point projects to the same pixel as the lens says, through distorti
     CHECK(!view.ofBase(baseTcamera.apply({0, 0, -0.5})).has_value());
 }
 
-TEST_CASE("the overlay is red over a region, has the image's colour outside, and is at least 960 wide") {
+TEST_CASE("The overlay is red over a region, has the image's colour outside, and is at least 960 wide") {
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);
@@ -167,7 +167,8 @@ TEST_CASE("the overlay is red over a region, has the image's colour outside, and
     CHECK(image.blue(900, 60) > image.red(900, 60) + 50); // byte order: blue stays blue
 }
 
-TEST_CASE("without colour the depth is drawn as grey, without both a plain background, also without a set") {
+TEST_CASE(
+    "Without colour the overlay shows depth as grey, without both a plain background, also without a set") {
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);
@@ -198,7 +199,7 @@ TEST_CASE("without colour the depth is drawn as grey, without both a plain backg
     CHECK(folder.files() == 1);
 }
 
-TEST_CASE("an overlay of 60 thousand spheres is timed") {
+TEST_CASE("An overlay of 60 thousand spheres is timed") {
     const ScratchFolder folder;
     Drawn scene;
     fill(scene);

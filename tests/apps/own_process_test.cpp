@@ -19,7 +19,7 @@ namespace {
 
 constexpr const char* kChild = "-tc=In a child: its descriptors";
 
-// What the child says: a line a descriptor that it has.
+// Output of the child: one line per descriptor that is open in it.
 std::string childSays(std::array<int, 5> files) {
     int ends[2] = {-1, -1};
     REQUIRE(::pipe2(ends, O_CLOEXEC) == 0);
@@ -60,7 +60,7 @@ TEST_CASE("In a child: its descriptors" * doctest::skip()) {
 
 TEST_CASE("A child process has the given files at the given descriptors and no others") {
     const int zero = ::open("/dev/zero", O_RDONLY);
-    const int kept = ::fcntl(zero, F_DUPFD, 20); // no FD_CLOEXEC: only the closing of all keeps it out
+    const int kept = ::fcntl(zero, F_DUPFD, 20); // no FD_CLOEXEC, so the child must close it
     ::close(zero);
     const int given = ::open("/dev/full", O_RDONLY | O_CLOEXEC);
     const std::string said = childSays({kNullDevice, -1, STDERR_FILENO, given, kNullDevice});
@@ -81,7 +81,7 @@ TEST_CASE("With standard error closed, the file that reuses its number does not 
     REQUIRE(saved >= 0);
     ::close(STDERR_FILENO);
     const std::string without = childSays({kNullDevice, -1, STDERR_FILENO, kNullDevice, kNullDevice});
-    const int taken = ::open("/dev/full", O_RDONLY | O_CLOEXEC); // gets the number, as a camera's node may
+    const int taken = ::open("/dev/full", O_RDONLY | O_CLOEXEC); // reuses the number
     const std::string with = childSays({kNullDevice, -1, STDERR_FILENO, kNullDevice, kNullDevice});
     ::dup2(saved, STDERR_FILENO);
     ::close(saved);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `replay --realtime` whole, on a recording: threads, device, files.
+// `replay --realtime` on a recording, with threads, device and files.
 #include "apps/replay/realtime_replay.h"
 
 #include "tests/apps/scratch_folder.h"
@@ -54,7 +54,7 @@ struct Run {
     std::optional<RealtimeReplay> replay;
 };
 
-// Rows without the header; checks that each is whole.
+// Rows without the header; checks that each has all columns.
 std::vector<std::vector<std::string>> rowsOf(const std::filesystem::path& csv, ptrdiff_t columns) {
     std::vector<std::vector<std::string>> rows;
     const std::string text = textOf(csv);
@@ -78,7 +78,7 @@ constexpr size_t kTime = 0, kFrame = 25, kAge = 26;
 } // namespace
 
 TEST_CASE("A realtime replay uses every frame of the recording, ages the scene by the clock and audits every "
-          "turn") {
+          "tick") {
     if (!recordingIsThere()) {
         return;
     }
@@ -104,14 +104,14 @@ TEST_CASE("A realtime replay uses every frame of the recording, ages the scene b
         oldest = std::max(oldest, age);
         newest = std::max<int64_t>(newest, std::stoll(rows[i][kFrame]));
     }
-    CHECK(oldest > 0.01); // of a frame that has just gone through the passes
+    CHECK(oldest > 0.01); // a frame needs this long through the passes
     CHECK(newest == 26);
     CHECK(rowsOf(out.path() / "frames.csv",
                  9 + static_cast<ptrdiff_t>(run.session->cycles.frames().passNames().size()) + 1)
               .size() == 27);
 }
 
-TEST_CASE("SIGINT ends a realtime replay early and leaves every file whole") {
+TEST_CASE("SIGINT ends a realtime replay early and leaves every file complete") {
     if (!recordingIsThere()) {
         return;
     }
@@ -130,5 +130,5 @@ TEST_CASE("SIGINT ends a realtime replay early and leaves every file whole") {
     for (const char* name : {"summary.json", "haptics.csv", "frames.csv", "traces.png", "overlay.png"}) {
         CHECK(std::filesystem::file_size(out.path() / name) > 0);
     }
-    CHECK(out.files() == 5); // no temporary file stays
+    CHECK(out.files() == 5); // no temporary file remains
 }

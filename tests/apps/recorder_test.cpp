@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the window records, when the disk is full or the process is killed.
+// Recordings of the window, also with a full disk or a killed process.
 #include "apps/operate/recorder.h"
 
 #include "apps/operate/tick_log.h"
@@ -44,7 +44,7 @@ public:
         frame.report.index = frames_++;
         Fixtures set;
         set.depth.resize(size_t{kWidth} * kHeight);
-        for (uint16_t& depth : set.depth) { // does not compress
+        for (uint16_t& depth : set.depth) { // noise, which does not compress
             noise_ = noise_ * 1664525u + 1013904223u;
             depth = static_cast<uint16_t>(noise_ >> 16 | 1u);
         }
@@ -74,7 +74,7 @@ uint32_t imagesIn(const std::filesystem::path& folder) {
     return images;
 }
 
-// All of it can be read, and no line is cut.
+// Checks that every file can be read and no line is cut.
 void checkWhole(const std::filesystem::path& folder, size_t ticks) {
     for (const char* name : {"hand.csv", "wrench.csv", "touches.csv"}) {
         CAPTURE(name);
@@ -87,7 +87,7 @@ void checkWhole(const std::filesystem::path& folder, size_t ticks) {
     CHECK(readHandCsv(folder / "hand.csv").size() >= log.moments.size());
 }
 
-// While it lives, no file of this process grows beyond this size.
+// During its lifetime, no file of this process grows beyond this size.
 class SmallDisk {
 public:
     explicit SmallDisk(rlim_t bytes)
@@ -113,7 +113,7 @@ TEST_CASE("A stopped recording is complete: every frame, and every tick until th
     const auto folder = scratch.path() / "rec";
     Recorder recorder;
     RecordedRun session(recorder);
-    session.image(); // before it records
+    session.image(); // before the recording starts
     recorder.start(folder, "camera: {}\n", someCamera());
     CHECK(recorder.recording());
     for (int i = 0; i < 10; ++i) {
@@ -128,15 +128,16 @@ TEST_CASE("A stopped recording is complete: every frame, and every tick until th
     CHECK(imagesIn(folder) == 10);
     checkWhole(folder, 9 * 33 + 30);
     CHECK(textOf(folder / "scene.yaml") == "camera: {}\n");
-    CHECK_THROWS_AS(recorder.start(folder, "", someCamera()), BadInput); // is not written over
+    CHECK_THROWS_AS(recorder.start(folder, "", someCamera()), BadInput); // never overwrites a recording
     CHECK(imagesIn(folder) == 10);
 }
 
-TEST_CASE("A disk that is full ends a recording by name, and what had room can be read") {
+TEST_CASE("A full disk ends a recording with a message that names the file, and the files up to there can be "
+          "read") {
     const ScratchFolder scratch;
     struct Case {
         rlim_t bytes;
-        int ticks; // per frame
+        int ticks; // number of ticks per frame
         const char* file;
     };
     for (const auto& [bytes, ticks, file] : {Case{30000, 33, "wrench.csv"}, Case{3000, 0, "000000.png"}}) {
@@ -171,7 +172,7 @@ TEST_CASE("A disk that is full ends a recording by name, and what had room can b
     }
 }
 
-TEST_CASE("A process that is killed while it records leaves a recording up to there") {
+TEST_CASE("A process that is killed while it records leaves a recording up to that time") {
     const ScratchFolder scratch;
     const auto folder = scratch.path() / "rec";
     const pid_t child = ::fork();

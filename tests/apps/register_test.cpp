@@ -37,8 +37,8 @@ std::vector<PointPair> somePairs(size_t count, double noise) {
     return pairs;
 }
 
-// Tag 7 of 0.2 m, tilted, 1 m before a depth + colour camera with two lenses, drawn by casting a ray through
-// each pixel.
+// Tag 7, 0.2 m wide, tilted, 1 m in front of a depth and a colour camera, rendered with rays through each
+// pixel.
 struct TagImage {
     CameraInfo info;
     Pose cameraTtag{{0.03, -0.02, 1.0}, glm::normalize(dquat(1.0, 0.12, -0.2, 0.05))};
@@ -60,7 +60,8 @@ struct TagImage {
         }
         draw();
     }
-    // Where a ray of the camera (at cameraTdepth) meets the tag's plane: in that camera's frame.
+    // Intersection of a camera ray (camera at cameraTdepth) with the plane of the tag, in the depth camera's
+    // frame.
     dvec3 hit(const glm::dvec2& ray, const Pose& cameraTdepth) const {
         const Pose t = cameraTdepth * cameraTtag;
         const dvec3 n = t.rotation * dvec3(0, 0, 1), d(ray, 1.0);
@@ -69,7 +70,7 @@ struct TagImage {
     void draw() {
         apriltag_family_t* family = tag36h11_create();
         image_u8_t* tag =
-            apriltag_to_image(family, 7); // 10 x 10 cells with its white rim; the black square is 8 wide
+            apriltag_to_image(family, 7); // 10 x 10 cells with the white border; the black square is 8 wide
         const Pose tagTcolour = inverse(info.colourTdepth * cameraTtag);
         for (uint32_t i = 0; i < info.colour.pixels(); ++i) {
             const uint32_t row = i / 640;
@@ -87,7 +88,7 @@ struct TagImage {
             const auto grey = static_cast<uint32_t>(sum / 16);
             colour.push_back(grey * 0x010101u | 0xff000000u);
         }
-        std::free(tag->buf); // the library does not export its own way
+        std::free(tag->buf); // freed here, because the library does not export its own function
         std::free(tag);
         tag36h11_destroy(family);
     }
@@ -101,18 +102,18 @@ struct TagImage {
 
 } // namespace
 
-TEST_CASE("A pose comes back from pairs of points to rounding, and its sigma from noisy ones") {
+TEST_CASE("A pose is recovered from pairs of points up to rounding, and its sigma from noisy pairs") {
     const RigidFit exact = fitRigid(somePairs(4, 0.0), "test");
     CHECK(glm::length(exact.baseTcamera.position - kTruth.position) < 1e-12);
     CHECK(angleBetween(exact.baseTcamera.rotation, kTruth.rotation) < 1e-7);
     CHECK(exact.sigma < 1e-12);
     const RigidFit noisy = fitRigid(somePairs(500, 0.003), "test");
     CHECK(glm::length(noisy.baseTcamera.position - kTruth.position) < 0.002);
-    CHECK(noisy.sigma == doctest::Approx(0.003 * std::sqrt(3.0)).epsilon(0.1)); // of the distance: three axes
+    CHECK(noisy.sigma == doctest::Approx(0.003 * std::sqrt(3.0)).epsilon(0.1)); // of three axes
     CHECK(noisy.worst > noisy.sigma);
 }
 
-TEST_CASE("Too few points, or points on a line, are refused") {
+TEST_CASE("Too few points, or points on a line, are rejected") {
     CHECK_THROWS_WITH_AS(fitRigid(somePairs(3, 0.0), "p.csv"), doctest::Contains("p.csv: pairs: 3"),
                          BadInput);
     std::vector<PointPair> line;
@@ -123,7 +124,7 @@ TEST_CASE("Too few points, or points on a line, are refused") {
     CHECK_THROWS_WITH_AS(fitRigid(line, "p.csv"), doctest::Contains("all on one line"), BadInput);
 }
 
-TEST_CASE("A tag in colour and depth of two lenses gives the camera's pose to millimetres, noise and all") {
+TEST_CASE("A tag in colour and noisy depth gives the camera's pose to millimetres") {
     for (const double noise : {0.0, 0.003}) {
         const TagImage image(noise);
         const Pose baseTtag = kTruth * image.cameraTtag;
@@ -140,13 +141,13 @@ TEST_CASE("A tag in colour and depth of two lenses gives the camera's pose to mi
     }
 }
 
-TEST_CASE("A tag that is not listed, or whose depth is missing or no plane, is left out") {
+TEST_CASE("A tag that is not listed, or whose depth is missing or not a plane, is skipped") {
     TagImage image(0.0);
     CHECK(TagFinder(image.info, {{8, {0.2, Pose{}}}}).find(image.frame()).empty());
     TagFinder finder(image.info, {{7, {0.2, Pose{}}}});
     const std::vector<uint16_t> good = image.depth;
     for (size_t i = 0; i < image.depth.size(); i += 2) {
-        image.depth[i] = static_cast<uint16_t>(image.depth[i] + 200); // every second pixel 0.1 m behind
+        image.depth[i] = static_cast<uint16_t>(image.depth[i] + 200); // every second pixel 0.1 m further
     }
     CHECK(finder.find(image.frame()).empty());
     std::fill(image.depth.begin(), image.depth.end(), uint16_t{0});
@@ -155,7 +156,7 @@ TEST_CASE("A tag that is not listed, or whose depth is missing or no plane, is l
     CHECK(finder.find(image.frame()).size() == 4);
 }
 
-TEST_CASE("Lists of tags and points are read, and a wrong line is refused with its number") {
+TEST_CASE("Lists of tags and points are read, and an invalid line is rejected with its number") {
     const testing::ScratchFolder folder;
     const auto write = [&](const std::string& text) {
         std::ofstream(folder.path() / "a.csv") << text;
@@ -173,11 +174,11 @@ TEST_CASE("Lists of tags and points are read, and a wrong line is refused with i
     CHECK_THROWS_AS(readPointPairs(folder.path() / "none.csv"), BadInput);
 }
 
-TEST_CASE("A list of points, tags or a board whose line has no end in sight is refused before memory is") {
+TEST_CASE("An endless line in a list of points, tags or a board is rejected before memory runs out") {
     const testing::ScratchFolder folder;
     const std::filesystem::path hole = folder.path() / "hole.csv";
     std::ofstream(hole).close();
-    std::filesystem::resize_file(hole, uint64_t{64} << 30); // takes no room on the disk
+    std::filesystem::resize_file(hole, uint64_t{64} << 30); // a sparse file, which needs no disk space
     for (const auto& [file, why] :
          {std::pair(hole, "line 1"), {std::filesystem::path("/dev/zero"), "a pipe or a device"}}) {
         CHECK_THROWS_WITH_AS(readPointPairs(file), doctest::Contains(why), BadInput);

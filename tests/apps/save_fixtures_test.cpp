@@ -8,7 +8,7 @@ using namespace fathom;
 using namespace fathom::operate;
 using namespace fathom::testing;
 
-TEST_CASE("Names with quotes, backslashes and line ends are saved so that they are read again as they are") {
+TEST_CASE("Names with quotes, backslashes and line ends are saved so that they are read back unchanged") {
     const ScratchFolder folder;
     const auto file = folder.path() / "scene.yaml";
     put(file,

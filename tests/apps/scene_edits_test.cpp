@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the pilot changes while the window records, from the recorder to the scenes of a replay.
+// The pilot's changes during a recording, from the recorder to the scenes of a replay.
 #include "apps/binding/scene_edits.h"
 
 #include "apps/operate/fixture_editor.h"
@@ -42,7 +42,7 @@ struct Pilot {
         info.hasColour = false;
         return info;
     }
-    // edit: of the changes so far, the newest that it obeys.
+    // edit: number of the newest change that the frame uses.
     void image(uint64_t edit, bool still = false) {
         PublishedFrame frame;
         frame.t = images / 30.0;
@@ -86,7 +86,7 @@ std::vector<std::string> namesOf(const Scene& scene) {
 
 } // namespace
 
-TEST_CASE("Classes of points keep their rows whatever shapes come and go") {
+TEST_CASE("Classes of points keep their rows when shapes are added and removed") {
     Pilot pilot;
     const std::vector<uint32_t> rows = cloud::classRows(pilot.editor.scene());
     CHECK(rows == std::vector<uint32_t>{0, 1, 2, 3}); // red, yellow, two spare
@@ -96,17 +96,16 @@ TEST_CASE("Classes of points keep their rows whatever shapes come and go") {
     CHECK(cloud::classRows(pilot.editor.scene()) == rows);
 }
 
-TEST_CASE(
-    "A recording has each change of fixtures from the frame on that obeyed it, in the rows that classes "
-    "had") {
+TEST_CASE("A recording has each change of fixtures from the first frame that used it, in the rows that "
+          "classes have in the run") {
     Pilot pilot;
     pilot.image(0);
     pilot.image(0);
     FixtureClass wide = pilot.editor.scene().fixtures[1];
     wide.radius = 0.05;
     wide.frozen = true;
-    pilot.editor.remove(0);       // change 1: red goes, its row is spare
-    pilot.image(0);               // was on its way already
+    pilot.editor.remove(0);       // change 1: red is removed, its row becomes spare
+    pilot.image(0);               // this frame was already in progress
     pilot.editor.change(1, wide); // change 2
     pilot.image(2);
     pilot.image(2, true);
@@ -130,7 +129,7 @@ TEST_CASE(
     CHECK(cloud::classRows(edits.at(0).scene) == cloud::classRows(edits.at(3).scene));
 }
 
-TEST_CASE("A recording without changes has none, and neither has one that is played with another scene") {
+TEST_CASE("A recording without changes has no edits, nor does one that is played with another scene") {
     Pilot pilot;
     pilot.image(0);
     pilot.image(0);
@@ -150,7 +149,7 @@ TEST_CASE("A recording without changes has none, and neither has one that is pla
     CHECK(own.file.filename() == "scene.yaml");
 }
 
-TEST_CASE("Damaged edits are refused with file, line, column and what is allowed") {
+TEST_CASE("Damaged edits are rejected with file, line, column and what is allowed") {
     Pilot pilot;
     pilot.image(0);
     pilot.editor.remove(0);

@@ -27,7 +27,7 @@ TEST_CASE("Files in the folder of a scene are copied under their names, and othe
     CHECK(textOf(copy.path() / "arm.urdf") == "arm");
     CHECK(left == scene.hand.path);
     CHECK(copy.files() == 2);
-    Scene plain; // names nothing
+    Scene plain; // a scene that names no files
     plain.file = scene.file;
     CHECK(copySceneFiles(plain, copy.path()).empty());
     CHECK(copy.files() == 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A folder for one test that goes away with it, and whole files as text.
+// A temporary folder for one test, and functions that read whole files.
 #pragma once
 
 #include <cstdlib>
@@ -23,7 +23,7 @@ public:
         std::filesystem::remove_all(path_, ignored);
     }
     const std::filesystem::path& path() const { return path_; }
-    // Names in the folder, so that a temporary file left behind is seen.
+    // Number of files in the folder, which reveals a temporary file left behind.
     size_t files() const {
         return static_cast<size_t>(std::distance(std::filesystem::directory_iterator(path_), {}));
     }

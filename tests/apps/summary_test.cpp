@@ -32,7 +32,7 @@ using Keys = std::vector<std::string>;
 
 } // namespace
 
-TEST_CASE("percentiles are the values of nearest rank for 0, 1, 2, 99, 100, 101 and 1000 values") {
+TEST_CASE("Percentiles are the values of nearest rank for 0, 1, 2, 99, 100, 101 and 1000 values") {
     CHECK(!percentilesOf({}).p50);
     CHECK(!percentilesOf({std::numeric_limits<float>::quiet_NaN()}).max);
     std::mt19937 random(3);
@@ -42,9 +42,9 @@ TEST_CASE("percentiles are the values of nearest rank for 0, 1, 2, 99, 100, 101 
             values.push_back(static_cast<float>(i));
         }
         std::shuffle(values.begin(), values.end(), random);
-        values.push_back(std::numeric_limits<float>::infinity()); // left out
+        values.push_back(std::numeric_limits<float>::infinity()); // ignored
         const Percentiles p = percentilesOf(values);
-        // Value i has rank i: the percentile is the rank itself, in whole numbers.
+        // Value i has rank i, so the percentile is the rank, in whole numbers.
         CHECK(*p.p50 == (count + 1) / 2);
         CHECK(*p.p99 == (99 * count + 99) / 100);
         CHECK(*p.p999 == (999 * count + 999) / 1000);
@@ -80,7 +80,7 @@ TEST_CASE("summary.json has the contract's keys in the contract's order") {
     CHECK(json["contact"]["where"] == "none");
 }
 
-TEST_CASE("what is unknown or not finite is null, and bytes that are no UTF-8 do not spoil the file") {
+TEST_CASE("Unknown and non-finite values are null, and bytes that are not UTF-8 do not damage the file") {
     const ScratchFolder folder;
     ReplaySummary summary;
     summary.haptic.maxPenetration = kNan;
@@ -102,12 +102,12 @@ TEST_CASE("what is unknown or not finite is null, and bytes that are no UTF-8 do
     CHECK(json["guidance"][0]["target_qwxyz"].is_null());
     CHECK(json["fixtures"].is_array());
     CHECK(json["fixtures"].empty());
-    CHECK(text.find("inf") != std::string::npos); // "infeasible", and nothing else of that kind
+    CHECK(text.find("inf") != std::string::npos); // found in the key "infeasible" only
     CHECK(text.find("nan") == std::string::npos);
 }
 
 TEST_CASE(
-    "tick totals count, keep extremes, measure force steps from zero and leave out what is not finite") {
+    "Tick totals count, keep extremes, measure force steps from zero and ignore values that are not finite") {
     TickTotals totals;
     TickRecord tick;
     tick.wrench.force = {3, 0, 4};
@@ -156,8 +156,7 @@ TEST_CASE(
     CHECK(!none.solvesMean);
 }
 
-TEST_CASE(
-    "progress writes nothing where there is no terminal, one line that it takes away where there is one") {
+TEST_CASE("Progress writes nothing without a terminal, and on a terminal one line that it removes") {
     const ScratchFolder folder;
     for (const bool terminal : {false, true}) {
         const auto path = folder.path() / "out";
@@ -170,7 +169,7 @@ TEST_CASE(
             }
         }
         {
-            Progress discovered(file); // a file is no terminal
+            Progress discovered(file); // a file is not a terminal
             discovered.update({1, 2, 3, 4.0});
         }
         std::fclose(file);
@@ -180,7 +179,7 @@ TEST_CASE(
             CHECK(text.find("frame 0 of 60") != std::string::npos);
             CHECK(text.find('\n') == std::string::npos);
             CHECK(text.rfind("\r\x1b[K") == text.size() - 4);
-            CHECK(text.size() < 4000); // ten a second, not a hundred thousand
+            CHECK(text.size() < 4000); // ten updates per second, not a hundred thousand
         }
     }
     CHECK(progressText({12, 60, 4200, 4.2}, 3.0) ==

@@ -61,8 +61,7 @@ std::string refusal(const std::filesystem::path& folder) {
 
 } // namespace
 
-TEST_CASE(
-    "Turns come back from their files to the last bit, whether they touched nothing, once or eight times") {
+TEST_CASE("Ticks are read back exactly, with no touch, one or eight") {
     const ScratchFolder folder;
     const std::vector<uint32_t> touches{0, 1, 8, 0, 2, 8, 0};
     write(folder.path(), touches);
@@ -106,7 +105,7 @@ TEST_CASE("A folder without ticks is empty, and an old recording is read without
     CHECK(log.recordAt(0).state == StepState::Contact);
 }
 
-TEST_CASE("Turns that are damaged are refused with line and column") {
+TEST_CASE("Damaged ticks are rejected with line and column") {
     const ScratchFolder folder;
     const auto file = folder.path() / kWrenchFile;
     const std::string head = "t_s,fx,fy,fz,tx,ty,tz,contacts,state\n";

@@ -56,7 +56,7 @@ struct PngImage {
 
 } // namespace
 
-TEST_CASE("a long run keeps its peaks, its tick count and its frame count in constant memory") {
+TEST_CASE("A long run keeps its peaks, its tick count and its frame count in constant memory") {
     TraceHistory history(64);
     const int count = 100003;
     for (int i = 0; i < count; ++i) {
@@ -84,7 +84,7 @@ TEST_CASE("a long run keeps its peaks, its tick count and its frame count in con
     CHECK(highest == 9.0);
 }
 
-TEST_CASE("values that are not finite leave a gap and never a number") {
+TEST_CASE("Values that are not finite leave a gap and never a number") {
     TraceHistory history(4);
     for (int i = 0; i < 9; ++i) {
         TickRecord tick = tickAt(i, 1.0);
@@ -97,7 +97,7 @@ TEST_CASE("values that are not finite leave a gap and never a number") {
     CHECK(history.forcePeak().value == 1.0);
 }
 
-TEST_CASE("phases follow the states, merge flicker into its neighbours, and prefer guidance to contact") {
+TEST_CASE("Phases follow the states, merge flicker into their neighbours, and prefer guidance to contact") {
     TraceHistory history;
     for (int i = 0; i < 4000; ++i) {
         const bool touching = (i >= 1000 && i < 2000 && i % 200 >= 20) || i >= 3500;
@@ -117,7 +117,7 @@ TEST_CASE("phases follow the states, merge flicker into its neighbours, and pref
     CHECK(findPhases(TraceHistory{}).empty());
 }
 
-TEST_CASE("a run of many changes has no more phases than letters, without gaps, and covers the run") {
+TEST_CASE("A run of many changes has no more phases than letters, without gaps, and covers the run") {
     TraceHistory history;
     for (int i = 0; i < 50000; ++i) {
         history.add(tickAt(i, 0.0, i / 700 % 2 == 0 ? TickState::Free : TickState::Contact));
@@ -133,7 +133,7 @@ TEST_CASE("a run of many changes has no more phases than letters, without gaps, 
     }
 }
 
-TEST_CASE("axis steps are 1, 2 or 5 times a power of ten and labels have the digits that the step needs") {
+TEST_CASE("Axis steps are 1, 2 or 5 times a power of ten, and labels have the digits that the step needs") {
     for (const double range : {1e-6, 0.003, 0.7, 1.0, 9.99, 60.0, 3600.0}) {
         const double step = roundStep(range, 8);
         const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
@@ -154,13 +154,13 @@ TEST_CASE("axis steps are 1, 2 or 5 times a power of ten and labels have the dig
     CHECK(roundNumber(20.0) == "20");
 }
 
-TEST_CASE("the force trace lies where its axis says, over 1 tick, 1 s and 1 h") {
+TEST_CASE("The force trace follows the scale of its axis over 1 tick, 1 s and 1 h") {
     const ScratchFolder folder;
     const auto path = folder.path() / "traces.png";
     for (const int count : {1, 1000, 3600000}) {
         TraceHistory history;
         for (int i = 0; i < count; ++i) {
-            history.add(tickAt(i, 2 * i < count - 1 ? 4.0 : i % 2 == 0 ? 8.0 : 6.0)); // axis up to 10 N
+            history.add(tickAt(i, 2 * i < count - 1 ? 4.0 : i % 2 == 0 ? 8.0 : 6.0)); // axis to 10 N
         }
         writeTraces(path, history, {"title", "subtitle", 20.0, 0.9});
         const PngImage image(path);
@@ -171,7 +171,7 @@ TEST_CASE("the force trace lies where its axis says, over 1 tick, 1 s and 1 h") 
         const int late = static_cast<int>(traces::kLeft + 0.9 * (traces::kRight - traces::kLeft));
         const int early = static_cast<int>(traces::kLeft + 0.3 * (traces::kRight - traces::kLeft));
         if (count > 1) {
-            int highest = bottom; // a column of a short run may lie between two ticks
+            int highest = bottom; // in a short run a column may be between two ticks
             for (int u = late; u < late + 6; ++u) {
                 highest = std::min(highest, image.topInk(u, top, bottom - 10));
             }
@@ -181,7 +181,7 @@ TEST_CASE("the force trace lies where its axis says, over 1 tick, 1 s and 1 h") 
     }
 }
 
-TEST_CASE("an empty run, a run of zeros and a run of NaN give an image without a trace") {
+TEST_CASE("An empty run, a run of zeros and a run of NaN give an image without a trace") {
     const ScratchFolder folder;
     TraceHistory zeros, nothing;
     for (int i = 0; i < 500; ++i) {
