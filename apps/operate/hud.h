@@ -24,6 +24,7 @@ Mode modeOf(const Console& console, const RunView& run);
 // [N s/m] Automatic stiffness meets the bound exactly, so a slightly longer period must not raise an alarm.
 constexpr double kMarginNoise = -0.1;
 
+// What the gauges show; references must stay valid during the call only.
 struct HudInput {
     const RunView& run;
     const Scene& scene;

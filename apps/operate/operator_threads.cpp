@@ -91,7 +91,7 @@ void OperatorRun::startThreads() {
     });
     thread_->resume();
     ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)),
-                  kNiceness); // after the other threads started, so that they do not inherit it
+                  kNiceness); // not inherited by the other threads
 }
 
 // Drops the memory of earlier frames, because a new run has a new clock. A lost device needs nothing: the

@@ -69,9 +69,8 @@ private:
     mutable std::mutex mutex_; // guards all members below; window and writer thread
     std::unique_ptr<RecordingWriter> writer_;
     std::string failure_;
-    std::deque<TickRow> ticks_; // since the last frame
-    std::deque<std::pair<int64_t, uint64_t>>
-        numbers_; // of recent frames: index in the run, index in the recording
+    std::deque<TickRow> ticks_;                        // since the last frame
+    std::deque<std::pair<int64_t, uint64_t>> numbers_; // index in run, in recording
     double lastCapture_ = -1.0, lastWritten_ = -1.0;
     LineFile hand_, wrench_, touches_, edits_;
     std::filesystem::path folder_;

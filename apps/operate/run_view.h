@@ -41,6 +41,7 @@ struct Measured {
     ArmPosture posture;
 };
 
+// Window thread. Keeps what the window shows of the run.
 class RunView {
 public:
     static constexpr double kSpan = 10.0; // [s] of trace

@@ -11,6 +11,7 @@
 
 namespace fathom::operate {
 
+// The objects whose state is written; all outlive the call.
 struct ShownState {
     const Console& console;
     const RunView& view;

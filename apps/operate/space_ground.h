@@ -12,7 +12,7 @@
 namespace fathom::operate {
 
 // Rendered on the CPU: points with a depth test; regions as the front of their spheres, blended where they
-// are before the points. With very many spheres every n-th is drawn, which bounds the time per frame.
+// are in front of the points. With very many spheres every n-th is drawn, which bounds the time per frame.
 class SpaceGround {
 public:
     void compose(const SceneSnapshot& scene, const Orbit& orbit, uint32_t width, uint32_t height,

@@ -14,6 +14,7 @@
 
 namespace fathom::operate {
 
+// State that StateLog::write() cannot read from console and run view.
 struct StateExtras {
     std::string mode;
     uint64_t begun = 0, windowFrames = 0, yielded = 0; // window frames: begun, drawn, skipped for passes

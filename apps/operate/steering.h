@@ -17,6 +17,7 @@ struct KeyHelp {
 };
 std::span<const KeyHelp> keyHelp();
 
+// Translates the input of a window frame into console changes and a raw hand pose.
 class Steering {
 public:
     Steering(const Pose& start, const Scene::Hand& hand); // start: raw device pose

@@ -27,6 +27,7 @@ struct Moment {
     uint32_t touchCount = 0; // range in TickLog::touches
 };
 
+// All ticks of a recording.
 struct TickLog {
     std::vector<Moment> moments; // in ascending time
     std::vector<Touch> touches;

@@ -16,6 +16,7 @@
 
 namespace fathom::operate {
 
+// What the marks show; references must stay valid during the call only.
 struct MarksInput {
     const ViewPort& port;
     const RunView& run;

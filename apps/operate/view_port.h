@@ -10,6 +10,7 @@
 
 namespace fathom::operate {
 
+// A camera or 3D view and the rectangle that shows it.
 struct ViewPort {
     ImageView view;
     PixelRect where; // [pixels] of the window

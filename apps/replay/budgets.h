@@ -12,6 +12,7 @@
 
 namespace fathom {
 
+// One budget and the measured value, in `unit`.
 struct BudgetFigure {
     std::string what, unit;
     double measured = 0.0, budget = 0.0;

@@ -79,8 +79,8 @@ struct Session {
     gpu::Instance instance;
     DeviceCycles cycles;
     std::vector<std::string> passNames; // also valid while the device is lost
-    std::unique_ptr<DeviceHandover>
-        handover; // shares the device between frame thread and window; null = no window
+    // Shares the device between frame thread and window; null = no window.
+    std::unique_ptr<DeviceHandover> handover;
     SessionAnswers answers;
 
     // Null when the plan has no contact query.

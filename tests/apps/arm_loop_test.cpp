@@ -83,8 +83,7 @@ TEST_CASE("The loop of pilot, proxy, joints, serial line and arm keeps every lin
         const auto before = loop.arm.position;
         loop.run(0.5, {{0.9, 0.0, 0.0}, kUpright}, true);
         for (size_t d = 1; d < before.size(); ++d) {
-            CHECK(std::abs(loop.arm.position[d] - before[d]) <
-                  1e-3); // hold: proxy and hand move on, the arm stays
+            CHECK(std::abs(loop.arm.position[d] - before[d]) < 1e-3); // the arm holds
         }
     }
 }

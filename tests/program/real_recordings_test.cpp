@@ -145,8 +145,7 @@ TEST_CASE("ycb: five stills have the measured numbers of points") {
     Stage stage;
     const Replay shipped = run(stage, "apps/scenes/ycb.yaml", "ycb_posecnn_demo");
     CHECK(shipped.frames.size() == 5);
-    CHECK(shipped.haptic().at("max_force_N").get<double>() >
-          1.0); // guidance: the stills are unrelated images
+    CHECK(shipped.haptic().at("max_force_N").get<double>() > 1.0); // guidance on unrelated stills
     CHECK(!shipped.summary.at("guidance").at(0).at("position_m").is_null());
     const Replay counted = count(stage, "ycb_posecnn_demo",
                                  {kDrill.row("red", "forbidden"), kMustard.row("yellow", "guidance")});

@@ -15,6 +15,7 @@
 
 namespace fathom::testing {
 
+// A fixture set with its grid, as one lease.
 struct FakeSet {
     Fixtures host;
     RegionGrid grid;
@@ -73,6 +74,7 @@ private:
     uint32_t index_ = 0;
 };
 
+// Answers contact queries on the CPU over the newest set.
 class FakeAnswers final : public ContactAnswers {
 public:
     FakeAnswers(LeasePool<FakeSet>& pool, const Tool& tool)
@@ -97,6 +99,7 @@ private:
     CullCpu cull_;
 };
 
+// A hand on a path that keeps the last wrench and counts writes.
 class FakeHand final : public HapticDevice {
 public:
     explicit FakeHand(HandPath path)
@@ -118,6 +121,7 @@ private:
     HandPath path_;
 };
 
+// Keeps every tick and audits its penetration.
 struct AuditingSink final : RunSink {
     explicit AuditingSink(const Tool& tool)
         : audit(tool) {}
@@ -165,6 +169,7 @@ inline Scene sceneOfGivenSprings() {
     return scene;
 }
 
+// A realtime run of all these parts.
 struct FakeRun {
     FakeRun(uint32_t frames, HandPath handPath)
         : path(handPath)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Captures log lines for a test.
 #pragma once
 
 #include <memory>

@@ -40,6 +40,7 @@ struct SavedSphere { // a vertex of fixtures/NNNNNN.ply
     int fixture, held;
 };
 
+// A PNG file. Pixels: 0xAABBGGRR, row by row.
 struct ReadImage {
     uint32_t width = 0, height = 0;
     std::vector<uint32_t> pixels;

@@ -10,6 +10,7 @@
 
 namespace fathom {
 
+// The result of a finished program.
 struct ProgramRun {
     int exitCode = -1; // -1 = ended by a signal or by the time limit
     std::string out, err;
@@ -17,12 +18,14 @@ struct ProgramRun {
     std::vector<std::string> errorLines() const; // lines of standard error
 };
 
+// How to start the program.
 struct RunSetting {
     bool terminal = false;        // standard error is a pseudo-terminal instead of a pipe
     double timeLimit = 240.0;     // [s] then the child is killed
     std::filesystem::path folder; // working directory; empty = the test's own
-    bool unprivileged =
-        false; // runs as user nobody if the test is root; no real-time priority, 64 KiB of locked memory
+
+    // Runs as user nobody if the test is root; no real-time priority, 64 KiB of locked memory.
+    bool unprivileged = false;
 };
 
 // Throws std::runtime_error when no child can be created. The child's standard input is empty.

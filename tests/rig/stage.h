@@ -11,6 +11,7 @@
 
 namespace fathom {
 
+// The files of a finished replay.
 struct Replay {
     std::filesystem::path out;
     ProgramRun run;

@@ -7,6 +7,7 @@
 
 namespace fathom::window {
 
+// One row: the force on the hand at a time.
 struct Felt {
     double t = 0.0, force = 0.0; // [s], [N]
     bool contact = false;
