@@ -30,7 +30,8 @@ double bisect(double guess, const std::function<bool(double)>& grows) {
     return lo;
 }
 
-// Mean square of a swing, weighted so that where in a period the window begins and ends does not matter.
+// Energy of a swing over a window of ticks. The sin^2 weight makes the result independent of the phase at
+// which the window starts and ends.
 class Window {
 public:
     Window(size_t begin, size_t length)
@@ -50,7 +51,7 @@ private:
     double sum_ = 0.0;
 };
 
-// Does the swing at this stiffness grow from its first ten periods to its last ten?
+// Returns whether the swing at stiffness k grows: compares ten early periods with the last ten.
 bool swingGrows(LoopSpec spec, double k, bool rotational) {
     const double kk = spec.armLength * spec.armLength;
     const double linear = rotational ? k / kk : k;
@@ -63,7 +64,7 @@ bool swingGrows(LoopSpec spec, double k, bool rotational) {
     }
     const double pace = std::sqrt((linear + spec.hand.stiffness) / spec.wholeMass());
     const auto ticks = static_cast<size_t>(std::ceil(2.0 * kPi / pace / spec.period()));
-    // Forces ramp up at the start: the springs are whole after that.
+    // Skips the force ramp at the start; the springs have full stiffness after it.
     const auto first = std::max(4 * ticks, static_cast<size_t>(1.1 * HapticCycle::kRampTime / spec.period()));
     LoopRig rig(spec);
     Window early(first, 10 * ticks), late(first + 26 * ticks, 10 * ticks);
@@ -71,7 +72,7 @@ bool swingGrows(LoopSpec spec, double k, bool rotational) {
         rig.tick();
         const Pose& handle = rig.hand().handle();
         const double x = rotational ? rotationLog(handle.rotation).x : handle.position.x;
-        if (!(std::abs(x) < 1.0)) { // a swing of 1 m or 1 rad from a thousandth: grown for sure
+        if (!(std::abs(x) < 1.0)) { // 1 m or 1 rad, or NaN: certainly grown
             return true;
         }
         early.add(i, x);
@@ -80,7 +81,7 @@ bool swingGrows(LoopSpec spec, double k, bool rotational) {
     return late.sum() > early.sum();
 }
 
-// Eigenvalues of the loop over one period: state x, v, x of the tick before, the forces under way.
+// Eigenvalues of the loop over one period. State: x, v, x at the previous tick, and the delayed forces.
 bool modelGrows(const SampledLoop& loop, double k) {
     Eigen::Matrix3d a = Eigen::Matrix3d::Zero(); // x, v and the constant force
     a(0, 1) = 1.0;
@@ -90,7 +91,7 @@ bool modelGrows(const SampledLoop& loop, double k) {
     const Eigen::Matrix3d step = (a * loop.period).exp();
     const int n = static_cast<int>(loop.delay);
     Eigen::MatrixXd m = Eigen::MatrixXd::Zero(3 + n, 3 + n);
-    Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(3 + n); // what is written this tick
+    Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(3 + n); // force written this tick
     force(0) = -k - loop.virtualDamping / loop.period;
     force(2) = loop.virtualDamping / loop.period;
     Eigen::RowVectorXd felt = n == 0 ? force : Eigen::RowVectorXd(Eigen::RowVectorXd::Unit(3 + n, 2 + n));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small words for the notes of cases, and conditions that a case needs beside its figure.
+// Formatting for the notes of cases, and extra conditions that a case must meet besides its limit.
 #pragma once
 
 #include "apps/stability/stability_case.h"
@@ -11,7 +11,7 @@
 
 namespace fathom::stability {
 
-// Four significant digits.
+// Formats with four significant digits.
 inline std::string num(double value) {
     char text[32];
     std::snprintf(text, sizeof text, "%.4g", value);
@@ -30,8 +30,7 @@ inline Outcome outcomeOf(double figure, double limit, std::string unit, std::str
     return out;
 }
 
-// A condition beside the figure: when it fails the figure becomes NaN, which never holds, and the note says
-// why.
+// An extra condition. On failure the figure becomes NaN, so the case fails, and the note gives the reason.
 inline void require(Outcome& outcome, bool holds, const std::string& what) {
     if (!holds) {
         outcome.figure = std::numeric_limits<double>::quiet_NaN();

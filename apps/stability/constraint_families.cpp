@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kDegree = 0.017453292519943295;
 
-struct Draft {         // what the rows of one set share
-    double lean = 0.0; // [rad] of a groove's wall from upright
+struct Draft {         // parameters shared by all rows of a set
+    double lean = 0.0; // [rad] tilt of a groove's wall from vertical
     std::array<dvec3, 4> bundles;
-    std::vector<double> inside; // a point that feasible families obey
+    std::vector<double> inside; // a point that satisfies all rows of a feasible set
 };
 
 Draft draft(const RowScale& scale, Rng& rng) {
@@ -171,7 +171,7 @@ RowSet makeCertainSet(bool feasible, size_t rows, double margin, const RowScale&
     if (feasible) {
         return set;
     }
-    // The last row is made to contradict up to five others: n = -sum of w_i n_i, d = margin - sum of w_i d_i.
+    // The last row contradicts up to five others: n = -sum(w_i n_i), d = margin - sum(w_i d_i).
     std::vector<double> last(6, 0.0);
     double offset = margin;
     const size_t others = std::min<size_t>(rows - 1, 1 + rng.below(5));

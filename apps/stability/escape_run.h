@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// New data came over the tool: how many turns it takes to be out again, and what happens on the way.
+// Measures how a tool escapes after new data covers it: the number of ticks and the depths on the way.
 #pragma once
 
 #include "apps/stability/lockstep_rig.h"
@@ -9,15 +9,15 @@
 namespace fathom::stability {
 
 struct EscapeFigures {
-    double depth = 0.0; // [m] deepest leaf when the data came
-    int ticks = 0;      // until nothing overlaps; the limit when it never ends
+    double depth = 0.0; // [m] deepest leaf when the data arrived
+    int ticks = 0;      // until nothing overlaps; the limit when that never happens
     bool out = false;
-    double growth = 0.0;  // [m] largest growth of the deepest depth from one turn to the next
-    uint64_t trapped = 0; // turns
+    double growth = 0.0;  // [m] largest growth of the deepest depth from one tick to the next
+    uint64_t trapped = 0; // ticks
 };
 
-// Turns with the hand at `hand` until no leaf overlaps the set shown and the pose is `right` (if given), or
-// `limit` turns.
+// Steps with the hand at `hand` until no leaf overlaps the shown set and `right` (if given) accepts the pose,
+// for at most `limit` ticks.
 EscapeFigures escape(LockstepRig& rig, const Pose& hand, int limit,
                      const std::function<bool(const Pose&)>& right = {});
 

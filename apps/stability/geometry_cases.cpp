@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group geometry: degenerate contacts, sizes and places.
+// Group geometry: degenerate contacts, extreme sizes and extreme positions.
 #include "apps/stability/case_text.h"
 #include "apps/stability/escape_run.h"
 #include "apps/stability/geometry_truth.h"
@@ -13,9 +13,8 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kNanometre =
-    1e-9; // [m] limit of penetration here: the promise is 0, this is rounding of the audit
-constexpr double kEscapePerTick = 1e-3; // [m] depth given back per tick
+constexpr double kNanometre = 1e-9;     // [m] penetration limit: zero plus the rounding error of the audit
+constexpr double kEscapePerTick = 1e-3; // [m] depth removed per tick
 
 Fixtures oneSphere(const dvec3& centre, double radius) {
     Fixtures set;
@@ -23,7 +22,7 @@ Fixtures oneSphere(const dvec3& centre, double radius) {
     return set;
 }
 
-// New data whose sphere centre lies on the leaf's, exactly or by next to nothing: no direction is out.
+// New data puts a sphere's centre exactly or almost on a leaf's centre, so no direction points out.
 Outcome coincidingCase(RunLength runLength) {
     Rng rng(1);
     double worst = 0.0, growth = 0.0;
@@ -55,7 +54,7 @@ Outcome coincidingCase(RunLength runLength) {
     return out;
 }
 
-// A gap of exactly 0 in float64, and a hand that pushes every way.
+// The gap is exactly 0 in float64, and the hand pushes in every direction.
 Outcome zeroGapCase(RunLength runLength) {
     Rng rng(2);
     HandRunFigures all;
@@ -81,7 +80,7 @@ Outcome zeroGapCase(RunLength runLength) {
                               num(exact) + " starts with a gap of exactly 0, the others within rounding. ");
 }
 
-// The leaf in the midst of hundreds of spheres whose centres lie to one side: deep, but with a way out.
+// The leaf is deep inside hundreds of spheres whose centres are all on one side, so there is a way out.
 Outcome insideManyCase(RunLength runLength) {
     Rng rng(3);
     double worst = 0.0, growth = 0.0;
@@ -103,7 +102,7 @@ Outcome insideManyCase(RunLength runLength) {
         rig.step(start);
         rig.show(std::move(set));
         const EscapeFigures f = escape(rig, start, 1000);
-        // The farthest way out of the union is along `up`: R + r + leaf offset of travel at most.
+        // The longest way out of the union is along `up`: a travel of at most R + r + leaf offset.
         worst = std::max(worst, f.ticks * kEscapePerTick / (radius + 0.02 + 0.005));
         growth = std::max({growth, f.growth, rig.audit().maxPenetration()});
         stuck += f.out ? 0 : 1;
@@ -126,7 +125,7 @@ World radiiWorld() {
     for (int k = 0; k < 3000; ++k) {
         const double radius = rng.logUniform(1e-4, 10.0);
         const dvec3 way = rng.direction();
-        addSphere(w.fixtures, way * (radius + rng.uniform(0.1, 0.2)), radius); // its skin touches the arena
+        addSphere(w.fixtures, way * (radius + rng.uniform(0.1, 0.2)), radius); // near the arena
     }
     w.leaves = crossLeaves(0.004);
     w.start = {dvec3(0.0), kUpright};
@@ -191,8 +190,8 @@ Outcome handRuns(const World& world, RunLength runLength, int full, const std::s
     return penetrationOutcome(all, kNanometre, what + " ");
 }
 
-// The same run at the base origin and far from it: positions about a local origin, so nothing may change but
-// rounding.
+// The same run at the base origin and far from it. Positions are relative to a local origin, so only rounding
+// may differ.
 Outcome farCase(RunLength runLength, double distance) {
     const World near = rubbleWorld();
     const dvec3 way = distance * glm::normalize(dvec3(0.6, -0.5, 0.62));
@@ -214,8 +213,8 @@ Outcome farCase(RunLength runLength, double distance) {
             curve.y.push_back(std::max(glm::distance(here, there), 1e-17));
         }
     }
-    // Contact on rubble branches: a difference of rounding may choose another side of a ball. Rounding itself
-    // is eps x distance.
+    // Contact on rubble is chaotic: a rounding difference may lead to the other side of a ball. The rounding
+    // error itself is eps x distance.
     Outcome out = outcomeOf(
         b.audit().maxPenetration(), kNanometre, "m",
         "Deepest penetration beyond the allowance in rubble " + num(distance / 1000.0) +

@@ -16,7 +16,7 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kBall = 0.01;     // [m] radius of the tool
-constexpr double kUnit = 0.0001;   // [m] of the depth image
+constexpr double kUnit = 0.0001;   // [m] depth unit of the image
 constexpr double kBudget = 0.0001; // [m] error budget of thinning
 
 struct TruthImage {
@@ -38,7 +38,7 @@ TruthImage imageOf(AnalyticScene scene, double radius, double edge, uint32_t wid
     return {std::move(scene), make.make(*camera.next().value())};
 }
 
-// Pressed on a ball from all over the camera's side: the tool stands where the region's skin is.
+// Pressed onto a ball from many directions on the camera's side, the tool rests on the surface of the region.
 Outcome ballTruthCase(RunLength runLength) {
     const double region = 0.04;
     const TruthImage p = imageOf(analyticScene("sphere").value(), region, 0.03, 320);
@@ -49,7 +49,7 @@ Outcome ballTruthCase(RunLength runLength) {
     const int trials = some(runLength, 500, 40);
     for (int i = 0; i < trials; ++i) {
         dvec3 way = rng.direction();
-        way = glm::normalize(dvec3(way.x, way.y, -std::abs(way.z) - 0.7)); // well inside the visible side
+        way = glm::normalize(dvec3(way.x, way.y, -std::abs(way.z) - 0.7)); // well within the visible side
         LockstepRig rig(ballTool(kBall), {centre + (wanted + 0.004) * way, kUpright});
         rig.show(p.set);
         for (int k = 0; k < 120; ++k) {
@@ -59,7 +59,7 @@ Outcome ballTruthCase(RunLength runLength) {
         above = std::max(above, off);
         below = std::max(below, -off);
     }
-    // One rounding of depth to a unit, the budget that regions may grow by, and the dimples between the kept
+    // Sum of one depth unit of rounding, the growth budget of the regions, and the dimples between kept
     // points.
     const double limit = kUnit + 2.0 * kBudget;
     Outcome out = outcomeOf(
@@ -70,8 +70,8 @@ Outcome ballTruthCase(RunLength runLength) {
     return out;
 }
 
-// A plane seen at `degrees` from face-on: where the points lie as far apart as s, the tool may sink into the
-// dimple between them, to sqrt((R + r)^2 - s^2 / 2) and no deeper.
+// A plane tilted by `degrees` from face-on. At a point spacing of s, the tool may sink into the dimple
+// between points, but no deeper than sqrt((R + r)^2 - s^2 / 2).
 Outcome grazingCase(RunLength runLength) {
     double worst = 0.0, spacing = 0.0;
     Rng rng(12);
@@ -109,7 +109,7 @@ Outcome grazingCase(RunLength runLength) {
                          num(spacing) + " m. Limit: a depth unit and the error budget.");
 }
 
-// A plate of 2 mm, regions of 10 mm, hands that go straight through it.
+// The hand moves straight through a plate 2 mm thick with regions of 10 mm radius.
 Outcome plateCase(RunLength runLength) {
     const TruthImage p = imageOf(analyticScene("plate").value(), 0.01, 0.03, 320);
     const Solid& plate = p.scene.solids.front();
@@ -144,7 +144,8 @@ Outcome plateCase(RunLength runLength) {
     return out;
 }
 
-// Pressed into places without room: what still moves when the hand has been still for a while?
+// The tool is pressed into tight places. Measures how far it still moves after the hand has been still for a
+// while.
 Outcome restCase(RunLength runLength, const std::vector<World>& worlds, const std::string& what) {
     double jitter = 0.0;
     HandRunFigures all;
@@ -172,7 +173,7 @@ Outcome restCase(RunLength runLength, const std::vector<World>& worlds, const st
     return out;
 }
 
-// Leaf, sphere and camera in one point.
+// Leaf, sphere and camera coincide.
 Outcome cameraOriginCase(RunLength runLength) {
     Rng rng(15);
     double worst = 0.0, growth = 0.0;
@@ -192,7 +193,7 @@ Outcome cameraOriginCase(RunLength runLength) {
         };
         Fixtures first, second;
         addSphere(first, dvec3(10, 0, 0), radius);
-        for (int k = 0; k < 1 + i % 5; ++k) { // to one side, so that there is a way out
+        for (int k = 0; k < 1 + i % 5; ++k) { // on one side, so that there is a way out
             const dvec3 off = k == 0 ? dvec3(0.0) : glm::normalize(rng.direction() + dvec3(0, 0, 1.5));
             addSphere(second, 1e-3 * radius * off, radius);
         }

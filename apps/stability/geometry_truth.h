@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Geometry cases against the exact truth of analytic scenes, and the tool at rest in places without room.
+// Geometry cases against the exact geometry of analytic scenes, and cases of a tool at rest in tight places.
 #pragma once
 
 #include "apps/stability/stability_case.h"

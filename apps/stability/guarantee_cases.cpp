@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group guarantee: whatever the hand does and however late the contact answers come, no leaf enters a region.
+// Group guarantee: no leaf enters a region, for any hand motion and any delay of the contact answers.
 #include "apps/stability/case_text.h"
 #include "apps/stability/hand_run.h"
 #include "devices/simulated/analytic_scene.h"
@@ -19,7 +19,7 @@ int ticksPerRun(RunLength runLength, int full) {
     return runLength == RunLength::Full ? full : full / 30;
 }
 
-// All speeds and latenesses; shortened, one speed for each lateness.
+// Runs all speeds with all delays of the answers; the short form runs one speed per delay.
 Outcome anyHand(const World& world, RunLength runLength, const std::string& what) {
     HandRunFigures all;
     Outcome::Curve stalls{"stalled ticks", "answer delay [ms]", "share of the ticks", {}, {}, false, false};
@@ -50,7 +50,7 @@ Outcome anyHand(const World& world, RunLength runLength, const std::string& what
     return out;
 }
 
-// One manner in every world that is laid by hand.
+// One hand motion in every synthetic world.
 Outcome anyWorld(const HandMotion& motion, const AnswerFaults& faults, RunLength runLength,
                  const std::string& what) {
     HandRunFigures all;
@@ -81,7 +81,7 @@ void addWorldCases(std::vector<Case>& cases) {
          {"apps/scenes/ycb.yaml", "ycb_posecnn_demo"}}};
     for (const auto& [file, folder] : recordings) {
         if (!std::filesystem::exists(recordingFolder(folder)) || !std::filesystem::exists(file)) {
-            continue; // counted by nobody: the suite says which recordings are missing
+            continue; // skips missing recordings
         }
         cases.push_back({std::string("guarantee-recording-") + folder, Group::Guarantee,
                          [file = std::string(file), folder = std::string(folder)](RunLength runLength) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group guidance, targets: far ones, and ones that flicker. The points are in guidance_plane_cases.cpp.
+// Group guidance: distant targets and flickering targets. guidance_plane_cases.cpp has the cases on point
+// sets.
 #include "apps/stability/case_text.h"
 #include "apps/stability/guidance_parts.h"
 #include "apps/stability/loop_rig.h"
@@ -16,8 +17,7 @@ double angleBetween(const dvec3& a, const dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// How hard guidance pulls when its target is out of reach: F_g and tau_g, in both modes, in the right
-// direction.
+// With the target out of reach, guidance pulls with F_g and tau_g in the right direction, in both modes.
 Outcome farTarget(RunLength runLength) {
     double worst = 0.0;
     Rng rng(1);
@@ -53,7 +53,7 @@ Outcome farTarget(RunLength runLength) {
                          num(uint64_t(targets)) + " targets.");
 }
 
-// Two valves: one class whose place flips between them, and two classes of which one or the other is lost.
+// Two valves: one class whose position flips between them, then two classes that disappear in turn.
 Outcome flicker(RunLength runLength) {
     double largest = 0.0;
     int changes = 0;
@@ -93,8 +93,8 @@ Outcome flicker(RunLength runLength) {
             chosen = record.guidanceClass;
         }
     }
-    // 0.1 m/s of slew turn the pull of 2 N by at most 0.1 mm over what is left of the lead, 2 mm: 0.1 N a
-    // turn.
+    // The lead is 2 mm at 2 N. A slew of 0.1 m/s moves it by at most 0.1 mm per tick, which changes the force
+    // by at most 0.1 N per tick.
     Outcome out = outcomeOf(largest, 0.1 + 1e-6, "N",
                             "A target that flips between two valves 0.6 m apart at random frames, and two "
                             "classes that come and go: largest step of the force "

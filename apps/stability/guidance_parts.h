@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the group guidance, a file each; guidanceCases() strings them together.
+// The parts of the group guidance, one per file. guidanceCases() joins them.
 #pragma once
 
 #include "apps/stability/stability_case.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group guidance, points: those that are no plane, exact planes, noise against theory, eigenvectors.
+// Group guidance on point sets: non-planar sets, exact planes, noise against theory, eigenvectors.
 #include "apps/stability/case_text.h"
 #include "apps/stability/guidance_parts.h"
 #include "apps/stability/rng.h"
@@ -32,7 +32,8 @@ bool isSound(const GuidancePose& pose) {
            (!pose.planar || std::abs(glm::length(pose.normal) - 1.0) < 1e-12);
 }
 
-// Disc of points about `centre`, across `normal`, with noise along z (the optical axis of a camera).
+// Disc of points around `centre`, perpendicular to `normal`, with noise along z (the optical axis of a
+// camera).
 std::vector<dvec3> disc(Rng& rng, const dvec3& centre, const dvec3& normal, double radius, int count,
                         double sigma) {
     const dvec3 u =
@@ -50,7 +51,7 @@ double angleOf(const dvec3& a, const dvec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b));
 }
 
-// Points on a line have a normal only by rounding.
+// Points on a line have no normal; rounding alone would choose one.
 Outcome collinear(RunLength runLength) {
     int wrong = 0, tried = 0;
     Rng rng(4);
@@ -71,7 +72,7 @@ Outcome collinear(RunLength runLength) {
                          " were taken for a plane, were not finite or lost the scene's own orientation.");
 }
 
-// One point, two, none, and any number at one place.
+// No point, one, two, and many points at one position.
 Outcome fewPoints(RunLength) {
     int wrong = 0;
     Rng rng(6);
@@ -112,7 +113,7 @@ Outcome exactPlane(RunLength runLength) {
     return out;
 }
 
-// Normal noise sigma / (s_rms sqrt(N)) on each of its two axes.
+// Theory: the normal's error is sigma / (s_rms sqrt(N)) about each of its two axes.
 Outcome noisyPlane(RunLength runLength) {
     double worst = 0.0;
     Rng rng(9);
@@ -123,7 +124,7 @@ Outcome noisyPlane(RunLength runLength) {
     for (const double sigma : {0.0001, 0.0005, 0.001, 0.002, 0.005, 0.01}) {
         const double radius =
             std::max(0.04, (sigma > 0.003 ? 30.0 : 20.0) *
-                               sigma); // beyond 3 mm and a tenth of its spread it is no plane
+                               sigma); // a set thicker than 3 mm and a tenth of its spread is no plane
         const int count = sigma == 0.002 ? 1000 : 400;
         double sum = 0.0;
         int planar = 0;
@@ -140,8 +141,8 @@ Outcome noisyPlane(RunLength runLength) {
         measured.x.push_back(sigma), measured.y.push_back(axis);
         theory.x.push_back(sigma), theory.y.push_back(expected);
     }
-    // The mean square of 2 x trials normal numbers scatters by 1/sqrt(trials) (one sigma), the root by half
-    // of that.
+    // The mean square of 2 x trials normal samples has a standard deviation of 1/sqrt(trials); its root has
+    // half of that.
     Outcome out = outcomeOf(worst, 0.02 + 4.0 * 0.5 / std::sqrt(trials), "1",
                             "Noise of 0.1 to 10 mm on a disc of at least 40 mm, 400 or 1000 points: error of "
                             "the normal on each axis against sigma / "
@@ -152,13 +153,13 @@ Outcome noisyPlane(RunLength runLength) {
     return out;
 }
 
-// Thick clouds are no plane, and a disc has no long axis.
+// A thick cloud is not a plane, and a disc has no long axis.
 Outcome decisions(RunLength runLength) {
     int wrong = 0, tried = 0;
     Rng rng(11);
     for (int n = 0; n < (runLength == RunLength::Full ? 2000 : 300); ++n) {
         const dvec3 normal = rng.direction(), centre = rng.logUniform(0.3, 30.0) * rng.direction();
-        const double radius = rng.logUniform(0.03, 0.3), spread = 0.5 * radius; // s_rms on each axis
+        const double radius = rng.logUniform(0.03, 0.3), spread = 0.5 * radius; // s_rms per axis
         const double thin = 0.8 * std::max(0.003, 0.1 * spread), thick = 1.25 * std::max(0.003, 0.1 * spread);
         const GuidancePose plane = poseOf(disc(rng, centre, normal, radius, 2000, thin));
         const GuidancePose cloud = poseOf(disc(rng, centre, normal, radius, 2000, thick));
@@ -173,7 +174,7 @@ Outcome decisions(RunLength runLength) {
                          std::to_string(tried) + ".");
 }
 
-// Near-equal eigenvalues are where closed forms fail.
+// Closed-form solutions fail at nearly equal eigenvalues.
 Outcome eigenvectors(RunLength runLength) {
     double worst = 0.0;
     Rng rng(12);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A wild hand in a world for a while, every pose audited: what the guarantee and geometry cases are made of.
+// Runs of a random hand in a world with an audit of every pose; the guarantee and geometry cases use them.
 #pragma once
 
 #include "apps/stability/lockstep_rig.h"
@@ -9,9 +9,9 @@
 namespace fathom::stability {
 
 struct HandRunFigures {
-    double penetration = 0.0; // [m] deepest beyond the allowance, all runs
+    double penetration = 0.0; // [m] deepest over all runs, beyond the allowance
     uint64_t runs = 0;
-    RigFigures rig; // sums and largest figures of all runs
+    RigFigures rig; // sums and maxima over all runs
 
     void add(const LockstepRig& rig);
     void add(const HandRunFigures& other);
@@ -26,11 +26,11 @@ struct HandRun {
     RigSetup setup;
 };
 
-// One run; adds to `figures`.
+// Does one run and adds it to `figures`.
 void runHand(const World& world, const HandRun& handRun, HandRunFigures& figures);
 
-// Outcome "deepest penetration <= limit" that also demands that the runs were no air: contacts, a path,
-// finite numbers.
+// Outcome "deepest penetration <= limit". Also requires contacts, a travelled path and finite numbers, so
+// that runs in free space cannot pass.
 Outcome penetrationOutcome(const HandRunFigures& figures, double limit, const std::string& what);
 
 } // namespace fathom::stability

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fixture sets from depth images, made on the CPU by the float64 twins of the shaders: classify, surface,
-// thin, spheres, hold. So the cases need no GPU and see the regions that the engine would make of the same
+// Fixture sets from depth images, computed on the CPU by the float64 twins of the shaders classify, surface,
+// thin, spheres and hold. The cases need no GPU and get the regions that the engine builds from the same
 // frames.
 #pragma once
 
@@ -14,16 +14,16 @@
 
 namespace fathom::stability {
 
-// One camera, frame after frame. One thread; allocates.
+// Turns the frames of one camera into fixture sets. For one thread; allocates.
 class ImageFixtures {
 public:
-    // hold: keep points that a new frame does not contradict for scene.holdSeconds, as the engine does.
+    // hold: keep points that no new frame contradicts for scene.holdSeconds, as the engine does.
     ImageFixtures(const Scene& scene, const CameraInfo& camera, bool hold)
         : scene_(scene)
         , camera_(camera)
         , hold_(hold) {}
 
-    // Positions are about the camera's centre. Generation and frame number are left to the rig.
+    // Positions are relative to the camera's centre. The rig sets generation and frame number.
     Fixtures make(const Frame::Content& frame);
 
 private:

@@ -61,7 +61,7 @@ void LockstepRig::ask() {
     pending_.push_back({now_ + late, std::move(set)});
 }
 
-// The newest answer that is due; older ones go unread.
+// Returns the newest answer that is due and drops older ones.
 std::unique_ptr<ContactSet> LockstepRig::arrived() {
     std::unique_ptr<ContactSet> offered;
     while (!pending_.empty() && pending_.front().due <= now_) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic cycle in lockstep over fixture sets that a case makes: contact answers that come late or get
-// lost, an independent audit of every pose, and the figures that cases ask for.
+// The haptic cycle in lockstep over a case's fixture sets. Contact answers can be late or lost. Audits every
+// pose independently and collects the figures that cases check.
 #pragma once
 
 #include "engine/contact/behind.h"
@@ -19,12 +19,12 @@
 namespace fathom::stability {
 
 struct AnswerFaults {
-    uint32_t late = 0;   // [turns] from query to answer
-    bool jitter = false; // late by 0 .. late, drawn anew for each answer
-    double lost = 0.0;   // share of the queries that are never answered
+    uint32_t late = 0;   // [ticks] from query to answer
+    bool jitter = false; // a random delay of 0 .. late for each answer
+    double lost = 0.0;   // fraction of queries that are never answered
 };
 
-// By how much a magnitude rises from one tick to the next; a fall counts as 0.
+// Rise of a magnitude from one tick to the next; a fall counts as 0.
 struct Rise {
     double most = 0.0, squares = 0.0;
     uint64_t ticks = 0;
@@ -39,32 +39,31 @@ struct Rise {
 
 struct RigFigures {
     uint64_t ticks = 0, contact = 0, stalled = 0, trapped = 0, escape = 0, refused = 0, notFinite = 0;
-    double path = 0.0;                        // [m] of the tool's centre
+    double path = 0.0;                        // [m] travelled by the tool's centre
     double force = 0.0, torque = 0.0;         // largest [N], [N m]
     double forceStep = 0.0, torqueStep = 0.0; // largest between two ticks [N], [N m]
-    // Of what the springs ask for, before the limits of size and slew rate.
+    // Rises of the springs' force and torque before the magnitude and slew limits.
     Rise askedForce, askedTorque; // [N], [N m]
 };
 
-// Options of a scene with one forbidden class on the device `ideal`.
+// Options for a scene with one forbidden class and the device `ideal`.
 HapticOptions plainHapticOptions(const Tool& tool);
 
 struct RigSetup {
-    double reach = 0.01; // [m] of the contact queries
+    double reach = 0.01; // [m] reach of the contact queries
     QueryCapacity capacity;
 };
 
-// One thread. The hand is the handle's pose; base and device frame are one.
+// For one thread. The hand is the pose of the handle. The base frame equals the device frame.
 class LockstepRig {
 public:
     LockstepRig(const Tool& tool, const Pose& start, const RigSetup& setup = {});
     LockstepRig(const Tool& tool, const HapticOptions& options, const Pose& start,
                 const RigSetup& setup = {});
 
-    // News of the frame cadence: what the next query is asked of. The generation and the frame number are
-    // given here.
+    // Publishes a new frame's fixture set; the next query uses it. Sets its generation and frame number.
     void show(Fixtures set);
-    // From now on the set shown ages; otherwise every tick counts as a fresh image of the same.
+    // From now on the shown set ages. Without this, every tick counts as a new frame with the same content.
     void freeze() { fresh_ = false; }
 
     StepRecord step(const Pose& hand);
@@ -78,7 +77,7 @@ public:
     Pose pose() const { return cycle_->pose(); }
     const Fixtures& shown() const { return published_.back()->set; }
     const ContactSet* active() const { return contacts_.active(); }
-    // Deepest leaf in the set shown, brute force; negative = the smallest gap [m].
+    // Depth of the deepest leaf in the shown set by brute force [m]; negative: the smallest gap.
     double depth() const;
 
 private:
@@ -104,7 +103,7 @@ private:
     BehindTracker behind_;
     PenetrationAudit audit_;
     Rng rng_{4711};
-    std::deque<std::unique_ptr<Published>> published_; // oldest first; those that answers may still name
+    std::deque<std::unique_ptr<Published>> published_; // oldest first, while answers can name them
     std::deque<Answer> pending_;
     ActiveContacts<std::unique_ptr<ContactSet>> contacts_;
     uint64_t generation_ = 0, queries_ = 0, now_ = 0;

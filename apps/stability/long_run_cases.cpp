@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group long-run: one million ticks in lockstep, with frames, guidance, dead-man and a hand that roams:
-// nothing drifts, nothing grows, and the same run gives the same digest.
+// Group long-run: one million ticks in lockstep with frames, guidance, dead-man button and a roaming hand.
+// Nothing drifts or grows, and a repeated run gives the same digest.
 #include "apps/replay/digest.h"
 #include "apps/replay/step_to_tick.h"
 #include "apps/stability/case_text.h"
@@ -24,8 +24,8 @@ uint64_t ticksFor(RunLength runLength) {
     return runLength == RunLength::Full ? 1000000 : 50000;
 }
 
-// A hand that roams over and into a wall for so long, turns over, presses the buttons of guidance and
-// dead-man (the clutch would let it wander off), and ends at rest far from everything.
+// A hand that moves over and into a wall, flips over, and presses the guidance and dead-man buttons. It does
+// not use the clutch, which would let it drift away. It ends at rest far from everything.
 LoopSpec roamingSpec(uint64_t ticks) {
     LoopSpec spec;
     spec.hand = kHands[3];
@@ -61,11 +61,11 @@ double residentMiB() {
 
 struct LongRun {
     std::string digest;
-    double norm = 0.0;   // largest distance of a quaternion's length from 1
-    double growth = 0.0; // [MiB] of the process from a tenth of the run to its end
-    double clock = 0.0;  // [s] the cycle's clock off ticks x period at the end
+    double norm = 0.0;   // largest deviation of a quaternion's length from 1
+    double growth = 0.0; // [MiB] memory growth from a tenth of the run to its end
+    double clock = 0.0;  // [s] difference of the cycle's clock from ticks x period at the end
     uint64_t contacts = 0, escapes = 0, guided = 0, notFinite = 0;
-    double rest = 0.0; // [m] tool to hand at the end
+    double rest = 0.0; // [m] distance from tool to hand at the end
     Outcome::Curve memory{"resident memory", "tick", "MiB", {}, {}, false, false};
 };
 
@@ -86,7 +86,7 @@ LongRun roam(uint64_t ticks) {
     double early = 0.0;
     uint64_t generation = 1;
     for (uint64_t i = 0; i < ticks; ++i) {
-        if (i % kTicksPerFrame == kTicksPerFrame - 1) { // the surface comes and goes by up to 1.5 mm
+        if (i % kTicksPerFrame == kTicksPerFrame - 1) { // the surface moves by up to 1.5 mm
             rig.show(sphereWall(rng.uniform(0.0, 0.0015), ++generation));
         }
         judge(rig.tick(), run, digest);

@@ -10,7 +10,7 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kNoLimit = 1e9;
-constexpr double kReach = 0.01; // [m] of the contact query
+constexpr double kReach = 0.01; // [m] reach of the contact query
 
 SimulatedHandOptions handOptions(const LoopSpec& spec) {
     SimulatedHandOptions options;
@@ -28,7 +28,7 @@ HapticOptions loopOptions(const LoopSpec& spec, const Tool& tool) {
     HapticOptions options;
     options.period = spec.period();
     options.device = devicePreset("ideal");
-    options.device.stiffness = kNoLimit; // so that the bound alone decides
+    options.device.stiffness = kNoLimit; // so that only the passive bound limits it
     options.device.damping = spec.damping;
     options.device.rotationalStiffness.reset();
     options.device.rotationalDamping = spec.damping * spec.armLength * spec.armLength;
@@ -105,7 +105,7 @@ const StepRecord& LoopRig::tick() {
     ++ticks_;
     const Pose before = hand_.handle();
     hand_.write(record_.deviceWrench, period);
-    account(sent_[ticks_ % slots], before, period); // the oldest: what the hand felt
+    account(sent_[ticks_ % slots], before, period); // the oldest: the force that the hand felt
     time_ += period;
     return record_;
 }
@@ -128,7 +128,7 @@ Shape wallShape(const dvec3& normal, double height) {
 }
 
 Shape lineShape(const dvec3& along) {
-    Shape shape = wallShape(along, 0.0); // its z axis lies along
+    Shape shape = wallShape(along, 0.0); // its z axis points along
     shape.kind = ShapeKind::Line;
     return shape;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group new-data: surfaces that jump and sweep over the tool, and the ways out.
+// Group new-data: surfaces that jump or sweep over the tool, and how the tool gets out.
 #include "apps/stability/new_data_streams.h"
 
 #include "apps/stability/case_text.h"
@@ -14,33 +14,33 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kEscapePerTick = 1e-3;                // [m] depth given back per tick
-constexpr double kTool = 0.01;                         // [m] tool
-constexpr double kStand = WallCamera::kRegion + kTool; // [m] before the wall where the tool rests
+constexpr double kEscapePerTick = 1e-3;                // [m] depth removed per tick
+constexpr double kTool = 0.01;                         // [m] radius of the tool's balls
+constexpr double kStand = WallCamera::kRegion + kTool; // [m] distance from the wall at which the tool rests
 constexpr double kWall = 0.5;                          // [m]
 constexpr double kExtraTicks =
-    3.0; // beyond depth / 1 mm: the answer, the last fraction, dimples that send it sideways
+    3.0; // on top of depth / 1 mm: the answer, the last fraction, sideways motion in dimples
 
-// Measured: 1.7 N and 0.048 N m; a proxy that gives back all depth at once asks for 10 N and 0.10 N m.
+// Measured: 1.7 N and 0.048 N m. A proxy that removes all depth at once gives 10 N and 0.10 N m.
 constexpr double kMostForceRise = 2.5;    // [N]
 constexpr double kMostTorqueRise = 0.075; // [N m] RMS
 
-// On the camera's side of the wall at z.
+// Accepts poses on the camera's side of a wall at z [m].
 std::function<bool(const Pose&)> inFrontOf(double z) {
     return [z](const Pose& pose) { return pose.position.z < z; };
 }
 
 struct JumpFigures {
-    double ratio = 0.0;                       // turns over what 1 mm per tick allows
+    double ratio = 0.0;                       // ticks over the number expected at 1 mm per tick
     double growth = 0.0;                      // [m]
-    double front = 1.0;                       // [m] least distance in front of the wall at the end
+    double front = 1.0;                       // [m] smallest distance in front of the wall at the end
     double forceStep = 0.0;                   // [N]
-    double forceRise = 0.0, torqueRise = 0.0; // [N] largest, [N m] RMS; before the limiter, from the jump on
+    double forceRise = 0.0, torqueRise = 0.0; // [N] largest, [N m] RMS; before the limiter, after the jump
     uint64_t runs = 0, stuck = 0, flagged = 0;
-    double ticks = 0.0; // most
+    double ticks = 0.0; // largest of all runs
 };
 
-// Rests on the wall (pressed or not), then the wall stands `jump` nearer.
+// The tool rests on the wall (pressed or not), then the wall jumps nearer by `jump` [m].
 void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_t late, uint64_t seed,
               JumpFigures& f) {
     Rng rng(seed);
@@ -48,7 +48,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     const dvec3 at(rng.uniform(-0.03, 0.03), rng.uniform(-0.03, 0.03), kWall - kStand - 0.005);
     const Pose hand{at + dvec3(0, 0, press), rng.rotation()};
     const double back =
-        tool.boundingRadius() - kTool; // wherever its leaves are, the tool starts before the wall
+        tool.boundingRadius() - kTool; // the tool starts in front of the wall, whatever its leaves
     LockstepRig rig(tool, {at - dvec3(0, 0, back), hand.rotation});
     rig.faults.late = late;
     rig.show(camera.look({kWall, noise, 0.0}));
@@ -60,7 +60,7 @@ void jumpOnce(const Tool& tool, double jump, double noise, double press, uint32_
     rig.show(camera.look({kWall - jump, noise, 0.0}));
     const EscapeFigures e = escape(rig, hand, 3000, inFrontOf(kWall - jump));
     const double way = std::max(0.0, resting - (kWall - jump - kStand)) + 3.0 * noise;
-    // A late answer is certified for 10 mm about the pose it was asked at: one wait for each.
+    // An answer is valid for 10 mm around the pose of its query, so the tool waits once per 10 mm.
     const double waits = late > 0 ? (std::ceil(way / 0.00999) + 2.0) * (late + 1.0) : 0.0;
     f.ratio = std::max(f.ratio, e.ticks / (std::ceil(way / kEscapePerTick) + kExtraTicks + waits));
     f.ticks = std::max(f.ticks, static_cast<double>(e.ticks));
@@ -130,7 +130,7 @@ Outcome lateJumpCase(RunLength runLength, uint32_t late) {
     return out;
 }
 
-// All jumps with a tool whose leaves make levers: what the hand feels of it.
+// All jumps, with a tool whose leaves act as levers. Checks the force or torque that the hand feels.
 Outcome stepCase(RunLength runLength, bool torque) {
     JumpFigures f;
     const Tool cross = toolOf(crossLeaves(0.008));
@@ -153,7 +153,7 @@ Outcome stepCase(RunLength runLength, bool torque) {
     return out;
 }
 
-// The wall comes at the tool frame after frame.
+// The wall approaches the tool frame by frame.
 Outcome sweepCase(RunLength runLength, double speed) {
     double ratio = 0.0, front = 1.0, growth = 0.0, forceStep = 0.0;
     uint64_t stuck = 0;

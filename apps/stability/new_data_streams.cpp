@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kStreamBall = 0.01, kStreamWall = 0.5;            // [m]
 constexpr double kStreamStand = WallCamera::kRegion + kStreamBall; // [m]
-constexpr double kSlewStep = 2.0 * (1.0 + 1e-9);                   // [N] a turn at 2000 N/s and 1 kHz
+constexpr double kSlewStep = 2.0 * (1.0 + 1e-9);                   // [N] per tick at 2000 N/s and 1 kHz
 
 void requireSound(Outcome& out, const LockstepRig& rig) {
     const double deepest = rig.audit().maxPenetration();
@@ -34,8 +34,8 @@ std::string wordsOf(const LockstepRig& rig) {
            num(rig.audit().maxPenetration()) + " m.";
 }
 
-// The hand presses 15 mm into the wall while it loses a share of its pixels in every frame. Figure: how far
-// the tool sinks.
+// The hand presses 15 mm into the wall while every frame loses some of its pixels. Figure: how far the tool
+// sinks.
 Outcome flickerCase(RunLength runLength, bool hold) {
     WallCamera camera(hold, 3);
     const Pose hand{dvec3(0.004, -0.003, kStreamWall - kStreamStand + 0.015), kUpright};
@@ -64,7 +64,7 @@ Outcome flickerCase(RunLength runLength, bool hold) {
         curve.x.push_back(frame * WallCamera::kFrame);
         curve.y.push_back(1e3 * (rig.pose().position.z - resting));
     }
-    // A hole of radius h in the wall lets the tool sink until it meets the rim; held points leave no hole.
+    // In a hole of radius h the tool sinks until it touches the rim. Held points leave no hole.
     const double theory = hold ? 0.0 : kStreamStand - std::sqrt(kStreamStand * kStreamStand - hole * hole);
     Outcome out = outcomeOf(
         deepest - resting, theory + 2e-4, "m",
@@ -78,7 +78,7 @@ Outcome flickerCase(RunLength runLength, bool hold) {
     return out;
 }
 
-// Whole frames without any depth.
+// Entire frames without depth.
 Outcome dropoutCase(RunLength runLength, bool hold) {
     WallCamera camera(hold, 4);
     const Pose hand{dvec3(0.001, 0.002, kStreamWall - kStreamStand + 0.015), kUpright};
@@ -117,12 +117,12 @@ Outcome dropoutCase(RunLength runLength, bool hold) {
     return out;
 }
 
-// A stream that never comes to rest.
+// A stream whose wall never settles.
 struct Restless {
-    double noise, leap; // [m] sigma of every depth; how much nearer the wall is in every second frame
+    double noise, leap; // [m] sigma of the depths; step of the wall towards the tool in every second frame
     int ticksPerFrame;
-    bool rms;     // the figure is the RMS rise, else the largest
-    double limit; // [N] measured, with a margin
+    bool rms;     // the figure is the RMS rise, otherwise the largest
+    double limit; // [N] measured value plus a margin
 };
 
 Outcome restlessCase(RunLength runLength, const Restless& stream, const std::string& what) {
@@ -146,7 +146,7 @@ Outcome restlessCase(RunLength runLength, const Restless& stream, const std::str
     return out;
 }
 
-Fixtures vice(double overlap) { // two walls of spheres that leave 2 overlap too little for the ball
+Fixtures vice(double overlap) { // two walls of spheres, closer than the ball needs by 2 x overlap
     Fixtures set;
     const double half = kStreamStand - overlap;
     addWall(set, dvec3(0, 0, -half), dvec3(1, 0, 0), dvec3(0, 1, 0), 0.12, 0.004, 0.04);
@@ -155,13 +155,13 @@ Fixtures vice(double overlap) { // two walls of spheres that leave 2 overlap too
 }
 
 struct ViceRun {
-    int recognised = -1;     // turns until trapped
+    int recognised = -1;     // ticks until trapped
     double moved = 0.0;      // [m] while trapped
     double forceAfter = 0.0; // [N] 0.2 s later
     EscapeFigures left;
 };
 
-// The vice closes, holds the tool for 0.4 s, and one jaw goes away.
+// The vice closes, holds the tool for 0.4 s, then one jaw disappears.
 ViceRun closeVice(LockstepRig& rig, double overlap, const Pose& hand) {
     ViceRun run;
     rig.show(vice(-0.003));
@@ -231,7 +231,7 @@ Outcome viceCase(RunLength runLength, ViceFigure what) {
     return out;
 }
 
-// A recording's own frames at 30 Hz over a tool that the hand presses into its regions.
+// Plays a recording's frames at 30 Hz while the hand presses the tool into its regions.
 Outcome recordingCase(RunLength runLength, const std::string& file, const std::string& folder) {
     const World world = recordedWorld(file, folder).value();
     const Scene scene = loadScene(file);

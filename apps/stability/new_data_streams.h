@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// New-data cases of whole streams: dropouts, flicker, noise, walls that close in on the tool, recordings.
+// New-data cases on frame streams: dropouts, flicker, noise, walls that close in on the tool, and recordings.
 #pragma once
 
 #include "apps/stability/stability_case.h"

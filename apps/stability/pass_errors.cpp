@@ -49,7 +49,7 @@ PassError surfaceError(const PrecisionRig& rig, double range) {
 PassError thinError(const PrecisionRig& rig, double range) {
     const auto twin = reference::thin(rig.scene(), rig.width(), rig.height(), rig.forbidden(), rig.points());
     const auto cells = rig.thinning();
-    const double step = rig.scene().errorBudget / shared::kGrowthSteps; // outward to a whole one
+    const double step = rig.scene().errorBudget / shared::kGrowthSteps; // radii round up to it
     PassError e;
     e.wrong += cells.size() != twin.size();
     for (size_t i = 0; i < std::min(cells.size(), twin.size()); ++i) {
@@ -90,7 +90,7 @@ PassError sphereError(const PrecisionRig& rig, double range) {
 
 namespace {
 
-// What the passes add to a radius so that rounding never lets a child stick out.
+// Adds the margin that the passes add to a radius, so that rounding never leaves a child outside its parent.
 double roundedOutward(double radius) {
     return radius * 1.000001 + 1e-7;
 }

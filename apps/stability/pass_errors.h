@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Largest errors of each pass of a frame against its float64 twin, each twin fed with what the pass itself
-// was fed, so that the errors of one pass do not count in the next.
+// Largest errors of each pass of a frame against its float64 twin. Each twin gets the same input as its pass,
+// so errors of one pass do not count in the next.
 #pragma once
 
 #include "apps/stability/precision_rig.h"
@@ -8,8 +8,8 @@
 
 namespace fathom::stability {
 
-// Lengths as shares of the range unless said otherwise. `wrong`: decisions that differ although the twin is
-// sure of them (farther from their threshold than float32 can see).
+// Lengths are fractions of the range unless noted. `wrong` counts decisions that differ although the value is
+// farther from the threshold than the float32 error.
 struct PassError {
     double error = 0.0;
     uint64_t values = 0, wrong = 0, unsure = 0;
@@ -26,11 +26,11 @@ PassError surfaceError(const PrecisionRig& rig, double range);
 PassError thinError(const PrecisionRig& rig, double range);
 PassError sphereError(const PrecisionRig& rig, double range);
 PassError treeError(const PrecisionRig& rig,
-                    double range); // wrong: children outside their parents, counts; radii rounded outward
-PassError momentsError(const PrecisionRig& rig, double range); // mean
-PassError guidanceError(const PrecisionRig& rig);              // normal [rad]
+                    double range); // wrong: children outside parents, bad counts; radii rounded up
+PassError momentsError(const PrecisionRig& rig, double range); // error of the mean
+PassError guidanceError(const PrecisionRig& rig);              // [rad] error of the normal
 PassError occlusionError(const PrecisionRig& rig, double range);
-// One frame of a sequence: the twin's memory goes along. now, before: capture times [s].
+// One frame of a sequence; updates the twin's memory. now, before: capture times [s].
 PassError holdError(const PrecisionRig& rig, reference::HoldMemory& twin, double now, double before,
                     double range);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group precision: every float32 pass of a frame against its float64 twin, over range, noise, filter width
-// and tiny weights.
+// Group precision: every float32 pass of a frame against its float64 twin, over ranges, noise levels, filter
+// widths and tiny weights.
 
 #include "apps/stability/case_text.h"
 #include "apps/stability/pass_errors.h"
@@ -11,7 +11,7 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kShare = 1e-6; // of the range: 1 um at 1 m; float32 itself rounds to 6e-8
+constexpr double kShare = 1e-6; // fraction of the range: 1 um at 1 m; float32 rounds to 6e-8
 
 std::vector<double> rangesFor(RunLength runLength) {
     return runLength == RunLength::Full ? std::vector<double>{0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0}
@@ -26,7 +26,7 @@ struct Sweep {
     Outcome::Curve curve{"largest error", "range [m]", "error / range", {}, {}, true, true};
 };
 
-// One frame at each range and noise; `change` alters scene and camera before anything is built.
+// One frame per range and noise level. `change` edits scene and camera before anything is built.
 Sweep overRanges(const DeviceSource& device, RunLength runLength, const std::vector<double>& noises,
                  const Measure& measure, const Change& change = {}) {
     Sweep sweep;
@@ -119,7 +119,7 @@ Outcome tree(const DeviceSource& device, RunLength runLength) {
         "are rounded outward by 1e-6 of themselves and 0.1 um, and so are the twin's.");
 }
 
-// Six frames with other noise and other holes each.
+// Six frames, each with different noise and holes.
 Outcome hold(const DeviceSource& device, RunLength runLength) {
     Sweep sweep;
     for (const double range : rangesFor(runLength)) {
@@ -151,7 +151,7 @@ Outcome guidance(const DeviceSource& device, RunLength runLength) {
         overRanges(
             device, runLength, kNoises, [](const PrecisionRig& rig, double) { return guidanceError(rig); },
             [](Scene& scene, CameraInfo&, double range) {
-                // the flat part left of the step
+                // Select the flat part left of the step.
                 const dvec3 centre = scene.baseTcamera.apply({-0.25 * range, 0.0, range});
                 scene.fixtures[1].box = Box{centre - dvec3(0.12 * range), centre + dvec3(0.12 * range)};
             }),
@@ -159,7 +159,7 @@ Outcome guidance(const DeviceSource& device, RunLength runLength) {
         "Guidance: the normal of a class that is a plane, against the twin's by another eigen solver.");
 }
 
-// Filter widths at 1 m: from far below a pixel's spacing to far beyond the image.
+// Filter widths at 1 m, from far below the pixel spacing to far wider than the image.
 Outcome filterWidths(const DeviceSource& device, RunLength runLength) {
     Sweep sweep;
     sweep.curve.xLabel = "sigma [m]";
@@ -188,12 +188,12 @@ Outcome filterWidths(const DeviceSource& device, RunLength runLength) {
                         "noise off and on.");
 }
 
-// Weights exp(-d^2 / (2 sigma^2)) of a pixel's neighbours between 1e-36 and 1e-46: where float32 goes
-// denormal, and zero.
+// Neighbour weights exp(-d^2 / (2 sigma^2)) between 1e-36 and 1e-46, where float32 becomes denormal and then
+// zero.
 Outcome tinyWeights(const DeviceSource& device, RunLength runLength) {
     Sweep sweep;
     sweep.curve.xLabel = "weight of a neighbour";
-    const double spacing = 1.0 / (1.1 * 96.0); // of neighbours at 1 m
+    const double spacing = 1.0 / (1.1 * 96.0); // [m] between neighbours at 1 m
     for (const double exponent :
          runLength == RunLength::Full
              ? std::vector<double>{80.0, 85.0, 87.0, 87.5, 90.0, 95.0, 100.0, 103.0, 104.0, 110.0}

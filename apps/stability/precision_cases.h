@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group precision on a chosen device.
+// Group precision on a selected device.
 #pragma once
 
 #include "apps/stability/stability_case.h"
 
 namespace fathom::stability {
 
-// selector: as gpu::Device takes it; empty = the best device there is. precisionCases() is this with an empty
-// one.
+// selector: as for gpu::Device; empty = the best available device, which precisionCases() uses.
 std::vector<Case> precisionCases(const std::string& selector);
 
 } // namespace fathom::stability

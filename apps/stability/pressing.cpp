@@ -17,7 +17,7 @@ LoopSpec pressedSpec(Ground ground, double seconds) {
                        wallShape({0.0, 1.0, 0.0}, 0.0)};
         above = {0.02, 0.02, 0.02}, pressed = {-0.005, -0.005, -0.005}, slid = {0.015, -0.005, -0.005};
         break;
-    case Ground::Slot: // half a millimetre of room on each side
+    case Ground::Slot: // 0.5 mm of clearance on each side
         spec.shapes = {wallShape({0.0, 0.0, 1.0}, 0.0), wallShape({1.0, 0.0, 0.0}, -0.0105),
                        wallShape({-1.0, 0.0, 0.0}, -0.0105)};
         pressed = {0.006, 0.0, -0.005}, slid = {-0.006, 0.02, -0.005};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A scripted hand without manners: it is drawn about an arena, leaps, spins and turns over.
+// A scripted hand that moves violently: it wanders through an arena, leaps, spins and flips over.
 #pragma once
 
 #include "apps/stability/rng.h"
@@ -10,18 +10,18 @@
 namespace fathom::stability {
 
 struct HandMotion {
-    double speed = 0.5;     // [m/s] at most
-    double spin = 20.0;     // [rad/s] at most, about any axis
-    double leaps = 2.0;     // a second, to anywhere within `leap`
+    double speed = 0.5;     // [m/s] maximum
+    double spin = 20.0;     // [rad/s] maximum, about any axis
+    double leaps = 2.0;     // per second, to any point within `leap`
     double leap = 10.0;     // [m]
-    double hops = 8.0;      // a second, to anywhere in the arena
-    double turnOvers = 0.0; // a second: 180 degrees at once about any axis
+    double hops = 8.0;      // per second, to any point in the arena
+    double turnOvers = 0.0; // per second, 180 degrees at once about any axis
 };
 
-// Deterministic: the same poses from the same seed.
+// Deterministic: the same seed gives the same poses.
 class RandomHand {
 public:
-    // arena: half edge of the cube about `focus` that it is drawn to [m].
+    // arena: half edge [m] of the cube around `focus` in which the hand moves.
     RandomHand(const Pose& start, const dvec3& focus, double arena, const HandMotion& motion, uint64_t seed)
         : pose_(start)
         , focus_(focus)
@@ -29,9 +29,9 @@ public:
         , motion_(motion)
         , rng_(seed) {}
 
-    // The pose a turn of `period` [s] later.
+    // The pose one tick of `period` [s] later.
     Pose next(double period) {
-        if (rng_.chance(20.0 * period) || way_ == dvec3(0.0)) { // off to some other place
+        if (rng_.chance(20.0 * period) || way_ == dvec3(0.0)) { // choose a new direction
             const dvec3 wanted = focus_ + rng_.inCube(arena_) - pose_.position;
             way_ = wanted * (motion_.speed * rng_.uniform(0.5, 1.0) / std::max(1e-9, glm::length(wanted)));
             spin_ = motion_.spin * rng_.uniform(0.5, 1.0) * rng_.direction();

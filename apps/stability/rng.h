@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Random numbers of the stability cases: the same from the same seed, with every compiler and library.
+// Random numbers for the stability cases. A seed gives the same sequence with every compiler and library.
 #pragma once
 
 #include "engine/types/pose.h"

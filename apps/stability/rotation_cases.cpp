@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group rotation: half turns, whole turns, fast spins, guidance without roll, levers. Devices are in
+// Group rotation: half turns, full turns, fast spins, guidance without roll, levers. The device cases are in
 // rotation_device_cases.cpp.
 #include "apps/stability/case_text.h"
 #include "apps/stability/pressing.h"
@@ -17,7 +17,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 Shape axisShape() {
     Shape shape = lineShape({0.0, 0.0, 1.0});
-    shape.kind = ShapeKind::Axis; // the tool's z stays on z: any tilt of the hand is felt
+    shape.kind = ShapeKind::Axis; // keeps the tool's z axis on z, so any tilt of the hand gives torque
     return shape;
 }
 
@@ -25,7 +25,7 @@ Pose turned(const dvec3& rotation) {
     return {dvec3(0.0), rotationExp(rotation)};
 }
 
-// Through the half turn and back, slowly, about axes across the one that is held.
+// Slowly past the half turn and back, about axes perpendicular to the constrained one.
 Outcome halfTurn(RunLength runLength) {
     double step = 0.0, torque = 0.0, allowed = 1.0;
     bool sound = true;
@@ -57,7 +57,7 @@ Outcome halfTurn(RunLength runLength) {
     return out;
 }
 
-// Whole turns: over the half turn the spring lets go of what it took.
+// Full turns: past the half turn, the spring returns the energy that it stored.
 Outcome wholeTurns(RunLength runLength) {
     const int ticks = runLength == RunLength::Full ? 40000 : 8000;
     double drawn = -1e9, stored = 1.0;
@@ -86,8 +86,8 @@ Outcome wholeTurns(RunLength runLength) {
             " J); the change of sides falls between two ticks of the cycle, which is all that is left.");
 }
 
-// Guidance without a roll of its own: the torque has no part about the axis that it aims, wherever the hand
-// points.
+// Guidance without a roll target gives no torque about the axis that it aligns, for any orientation of the
+// hand.
 Outcome noRoll(RunLength runLength) {
     double worst = 0.0, felt = 0.0;
     Rng rng(8);
@@ -97,7 +97,7 @@ Outcome noRoll(RunLength runLength) {
         target.present = target.planar = target.rollFree = true;
         target.target = {dvec3(0.0), rng.rotation()};
         Pose hand{dvec3(0.0), rng.rotation()};
-        if (n % 5 == 0) { // points the very other way
+        if (n % 5 == 0) { // points in the opposite direction
             hand.rotation = target.target.rotation * rotationExp({kPi, 0.0, 0.0});
         }
         StepTimer stepTimer("ideal", true, {}, hand);
@@ -118,7 +118,7 @@ Outcome noRoll(RunLength runLength) {
     return out;
 }
 
-// Twenty turns a second with a tool that has no room to turn.
+// Twenty revolutions per second with a tool that has no room to rotate.
 Outcome fastSpin(RunLength runLength) {
     double norm = 0.0, step = 0.0;
     bool sound = true;
@@ -148,7 +148,7 @@ Outcome fastSpin(RunLength runLength) {
     return out;
 }
 
-// The lever: a cross of balls pressed with a tilt, the loop closed in all six ways.
+// Lever: a cross of balls pressed at a tilt, with the loop closed in all six degrees of freedom.
 Outcome leverSettles(RunLength runLength) {
     double worst = 0.0;
     LoopGrid grid;

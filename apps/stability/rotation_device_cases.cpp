@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group rotation, devices: quaternions of any length, no torque, a dead axis.
+// Group rotation, devices: quaternions of any length, devices without torque or with an inactive axis.
 #include "apps/stability/case_text.h"
 #include "apps/stability/rng.h"
 #include "apps/stability/step_timer.h"
@@ -12,7 +12,7 @@ namespace fathom::stability {
 
 namespace {
 
-// The same motion with quaternions a thousand times too short and too long.
+// The same motion with quaternions a thousand times too short or too long.
 Outcome anyLength(RunLength runLength) {
     double worst = 0.0;
     Rng rng(3);
@@ -43,7 +43,7 @@ Outcome anyLength(RunLength runLength) {
 
 struct Leak {
     double wrong = 0.0, broken = 0.0,
-           felt = 0.0; // on axes that are not there; sum of the parts against the whole; largest torque
+           felt = 0.0; // on missing axes; sum of the parts against the total; largest torque
 };
 
 Leak leakOf(const char* device, const std::function<dvec3(const Wrench&, const Pose&)>& absent, int ticks) {

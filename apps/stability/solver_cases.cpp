@@ -11,8 +11,8 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kLimit =
-    1e-9; // relative: KKT residual, violated row over the step, distance to the exact optimum
+constexpr double kLimit = 1e-9; // relative limit of the KKT residual, of violations (over the step) and of
+                                // the distance to the optimum
 
 size_t sizeOf(RunLength runLength, size_t full) {
     return runLength == RunLength::Full ? full : std::max<size_t>(40, full / 25);
@@ -63,7 +63,7 @@ Outcome familyCase(RunLength runLength, RowFamily family) {
     return judged(tally, "Gyration radius 1 mm to 1 m. ");
 }
 
-// Every family at one scale of tool and metric.
+// All families at one scale of tool and metric.
 Outcome scaleCase(RunLength runLength, const RowScale& scale, const std::string& what) {
     Rng rng(77);
     SolverTrial trial;
@@ -87,7 +87,7 @@ Outcome armCase(RunLength runLength) {
     return judged(tally, "Eight unknowns, full metric of condition up to about 1e7. ");
 }
 
-// Sets whose answer is known by construction, down to a margin of 1e-9 of the step.
+// Sets whose feasibility is known by construction, down to a margin of 1e-9 of the step.
 Outcome feasibilityCase(RunLength runLength) {
     Rng rng(31);
     SolverTrial trial;
@@ -139,8 +139,8 @@ Outcome iterationCase(RunLength runLength) {
     return out;
 }
 
-// Sets so badly conditioned that rounding the rows themselves moves the optimum: the distance counts in units
-// of that.
+// Ill-conditioned sets: rounding the rows alone moves the optimum, so the distance is measured in units of
+// that shift.
 Outcome conditioned(SolverTally tally, const std::string& what) {
     const double ofRounding = tally.ofRounding;
     const double distance = tally.distance;
@@ -157,7 +157,7 @@ Outcome conditioned(SolverTally tally, const std::string& what) {
     return out;
 }
 
-// Two planes that lean by 1e-9: the corner lies far along them.
+// Two planes at an angle of 1e-9, which intersect far away.
 Outcome leaningCase(RunLength runLength) {
     Rng rng(17);
     SolverTrial trial;
@@ -194,7 +194,7 @@ Outcome mismatchedCase(RunLength runLength) {
     return conditioned(tally, "Tool of 10 m with a gyration radius of 1 mm, every family. ");
 }
 
-// The same rows solved warm (rows come, go and change places) and cold.
+// The same rows solved warm (rows appear, disappear and change order) and cold.
 Outcome warmCase(RunLength runLength) {
     Rng rng(99);
     double worst = 0.0;

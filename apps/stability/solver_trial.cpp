@@ -14,10 +14,10 @@ namespace fathom::stability {
 namespace {
 
 constexpr double kReferenceHolds = 1e-6;
-constexpr double kWorthALook = 1e-9; // distance to the optimum, residual of an answer
+constexpr double kWorthALook = 1e-9; // smaller distances and residuals need no closer check
 constexpr double kEpsilon = 2.2204460492503131e-16;
 
-// The same set with every number of its rows off by one rounding, up or down.
+// The same set with every coefficient of its rows changed by one rounding error, up or down.
 RowSet rounded(const RowSet& set, uint64_t seed) {
     Rng rng(seed);
     RowSet out = set;
@@ -71,12 +71,12 @@ void SolverTally::add(const SolverTally& other) {
 std::optional<NearestPoint> SolverTrial::reference(const RowSet& set) {
     try {
         NearestPoint truth = nearestPoint(set.problem());
-        // Where rows contradict themselves by less than its own residual tells, it gives a point far away
-        // that breaks them: such an answer means that there is none.
+        // If the rows contradict each other by less than the method's residual, it returns a distant point
+        // that violates them. Such an answer means infeasible.
         truth.feasible =
             truth.feasible && checkKkt(set.problem(), truth.x, truth.multipliers).worst() < kReferenceHolds;
         return truth;
-    } catch (const Error&) { // it does not end
+    } catch (const Error&) { // no convergence
         return std::nullopt;
     }
 }
@@ -107,8 +107,8 @@ SolveStatus SolverTrial::judge(const RowSet& set, SolverTally& tally) {
     return status;
 }
 
-// Two reasons not to believe the reference: a point that obeys every row is at hand, which its residual of
-// 1e-12 cannot tell from none; or one rounding of the rows ticks its answer.
+// Two reasons to distrust the reference: the solver's point satisfies every row, which the reference's
+// residual of 1e-12 cannot distinguish from infeasible; or rounding the rows changes the reference's answer.
 bool SolverTrial::undecidable(const RowSet& set, SolveStatus status, const NearestPoint& truth) const {
     if (status == SolveStatus::Optimal) {
         return checkKkt(set.problem(), x_, solver_.multipliers()).worst() < kWorthALook;
@@ -121,7 +121,7 @@ bool SolverTrial::undecidable(const RowSet& set, SolveStatus status, const Neare
     return ticks;
 }
 
-// How far rounding the rows moves the exact optimum: no float64 method can be expected to come nearer.
+// How far rounding the rows moves the exact optimum. No float64 method can be expected to get closer.
 double SolverTrial::roundingShift(const RowSet& set, const NearestPoint& truth) {
     double shift = 0.0;
     for (uint64_t seed = 1; seed <= 4; ++seed) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One row set through the solver and through two judges: the KKT conditions and an unrelated method, both in
+// Solves one row set and checks the answer in two ways: KKT conditions and an independent method, both in
 // long double.
 #pragma once
 
@@ -15,28 +15,28 @@ namespace fathom::stability {
 
 struct SolverTally {
     uint64_t sets = 0, optimal = 0, infeasible = 0;
-    uint64_t disagreements = 0; // about whether any point obeys all rows
-    uint64_t silent = 0;        // no second opinion: it gave up, or one rounding of the rows turns it
-    uint64_t cycled = 0;        // ended by the guard
-    double kkt = 0.0;           // worst of stationarity, dual, complementarity, relative
-    double violation = 0.0;  // worst violated row over the length of the step asked for, both by the metric
-    double distance = 0.0;   // to the exact optimum over |target| + |optimum|, by the metric
-    double ofRounding = 0.0; // the same over what one rounding of the rows moves the optimum where above 1e-9
-    double changes = 0.0;    // most rows taken in or dropped, over the guard's figure
-    std::array<double, 10> byRows{}; // worst of kkt, violation, distance for sets of 2^k .. 2^(k+1) - 1 rows
+    uint64_t disagreements = 0; // about feasibility
+    uint64_t silent = 0;        // no reference: it gave up, or rounding the rows changes its answer
+    uint64_t cycled = 0;        // stopped by the iteration limit
+    double kkt = 0.0;           // largest of stationarity, dual and complementarity residuals, relative
+    double violation = 0.0;     // largest violation over the length of the requested step, both in the metric
+    double distance = 0.0;      // to the exact optimum, over |target| + |optimum|, in the metric
+    double ofRounding = 0.0;    // a distance above 1e-9, over the optimum's shift from rounding the rows
+    double changes = 0.0;       // largest count of added and dropped rows, over the iteration limit
+    std::array<double, 10> byRows{}; // largest kkt, violation, distance; [k]: 2^k .. 2^(k+1) - 1 rows
 
     double worst() const;
     void add(const SolverTally& other);
 };
 
-// Keeps one solver, warm from set to set as the haptic tick does. One thread.
+// Keeps one solver warm from set to set, as the haptic tick does. For one thread.
 class SolverTrial {
 public:
     explicit SolverTrial(int unknowns = 6)
         : solver_(unknowns, kMostRows) {}
     static constexpr size_t kMostRows = 512;
 
-    // Solves and judges. Returns the status that the solver gave.
+    // Solves the set, adds the checks to `tally`, and returns the solver's status.
     SolveStatus judge(const RowSet& set, SolverTally& tally);
 
 private:
@@ -49,7 +49,7 @@ private:
     std::vector<double> x_;
 };
 
-// |v| by a row-major metric.
+// |v| in the set's row-major metric.
 double metricLength(const RowSet& set, std::span<const double> v);
 
 } // namespace fathom::stability

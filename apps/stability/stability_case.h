@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One case of the stability suite: what it measures, against which limit, and whether that holds.
+// One case of the stability suite: its figure, the limit, and whether the figure meets the limit.
 #pragma once
 
 #include "apps/replay/curve_plot.h"
@@ -15,7 +15,7 @@ class Device;
 
 namespace fathom::stability {
 
-// The nine groups of stability.json, in their order there.
+// The nine groups, in the order of stability.json.
 enum class Group : uint8_t {
     Solver,
     Geometry,
@@ -30,27 +30,27 @@ enum class Group : uint8_t {
 inline constexpr const char* kGroupNames[] = {"solver",   "geometry", "guarantee", "new-data", "stiff",
                                               "rotation", "guidance", "precision", "long-run"};
 
-// How much of a case runs: the whole of it (`fathom stability`), or a shortened form with the same limits
-// (`./run test`).
+// Full runs the whole case (`fathom stability`); Short runs fewer trials against the same limits (`./run
+// test`).
 enum class RunLength : uint8_t { Full, Short };
-// How many of something.
+// Selects a count by run length.
 inline int some(RunLength runLength, int full, int brief) {
     return runLength == RunLength::Full ? full : brief;
 }
 
-// What one case came to. holds: the figure obeys the limit in the way that `relation` says.
+// The result of a case. holds(): the figure meets the limit under `relation`.
 struct Outcome {
     double figure = 0.0;
     double limit = 0.0;
     std::string unit;            // "m", "N", "1", ...; "1" = a pure number
     std::string relation = "<="; // figure <= limit, or ">="
-    std::string note; // one sentence: what was varied, how many runs, derivation of a restated limit
-    // Curves for the plots, optional: one a line, x and y with their labels.
+    std::string note;            // one sentence: what varied, how many runs, where the limit comes from
+    // Optional curves for the plots, each with x, y and labels.
     using Curve = PlotCurve;
     std::vector<Curve> curves;
 
     bool holds() const {
-        return relation == ">=" ? figure >= limit : figure <= limit; // a NaN never holds
+        return relation == ">=" ? figure >= limit : figure <= limit; // NaN never holds
     }
 };
 
@@ -60,11 +60,10 @@ struct Case {
     std::function<Outcome(RunLength)> run; // throws only for internal errors
 };
 
-// The Vulkan device that the shaders run on, made when the first case asks for it. Throws Error when there is
-// none.
+// Returns the Vulkan device for the shaders and creates it on first use. Throws Error when there is none.
 using DeviceSource = std::function<gpu::Device&()>;
 
-// One function a group, in <group>_cases.cpp.
+// One function per group, in <group>_cases.cpp.
 std::vector<Case> solverCases();
 std::vector<Case> geometryCases();
 std::vector<Case> guaranteeCases();

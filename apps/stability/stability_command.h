@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom stability [CASE...] --out DIR`: the stiff and extreme cases, measured against their stated limits.
+// `fathom stability [CASE...] --out DIR`: runs the stiff and extreme cases and checks each against its limit.
 #pragma once
 
 #include "apps/global_options.h"
@@ -10,7 +10,7 @@ class App;
 
 namespace fathom {
 
-// result: 0 when every case holds, 1 when one does not.
+// result: 0 if every case holds, otherwise 1.
 void addStabilityCommand(CLI::App& app, const GlobalOptions& global, int& result);
 
 } // namespace fathom

@@ -18,9 +18,9 @@ constexpr Colour kPaper{1.0, 1.0, 1.0}, kInk{0.10, 0.14, 0.19}, kQuiet{0.39, 0.4
 constexpr Colour kBar{0.16, 0.42, 0.80}, kBroken{0.76, 0.16, 0.13};
 constexpr double kRow = 17.0, kTop = 104.0, kLeft = 330.0, kRight = 1010.0;
 constexpr int kWidth = 1240;
-constexpr double kLeast = -9.0, kMost = 1.0; // decades of figure / limit
+constexpr double kLeast = -9.0, kMost = 1.0; // axis range: log10(figure / limit)
 
-// 0 = far inside, 1 = at the limit; 10 stands for everything beyond the axis.
+// 0 = far within the limit, 1 = at the limit; everything beyond the axis returns 10.
 double shareOfLimit(const Outcome& o) {
     if (!std::isfinite(o.figure)) {
         return 10.0;

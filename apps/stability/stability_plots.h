@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The plots of the suite: how far every case is from its limit, and the curves that cases return.
+// The suite's plots: the margin of every case to its limit, and the curves that cases return.
 #pragma once
 
 #include "apps/stability/stability_run.h"
@@ -9,9 +9,9 @@
 
 namespace fathom::stability {
 
-// margins.png: a bar per case, figure over limit on a logarithmic axis, by group; red beyond 1. CASE.png for
-// every case with curves: its curves over their axes with units, linear or logarithmic. Files of an earlier
-// run are replaced. Throws Error that names the file.
+// Writes margins.png: one bar per case with figure over limit on a logarithmic axis, by group, red above 1.
+// Writes CASE.png for every case with curves, on linear or logarithmic axes with units. Replaces files of an
+// earlier run. Throws Error that names the file.
 void writePlots(const std::filesystem::path& folder, const std::vector<CaseResult>& results);
 
 } // namespace fathom::stability

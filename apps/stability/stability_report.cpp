@@ -38,7 +38,7 @@ void write(const std::filesystem::path& file, const std::string& text) {
     out.commit();
 }
 
-// A table cell: no line may break, no bar may end the column.
+// Escapes a table cell: replaces line breaks and bars.
 std::string cell(std::string words) {
     std::replace(words.begin(), words.end(), '\n', ' ');
     std::replace(words.begin(), words.end(), '|', '/');

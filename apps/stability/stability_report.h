@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// stability.json and stability.md: what every case came to.
+// stability.json and stability.md: the results of all cases.
 #pragma once
 
 #include "apps/stability/stability_run.h"
@@ -10,20 +10,20 @@
 
 namespace fathom::stability {
 
-// What the figures were taken on: the Vulkan device that --device picks and the CPU. Never throws: says so
-// when there is none.
+// Describes the machine of the run: the Vulkan device that --device selects, and the CPU. Never throws; the
+// text says if there is no device.
 std::string deviceDescription(const std::string& selector);
 
-// {"cases":[{"name","group","figure","unit","limit","holds","note"}],"holds","device"}; a figure that is not
-// finite is null.
+// {"cases":[{"name","group","figure","unit","limit","holds","note"}],"holds","device"}; a non-finite figure
+// is null.
 std::string toJson(const std::vector<CaseResult>& results, const std::string& device);
 
-// A table a group, with the way to compare, the time, and the plots that were drawn.
+// One table per group with comparison and time, and links to the plots.
 std::string toMarkdown(const std::vector<CaseResult>& results, const std::string& device);
 
 bool allHold(const std::vector<CaseResult>& results);
 
-// Writes both files whole or not at all; throws Error that names the file.
+// Writes each file completely or not at all. Throws Error that names the file.
 void writeReport(const std::filesystem::path& folder, const std::vector<CaseResult>& results,
                  const std::string& device);
 

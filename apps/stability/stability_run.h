@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which cases there are, which were asked for, and how one is run.
+// Lists all cases, selects the requested ones and runs a case.
 #pragma once
 
 #include "apps/stability/stability_case.h"
@@ -9,12 +9,12 @@
 
 namespace fathom::stability {
 
-// Every case of the nine groups, in their order. `device` is called while precision cases run. Throws Error
-// when two share a name.
+// All cases in the order of their groups. Precision cases call `device` when they run. Throws Error when two
+// cases share a name.
 std::vector<Case> allCases(const DeviceSource& device);
 
-// Those named, or of the groups named, in the order of `all`; all when nothing is named. Throws BadInput that
-// lists the known names when one is unknown.
+// The cases with these names or group names, in the order of `all`; all cases if `names` is empty. Throws
+// BadInput with the list of known names when a name is unknown.
 std::vector<Case> chosenCases(const std::vector<Case>& all, const std::vector<std::string>& names);
 
 struct CaseResult {
@@ -24,7 +24,7 @@ struct CaseResult {
     double seconds = 0.0; // wall clock
 };
 
-// A case that throws an Error counts as one that does not hold, with the message in its note.
+// A case that throws Error counts as failed, with the message in its note.
 CaseResult runCase(const Case& one, RunLength runLength);
 
 // "0.00123 <= 0.01 m"

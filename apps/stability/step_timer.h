@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic cycle alone, with a cross of nine balls for a tool: raw poses in, records out.
+// The haptic cycle alone with a tool of nine balls in a cross. Takes raw poses, returns step records.
 #pragma once
 
 #include "apps/stability/loop_rig.h"
@@ -10,8 +10,8 @@
 
 namespace fathom::stability {
 
-// device: whose axes are actuated. limited: with force, torque and slew limits. K_t = 1000 N/m, K_r = 2 N
-// m/rad.
+// device: preset that gives the actuated axes. limited: apply force, torque and slew limits. K_t = 1000 N/m,
+// K_r = 2 N m/rad.
 class StepTimer {
 public:
     StepTimer(const char* device, bool limited, std::span<const Shape> shapes, const Pose& start)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group stiff, part one: the largest stable stiffness, measured with the whole loop, against theory.
+// Group stiff, part one: the largest stable stiffness, measured with the full loop, against theory.
 #include "apps/stability/boundary.h"
 #include "apps/stability/case_text.h"
 #include "apps/stability/stiff_cases.h"
@@ -19,7 +19,7 @@ struct Grid {
 };
 
 struct Deviation {
-    double fromModel = 0.0, fromLaw = 0.0; // largest, relative
+    double fromModel = 0.0, fromLaw = 0.0; // largest relative deviations
     size_t runs = 0;
     std::vector<std::array<double, 3>> points; // law, measured / model, measured / law
 };
@@ -123,7 +123,7 @@ Outcome rotation(RunLength runLength) {
                    "The same law for K_r and b_r: a device that swings about an axis, 0.001-0.005 kg m^2.");
 }
 
-// No hand makes a passive loop unstable: with any of them the boundary is at or above the passive bound.
+// No hand makes a passive loop unstable: with every hand, the boundary is at or above the passive bound.
 Outcome hands(RunLength runLength) {
     double least = 1e9;
     std::string worst;

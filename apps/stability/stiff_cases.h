@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts of the group stiff, a file each; stiffCases() strings them together.
+// The parts of the group stiff, one per file. stiffCases() joins them.
 #pragma once
 
 #include "apps/stability/stability_case.h"
@@ -8,8 +8,8 @@ namespace fathom::stability {
 
 std::vector<Case> boundaryCases();   // measured K_max against theory
 std::vector<Case> settlingCases();   // automatic stiffness: nothing oscillates
-std::vector<Case> energyCases();     // static fixtures: no energy out
+std::vector<Case> energyCases();     // static fixtures generate no energy
 std::vector<Case> pathCases();       // closed paths of the hand draw no energy
-std::vector<Case> controllerCases(); // moving fixtures, controller on and off, slow turns
+std::vector<Case> controllerCases(); // moving fixtures, controller on and off, slow ticks
 
 } // namespace fathom::stability

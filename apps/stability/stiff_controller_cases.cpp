@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group stiff, part five: what the passivity controller and the watch over the stiffness do when something
-// does generate energy: moving fixtures, springs beyond the bound, slow turns.
+// Group stiff, part five: passivity controller and stiffness monitor when something does generate energy,
+// namely moving fixtures, springs beyond the bound, and slow ticks.
 #include "apps/stability/case_text.h"
 #include "apps/stability/pressing.h"
 #include "apps/stability/stiff_cases.h"
@@ -12,13 +12,13 @@ namespace fathom::stability {
 
 namespace {
 
-constexpr double kDepth = 0.003, kJump = 0.002; // [m] facts: K p delta + K delta^2 / 2 = 8 mJ at 1000 N/m
+constexpr double kDepth = 0.003, kJump = 0.002; // [m] energy K p delta + K delta^2 / 2 = 8 mJ at 1000 N/m
 
-// A hand at rest, 3 mm of penetration in a wall of spheres that then moves.
+// A hand at rest, 3 mm deep in a wall of spheres that then moves.
 struct Held {
     LoopSpec spec;
     std::unique_ptr<LoopRig> rig;
-    double height = 0.0; // [m] of the hand at rest
+    double height = 0.0; // [m] z of the hand at rest
     uint64_t generation = 1;
 
     Held(const HandModel& hand, bool controller) {
@@ -38,7 +38,7 @@ struct Held {
         const dvec3 f = rig->last().wrench.force;
         return 0.5 * glm::dot(f, f) / rig->options().springs.stiffness;
     }
-    // Where the jump would hold the hand in the end: the two springs share it.
+    // [m] final rise of the hand after a jump of the wall; the wall's and the hand's springs share it.
     double restingRise(double jump) const { return jump * 1000.0 / (1000.0 + spec.hand.stiffness); }
 };
 
@@ -65,8 +65,8 @@ Outcome injectionCounted(RunLength) {
 }
 
 struct Burst {
-    double excess = 0.0; // [J] most that the hand ever had beyond what holding it in its new place needs
-    double work = 0.0;   // [J] that
+    double excess = 0.0; // [J] largest energy that the hand received beyond `work`
+    double work = 0.0;   // [J] energy needed to lift the hand to its new rest
 };
 
 Burst burstOf(const HandModel& hand, bool controller) {
@@ -100,12 +100,12 @@ Outcome jumpBurst(RunLength) {
                          "stays a wall has to lift the hand.");
 }
 
-// The wall goes up and down by 2 mm, 30 times per second or as the hand swings, whichever is the worse.
+// The wall moves up and down by 2 mm: 15 full periods per second (30 frames), or at the hand's own frequency.
 Outcome shakenWall(RunLength runLength) {
     double worst = 0.0, worstOff = 0.0, energyOn = 0.0, energyOff = 0.0;
     for (size_t h = 1; h < kHands.size(); ++h) {
         const double own = std::sqrt((1000.0 + kHands[h].stiffness) / (0.1 + kHands[h].mass)) / 6.283185307;
-        for (const double rate : {15.0, std::min(own, 45.0)}) { // [Hz] of the whole up and down
+        for (const double rate : {15.0, std::min(own, 45.0)}) { // [Hz] full periods
             for (const bool on : {true, false}) {
                 Held held(kHands[h], on);
                 const double start = held.rig->time(), energy = held.rig->energyOut();
@@ -134,7 +134,7 @@ Outcome shakenWall(RunLength runLength) {
                          " against " + num(energyOff * 1e3) + " mJ). Four hands.");
 }
 
-// Springs that the user asked for, beyond the bound.
+// The user requests springs stiffer than the passive bound.
 Outcome beyondBound(RunLength runLength) {
     double worst = -1e9, worstOff = -1e9;
     size_t runs = 0;
@@ -152,7 +152,7 @@ Outcome beyondBound(RunLength runLength) {
             for (const bool on : {true, false}) {
                 spec.controller = on;
                 LoopRig rig(spec);
-                rig.run(2.0); // a debt may still be open right after the first touch
+                rig.run(2.0); // right after the first touch, energy may still be owed
                 double& net = on ? worst : worstOff;
                 while (rig.time() < 4.0) {
                     rig.tick();
@@ -171,7 +171,7 @@ Outcome beyondBound(RunLength runLength) {
     return out;
 }
 
-// Turns come 1.5 to 3 times slower than planned, in the middle of a contact.
+// During a contact, ticks become 1.5 to 3 times longer than nominal.
 Outcome slowTicks(RunLength runLength) {
     double worst = 0.0, fixed = 0.0, margin = 0.0;
     for (const double slow : {1.5, 2.0, 3.0}) {
@@ -214,7 +214,7 @@ Outcome slowTicks(RunLength runLength) {
     return out;
 }
 
-// Faster than the springs' slew limit can follow.
+// Impacts faster than the springs' slew limit can follow.
 Outcome fastHits(RunLength runLength) {
     double net = -1e9, left = 0.0;
     size_t runs = 0;

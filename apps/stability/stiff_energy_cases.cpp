@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group stiff, part three: fixtures that stand still give no energy, in the closed loop and along closed
-// paths of the hand.
+// Group stiff, part three: static fixtures generate no energy in the closed loop.
 #include "apps/stability/case_text.h"
 #include "apps/stability/pressing.h"
 #include "apps/stability/stiff_cases.h"
@@ -15,14 +14,14 @@ namespace {
 constexpr double kTolerance = 1e-6; // [J]
 
 struct EnergyFigures {
-    double net = -1e9;  // [J] largest at any time from the first touch on
-    double given = 0.0; // [J] largest that the fixture had given at any time, the device's damping aside
-    double taken = 0.0; // [J] most that the controller took
+    double net = -1e9;  // [J] largest value from the first touch on
+    double given = 0.0; // [J] largest energy out at any time, ignoring the device's damping
+    double taken = 0.0; // [J] largest energy that the controller removed
     std::string who;
     size_t runs = 0;
 };
 
-// Largest net energy out at any time, less `allowance` a metre of path.
+// Tracks the largest net energy out, less `allowance` [J/m] times the path.
 void pressAndWatch(const LoopSpec& spec, double allowance, EnergyFigures& all) {
     LoopRig rig(spec);
     bool touched = false;
@@ -45,7 +44,7 @@ LoopGrid gridFor(RunLength runLength, size_t every) {
     return grid;
 }
 
-// Pushed, slid, and pulled out again.
+// Pushes in, slides and pulls out again.
 LoopSpec inAndOut(Ground ground) {
     LoopSpec spec = pressedSpec(ground, 1.2);
     const HandWaypoint start = spec.path.front();
@@ -62,7 +61,7 @@ Outcome staticGrounds(RunLength runLength) {
             grid.masses = {0.2};
         }
         all.runs += forEachLoop(grid, inAndOut(ground), [&](LoopSpec spec) {
-            // The free device is thrown at it, 0.1 m/s, by a spring that lets go in the wall.
+            // A spring throws the free device at the wall at 0.1 m/s and releases it inside.
             spec.hand.stiffness = std::max(spec.hand.stiffness, 10.0);
             pressAndWatch(spec, 0.0, all);
         });
@@ -96,7 +95,7 @@ Outcome withEncoders(RunLength runLength) {
                          "and no controller can see it.");
 }
 
-// Controller on and off, the same loop: equal to the last bit unless it acted.
+// The same loop with the controller on and off is bit-identical unless the controller acted.
 Outcome controllerIdle(RunLength runLength) {
     double largest = 0.0;
     size_t runs = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group stiff, part four: closed paths of the hand round static contacts draw no energy, because the solver's
-// metric is tied to the springs.
+// Group stiff, part four: closed paths of the hand around static contacts extract no energy, because the
+// solver's metric matches the springs.
 #include "apps/stability/case_text.h"
 #include "apps/stability/loop_rig.h"
 #include "apps/stability/rng.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kTwoPi = 6.28318530717958647692;
 
-// A path of the hand in all six ways that comes back to where it began.
+// A closed path of the hand in all six degrees of freedom.
 struct ClosedPath {
     dvec3 focus{0.0};
     std::array<dvec3, 2> way{}, tick{}; // [m], [rad]
@@ -30,12 +30,12 @@ struct ClosedPath {
 
 struct Drawn {
     double most = -1e9;  // [J] in one loop
-    double least = 1e9;  // [J] negative: what a loop took from the hand
+    double least = 1e9;  // [J] negative: a loop took energy from the hand
     double stored = 0.0; // [J] largest energy of the springs
     size_t loops = 0;
 };
 
-// Scripted hand: the cycle alone, poses in, wrench out.
+// A scripted hand on the cycle alone: poses in, wrench out.
 class LoopWalk {
 public:
     LoopWalk(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
@@ -44,8 +44,8 @@ public:
         , path_(path)
         , cycle_(tool, shapes, options, path.at(0.0)) {}
 
-    // Work of the wrench on the hand along `ticks` turns of one loop by the trapezium rule: no part of it is
-    // the sampling's.
+    // Work [J] of the wrench on the hand over one loop of `ticks` ticks. The trapezium rule excludes the
+    // energy that sampling alone adds.
     double once(int ticks) {
         double drawn = 0.0;
         for (int i = 0; i <= ticks; ++i) {
@@ -53,7 +53,7 @@ public:
         }
         return drawn;
     }
-    // Until the forces have ramped up.
+    // Steps until the force ramp has ended.
     void warmUp() {
         for (double t = 0.0; t < 1.1 * HapticCycle::kRampTime; t += options_.period) {
             step(path_.at(0.0), false);
@@ -90,7 +90,7 @@ private:
 
 struct Scenery {
     std::vector<Shape> shapes;
-    dvec3 focus; // where the tool's centre touches, about
+    dvec3 focus; // approximate position of the tool's centre at contact
 };
 
 Shape solid(ShapeKind kind, const dvec3& size, const Pose& pose) {
@@ -145,7 +145,7 @@ Drawn walkLoops(RunLength runLength, double metricError) {
             }
             LoopWalk walk(tool, scenery.shapes, quietOptions(tool, metricError), path);
             walk.warmUp();
-            walk.once(ticks); // the first loop may fall into place
+            walk.once(ticks); // the first loop may still settle
             const double drawn = walk.once(ticks);
             all.most = std::max(all.most, drawn);
             all.least = std::min(all.least, drawn);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Group stiff, part two: with the automatic stiffness nothing oscillates, whatever device, hand, delay, rate
-// and encoder.
+// Group stiff, part two: with the automatic stiffness nothing oscillates, for all devices, hands, delays,
+// rates and encoders.
 #include "apps/stability/case_text.h"
 #include "apps/stability/pressing.h"
 #include "apps/stability/stiff_cases.h"
@@ -14,8 +14,8 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Fastest speed of the hand in the second of two equal windows over that in the first, each longer than its
-// slowest swing.
+// Peak speed of the hand in a late window over that in an early one. Both windows are longer than the slowest
+// swing.
 double swingRatio(LoopSpec spec, double& residual) {
     const double window = std::max(0.3, 3.0 * kPi / std::sqrt(spec.hand.stiffness / spec.wholeMass()));
     spec.path.back().t = kPressed + 2.0 * window;
@@ -29,7 +29,7 @@ double swingRatio(LoopSpec spec, double& residual) {
         peak = std::max(peak, speed);
     }
     residual = late;
-    return late / std::max(early, 1e-5); // slower than 10 um/s is at rest
+    return late / std::max(early, 1e-5); // below 10 um/s counts as rest
 }
 
 Outcome settles(Ground ground, const LoopGrid& grid, const std::string& where) {
@@ -79,8 +79,8 @@ Outcome settlingRates(RunLength runLength) {
     return settles(Ground::Wall, grid, "500 Hz to 10 kHz.");
 }
 
-// Nothing damps but the device itself, and all of that is used up by the passive bound: a push of a spring
-// without damping bounces for ever, and must not bounce higher.
+// Only the device itself has damping, and the passive bound uses all of it. So the hand's undamped spring
+// bounces for ever, but must not bounce higher.
 Outcome bounces(RunLength runLength) {
     double worst = 0.0;
     LoopGrid grid;
@@ -109,7 +109,7 @@ Outcome bounces(RunLength runLength) {
                          num(uint64_t{runs}) + " (0.05-1 kg, 0.1-2 N s/m, 0-3 ticks).");
 }
 
-// Encoders: in steps of the encoder, how far the hand still moves when all else is at rest.
+// Residual motion of the hand at rest, in encoder steps.
 Outcome encoders(RunLength runLength) {
     double worst = 0.0;
     std::string who;
@@ -153,7 +153,7 @@ Outcome encoders(RunLength runLength) {
     return out;
 }
 
-// The low-pass counts as delay.
+// The low-pass filter counts as delay.
 Outcome lowPass(RunLength runLength) {
     double worst = 0.0;
     size_t runs = 0;

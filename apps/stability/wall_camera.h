@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A camera before a flat wall that may stand anywhere in every frame, with noise and missing pixels: new data
-// at will.
+// A camera in front of a flat wall whose position, noise and missing pixels can change in every frame.
 #pragma once
 
 #include "apps/stability/image_fixtures.h"
@@ -12,12 +11,12 @@
 namespace fathom::stability {
 
 struct WallView {
-    double z = 0.5;       // [m] of the wall before the camera at the base origin, which looks along +z
+    double z = 0.5;       // [m] of the wall; the camera is at the base origin and looks along +z
     double noise = 0.0;   // [m] sigma of every depth
-    double missing = 0.0; // share of the pixels without depth
+    double missing = 0.0; // fraction of pixels without depth
 };
 
-// Every pixel is forbidden; regions of 40 mm; frames at 30 Hz. One thread.
+// Every pixel is forbidden, with regions of 40 mm radius and frames at 30 Hz. For one thread.
 class WallCamera {
 public:
     static constexpr double kRegion = 0.04; // [m]
@@ -26,7 +25,8 @@ public:
     WallCamera(bool hold, uint64_t seed);
     Fixtures look(const WallView& look);
 
-    // Farthest that any point of the last wall within 30 mm of (x, y) is from a pixel with depth [m].
+    // Largest distance [m] to the nearest pixel with depth, over points of the last wall within 30 mm of (x,
+    // y).
     double largestHole(double x, double y) const;
 
 private:
