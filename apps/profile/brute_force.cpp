@@ -9,7 +9,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kBlock = 4096; // spheres that stay in the nearest cache while all leaves pass
+constexpr size_t kBlock = 4096; // spheres that fit the first-level cache while all leaves are tested
 
 FATHOM_CLONES
 void markBlock(const float* __restrict x, const float* __restrict y, const float* __restrict z,

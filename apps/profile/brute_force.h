@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every leaf against every sphere: the kernel that any query must beat. The same float32 test as the queries.
+// Tests every leaf against every sphere. This is the baseline that every query must beat, with the same
+// float32 test.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -10,7 +11,7 @@
 
 namespace fathom::profile {
 
-// Indices, ascending, of the spheres with d^2 <= (reach + r_t + R)^2 for some leaf. Allocates `found` only.
+// Ascending indices of the spheres with d^2 <= (reach + r_t + R)^2 for some leaf. Allocates only in `found`.
 void bruteForceCull(const PosedLeaves& leaves, float reach, const RegionSpheres& spheres,
                     std::vector<uint8_t>& marks, std::vector<uint32_t>& found);
 

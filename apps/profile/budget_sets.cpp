@@ -16,17 +16,17 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kSpacing = 0.2 / 122.5; // [m]: 245 x 245 spheres on 40 x 40 cm
+constexpr double kSpacing = 0.2 / 122.5; // [m] gives 245 x 245 spheres on 40 x 40 cm
 constexpr double kProblemReach = 0.01;   // [m]
-constexpr double kProblemMetric = 0.05;  // [m] that a radian counts
-constexpr double kSureGap = 1e-6;        // [m] well above what float32 rounds at these places
+constexpr double kProblemMetric = 0.05;  // [m] that one radian counts as
+constexpr double kSureGap = 1e-6;        // [m] well above the float32 rounding error here
 
-double uniform(std::mt19937_64& random, double half) { // the same on every machine
+double uniform(std::mt19937_64& random, double half) { // same values on every machine
     return half * (2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0);
 }
 
 dquat anyRotation(std::mt19937_64& random) {
-    for (;;) { // by rejection: even over all rotations
+    for (;;) { // rejection sampling: uniform over all rotations
         const double w = uniform(random, 1.0), x = uniform(random, 1.0), y = uniform(random, 1.0),
                      z = uniform(random, 1.0), square = w * w + x * x + y * y + z * z;
         if (square > 0.01 && square <= 1.0) {
@@ -51,7 +51,7 @@ TouchRig::TouchRig(int half, uint32_t leaves, size_t count, double depth)
     , tool(ballTool(leaves)) {
     grid.build(wall.spheres);
     std::mt19937_64 random(5);
-    const double middle = half * kSpacing - 0.1; // [m] the tool stays over the wall
+    const double middle = half * kSpacing - 0.1; // [m] keeps the tool over the wall
     for (size_t i = 0; i < count; ++i) {
         const double x = uniform(random, middle), y = uniform(random, middle);
         Pose pose{dvec3(x, y, 0.0), anyRotation(random)};

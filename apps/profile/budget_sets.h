@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the time budgets name: tools that touch a wall of spheres, and the rows of their contacts.
+// Test sets for the time budgets: tools that touch a wall of spheres, and the constraint rows of their
+// contacts.
 #pragma once
 
 #include "engine/contact/contact_row.h"
@@ -13,27 +14,27 @@
 
 namespace fathom::profile {
 
-// A wavy wall, its grid, a tool, and poses in which the tool's deepest leaf stands `depth` [m] in the wall,
-// any way round, all over the wall's middle.
+// A wavy wall, its grid, a tool, and poses with the tool's deepest leaf `depth` [m] inside the wall.
+// Orientations are random, positions are spread over the middle of the wall.
 struct TouchRig {
     Fixtures wall;
     RegionGrid grid;
     Tool tool;
     std::vector<Pose> poses;
 
-    // half: as of wavyWall(), at 1.63 mm spacing. The same for equal arguments.
+    // half: as in wavyWall(), at 1.63 mm spacing. Deterministic.
     TouchRig(int half, uint32_t leaves, size_t poses, double depth);
 
-    // By the grid, float64: smallest gap between tool and wall [m], `within` where it is larger.
+    // Smallest gap between tool and wall [m] from the grid in float64, at most `within`.
     double smallestGap(const Pose& pose, double within) const;
 };
 
-// Compares with all spheres in float64: the gap to 1e-6 m, and whether there is one, unless that hangs on
-// less. Empty when they agree.
+// Compares with all spheres in float64: every leaf has a sphere if one is within `limit`, and it is the
+// nearest, both to 1e-6 m. Empty when they agree.
 std::string nearestDiffers(const TouchRig& rig, const Pose& pose, double limit,
                            const std::vector<NearestSphere>& found);
 
-// A linearisation as the proxy makes it: unknowns [a; alpha], the metric's radius 5 cm.
+// A linearised contact problem as the proxy builds it: unknowns [a; alpha], metric radius 5 cm.
 struct ContactProblem {
     static constexpr size_t kRows = 64;
     std::array<double, 36> metric{};
@@ -45,7 +46,8 @@ struct ContactProblem {
     NearestPointProblem view() const { return {6, metric, target, normals, offsets}; }
 };
 
-// One a pose that has so many rows within 10 mm, the 64 nearest of them; the hand is 2 mm deeper and turned.
+// One problem per pose that has at least 64 rows within 10 mm, from the nearest 64. The hand is 2 mm deeper
+// and rotated.
 std::vector<ContactProblem> contactProblems(const TouchRig& rig);
 
 } // namespace fathom::profile

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The CPU's time budgets that no other study measures at the very size that they name: nearest spheres, cull,
-// grid, solver, turn.
+// Measures the CPU's time budgets that no other study measures at the specified size: nearest spheres, cull,
+// grid, solver and tick.
 #include "apps/profile/brute_force.h"
 #include "apps/profile/budget_sets.h"
 #include "apps/profile/drag.h"
@@ -17,16 +17,16 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kDepth = 0.002;      // [m] of the tool in the wall
-constexpr double kBudgetReach = 0.01; // [m] of the cull
-constexpr int k60 = 122, k300 = 274;  // half a wall's edge in spheres: 60 025, 301 401
-constexpr size_t kLeastForP99 = 100;  // samples
+constexpr double kDepth = 0.002;      // [m] penetration of the tool
+constexpr double kBudgetReach = 0.01; // [m] reach of the cull
+constexpr int k60 = 122, k300 = 274;  // half a wall's edge, in spheres; 60 025 and 301 401 spheres
+constexpr size_t kLeastForP99 = 100;  // samples; fewer give no p99
 
 struct Budget {
-    double p50, p99; // [ms] wall time; not a number where there is none
+    double p50, p99; // [ms] wall time; NaN = no budget
 };
 
-// Poses that are measured in turn, and of these so many compared with brute force.
+// Number of measured poses, and how many of them are compared with brute force.
 struct Amount {
     size_t poses, compared, samples;
 };
@@ -34,13 +34,13 @@ Amount amountOf(const StudyContext& context) {
     return context.settings.quick ? Amount{16, 1, 128} : Amount{200, 8, 2000};
 }
 
-// A rank against its budget, in words.
+// Describes a percentile against its budget.
 std::string figureOf(const char* rank, double measured, double budget) {
     return std::string(rank) + " " + digits(measured * 1e3, 4) + " us" +
            (std::isfinite(budget) ? " of " + digits(budget * 1e3, 4) : "");
 }
 
-// Without a budget nothing is kept or missed.
+// Whether the budget is met: 1, 0, or NaN without a budget.
 double keptBy(const Spread& wall, const Budget& budget) {
     if (!std::isfinite(budget.p50)) {
         return NAN;
@@ -65,11 +65,11 @@ void addRow(Study& study, const std::string& what, const std::string& size, cons
     study.rows.push_back(std::move(row));
 }
 
-// work(i) for one sample each of `of` things in turn.
+// Times work(i) cyclically for i = 0 .. of - 1, one sample per call.
 template <class Work>
 Cost sampleEach(size_t samples, size_t of, Work&& work) {
     CpuSamples taken;
-    for (size_t i = 0; i < of; ++i) { // warms up
+    for (size_t i = 0; i < of; ++i) { // warm-up
         work(i);
     }
     for (size_t i = 0; i < std::max(samples, kLeastForP99); ++i) {
@@ -80,7 +80,7 @@ Cost sampleEach(size_t samples, size_t of, Work&& work) {
     return taken.cost();
 }
 
-// Share of poses whose deepest leaf stands as deep as it should, by all spheres; the others are refused.
+// Fraction of poses in contact. Compares the depth with all spheres and throws when it is wrong.
 double touching(const TouchRig& rig, const std::string& setting) {
     size_t count = 0;
     for (const Pose& pose : rig.poses) {
@@ -142,7 +142,7 @@ void addCull(const StudyContext& context, Study& study, const TouchRig& rig) {
            {NAN, NAN}, share);
 }
 
-// Every sphere once, and a grid of the same order whoever builds it.
+// Checks that the grid has every sphere once, in the same order for every number of builders.
 void verifyGrid(const TouchRig& rig, const RegionGrid& grid, const std::string& who) {
     std::vector<uint32_t> order(grid.order().begin(), grid.order().end());
     verify(std::equal(order.begin(), order.end(), rig.grid.order().begin(), rig.grid.order().end()),
@@ -228,7 +228,7 @@ void addStep(const StudyContext& context, Study& study) {
            {0.03, 0.08}, share);
 }
 
-// For a bar: the first word of the work, and its sizes.
+// Label of a bar: the first word of the work, and its sizes.
 std::string shortName(const StudyRow& row) {
     std::string size = row.setting.substr(0, row.setting.find(" in each"));
     size = size.substr(0, size.find(", as "));

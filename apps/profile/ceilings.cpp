@@ -18,8 +18,8 @@ constexpr uint64_t kHostCopyBytes = 64u << 20;
 constexpr size_t kLeastPart = 1u << 20; // bytes
 constexpr uint32_t kChains = 16, kStepsARound = 4;
 
-// How much is computed at once: a GPU is filled several times over and busy for a millisecond, a CPU device
-// for a few.
+// Size of one arithmetic dispatch. It fills a GPU several times and takes about a millisecond; on a CPU
+// device it takes a few.
 struct ArithmeticShape {
     uint32_t group, invocations, rounds;
     double operations() const { return 2.0 * kChains * kStepsARound * rounds * invocations; }
@@ -31,7 +31,7 @@ std::vector<ArithmeticShape> arithmeticShapesOf(const gpu::Device& device) {
     return {{64, 1u << 20, 256}, {256, 1u << 20, 256}, {256, 1u << 20, 1024}, {256, 1u << 18, 1024}};
 }
 
-// What invocation 0 adds up: the same chains in float64.
+// The result of invocation 0: the same multiply-add chains in float64.
 double sumOfChains(uint32_t rounds) {
     double sum = 0.0;
     for (double start : {0.0, 0.1, 0.2, 0.3}) {
@@ -68,7 +68,7 @@ double deviceArithmetic(gpu::Device& device, TimedSubmissions& submissions, cons
     return best;
 }
 
-// What one more dispatch with its barrier adds when its single work group computes nothing.
+// Time [ms] that one more dispatch with a barrier adds when its single work group computes nothing.
 double emptyDispatch(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats) {
     const gpu::Pipeline pipeline(
         device,
@@ -107,9 +107,9 @@ double hostCopy(uint32_t threads, const Repeats& repeats) {
 
 Ceilings measureCeilings(gpu::Device& device, uint32_t hostThreads, const Repeats& repeats) {
     TimedSubmissions submissions(device);
-    const Repeats each{repeats.least, repeats.most, 0.25 * repeats.seconds}; // there are a dozen
+    const Repeats each{repeats.least, repeats.most, 0.25 * repeats.seconds}; // about 12
     Ceilings c;
-    c.deviceFlops = deviceArithmetic(device, submissions, each); // first: the clock rises under it
+    c.deviceFlops = deviceArithmetic(device, submissions, each); // first, to raise the clock
     c.dispatchMs = emptyDispatch(device, submissions, each);
     const StreamRate own = bestDeviceStream(device, submissions, each);
     const auto reads = [&](StreamMemory memory) {

@@ -18,7 +18,7 @@ namespace {
 constexpr uint32_t kOne = 0x3f800000u; // 1.0f: sums of ones are exact
 constexpr size_t kPage = 4096;
 
-// Group size and count: what fills a device differs.
+// Work group size and count; what fills a device depends on its type.
 struct StreamShape {
     uint32_t group, groups;
 };
@@ -51,10 +51,10 @@ gpu::Buffer streamBuffer(const gpu::Device& device, StreamMemory memory, uint64_
     return buffer;
 }
 
-// As many as there is memory for; where not even one fits, one of half the size, or less. None where that
-// memory cannot be had.
+// Allocates as many buffers as fit. If not even one fits, halves the size until one does. Empty when this
+// memory is not available.
 std::vector<gpu::Buffer> streamBuffers(const gpu::Device& device, StreamMemory memory, StreamSize size) {
-    constexpr uint64_t kLeast = 1u << 20; // below it a dispatch is all that is timed
+    constexpr uint64_t kLeast = 1u << 20; // below this, dispatch overhead dominates
     std::vector<gpu::Buffer> buffers;
     while (buffers.size() < size.buffers && size.bytes >= kLeast) {
         try {
@@ -69,7 +69,7 @@ std::vector<gpu::Buffer> streamBuffers(const gpu::Device& device, StreamMemory m
     return buffers;
 }
 
-// The pass over some buffers, none of which waits for another.
+// A pass over several buffers without barriers between them.
 class StreamPass {
 public:
     StreamPass(gpu::Device& device, const StreamShape& shape, const std::vector<gpu::Buffer>& from,
@@ -94,7 +94,7 @@ public:
             commands.dispatch(pipeline_, bindings, groups_);
         }
     }
-    // What the last pass over the first buffer added up.
+    // The sum that the last pass computed over the first buffer.
     double sum(TimedSubmissions& submissions) const {
         const gpu::Buffer read(device_, sums_.front().bytes(), gpu::MemoryKind::Readback, "sums read");
         submissions.once([&](gpu::Commands& c) { c.copy(sums_.front(), read, read.bytes()); });
@@ -229,7 +229,7 @@ StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, 
 
 StreamRate bestRead(gpu::Device& device, TimedSubmissions& submissions, StreamMemory memory,
                     const StreamSize& size, const Repeats& repeats) {
-    const auto from = streamBuffers(device, memory, {size.bytes, 1}); // a bus has no cache to fill
+    const auto from = streamBuffers(device, memory, {size.bytes, 1}); // one buffer: a bus has no cache
     StreamRate best;
     if (from.empty()) {
         return best;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory under load: buffers of one kind that the device copies and reads, timed by the device.
+// Memory bandwidth: the device copies and reads buffers of one memory kind and times it.
 #pragma once
 
 #include "apps/profile/spread.h"
@@ -12,15 +12,16 @@
 
 namespace fathom::profile {
 
-// Submissions one after the other, each waited for. One thread.
+// Runs submissions one at a time and waits for each. For one thread.
 class TimedSubmissions {
 public:
     explicit TimedSubmissions(gpu::Device& device);
-    // Device time of what record() records [ms]; wall time where the device has no timestamps.
+    // Device time [ms] of the commands that record() records; wall time if the device has no timestamps.
     double once(const std::function<void(gpu::Commands&)>& record);
-    // The shortest of several after a warm-up: a ceiling is what can be reached.
+    // The shortest time of several repeats after a warm-up, because a ceiling is the best that can be
+    // reached.
     double best(const Repeats& repeats, const std::function<void(gpu::Commands&)>& record);
-    double lastWallMs() const { return lastWallMs_; } // from submission until it was known to have ended
+    double lastWallMs() const { return lastWallMs_; } // from submission to known completion
 
 private:
     gpu::Device& device_;
@@ -31,35 +32,36 @@ private:
     double lastWallMs_ = 0.0;
 };
 
-// How much memory a stream takes: `buffers` of `bytes` each. A GPU's are far larger than its caches together
-// and each below 128 MiB, the least limit of a storage buffer; a CPU's are read in a few milliseconds.
+// Memory of a stream: `buffers` buffers of `bytes` each. On a GPU the total far exceeds its caches, and each
+// buffer is below 128 MiB, the guaranteed storage buffer limit. On a CPU device one pass takes a few
+// milliseconds.
 struct StreamSize {
     uint64_t bytes = 0;
     uint32_t buffers = 1;
 };
 StreamSize streamSizeOf(const gpu::Device& device);
 
-// Whether the device's memory is the host's.
+// Whether device and host share one memory.
 bool oneMemory(const gpu::Device& device);
 
-// Which memory is read.
+// The memory that the device reads.
 enum class StreamMemory {
-    Device, // the device's own
-    Upload, // that the CPU writes and the device reads
-    Import, // pages of the host's own
+    Device, // device-local
+    Upload, // written by the CPU, read by the device
+    Import, // imported host pages
 };
 
-// The best rate and how it came about; 0 where none of that memory can be had.
+// The best rate and the method that reached it; 0 when this memory is not available.
 struct StreamRate {
     double bytesPerSecond = 0.0;
     std::string way; // "copies of 4 x 128 MiB"
 };
-// Copies within the device's memory, by its copy command and by a pass, and reads by a pass; read and written
-// bytes both count. Takes less memory where there is less, as does bestRead(). Throws Error when a copy or a
-// sum is wrong.
+// Copies within device memory (copy command and compute pass) and reads by a pass. Counts both read and
+// written bytes. Uses less memory if less is available, as does bestRead(). Throws Error when a copy or a sum
+// is wrong.
 StreamRate bestDeviceStream(gpu::Device& device, TimedSubmissions& submissions, const Repeats& repeats);
-// Reads by a pass, and by the copy command into the device's memory: what it writes counts where that is the
-// same memory. Throws Error when a sum is wrong.
+// Reads by a pass, and by the copy command into device memory. Written bytes count if both are the same
+// memory. Throws Error when a sum is wrong.
 StreamRate bestRead(gpu::Device& device, TimedSubmissions& submissions, StreamMemory memory,
                     const StreamSize& size, const Repeats& repeats);
 

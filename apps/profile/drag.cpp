@@ -15,11 +15,12 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kWall = 0.2, kCircle = 0.08; // [m]
-constexpr int kRises = 180;                   // places where a tool that is no ball is put down
+constexpr int kRises = 180;                   // positions at which a tool that is not a ball is lowered
 
-// Height [m] over the wavy wall of a ball's centre that touches it; `radius` with the wall's own spheres.
+// Height [m] of a ball's centre when it touches the wavy wall; `radius` includes the radius of the wall's
+// spheres.
 double ballOver(double x, double y, double radius) {
-    constexpr double kStep = 0.002; // [m]; the surface's slope is 0.2 at most, where it touches
+    constexpr double kStep = 0.002; // [m] search step; the slope at the contact is at most 0.2
     constexpr int kAround = 12;
     double height = -HUGE_VAL;
     for (int j = -kAround; j <= kAround; ++j) {
@@ -39,7 +40,7 @@ struct Clock {
     }
 };
 
-// One run; a class so that its steps share what they work on.
+// One run of drag().
 class Dragger {
 public:
     explicit Dragger(const DragSetting& setting)
@@ -71,7 +72,7 @@ private:
         std::unique_ptr<ContactSet> set;
     };
 
-    // Height at which the tool just touches, over the middle of its circle.
+    // Lowers the tool until it just touches at the centre of its circle.
     void land() {
         double low = 0.0, high = 0.5;
         for (int i = 0; i < 14; ++i) {
@@ -83,16 +84,16 @@ private:
         proxy_.setPose(handAt(0, height_));
     }
 
-    // A tool that is no ball: how much higher than at the start it touches, at kRises places of the circle.
+    // For a tool that is not a ball: contact height relative to the start, at kRises positions on the circle.
     void findRises() {
         if (!setting_.follow || setting_.tool == nullptr) {
             return;
         }
-        const double across = grid_.maxRadius() + 0.001; // [m] how far a search looks
+        const double across = grid_.maxRadius() + 0.001; // [m] radius of the search
         for (int k = 0; k <= kRises; ++k) {
             const double angle = 2.0 * M_PI * k / kRises;
             Pose at{dvec3(kCircle * std::cos(angle), kCircle * std::sin(angle), 0.0), dquat(1, 0, 0, 0)};
-            double low = height_ - 0.03, high = height_ + 0.03; // [m] the wall's bulges
+            double low = height_ - 0.03, high = height_ + 0.03; // [m] range of the wall's waves
             for (int i = 0; i < 14; ++i) {
                 at.position.z = 0.5 * (low + high);
                 (touches(at, across) ? low : high) = at.position.z;
@@ -164,7 +165,7 @@ private:
         result_.rounds += turn.rounds;
         result_.contacts += turn.contact ? 1 : 0;
         dvec3 behind = hand.position - proxy_.pose().position;
-        behind.z = 0.0; // the wall holds the tool off: that is no lag
+        behind.z = 0.0; // distance normal to the wall is not lag
         lag_ += glm::dot(behind, behind);
         result_.poses.push_back(proxy_.pose());
         if (k % 64 == 0 || k + 1 == setting_.ticks) {
@@ -182,7 +183,7 @@ private:
     ContactSet inForce_;
     std::deque<Pending> pending_;
     uint32_t now_ = 0;
-    double reach_ = 0.0; // [m] from the tool's centre to the wall's points, in touch
+    double reach_ = 0.0; // [m] tool's centre to wall points at contact
     double height_ = 0.0, lag_ = 0.0;
     std::vector<double> rises_; // [m]
     DragResult result_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Depth error against time over the filter's window, sigma, weights, tiles and skipped patches: against exact
-// truth on analytic scenes, as scatter between repeats on recordings.
+// Depth error against time for the filter's window, sigma, weights, tiles and skipped patches. On analytic
+// scenes, the error is against exact depth; on recordings, it is the scatter between frames.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/interleave.h"
 #include "apps/profile/studies.h"
@@ -11,24 +11,24 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kEdgeJump = 0.02; // relative depth jump of the truth that makes an edge
-constexpr int kEdgeReach = 3;      // [pixels] from the jump that still count as edge
+constexpr double kEdgeJump = 0.02; // relative jump of the exact depth that counts as an edge
+constexpr int kEdgeReach = 3;      // [pixels] distance from the jump that still counts as edge
 
-enum class Window { Direct, Tiles, Blocks }; // how a pixel's window is read
+enum class Window { Direct, Tiles, Blocks }; // how the shader reads a window
 
 struct Setting {
     uint32_t radius;
     double sigma;
     Window window;
     bool everyPatch;
-    bool polynomial = false; // weights
+    bool polynomial = false; // polynomial weights
 };
 
 Window windowOf(const Plan& plan) {
     return plan.filterBlock ? Window::Blocks : plan.tiled ? Window::Tiles : Window::Direct;
 }
 
-// Blocks in registers are there up to 5x5.
+// Register blocks support windows up to 5x5.
 Window windowFor(uint32_t radius, Window wanted) {
     return wanted == Window::Blocks && radius > 2 ? Window::Direct : wanted;
 }
@@ -72,7 +72,7 @@ std::vector<Setting> settingsOf(const Scene& scene, bool quick, Window usual) {
     return list;
 }
 
-// Pixels near a jump of the true depth.
+// Marks pixels near a jump of the exact depth.
 std::vector<uint8_t> edgesOf(const FrameSequence& source) {
     const int w = static_cast<int>(source.camera.depth.width),
               h = static_cast<int>(source.camera.depth.height);
@@ -96,7 +96,7 @@ std::vector<uint8_t> edgesOf(const FrameSequence& source) {
     return edges;
 }
 
-// Errors of the depths that the passes gave [mm].
+// Errors of the filtered depths [mm].
 struct DepthErrors {
     double squares = 0.0;
     size_t count = 0;
@@ -122,8 +122,8 @@ struct DepthErrors {
     double edgeP90() { return edge.empty() ? NAN : spreadOf(edge).p90; }
 };
 
-// Typical change of a pixel between one frame and the next, over sqrt(2) [mm]: the scatter of one frame where
-// the scene is static. By the median (x 1.4826), so that pixels that do move hardly count.
+// Typical change of a pixel between consecutive frames over sqrt(2) [mm]: the noise of one frame in a static
+// scene. Uses the median (x 1.4826), so moving pixels hardly count.
 double scatterOf(const std::vector<reference::PointImage>& frames) {
     std::vector<double> changes;
     for (size_t f = 1; f < frames.size(); ++f) {
@@ -141,7 +141,7 @@ Scene sceneFor(const Settings& settings, const Setting& s) {
     scene.filter.radius = s.radius;
     scene.filter.sigma = s.sigma;
     scene.filter.weights = s.polynomial ? Scene::Filter::Weights::Polynomial : Scene::Filter::Weights::Exact;
-    if (s.everyPatch) { // a class that takes every point puts every patch on the list
+    if (s.everyPatch) { // a class of all points lists every patch
         FixtureClass all;
         all.name = "all";
         all.role = Role::Guidance;
@@ -159,7 +159,7 @@ std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const FrameSequ
                                         });
 }
 
-// All but the times.
+// Everything in a row except the times.
 StudyRow errorRow(const StudyContext& context, const FrameSequence& source, const std::string& setting,
                   FrameBench& bench) {
     StudyRow row;
@@ -168,7 +168,7 @@ StudyRow errorRow(const StudyContext& context, const FrameSequence& source, cons
     const bool exact = !source.frames.front().truth.empty();
     const std::vector<uint8_t> edges = exact ? edgesOf(source) : std::vector<uint8_t>{};
     const uint32_t own =
-        (1u << studyScene(context.settings).fixtures.size()) - 1; // not the class of everyPatch
+        (1u << studyScene(context.settings).fixtures.size()) - 1; // without everyPatch's extra class
     DepthErrors errors;
     std::vector<reference::PointImage> frames;
     for (const SampleFrame& image : source.frames) {
@@ -189,7 +189,7 @@ StudyRow errorRow(const StudyContext& context, const FrameSequence& source, cons
     return row;
 }
 
-// All settings of one source, in turns.
+// Measures all settings of one source, interleaved.
 void addSource(const StudyContext& context, Study& study, const FrameSequence& source) {
     const Scene scene = studyScene(context.settings);
     const Window usual = windowOf(makePlan(scene, source.camera, 1, context.device.facts()));

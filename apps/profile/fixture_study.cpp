@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surface error against build time over the error budget and the radius: how far the boundary of the spheres
-// that are kept lies from that of all spheres.
+// Surface error against build time for error budgets and radii. The error is the distance between the
+// boundaries of the kept spheres and of all spheres.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/interleave.h"
 #include "apps/profile/region_boundary.h"
@@ -19,14 +19,14 @@ constexpr double kOutward = 2e-6; // [m] float32 rounding of centres and radii
 Scene sceneFor(const Settings& settings, double radius, double budget) {
     Scene scene = studyScene(settings);
     scene.errorBudget = budget;
-    scene.holdSeconds = 0.0; // of one frame: nothing is held over from the one before
+    scene.holdSeconds = 0.0; // single frames: no held points
     for (FixtureClass& f : scene.fixtures) {
         f.radius = radius;
     }
     return scene;
 }
 
-// Of the first image, whichever the bench saw last: every budget is asked about the same surface.
+// Always queries the set of the first frame, so that every budget is measured on the same surface.
 void addQuery(const StudyContext& context, FrameBench& bench, const SampleFrame& image, StudyRow& row) {
     bench.run(image);
     const Fixtures& host = bench.set().host;
@@ -36,7 +36,7 @@ void addQuery(const StudyContext& context, FrameBench& bench, const SampleFrame&
     }
     const Tool tool = ballTool(256);
     const Pose pose = touchingPose(tool, host, image.baseTcamera);
-    CullCpu cull({host.spheres.size(), tool.leafCount() * host.spheres.size()}); // whatever it finds fits
+    CullCpu cull({host.spheres.size(), tool.leafCount() * host.spheres.size()}); // room for all results
     ContactSet set;
     cull.query(tool, pose, kReach, host, bench.set().grid, set);
     verify(set.reach > 0.99 * kReach, "fixture", row.setting, "the query answered for a shorter reach");
@@ -47,7 +47,7 @@ void addQuery(const StudyContext& context, FrameBench& bench, const SampleFrame&
     row.more.insert(row.more.end(), {cost.submit.p50, static_cast<double>(host.spheres.size())});
 }
 
-// How far the boundary lies from that of all spheres; refused beyond the budget or where the region shrank.
+// Boundary error against all spheres. Throws when it exceeds the budget or the region shrank.
 BoundaryError errorOf(const StudyContext& context, const RegionSpheres& all, const RegionSpheres& kept,
                       double budget, const std::string& setting) {
     if (budget == 0.0 || all.size() == 0) {
@@ -61,7 +61,7 @@ BoundaryError errorOf(const StudyContext& context, const RegionSpheres& all, con
     return error;
 }
 
-// One radius: all budgets in turns. The first budget is 0.
+// Measures all budgets of one radius, interleaved. The first budget is 0.
 void addRadius(const StudyContext& context, Study& study, const FrameSequence& source, double radius,
                const std::vector<double>& budgets, bool usual) {
     std::vector<std::unique_ptr<FrameBench>> benches;

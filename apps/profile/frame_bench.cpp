@@ -9,7 +9,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr uint32_t kStill = 0xffffffffu; // source number that no other image has
+constexpr uint32_t kStill = 0xffffffffu; // source number that no frame uses
 
 double millis(std::chrono::steady_clock::duration d) {
     return std::chrono::duration<double, std::milli>(d).count();
@@ -18,13 +18,13 @@ double millis(std::chrono::steady_clock::duration d) {
 } // namespace
 
 void FrameSamples::add(const FrameReport& report, const Clocks& clocks) {
-    if (report.unchanged) { // nothing was submitted, landed or published
+    if (report.unchanged) { // nothing was submitted or published
         cpu.push_back(clocks.cpuMs());
         total.push_back(report.latencyMs);
         return;
     }
     if (const double sum = std::accumulate(report.passMs.begin(), report.passMs.end(), 0.0); sum > 0.0) {
-        gpu.push_back(sum); // else nobody timed them
+        gpu.push_back(sum); // 0 means that the passes were not timed
     }
     submit.push_back(millis(report.times.landed - report.times.submitted));
     cpu.push_back(clocks.cpuMs());

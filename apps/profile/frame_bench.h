@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame cycle under measurement: images go through it, its buffers can be read back, its steps are
-// timed apart.
+// Measures a frame cycle: runs frames through it, reads its buffers back and times each step.
 #pragma once
 
 #include "apps/profile/study.h"
@@ -16,17 +15,16 @@
 
 namespace fathom::profile {
 
-// A image and, where the scene is analytic, the exact depth behind each pixel [m] (0 = no surface).
+// A frame and, for an analytic scene, the exact depth of each pixel [m] (0 = no surface).
 struct SampleFrame {
     std::vector<uint16_t> depth;
     std::vector<uint32_t> colour; // 0xAABBGGRR
-    std::vector<uint32_t>
-        yuyv; // of a camera that sends this (CameraInfo::yuyv); `colour` is what it unpacks to
+    std::vector<uint32_t> yuyv;   // if the camera sends YUYV (CameraInfo::yuyv); `colour` is unpacked from it
     Pose baseTcamera;
     std::vector<double> truth;
 };
 
-// Some images of one camera.
+// Frames of one camera.
 struct FrameSequence {
     std::string name;
     CameraInfo camera;
@@ -34,15 +32,15 @@ struct FrameSequence {
 };
 
 struct FrameCost {
-    Cost frame;   // gpu = sum of the passes, submit = submission until landed, cpu = of the calling thread
-    Spread total; // upload to published [ms]; of a image that is not new, until that is known
-    Spread collected;       // upload until the host has what the device made: all of it but the grid [ms]
-    Spread upload, publish; // on the host [ms]; publish: collect, then grid
-    Spread collect, grid;   // what the device made; the grid over its spheres
+    Cost frame;             // gpu = sum of the passes, submit = submission to result, cpu = calling thread
+    Spread total;           // upload to published [ms]; for an unchanged image, until that is known
+    Spread collected;       // upload until the host has the device's results, before the grid [ms]
+    Spread upload, publish; // on the host [ms]; publish = collect, then grid
+    Spread collect, grid;   // copying the device's results; building the grid over the spheres
     std::map<std::string, Spread> passes; // device time [ms]
 };
 
-// Samples of each step, gathered frame by frame [ms].
+// Samples of each step [ms], one per frame.
 struct FrameSamples {
     std::vector<double> gpu, submit, cpu, total, collected, upload, publish, collect, grid;
     std::vector<std::vector<double>> passes;
@@ -50,45 +48,44 @@ struct FrameSamples {
     void add(const FrameReport& report, const Clocks& clocks);
 };
 
-// Owns what it needs of scene and camera; the device must outlive it. One thread.
+// Copies the scene and the camera's data; the device must outlive it. For one thread.
 class FrameBench {
 public:
     using Change = std::function<void(Plan&)>;
     FrameBench(gpu::Device& device, Scene scene, const CameraInfo& camera, const Change& change = {},
                uint32_t toolLeaves = 1);
 
-    // As from a camera: the shot lies in whole pages before its time begins.
+    // Runs one frame. As with a camera, the frame is in whole memory pages before timing starts.
     FrameReport run(const SampleFrame& image);
-    // Every shot in turn, as often as the effort says.
+    // Runs all frames cyclically, as often as `repeats` says.
     FrameCost measure(const std::vector<SampleFrame>& frames, const Repeats& repeats);
-    // The same in parts, to take turns with another bench.
+    // The same in parts, to interleave with another bench.
     void sample(const std::vector<SampleFrame>& frames, const Repeats& repeats, FrameSamples& samples);
     FrameCost costOf(const FrameSamples& samples) const;
 
-    // The arm that images show from now on; nothing happens without Plan::selfFilter.
+    // Sets the arm's spheres for later frames; no effect without Plan::selfFilter.
     void setArm(cloud::LinkSpheres arm);
-    // From now on every image is the same one again, as of a camera that has nothing new.
+    // From now on every run repeats the same frame, as from a camera without a new one.
     void holdStill() { still_ = true; }
 
     const Scene& scene() const { return scene_; }
     const Plan& plan() const { return plan_; }
     FrameCycle& cycle() const { return *cycle_; }
-    const cloud::FixtureSet& set() const { return *lease_; } // of the last run()
+    const cloud::FixtureSet& set() const { return *lease_; } // result of the last run()
 
-    // Of the last frame, row-major: class bits, filtered depth along the optical axis [m] (0 = no point),
-    // base points.
+    // Data of the last frame, row-major: class bits; filtered depth along the optical axis [m] (0 = no point)
+    // and points in the base frame.
     std::vector<uint32_t> masks() const;
     reference::PointImage points() const;
 
-    // Compares occlusion cells, class bits and points of the last frame with the float64 twins. Empty when
-    // they agree (cells to 1 um, points to 20 um; what the twins call unsure is left out), else what differs.
-    // Cells are all compared, class bits are compared of every pixel, points of `mostPatches` patches spread
-    // over the image, its corners among them.
+    // Compares the last frame with the float64 twins: all occlusion cells (to 1 um), all class bits, and the
+    // points (to 20 um) of about `mostPatches` patches spread over the image, including its corners. Skips
+    // values that the twins mark as unsure. Empty when they agree, otherwise names the difference.
     std::string differsFromTwins(const SampleFrame& image, size_t mostPatches = SIZE_MAX) const;
-    // Compares the host's spheres with the points that they came from: each stands about a forbidden point of
-    // its own, no farther than rounding, with at least its class's radius. Empty when they agree.
+    // Compares the host's spheres with their source points: each has its own forbidden point as centre
+    // (within rounding) and at least its class's radius. Empty when they agree.
     std::string spheresDiffer() const;
-    // Compares count and position (to 20 um) of every guidance class with the twin's. Empty when they agree.
+    // Compares count and position (to 20 um) of every guidance class with the twin. Empty when they agree.
     std::string guidanceDiffers() const;
 
 private:
@@ -100,7 +97,7 @@ private:
     CameraInfo camera_;
     Plan plan_;
     std::unique_ptr<FrameCycle> cycle_;
-    std::vector<std::unique_ptr<FrameSlot>> memory_; // shots of the present measurement
+    std::vector<std::unique_ptr<FrameSlot>> memory_; // frames of the current measurement
     std::vector<Frame::Content> placed_;
     cloud::FixturePool::Lease lease_;
     cloud::LinkSpheres arm_;
@@ -108,9 +105,9 @@ private:
     bool still_ = false;
 };
 
-uint64_t bytesOf(const Plan& plan); // of all buffers that the plan has in
-// Bytes of the program's heap in use. Beside the host's own memory a CPU device's buffers are in it. 0 where
-// the allocator does not tell (a sanitized build).
+uint64_t bytesOf(const Plan& plan); // all buffers of the plan
+// Bytes in use on the program's heap, which includes the buffers of a CPU device. 0 when the allocator does
+// not report it (sanitizer builds).
 uint64_t heapBytes();
 
 } // namespace fathom::profile

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a bench's last frame is compared with before it is timed.
+// Compares a bench's last frame with the float64 twins, before any timing.
 #include "apps/profile/frame_bench.h"
 #include "apps/verify/pass_rig.h"
 #include "engine/cloud/frame_params.h"
@@ -16,9 +16,9 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kSamePoint = 2e-5; // [m] float32 chain against float64, at up to 4 m
-constexpr double kSameDepth = 1e-6; // [m] of an occlusion cell
-constexpr double kSamePixel = 1e-3; // [colour pixels] from a border, where two cells are possible
+constexpr double kSamePoint = 2e-5; // [m] float32 passes against float64, up to 4 m away
+constexpr double kSameDepth = 1e-6; // [m] depth of an occlusion cell
+constexpr double kSamePixel = 1e-3; // [colour pixels] from a cell border, where either cell is right
 
 } // namespace
 
@@ -32,7 +32,8 @@ reference::PointImage FrameBench::points() const {
 
 namespace {
 
-// `most` patches of the layout, evenly in row-major order but never column by column, and the four corners.
+// Selects about `most` patches at a fixed stride in row-major order, and the four corners. The stride has no
+// common factor with the row length, so it does not stay in a few columns.
 std::vector<uint8_t> samplePatches(const PatchLayout& layout, size_t most) {
     const size_t count = layout.patches();
     std::vector<uint8_t> chosen(count, most >= count ? 1 : 0);
@@ -49,8 +50,8 @@ std::vector<uint8_t> samplePatches(const PatchLayout& layout, size_t most) {
     return chosen;
 }
 
-// A point on a border between two cells has two truths: each cell lies between what it must hold and what it
-// may. Classes are looked up in the device's own cells then.
+// A point on a border may fall into either cell, so each cell's depth only has bounds. The class check
+// afterwards uses the device's own cells.
 std::string cellsDiffer(const reference::FrameView& view, const reference::CellImage& cells) {
     const reference::CellBounds twin = reference::occlusion(view, kSamePixel);
     for (size_t i = 0; i < twin.sure.nearest.size(); ++i) {
@@ -90,7 +91,7 @@ std::string FrameBench::differsFromTwins(const SampleFrame& image, size_t mostPa
         return sample[i / width / 16 * cycle_->layout().across + i % width / 16] != 0;
     };
     for (size_t i = 0; i < looked.size(); ++i) {
-        looked[i] = sampled(i) ? looked[i] : 0; // the twin makes no point there
+        looked[i] = sampled(i) ? looked[i] : 0; // the twin skips other pixels
     }
     const reference::SurfaceImage twin = reference::surface(view, looked);
     const reference::PointImage mine = points();
@@ -112,7 +113,7 @@ std::string FrameBench::spheresDiffer() const {
     for (size_t i = 0; i < spheres.size(); ++i) {
         const uint32_t pixel = spheres.source[i];
         if (pixel >= bits.size()) {
-            continue; // held from an earlier frame: no point of this one
+            continue; // held from an earlier frame, no point in this one
         }
         const FixtureClass& f = scene_.fixtures[spheres.fixture[i]];
         const dvec3 centre = set().host.origin + dvec3(spheres.x[i], spheres.y[i], spheres.z[i]);

@@ -29,7 +29,7 @@ void take(Camera& camera, uint32_t frames, FrameSequence& source) {
     }
 }
 
-// firstFrame: none = the camera stands still.
+// firstFrame: none = a static camera.
 SimulatedCamera cameraOn(const std::string& scene, uint32_t width, uint32_t height,
                          std::optional<uint32_t> firstFrame) {
     const auto solids = analyticScene(scene);
@@ -60,7 +60,7 @@ FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t 
     SimulatedCamera camera = cameraOn(scene, width, height, {});
     FrameSequence source{scene, camera.info(), {}};
     take(camera, frames, source);
-    const auto exact = camera.exactView(0); // nothing moves
+    const auto exact = camera.exactView(0); // static scene
     for (SampleFrame& image : source.frames) {
         image.truth = exact.depth;
     }
@@ -68,7 +68,7 @@ FrameSequence analyticFrames(const std::string& scene, uint32_t width, uint32_t 
 }
 
 FrameSequence twoCameraFrames(const std::string& scene, uint32_t width, uint32_t height, uint32_t frames) {
-    constexpr uint32_t kAside = 52; // where the sway has taken the camera 25 mm from its first pose
+    constexpr uint32_t kAside = 52; // frame at which the sway has moved the camera by 25 mm
     FrameSequence source = analyticFrames(scene, width, height, frames);
     SimulatedCamera second = cameraOn(scene, width, height, kAside);
     const std::optional<Frame> frame = second.next();
@@ -175,7 +175,7 @@ Tool ballTool(uint32_t leaves) {
     constexpr double kBall = 0.06; // [m]
     const double radius = 0.9 * kBall / std::cbrt(static_cast<double>(leaves));
     std::vector<Sphere> spheres;
-    for (uint32_t i = 0; i < leaves; ++i) { // Fibonacci shells: even, and the same on every machine
+    for (uint32_t i = 0; i < leaves; ++i) { // Fibonacci shells: uniform, and the same on every machine
         const double t = (i + 0.5) / leaves, z = 1.0 - 2.0 * std::fmod(i * 0.7548776662466927, 1.0);
         const double angle = 2.0 * M_PI * std::fmod(i * 0.5698402909980532, 1.0);
         const double ring = std::sqrt(std::max(0.0, 1.0 - z * z)), r = (kBall - radius) * std::cbrt(t);
@@ -195,8 +195,7 @@ Pose touchingPose(const Tool& tool, const Fixtures& fixtures, const Pose& baseTc
     const auto gapAt = [&](double away) {
         const dvec3 at = mean + away * back - fixtures.origin;
         double least = HUGE_VAL;
-        for (size_t i = 0; i < s.size();
-             i += 1 + s.size() / 4000) { // a few thousand place the tool well enough
+        for (size_t i = 0; i < s.size(); i += 1 + s.size() / 4000) { // a few thousand spheres suffice
             for (size_t l = 0; l < tool.leafCount(); l += 1 + tool.leafCount() / 128) {
                 const Sphere& leaf = tool.leaves()[l];
                 least = std::min(least, glm::length(dvec3(s.x[i], s.y[i], s.z[i]) - at - leaf.centre) -

@@ -17,7 +17,7 @@ constexpr Round kRoundParts[] = {{{0, 0, 0.02}, {0, 0, 0.1}, 0.018},
                                  {{0.035, 0, -0.01}, {0.035, 0, -0.06}, 0.008},
                                  {{-0.035, 0, -0.01}, {-0.035, 0, -0.06}, 0.008}};
 
-constexpr uint32_t kAround = 48, kRings = 24; // facets of a round part; rings of its two half balls
+constexpr uint32_t kAround = 48, kRings = 24; // facets around a capsule; rings of its two half balls
 
 void addTriangle(TriangleMesh& mesh, uint32_t a, uint32_t b, uint32_t c) {
     if (mesh.points[a] != mesh.points[b] && mesh.points[b] != mesh.points[c] &&
@@ -40,7 +40,7 @@ void addBox(TriangleMesh& mesh, const dvec3& half) {
     }
 }
 
-// Along z. The corners stand so far out that the facets between them do not cut the capsule.
+// Adds a capsule along z. The corners are outside it, so that the facets between them do not cut it.
 void addCapsule(TriangleMesh& mesh, const Round& r) {
     const auto first = static_cast<uint32_t>(mesh.points.size());
     const double low = std::min(r.from.z, r.to.z), high = std::max(r.from.z, r.to.z);
@@ -64,7 +64,7 @@ void addCapsule(TriangleMesh& mesh, const Round& r) {
     }
 }
 
-// Spheres of radius `share` of the edge `cell` of a cubic grid.
+// One sphere per cell of a cubic grid with edge `cell` [m]; the radius is share * cell.
 std::vector<Sphere> cover(const std::vector<Solid>& shape, double cell, double share) {
     std::vector<Sphere> spheres;
     const double radius = share * cell;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Settings measured in turns, a part of each at a time, so that what drifts on a machine falls on all alike.
+// Interleaved measurement: measures all settings in alternating parts, so that drift of the machine affects
+// all of them equally.
 #pragma once
 
 #include "apps/profile/frame_bench.h"
@@ -12,8 +13,8 @@ namespace fathom::profile {
 
 inline constexpr size_t kInterleaveRounds = 4;
 
-// work(i, part) of things 0 .. count - 1, all of them a round, every other round backwards: part is the
-// effort of one round.
+// Calls work(i, part) for all i in 0 .. count - 1 per round, every other round in reverse order. part: the
+// repeats of one round.
 template <class Work>
 void interleave(const Repeats& repeats, size_t count, Work&& work) {
     const Repeats part{(repeats.least + kInterleaveRounds - 1) / kInterleaveRounds,
@@ -26,10 +27,10 @@ void interleave(const Repeats& repeats, size_t count, Work&& work) {
     }
 }
 
-// CPU work that waits for nobody: wall and CPU time of each.
+// Wall and CPU time of each work, interleaved. For CPU work without waiting.
 std::vector<Cost> timeCpuInterleaved(const Repeats& repeats, const std::vector<std::function<void()>>& works);
 
-// The same shots through every bench.
+// Runs the same frames through every bench, interleaved.
 std::vector<FrameCost> measureInterleaved(const std::vector<std::unique_ptr<FrameBench>>& benches,
                                           const std::vector<SampleFrame>& frames, const Repeats& repeats);
 

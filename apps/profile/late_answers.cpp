@@ -50,7 +50,7 @@ PlotPanel stallPanel(const std::vector<StudyRow>& rows, uint32_t ticks) {
 }
 
 void addLateAnswers(const StudyContext& context, Study& study) {
-    Study late; // fronts are of these rows alone
+    Study late; // separate, so that fronts use only these rows
     late.name = study.name;
     late.errorName = study.errorName, late.errorUnit = study.errorUnit, late.timeName = study.timeName;
     late.rankBy.reason = "with answers in time a shorter reach does as well; 10 mm is what still serves when "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reach against stalls and lag when contact answers come late.
+// Reach against stalls and lag with late contact answers.
 #pragma once
 
 #include "apps/profile/study.h"
@@ -9,13 +9,13 @@
 
 namespace fathom::profile {
 
-// Appends to the query study: a row a reach and delay, with lag as error and the query's time, and the panels
-// of lag against that time and of stalls against the reach. Verifies that no leaf ever enters a sphere.
+// Appends to the query study: one row per reach and delay, with lag as error and the query's time. Adds
+// panels of lag against that time and of stalls against reach. Verifies that no leaf ever enters a sphere.
 void addLateAnswers(const StudyContext& context, Study& study);
 
-// Stalled turns of such rows [% of the drag's `ticks`] over the reach [mm], a line a delay. Rows of one delay
-// stand together, delays ascend. Most lines lie on 0 % or near 100 %: those of a shorter delay, which leave
-// the top earlier, are drawn over those of a longer one, so that each is seen as far as it stalls.
+// Stalled ticks [% of `ticks`] over the reach [mm], one line per delay. Rows must be grouped by ascending
+// delay. Lines overlap at 0 % and near 100 %, so shorter delays, which drop from 100 % at a smaller reach,
+// are drawn on top.
 PlotPanel stallPanel(const std::vector<StudyRow>& rows, uint32_t ticks);
 
 } // namespace fathom::profile

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene gains by what it leaves out: each optional stage on and off, one at a time, from a scene that
-// asks for everything.
+// Measures the savings of each optional stage: switches one stage off at a time in a scene that enables
+// everything.
 #include "apps/profile/device_stream.h"
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
@@ -13,22 +13,22 @@ namespace fathom::profile {
 
 namespace {
 
-// A scene, its camera and what no scene says.
+// A scene, its camera, and options outside the scene file.
 struct Setup {
     Scene scene;
     CameraInfo camera;
-    bool selfFilter = true; // the arm's spheres are taken out of the cloud
-    bool still = false;     // the camera has nothing new
-    bool passTimes = true;  // passes are told apart by the device's clock
+    bool selfFilter = true; // removes the arm's points from the cloud
+    bool still = false;     // the camera has no new frame
+    bool passTimes = true;  // the device's clock times each pass
 };
 
 struct Stage {
     const char* name;
     std::function<void(Setup&)> leaveOut;
-    std::function<void(Setup&)> before = {}; // what it is left out of, where that is not everything on
+    std::function<void(Setup&)> before = {}; // changes the full setup first, if set
 };
 
-// Everything that a scene can ask for at once.
+// A scene with all stages enabled.
 Scene fullScene(const Settings& settings) {
     Settings plain = settings;
     plain.source.clear();
@@ -42,7 +42,7 @@ Scene fullScene(const Settings& settings) {
     return scene;
 }
 
-// An arm of 64 spheres before the left of the image.
+// An arm of 64 spheres in front of the left of the image.
 cloud::LinkSpheres armInView() {
     cloud::LinkSpheres arm;
     for (uint32_t i = 0; i < 64; ++i) {
@@ -55,7 +55,7 @@ cloud::LinkSpheres armInView() {
     return arm;
 }
 
-// Images of one camera, and the same with the colour of a second one beside it.
+// Frames of one camera, and the same with colour from a second one next to it.
 struct Images {
     FrameSequence registered, beside;
     const FrameSequence& of(const CameraInfo& camera) const {
@@ -63,11 +63,11 @@ struct Images {
     }
 };
 
-// The lens of TUM freiburg1, mild, on both cameras: rays come from a table then.
+// Gives both cameras a mild version of the TUM freiburg1 lens distortion, so that rays come from a table.
 CameraInfo fullCamera(CameraInfo camera) {
     camera.depth.distortion = {0.02, -0.03, 0.0005, 0.0003, 0.0};
     camera.colour = camera.depth;
-    camera.yuyv = false; // one stage has it
+    camera.yuyv = false; // a separate stage measures it
     return camera;
 }
 
@@ -80,7 +80,7 @@ void dropClasses(Scene& scene, Role role) {
     std::erase_if(scene.fixtures, [&](const FixtureClass& f) { return f.isPoints() && f.role == role; });
 }
 
-// Gates that ask for colour and let everything through, so that both sides select the same points.
+// Colour gates that accept everything, so that both variants select the same points.
 void gateNothing(Setup& s) {
     registerColour(s.camera);
     for (FixtureClass& f : s.scene.fixtures) {
@@ -126,11 +126,11 @@ std::vector<Stage> stages() {
     };
 }
 
-// A frame cycle and its images, whose result was compared with the twins before anything is timed.
+// A frame cycle and its frames. Its result has been compared with the twins before any timing.
 struct Verified {
     std::unique_ptr<FrameBench> bench;
     const std::vector<SampleFrame>& frames;
-    double heap = 0.0; // bytes that another of its kind takes, pipelines compiled
+    double heap = 0.0; // [bytes] of a second instance, with pipelines already compiled
 };
 
 std::unique_ptr<FrameBench> benchOf(const StudyContext& context, const Setup& setup) {
@@ -167,8 +167,8 @@ Verified verified(const StudyContext& context, const Setup& setup, const Images&
     return v;
 }
 
-// The full frame and the one that leaves a stage out in turn, so that a change of the machine's mood hits
-// both.
+// The full setup and the one without a stage, measured alternately so that machine drift affects both
+// equally.
 struct Pair {
     FrameCost full, less;
 };
@@ -183,7 +183,7 @@ Pair measureAlternating(const Verified& full, const Verified& less, const Repeat
     return {full.bench->costOf(a), less.bench->costOf(b)};
 }
 
-// Not known of frames whose passes nobody timed; all of it of frames without passes.
+// Device time saved [ms]. NaN if the passes were not timed; the full time if no pass ran.
 double gpuSaved(const Pair& pair) {
     const Spread &full = pair.full.frame.gpu, &less = pair.less.frame.gpu;
     if (full.count == 0 || (less.count == 0 && pair.less.frame.submit.count > 0)) {
@@ -207,7 +207,7 @@ StudyRow rowOf(const std::string& setting, const Pair& pair, double bytesSaved, 
 StudyRow stageRow(const StudyContext& context, const Stage& stage, const Verified& full, const Setup& setup,
                   const Images& images) {
     Setup less = setup;
-    std::optional<Verified> own; // where it is left out of something else
+    std::optional<Verified> own; // for stages with their own baseline
     if (stage.before) {
         stage.before(less);
         own.emplace(verified(context, less, images, stage.name));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far each step of a frame, and the device's contact query, is from what the machine allows: bytes that
-// must move and operations that must be done, over the measured bandwidth and rate.
+// Compares each step of a frame, and the device's contact query, with the machine's limit: the bytes and
+// operations that are unavoidable, over the measured bandwidth and arithmetic rate.
 #include "apps/profile/ceilings.h"
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/query_limit.h"
@@ -14,22 +14,22 @@ namespace fathom::profile {
 
 namespace {
 
-// What one step must do at least. Operations are float32, counted in the formulas of the pass.
+// The minimum work of one step. Operations are float32, counted from the formulas of the pass.
 struct Need {
     double bytes = 0.0, operations = 0.0;
-    enum class Where { Device, Host, ThreadPool } where = Where::Device; // Crew: those who publish
-    double images = 0.0; // bytes that are read where the images lie, not among `bytes`
+    enum class Where { Device, Host, ThreadPool } where = Where::Device; // ThreadPool: the publishing threads
+    double images = 0.0; // bytes read from the images' memory, not included in `bytes`
 };
 
-// What a frame selects.
+// The sizes of a frame that determine its minimum work.
 struct Load {
     double pixels, slots, guidedSlots, selected, guided, spheres, packed, tapsPerPixel, cells,
-        colourBytes; // packed: bytes; colourBytes: a pixel
+        colourBytes; // counts; packed: bytes; colourBytes: bytes per pixel
     bool occlusion, hold, inPlace, pack, keepDepth, thin, thinsWithin, tree;
-    QueryWork query; // of a query on the device, by its answer; none without one
+    QueryWork query; // of a query on the device; empty without one
 };
 
-// Class bits of guidance.
+// Class bits of all guidance classes.
 uint32_t guidanceBits(const Scene& scene) {
     const std::vector<uint32_t> rows = cloud::classRows(scene);
     uint32_t bits = 0;
@@ -74,9 +74,9 @@ Load loadOf(const FrameBench& bench, const FrameReport& report) {
     return load;
 }
 
-// Of `spheres`: points, class bits, thinning and bits of forbidden pixels; with hold the points seen
-// before, the depth, and what is seen now (nothing is held here, so that memory is neither read nor written);
-// then what a query or the host reads.
+// Bytes of `spheres`: points, class bits, thinning and forbidden bits; with hold also the earlier points, the
+// depth and the current points (nothing is held here, so the hold memory is not touched); then the output for
+// a query or the host.
 double sphereBytes(const Load& l) {
     const double hold = l.hold ? 16.0 + 2.0 + 16.0 : 0.0;
     const double layers = l.hold ? 2.0 : 1.0;
@@ -86,8 +86,8 @@ double sphereBytes(const Load& l) {
            (l.pack ? l.packed + 72.0 / 256.0 * l.slots : 0.0);
 }
 
-// The images are read where the camera left them, or where they were uploaded to; where a pass before has
-// read the depth the same bytes are read again, for it does not keep them.
+// Reads the images in place or from upload memory. If an earlier pass has read the depth, its bytes count
+// again, because that pass does not keep them.
 Need classifyNeed(const Load& l) {
     Need need{l.pixels * ((l.keepDepth ? 2.0 : 0.0) + 1.0) + 4.0 * l.cells, 40.0 * l.pixels};
     need.images = l.pixels * (2.0 + l.colourBytes);
@@ -103,7 +103,7 @@ double thinOperations(const Load& l) {
     return l.slots / 16.0 * 25.0 * 45.0;
 }
 
-// Each buffer counted once, however often a pass reads it: what a perfect cache would move.
+// Each buffer counts once, however often a pass reads it, as with a perfect cache.
 std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
     return {
         {"upload",
@@ -119,8 +119,8 @@ std::vector<std::pair<std::string, Need>> needsOf(const Load& l) {
         {"tree_query", {l.query.bytes, l.query.operations}},
         {"deliver", {3.0 * (sizeof(shared::FrameCounters) + 4.0 * l.pixels / 256.0), 0.0}},
         {"moments", {l.guidedSlots * (17.0 + 64.0 / 256.0), 40.0 * l.guided}},
-        {"collect", // read as the device packs or leaves them, written as columns; what points take of depths
-                    // is not counted
+        {"collect", // reads packed or plain device data, writes columns; reads of depths by points do not
+                    // count
          {(l.pack ? l.packed : 20.0 * l.spheres) + 21.0 * l.spheres, 0.0, Need::Where::ThreadPool}},
         {"grid", {l.spheres * (16.0 + 20.0), 0.0, Need::Where::ThreadPool}},
     };
@@ -151,17 +151,17 @@ void addRows(Study& study, const std::string& source, const Load& load, const Fr
         row.source = source;
         row.setting = step;
         const bool onDevice = need.where == Need::Where::Device;
-        (onDevice ? row.cost.gpu : row.cost.wall) = time; // the host's steps are shared by threads
+        (onDevice ? row.cost.gpu : row.cost.wall) = time; // several threads share host steps
         const double moving = need.images > 0.0 ? readingMs(ceilings, need.bytes, need.images, load.inPlace)
                                                 : 1e3 * need.bytes / bytesPerSecond(ceilings, need.where);
         const double computing = onDevice ? need.operations / ceilings.deviceFlops * 1e3 : 0.0;
-        // No pass is faster than an empty dispatch; a pass without work has no floor.
+        // No pass is faster than an empty dispatch. A pass without work has no floor.
         const double work = std::max(moving, computing), dispatch = onDevice ? ceilings.dispatchMs : 0.0;
         const double floor = work > 0.0 ? std::max(work, dispatch) : 0.0,
                      ratio = floor > 0.0 ? time.p50 / floor : NAN;
         row.more = {(need.bytes + need.images) / 1e6, need.operations / 1e6, moving, computing, floor, ratio};
         study.rows.push_back(row);
-        if (floor == 0.0) { // dispatched over nothing
+        if (floor == 0.0) { // empty dispatch
             study.findings.push_back(source + ", " + step + ": " + digits(time.p50) + " ms, has no work");
             continue;
         }
@@ -179,9 +179,9 @@ struct LimitCase {
     Scene scene;
     FrameSequence images;
 };
-// A tenth of the image and all of it, with noise and without (thinning leaves fewer points then), and the
-// passes that such a scene does not have: colour of a second camera, and a tree for a query on the device.
-// Colours as USB cameras send them.
+// A tenth of the image and all of it, with noise and without (thinning then keeps fewer points). Also the
+// passes that such a scene lacks: colour from a second camera, and a tree for queries on the device. Colours
+// are YUYV, as from USB cameras.
 std::vector<LimitCase> limitCases(const Settings& settings, uint32_t w, uint32_t h) {
     Scene asked = studyScene(settings);
     asked.contact.where = Scene::Contact::Where::Gpu;
@@ -229,7 +229,7 @@ PlotPanel panelOf(const Study& study, const std::string& source) {
     return panel;
 }
 
-// Passes of a frame and, where the plan has a tree, the query of that frame's set.
+// Adds rows for the passes of a frame and, if the plan has a tree, for a query of that frame's set.
 void addCase(const StudyContext& context, const LimitCase& each, const Ceilings& ceilings, Study& study) {
     FrameBench bench(context.device, each.scene, each.images.camera);
     const SampleFrame& first = each.images.frames.front();

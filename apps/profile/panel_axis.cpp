@@ -9,14 +9,14 @@ namespace fathom::profile {
 
 namespace {
 
-// Four digits at most; thousands and millions by their letter.
+// At most four digits; thousands and millions as k and M.
 std::string tickLabel(double value) {
     return value >= 1e6   ? roundNumber(value * 1e-6) + " M"
            : value >= 1e4 ? roundNumber(value * 1e-3) + " k"
                           : roundNumber(value);
 }
 
-constexpr double kZeroRoom = 0.35; // of a decade below the smallest positive value, where zeros stand
+constexpr double kZeroRoom = 0.35; // decades below the smallest positive value, for zeros
 
 PanelAxis logAxis(const std::vector<double>& values) {
     PanelAxis axis;
@@ -52,7 +52,7 @@ double signedLog(double value, double linear) {
     return std::copysign(std::log10(1.0 + std::abs(value) / linear), value);
 }
 
-// Where a decade gets ticks: often enough that even a short axis has some.
+// Tick positions within a decade, dense enough that even a short axis has some.
 std::vector<double> factorsOf(double span) {
     if (span < 0.5) {
         return {1.0, 1.2, 1.4, 1.6, 1.8, 2.0, 2.5, 3.0, 3.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0};

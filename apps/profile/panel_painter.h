@@ -11,7 +11,7 @@
 
 namespace fathom::profile {
 
-// One panel in its rectangle of the image.
+// Draws one panel into its rectangle of the image.
 class PanelPainter {
 public:
     PanelPainter(const Image& image, const PlotPanel& panel, const ColourTable& colours, double left,
@@ -61,7 +61,7 @@ public:
     }
 
 private:
-    // The legend stands beside the plot, never over data.
+    // Width of the legend, which is to the right of the plot and never covers data.
     static double legendRoom(const Image& image, const PlotPanel& panel) {
         double widest = 0.0;
         for (const PlotSeries& s : panel.series) {
@@ -86,7 +86,7 @@ private:
 
     void setDash(double dash) const { cairo_set_dash(p_.cr(), &dash, dash > 0.0 ? 1 : 0, 0.0); }
 
-    // Words that stay readable over lines: the paper's colour behind them.
+    // Text on a background box, so that it stays readable over lines.
     void words(double x, double y, const std::string& text, Colour colour, bool bold) const {
         for (const double dx : {-1.5, 0.0, 1.5}) {
             for (const double dy : {-1.5, 0.0, 1.5}) {
@@ -111,7 +111,7 @@ private:
         filled ? cairo_fill(p_.cr()) : cairo_stroke(p_.cr());
     }
 
-    // From a value to its p90, with a cap across the end.
+    // A line from a value to its p90, with a cap at the end.
     void errorBar(double x0, double y0, double x1, double y1, Colour colour) const {
         const double across = x0 == x1 ? 4.0 : 0.0, along = 4.0 - across;
         line(x0, y0, x1, y1, colour, 1.4);
@@ -143,7 +143,8 @@ private:
         cairo_restore(p_.cr());
     }
 
-    // A line in the points' order, or the front: steps, because nothing between two settings was measured.
+    // A line in the order of the points, or the front as steps, because nothing between two settings was
+    // measured.
     void paintLine(const PlotSeries& series, Colour colour) const {
         std::vector<PlotPoint> points = series.points;
         if (!series.connect) {
@@ -186,7 +187,7 @@ private:
         }
     }
 
-    // Points of the front and defaults choose first.
+    // Points on the front and defaults get their label places first.
     void paintLabels() const {
         std::vector<PlotBox> taken;
         std::vector<LabelRequest> all, requests;
@@ -220,7 +221,7 @@ private:
     static std::string textOf(const PlotPoint& q) { return q.isDefault ? q.label + " (default)" : q.label; }
 
     void paintLabel(const PlotPoint& q, const LabelRequest& request, const LabelPlace& place) const {
-        if (!place.beside) { // to the nearer end of the text
+        if (!place.beside) { // line to the nearer end of the text
             const bool right = place.x >= request.x;
             line(request.x, request.y, right ? place.x - 2.0 : place.box.x1 + 2.0, place.y - 4.0,
                  kFaint.alpha(0.5), 0.8);
@@ -243,7 +244,7 @@ private:
         }
     }
 
-    // Whole numbers where three digits would need an exponent.
+    // Uses whole numbers where three digits would need an exponent.
     static std::string barFigure(double value) {
         return value >= 1e3 && value < 1e6 ? digits(std::round(value), 6) : digits(value);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which region spheres lie within reach of the tool: our grid on the CPU, our tree on the GPU, and the trees
-// of others, on the same spheres, leaves and poses.
+// Contact queries: Fathom's grid on the CPU, its tree on the GPU, and the trees of other libraries find the
+// region spheres within reach of the tool, on the same spheres, leaves and poses.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/peers/nearby_oracle.h"
 #include "apps/profile/peers/peers.h"
@@ -16,12 +16,12 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kReach = 0.01; // [m]
-constexpr size_t kPoses = 8;    // a timed sample is one query at each
+constexpr size_t kPoses = 8;    // a timed sample is one query per pose
 
-// One set of spheres, and the device's copy of it.
+// One set of spheres on the host and on the device.
 struct Rig {
     FrameBench bench;
-    double treeMs; // device time of the passes that make spheres and tree, p50
+    double treeMs; // p50 device time of the passes that build spheres and tree
 
     Rig(const StudyContext& context, const FrameSequence& source)
         : bench(context.device, everyPointScene(), source.camera)
@@ -35,13 +35,13 @@ struct Rig {
     const Fixtures& host() const { return bench.set().host; }
 };
 
-// One tool at several poses, from just in touch to 20 mm deep, and what is true there.
+// One tool at several poses, from first contact to 20 mm deep, with the exact answers.
 struct Workload {
     Tool tool;
     std::vector<Pose> poses;
     std::vector<PosedLeaves> leaves;
     std::vector<std::vector<double>> gaps;
-    double found = 0.0; // mean
+    double found = 0.0; // mean count
 
     Workload(const Rig& rig, const Pose& camera, uint32_t leafCount)
         : tool(ballTool(leafCount)) {
@@ -60,7 +60,7 @@ struct Workload {
     }
 };
 
-// Times work(pose index) over all poses, each a share of a sample.
+// Times work(pose index) over all poses; a sample is the mean of all poses.
 template <class Work>
 void timePoses(const StudyContext& context, Work&& work, StudyRow& row) {
     row.cost = timeCpu(context.settings.repeats(), [&] {
@@ -73,7 +73,7 @@ void timePoses(const StudyContext& context, Work&& work, StudyRow& row) {
     }
 }
 
-// Answers query(pose index, found) at every pose, counts what differs from float64, then times it.
+// Runs query(pose index, found) at every pose, counts differences from float64, then times it.
 template <class Query>
 void answerAndTime(const StudyContext& context, const Workload& work, Query&& query, StudyRow& row) {
     std::vector<uint32_t> found;
@@ -113,11 +113,11 @@ StudyRow ourGrid(const StudyContext& context, const Rig& rig, const Workload& wo
     return row;
 }
 
-// The spheres of a whole answer, by index; compared within the reach that it certifies, for an overflow
-// halves it.
+// Compares the spheres of a full answer within the reach that it certifies, because an overflow halves the
+// reach.
 peers::Disagreement wholeDisagreement(const Rig& rig, const PosedLeaves& leaves, const ContactSet& set) {
     const RegionSpheres& spheres = rig.host().spheres;
-    std::unordered_map<uint32_t, uint32_t> indexOf; // of a slot
+    std::unordered_map<uint32_t, uint32_t> indexOf; // from slot number
     for (uint32_t i = 0; i < spheres.size(); ++i) {
         indexOf.emplace(spheres.source[i], i);
     }
@@ -128,7 +128,7 @@ peers::Disagreement wholeDisagreement(const Rig& rig, const PosedLeaves& leaves,
     return peers::disagreement(peers::nearbyGaps(spheres, leaves, set.reach), found);
 }
 
-// What a turn really gets: the same set sorted, with all pairs, certified.
+// The full answer for a tick: the same set, sorted, with all pairs and a certified reach.
 StudyRow ourWholeAnswer(const StudyContext& context, const Rig& rig, const Workload& work,
                         const std::string& source) {
     StudyRow row = peerRow(source, "Fathom CPU whole answer");
@@ -172,7 +172,7 @@ StudyRow ourTree(const StudyContext& context, const Rig& rig, const Workload& wo
     return row;
 }
 
-// A peer with its tree over one set.
+// A peer library with its tree over one set.
 struct BuiltPeer {
     peers::Way<peers::CollisionPeer> way;
     std::unique_ptr<peers::CollisionPeer> peer;

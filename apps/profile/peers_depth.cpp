@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smoothing depth and making points: our surface pass and its float64 twin beside OpenCV and PCL.
+// Depth smoothing and point generation: Fathom's surface pass and its float64 twin compared with OpenCV and
+// PCL.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/peers/peers.h"
 #include "apps/profile/peers_rows.h"
@@ -13,10 +14,10 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kSamePoint = 2e-5; // [m]
-constexpr double kEdgeJump = 0.02;  // relative jump of depth that makes an edge
+constexpr double kEdgeJump = 0.02;  // relative depth jump that counts as an edge
 constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
 
-// Every measured point, nothing else to do: classify and moments are all that runs beside the pass.
+// A scene that selects every measured point. Besides the surface pass, only classify and moments run.
 Scene everyPoint(uint32_t radius, double edge) {
     Scene scene;
     FixtureClass all;
@@ -29,7 +30,8 @@ Scene everyPoint(uint32_t radius, double edge) {
     return scene;
 }
 
-// The pass by device time (all that the device did, where it has no clock), the frame by submit to result.
+// gpu: device time of the surface pass (of the whole frame if the device has no clock); submit: the frame,
+// from submission to result.
 Cost passCost(const FrameCost& cost) {
     Cost out = cost.frame;
     const auto surface = cost.passes.find("surface");
@@ -37,7 +39,7 @@ Cost passCost(const FrameCost& cost) {
     return out;
 }
 
-// Measured depths [m], not a number where there is none.
+// Measured depths [m]; NaN = no measurement.
 std::vector<float> measured(const reference::FrameView& view) {
     std::vector<float> z;
     for (int v = 0; v < view.height(); ++v) {
@@ -49,7 +51,7 @@ std::vector<float> measured(const reference::FrameView& view) {
     return z;
 }
 
-// Pixels whose whole window is measured and without a jump: there all filters are meant to do the same.
+// Marks pixels whose whole window is measured and has no jump. All filters should agree there.
 std::vector<uint8_t> flatPixels(const reference::FrameView& view, int radius) {
     std::vector<uint8_t> flat(view.pixels(), 0);
     for (int v = radius; v + radius < view.height(); ++v) {
@@ -66,12 +68,12 @@ std::vector<uint8_t> flatPixels(const reference::FrameView& view, int radius) {
     return flat;
 }
 
-// [mm] over the flat pixels at which both have a depth; not a number where there are none.
+// RMS difference [mm] over flat pixels at which both have a depth; NaN if there are none.
 template <class A, class B>
 double rmsBetween(const std::vector<A>& a, const std::vector<B>& b, const std::vector<uint8_t>& flat) {
     double squares = 0.0, count = 0.0;
     for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-        if (flat[i] != 0 && a[i] > 0 && b[i] > 0) { // not a number is not
+        if (flat[i] != 0 && a[i] > 0 && b[i] > 0) { // false for NaN
             const double off = 1e3 * (static_cast<double>(a[i]) - static_cast<double>(b[i]));
             squares += off * off;
             count += 1.0;
@@ -131,7 +133,7 @@ void addFilter(const StudyContext& context, const FrameSequence& frames, uint32_
     std::vector<double> twin;
     row = twinRow(context, view, source, twin);
     judge(row, twin);
-    // The same Gaussian as ours for a surface square to the view at the middle depth.
+    // The same Gaussian as in Fathom, for a surface perpendicular to the view at the median depth.
     const double pixels = scene.filter.sigma * frames.camera.depth.fx / medianOf(raw);
     for (const auto& way : peers::filterWays(radius, pixels, scene.filter.sigma)) {
         const auto peer = way.make();
@@ -144,8 +146,7 @@ void addFilter(const StudyContext& context, const FrameSequence& frames, uint32_
     fillRatios(rows, first, first, first);
 }
 
-// Points that are not where the pixel's ray and depth put them, or are there without a measurement, or
-// missing.
+// Counts points that differ from the pixel's ray times its depth, lack a measurement, or are missing.
 size_t wrongPoints(const reference::FrameView& view, const std::vector<dvec3>& points,
                    const std::function<bool(size_t)>& present) {
     size_t wrong = 0;
@@ -181,7 +182,7 @@ void addPeerFilters(const StudyContext& context, std::vector<StudyRow>& rows) {
 void addPeerPoints(const StudyContext& context, std::vector<StudyRow>& rows) {
     FrameSequence frames = context.settings.quick ? wallFrame(320, 240, 1.0) : wallFrame(640, 480, 1.0);
     SampleFrame& image = frames.frames.front();
-    for (size_t i = 0; i < image.depth.size(); ++i) { // whole millimetres, and holes
+    for (size_t i = 0; i < image.depth.size(); ++i) { // whole millimetres, with holes
         image.depth[i] = static_cast<uint16_t>(i % 97 == 0 ? 0 : image.depth[i] / 10);
     }
     frames.camera.metresPerUnit = 0.001;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same work in one run beside libraries of others: smoothing, points, and what lies within the tool's
-// reach. Only with -DFATHOM_PEERS=ON.
+// Compares Fathom with other libraries in one run: depth smoothing, points, and contact queries. Only in
+// builds with -DFATHOM_PEERS=ON.
 #include "apps/profile/peers_rows.h"
 #include "apps/profile/studies.h"
 
@@ -33,8 +33,8 @@ std::vector<std::string> sourcesOf(const Study& study) {
     return names;
 }
 
-// By the times that the ratios are of; a filter, which nobody's answer is wrong of, by its distance from the
-// exact surface.
+// Judges defaults by the compared times. For filters, where no answer is wrong, the error is the distance
+// from the exact surface.
 void judgeOurs(Study& study) {
     study.rankBy.time = peerTime;
     study.rankBy.error = [](const StudyRow& row) { return isFilter(row) ? row.more[kFromTruth] : row.error; };
@@ -42,7 +42,7 @@ void judgeOurs(Study& study) {
     markFront(study);
 }
 
-// One sentence a source: our time, and every other as a multiple of it.
+// One sentence per source: Fathom's time, and every other time as a multiple of it.
 void sayRatios(Study& study) {
     study.findings.push_back(
         "xN: N times the time of ours on that source, in brackets that of the build. Filter and points: ours "
@@ -69,7 +69,7 @@ void sayRatios(Study& study) {
     }
 }
 
-// By setting: on how many sources `value` lies in (0, below), and between which values.
+// Per setting: the number of sources with `value` in (0, below), and the range of these values.
 std::string tally(const Study& study, size_t column, double below) {
     std::map<std::string, std::vector<double>> all;
     for (const StudyRow& row : study.rows) {
@@ -86,7 +86,7 @@ std::string tally(const Study& study, size_t column, double below) {
     return said.empty() ? "none" : said;
 }
 
-// Where others are faster than we are, or wrong: said apart, so that nobody has to look for it.
+// Reports separately where other libraries are faster than Fathom, or wrong.
 void sayWinners(Study& study) {
     std::string wrong;
     for (const StudyRow& row : study.rows) {
@@ -100,7 +100,7 @@ void sayWinners(Study& study) {
     study.findings.push_back("answers that differ from float64: " + (wrong.empty() ? "none" : wrong));
 }
 
-// A line a way over the number of spheres; `value` of a row, not drawn where it is not positive.
+// One line per method over the number of spheres. Shows `value` of each row if it is positive.
 PlotPanel contactPanel(const Study& study, const std::string& leaves, const std::string& title,
                        const RowValue& value) {
     PlotPanel panel{title, "region spheres [thousands]", "p50 [ms]", true, true, false, {}};
@@ -120,7 +120,7 @@ PlotPanel contactPanel(const Study& study, const std::string& leaves, const std:
     return panel;
 }
 
-std::string shortLabel(const StudyRow& row) { // there is little room beside a bar
+std::string shortLabel(const StudyRow& row) { // little space next to a bar
     const std::string name = row.isDefault ? "Fathom" : row.setting;
     return row.source.substr(row.source.find(' ') + 1) + ": " + name;
 }

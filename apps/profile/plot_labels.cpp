@@ -11,7 +11,7 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kAscent = 11.0, kDescent = 3.0, kGap = 11.0; // [pixels]
-constexpr double kTouching = 10.0;                            // [pixels] between centres of two dots
+constexpr double kTouching = 10.0;                            // [pixels] centre distance of two touching dots
 constexpr int kDirections = 24;
 
 LabelPlace placeAt(const LabelRequest& request, double x, double y, bool beside) {
@@ -23,7 +23,7 @@ bool isFree(const PlotBox& box, const PlotBox& room, const std::vector<PlotBox>&
            std::none_of(taken.begin(), taken.end(), [&](const PlotBox& b) { return b.meets(box); });
 }
 
-// At the right or the left of the point, above it, level with it or below.
+// Tries right and left of the point, each above, level and below.
 std::optional<LabelPlace> placeBeside(const LabelRequest& request, const PlotBox& room,
                                       const std::vector<PlotBox>& taken) {
     for (const double dx : {kGap, -kGap - request.width}) {
@@ -37,7 +37,7 @@ std::optional<LabelPlace> placeBeside(const LabelRequest& request, const PlotBox
     return {};
 }
 
-// On rings about the point, the nearest that is free.
+// Tries rings around the point, nearest first.
 std::optional<LabelPlace> placeOff(const LabelRequest& request, const PlotBox& room,
                                    const std::vector<PlotBox>& taken) {
     const double farthest = std::hypot(room.x1 - room.x0, room.y1 - room.y0);

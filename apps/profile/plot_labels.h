@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the labels of a plot stand: each beside its point where there is room, else farther off with a line
-// to it.
+// Places a plot's labels: next to their points if there is room, otherwise farther away with a line to the
+// point.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +15,23 @@ struct PlotBox { // [pixels] y downwards
 };
 
 struct LabelRequest {
-    double x, y, width;    // [pixels] of the point, of the text
-    std::string text = {}; // by which repeats are known
+    double x, y, width;    // [pixels] position of the point, width of the text
+    std::string text = {}; // used to detect repeats
 };
 
 struct LabelPlace {
     double x, y;        // [pixels] left end of the text's baseline
-    bool beside = true; // else a line leads to the point
-    PlotBox box;        // that the text fills
+    bool beside = true; // false: a line leads to the point
+    PlotBox box;        // bounds of the text
 };
 
-// Indices, ascending, of the wishes but those that say of a point what one before them says of another that
-// its dot touches: settings that come out alike are named once.
+// Ascending indices of the requests to draw. Skips a request whose text repeats an earlier one at a touching
+// dot, so that equal settings with equal results are labelled once.
 std::vector<size_t> distinctLabels(const std::vector<LabelRequest>& requests);
 
-// One place a wish, in their order: the first have the better ones. `taken` are boxes that no label may meet,
-// the points among them. No two labels meet while the room has a free spot; after that one stands beside its
-// point all the same, for none is left out.
+// One place per request, in order; earlier requests get better places. `taken`: boxes that no label may
+// overlap, including the points. Labels do not overlap while `room` has a free place. After that, a label
+// goes next to its point anyway, because none is dropped.
 std::vector<LabelPlace> placeLabels(const std::vector<LabelRequest>& requests, const PlotBox& room,
                                     std::vector<PlotBox> taken);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half, single and double precision for what is stored and scanned most: the centres of region spheres.
+// Half, single and double precision for the centres of region spheres, the data that is stored and scanned
+// most.
 #include "apps/profile/half_number.h"
 #include "apps/profile/precision.h"
 #include "engine/contact/clones.h"
@@ -82,10 +83,10 @@ struct FarCloud {
     Columns<double> exact;
     Columns<float> single;
     Columns<uint16_t> half, local;
-    std::vector<dvec3> blocks; // centre of each run of 256 in `local`
+    std::vector<dvec3> blocks; // centre of each block of 256 in `local`
     std::vector<dvec3> leaves;
 
-    static constexpr size_t kBlock = 256; // as many as a patch has
+    static constexpr size_t kBlock = 256; // pixels of a patch
     FarCloud(size_t spheres, size_t leafCount, double away) {
         const auto side = static_cast<size_t>(std::sqrt(static_cast<double>(spheres) / kBlock));
         for (size_t b = 0; b < side * side; ++b) {
@@ -114,7 +115,7 @@ struct FarCloud {
     }
 };
 
-using Distances = std::vector<double>; // a leaf [m]
+using Distances = std::vector<double>; // [m] one per leaf
 
 Distances runDouble(const FarCloud& s) {
     Distances out;

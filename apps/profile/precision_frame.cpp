@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half, single and double along a frame and a tick: depth pixels, the filter's weights and sums, pair gaps.
+// Half, single and double precision in a frame and a tick: depth pixels, the filter's weights and sums, and
+// pair gaps.
 #include "apps/profile/half_number.h"
 #include "apps/profile/precision.h"
 #include "engine/types/pose.h"
@@ -11,11 +12,11 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kUnit = 1e-4;  // [m] of a raw depth unit
-constexpr int kWindow = 2;      // [pixels] of the filter
+constexpr double kUnit = 1e-4;  // [m] per raw depth unit
+constexpr int kWindow = 2;      // [pixels] radius of the filter
 constexpr double kSigma = 0.01; // [m]
 
-// A waved wall 0.8 m away with a step and a millimetre of noise.
+// A wavy wall 0.8 m away with a step and 1 mm of noise.
 struct Image {
     int width, height;
     std::vector<uint16_t> raw;
@@ -37,7 +38,7 @@ struct Image {
     double focal() const { return 0.9 * width; }
 };
 
-// What a pixel is stored in, and its depth again.
+// Each pixel format stores a depth and converts it back.
 struct RawPixel {
     using Number = float;
     uint16_t stored;
@@ -96,7 +97,7 @@ PrecisionLoop depthLoop(const std::shared_ptr<const Image>& shared, const char* 
             unproject};
 }
 
-// The weight as it is kept: as computed, or through half.
+// The stored weight: as computed, or rounded to half.
 template <class T, bool kHalfWeights>
 T kept(T weight) {
     if constexpr (kHalfWeights) {
@@ -105,7 +106,7 @@ T kept(T weight) {
     return weight;
 }
 
-// The paper's filter over a image (eq. 1-2), but for the border, in T.
+// The paper's filter (eq. 1-2) over an image without its border, computed in T.
 template <class T, bool kHalfWeights>
 std::vector<double> filter(const Image& p) {
     const T inverse = static_cast<T>(1.0 / p.focal()), scale = static_cast<T>(1.0 / (2.0 * kSigma * kSigma));
@@ -136,7 +137,7 @@ std::vector<double> filter(const Image& p) {
 
 struct Pairs {
     std::vector<float> x, y, z, radius;
-    dvec3 leaf{0.013, -0.007, -0.031}; // [m] about the set's origin
+    dvec3 leaf{0.013, -0.007, -0.031}; // [m] relative to the set's origin
     explicit Pairs(size_t count) {
         for (size_t i = 0; i < count; ++i) {
             const double t = static_cast<double>(i);
@@ -149,7 +150,7 @@ struct Pairs {
     }
 };
 
-// gap = |c - s| - (r + R) of every pair, as the narrow phase takes it.
+// gap = |c - s| - (r + R) of every pair, as in the narrow phase.
 template <class T>
 void gapsOf(const Pairs& pairs, std::vector<T>& gaps) {
     const T cx = static_cast<T>(pairs.leaf.x), cy = static_cast<T>(pairs.leaf.y),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Formats of the region tree's nodes: centre and radius of a bound in double, single, half, and half about
-// the patch. Whatever a centre loses by rounding its radius gains, rounded up: a node never lets a sphere
-// out.
+// Formats of the region tree's nodes: centre and radius of a bound in double, single, half, and half relative
+// to the patch. The radius grows, rounded up, by the rounding error of the centre, so that a node always
+// contains its spheres.
 #include "apps/profile/half_number.h"
 #include "apps/profile/precision.h"
 #include "engine/types/pose.h"
@@ -16,7 +16,7 @@ namespace {
 
 constexpr size_t kChildren = 16;    // sub-patches of a patch, and spheres of a sub-patch
 constexpr double kSphere = 0.02;    // [m] radius of a region sphere
-constexpr double kCullReach = 0.01; // [m] of the cull
+constexpr double kCullReach = 0.01; // [m] reach of the cull
 constexpr double kLeaf = 0.008;     // [m] radius of a leaf
 constexpr double kSpread = 0.0064;  // [m] edge of a sub-patch
 
@@ -25,11 +25,11 @@ struct Bound {
     double radius = 0.0;
 };
 
-// A wall of sub-patches, 16 a patch, each the bound of its 16 spheres; the very spheres too.
+// A wall of sub-patches, 16 per patch. Each is the bound of its 16 spheres, which are stored, too.
 struct Wall {
     std::vector<dvec3> spheres;
     std::vector<Bound> nodes;   // sub-patches, patch by patch
-    std::vector<dvec3> anchors; // a patch
+    std::vector<dvec3> anchors; // one per patch
     std::vector<dvec3> leaves;
 
     Wall(size_t patches, size_t leafCount, double away) {
@@ -71,8 +71,8 @@ private:
     }
 };
 
-// Each format: how a node is stored, and the sphere (centre, radius) that it says again, in the numbers that
-// are culled with.
+// Each format defines how a node is stored, and its conversion back to centre and radius in the type that the
+// cull uses.
 struct DoubleNode {
     using Number = double;
     double x, y, z, r;
@@ -111,7 +111,7 @@ struct HalfNode {
     }
 };
 
-// Centres of the leaves; a multiple of 16.
+// Centres of the leaves; their number is a multiple of 16.
 template <class T>
 struct Leaves {
     std::vector<T> x, y, z;
@@ -123,7 +123,7 @@ struct Leaves {
     }
 };
 
-// Marks the nodes within reach of some leaf; every node is asked of every leaf.
+// Marks the nodes within reach of some leaf. Tests every node against every leaf.
 template <class Node>
 void cull(const Wall& wall, const Leaves<typename Node::Number>& leaves, const std::vector<Node>& nodes,
           std::vector<uint8_t>& marks) {
@@ -138,7 +138,7 @@ void cull(const Wall& wall, const Leaves<typename Node::Number>& leaves, const s
     }
 }
 
-// [m] by which the stored node reaches farther than the exact one; negative when a sphere is out.
+// [m] by which the stored node extends beyond the exact one; negative if a sphere is outside.
 template <class Node>
 double growthOf(const Wall& wall, const std::vector<Node>& nodes, const std::string& name) {
     double most = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Half, single and double where it applies: stored centres, tree nodes, depth pixels, filter weights, pair
+// Half, single and double precision for stored centres, tree nodes, depth pixels, filter weights and pair
 // gaps.
 #include "apps/profile/interleave.h"
 #include "apps/profile/precision.h"
@@ -20,7 +20,7 @@ StudyRow precisionRow(const std::string& source, const std::string& setting, boo
 
 namespace {
 
-// The formats of one source in turns; loops of a source follow each other.
+// Times the formats of each source, interleaved. Loops of one source must be adjacent.
 void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, Study& study) {
     for (size_t begin = 0, end = 0; begin < loops.size(); begin = end) {
         std::vector<std::function<void()>> works;
@@ -35,7 +35,7 @@ void timeLoops(const StudyContext& context, std::vector<PrecisionLoop> loops, St
     }
 }
 
-// Of the sources that begin so.
+// A panel of the sources whose names start with `source`.
 PlotPanel panelOf(const Study& study, const std::string& title, const std::string& source) {
     return frontPanel(study, title, [&](const StudyRow& row) {
         return row.source.rfind(source, 0) == 0 ? study.rankBy.time(row) : NAN;

@@ -48,7 +48,7 @@ bool wanted(const Settings& settings, const std::string& name) {
            std::find(settings.studies.begin(), settings.studies.end(), name) != settings.studies.end();
 }
 
-// The command that made the files, so that a table can be made again. Folders by their last name.
+// The command that produced the files, to reproduce a table. Shows only the last part of folder names.
 std::string commandOf(const Settings& settings, const GlobalOptions& global) {
     std::string command = "fathom";
     command += global.device.empty() ? "" : " --device " + global.device;

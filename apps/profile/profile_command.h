@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom profile [STUDY...]`: error against run time, as files that show it.
+// `fathom profile [STUDY...]`: measures error against run time and writes tables, plots and a report.
 #pragma once
 
 #include "apps/global_options.h"

@@ -10,7 +10,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr int kTicks = 33; // a frame: 1 kHz against 30 Hz
+constexpr int kTicks = 33; // per frame: 1 kHz against 30 Hz
 
 void traceTicks(ContactCycle& contact, const FrameBench& bench, Proxy& proxy, const Pose& touching,
                 CadenceTrace& trace, int frame) {
@@ -37,7 +37,7 @@ void writeTimeLine(const StudyContext& context, const std::filesystem::path& fil
     CadenceTrace trace(file, bench.cycle().passNames());
     bench.run(source.frames.front());
     if (bench.set().host.spheres.size() == 0) {
-        trace.file().finish(); // nothing to touch: the frames would be all
+        trace.file().finish(); // nothing to touch: the trace has only frames
         return;
     }
     const Pose touching = touchingPose(tool, bench.set().host, source.frames.front().baseTcamera);

@@ -13,11 +13,11 @@ namespace fathom::profile {
 
 namespace {
 
-// p50 [ms] of all ways with one tool in one set; not a number = not measured.
+// p50 [ms] of all methods with one tool in one set; NaN = not measured.
 struct Measured {
     std::string source;
     double spheres = NAN, leaves = NAN;
-    double cpuSet = NAN, gpuSet = NAN;                  // the whole contact set
+    double cpuSet = NAN, gpuSet = NAN;                  // full contact set
     double gridCull = NAN, treeCull = NAN, brute = NAN; // the cull alone
 };
 using MeasuredValue = double Measured::*;
@@ -43,7 +43,7 @@ std::vector<Measured> measuredOf(const std::vector<StudyRow>& rows) {
     return all;
 }
 
-// Duels of those that `wanted` lets through and that both ways took part in.
+// Duels of the entries that `wanted` accepts and that both methods measured.
 template <class Wanted, class Size>
 std::vector<Duel> duelsOf(const std::vector<Measured>& all, MeasuredValue incumbent, MeasuredValue challenger,
                           Wanted&& wanted, Size&& size) {
@@ -78,7 +78,7 @@ double largestOf(const std::vector<Duel>& duels) {
     return most;
 }
 
-// "from 60 k spheres on, and at 1000" or "never here (up to 1.024 M spheres), but at 1000".
+// Text such as "from 60 k spheres on, and at 1000" or "never here (up to 1.024 M spheres), but at 1000".
 std::string fromWhere(const std::vector<Duel>& duels, const std::string& unit) {
     const Crossing crossing = crossingOf(duels);
     const bool never = std::isinf(crossing.from);

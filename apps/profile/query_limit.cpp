@@ -14,16 +14,16 @@ namespace fathom::profile {
 namespace {
 
 constexpr float kLimitReach = 0.01f;     // [m]
-constexpr double kTestOperations = 12.0; // operations: d^2 takes 8, the limit's square 3, comparing them 1
-constexpr double kNodeBytes = 16.0;      // bytes of a node or a sphere, of region or tool
-constexpr double kSlotsOfSub = 16.0;     // slots of a sub-patch, in each layer
+constexpr double kTestOperations = 12.0; // per test: d^2 takes 8, the squared limit 3, the comparison 1
+constexpr double kNodeBytes = 16.0;      // bytes of a node or a sphere, region or tool
+constexpr double kSlotsOfSub = 16.0;     // slots of a sub-patch in each layer
 constexpr uint32_t kKeysOfPatch = 512;   // FixtureSet::keys: two layers of 256 slots
 
 uint32_t subPatchOf(uint32_t key) {
     return key / kKeysOfPatch * 16 + key % 256 / 16;
 }
 
-// The nodes above a sub-patch, up to the root: the arithmetic of the shader's ancestorsInReach().
+// Adds the nodes above a sub-patch up to the root, as the shader's ancestorsInReach() computes them.
 void addAncestors(const PatchLayout& layout, uint32_t sub, std::set<uint32_t>& nodes) {
     const uint32_t patch = sub / 16, u = patch % layout.across, v = patch / layout.across;
     for (size_t level = 1; level < layout.levels.size(); ++level) {
@@ -34,11 +34,11 @@ void addAncestors(const PatchLayout& layout, uint32_t sub, std::set<uint32_t>& n
 
 } // namespace
 
-// Bytes, each once, as a perfect cache would move them: the parameters, the count, the region's root; what
-// leads to the answer: its sub-patches, their nodes and ancestors, all slots of theirs, one way down the
-// tool's tree; the answer. Operations: every invocation (one a sub-patch) tests the root; those of the
-// answer's sub-patches every node down to their own, which goes down the tool's tree to a leaf, as each
-// found sphere does; every other sphere of theirs is tested once.
+// Bytes count once each, as with a perfect cache: parameters, count, the region's root, the answer, and for
+// the answer's sub-patches their nodes, ancestors and slots, and one path down the tool's tree. Operations:
+// every invocation (one per sub-patch) tests the root. Those of the answer's sub-patches test every node down
+// to their own. That node and each found sphere descend the tool's tree to a leaf; every other sphere there
+// is tested once.
 QueryWork leastQueryWork(const PatchLayout& layout, uint32_t layers, uint32_t toolLevels,
                          std::span<const uint32_t> keys, std::span<const uint32_t> found) {
     std::set<uint32_t> subs, ancestors;

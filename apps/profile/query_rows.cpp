@@ -15,21 +15,21 @@ namespace fathom::profile {
 namespace {
 
 constexpr double kQueryReach = 0.01;    // [m]
-constexpr double kMostBrutePairs = 4e8; // leaf-sphere pairs that brute force is let try
+constexpr double kMostBrutePairs = 4e8; // limit of leaf-sphere pairs for brute force
 constexpr float kSingleReach = static_cast<float>(kQueryReach);
 
-// Spheres that a cull is asked about.
+// The spheres that a cull searches.
 struct SphereSet {
     const RegionSpheres& spheres;
     const RegionGrid& grid;
-    dvec3 origin; // [m] base frame
+    dvec3 origin; // [m] in the base frame
 
     std::string name() const {
         return digits(static_cast<double>(spheres.size()) / 1000.0, 4) + " k spheres";
     }
 };
 
-// The wall as a set of width x height spheres.
+// The wall as a fixture set of width x height spheres.
 struct QueryRig {
     FrameSequence source;
     FrameBench bench;
@@ -43,7 +43,7 @@ struct QueryRig {
     SphereSet set() const { return {host().spheres, bench.set().grid, host().origin}; }
 };
 
-// One tool where it touches a set, and what brute force says is in its reach there.
+// One tool in contact with a set, and the brute-force answer at that pose.
 struct TouchingTool {
     Tool tool;
     Pose pose;
@@ -71,7 +71,7 @@ struct TouchingTool {
     }
 };
 
-// The contact set by whichever way: culled, sorted, all pairs listed, certified.
+// One method of building a contact set: cull, sort, list all pairs, certify the reach.
 struct Way {
     Plan plan;
     ContactCycle cycle;
@@ -90,8 +90,8 @@ void verifyCull(std::vector<uint32_t>& found, const TouchingTool& at, const Stud
     verify(found == at.truth, "query", row.setting, "the cull differs from brute force");
 }
 
-// Device time and submit-to-result of the cull alone. Each in runs of its own: the device's timestamps take
-// time, on a CPU device more than a cull of few spheres does.
+// Times the cull alone: device time, and submission to result. Separate runs, because timestamps take time;
+// on a CPU device, more than a cull of few spheres.
 void timeGpuCull(const StudyContext& context, const QueryRig& rig, const TouchingTool& at, StudyRow& row) {
     std::vector<uint32_t> found;
     std::vector<double> gpu, submit;
@@ -114,7 +114,7 @@ void timeGpuCull(const StudyContext& context, const QueryRig& rig, const Touchin
     row.more[kGpuCullSubmit] = spreadOf(submit).p50;
 }
 
-// Both clocks of the cull alone.
+// Wall and CPU time of the cull alone.
 void timeCpuCull(const StudyContext& context, const SphereSet& set, const TouchingTool& at, StudyRow& row) {
     CullCpu query;
     std::vector<uint32_t> found;
@@ -138,7 +138,7 @@ StudyRow bruteRow(const StudyContext& context, const SphereSet& set, const Touch
     return row;
 }
 
-// CPU, GPU and brute force rows of one tool on one set.
+// CPU, GPU and brute-force rows of one tool on one set.
 std::vector<StudyRow> rowsOfTool(const StudyContext& context, const QueryRig& rig, const TouchingTool& at) {
     Way cpu(context.device, rig, Plan::Query::Cpu, at.tool),
         gpu(context.device, rig, Plan::Query::Gpu, at.tool);
@@ -160,7 +160,7 @@ std::vector<StudyRow> rowsOfTool(const StudyContext& context, const QueryRig& ri
     return rows;
 }
 
-// The `count` spheres whose centres are nearest to a point [m] about their origin, in their order.
+// The `count` spheres nearest to a point [m, relative to their origin], in their original order.
 RegionSpheres nearestOf(const RegionSpheres& all, const dvec3& to, size_t count) {
     std::vector<uint32_t> order(all.size());
     std::iota(order.begin(), order.end(), 0u);

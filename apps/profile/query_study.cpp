@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Query time over tool leaves and region spheres: CPU, GPU, brute force; where they cross, which `where:
-// auto` then uses; and what the reach costs when answers come late.
+// Query time over tool leaves and region spheres for CPU, GPU and brute force. Finds the crossings that
+// `where: auto` uses, and the cost of the reach with late answers.
 #include "apps/profile/late_answers.h"
 #include "apps/profile/query_crossings.h"
 #include "apps/profile/studies.h"
@@ -17,7 +17,7 @@ struct WayLine {
     double dash;
 };
 
-// A line a way and a set: its time over the tool's leaves.
+// One line per method and set: time over the tool's leaves.
 PlotPanel timePanel(const Study& study, const std::vector<std::string>& sources,
                     const std::vector<WayLine>& ways, const RowValue& time) {
     PlotPanel panel;

@@ -27,7 +27,7 @@ public:
     double radius(size_t i) const { return s_.radius[i]; }
     double maxRadius() const { return grid_.maxRadius(); }
 
-    // Distance to the union, negative inside; exact when it is at most `bound`, else some value above it.
+    // Distance [m] to the union, negative inside. Exact up to `bound`, otherwise any value above it.
     double distance(const dvec3& p, double bound) const {
         double least = HUGE_VAL;
         grid_.forEachNear(p, bound + grid_.maxRadius(), [&](uint32_t i) {
@@ -41,8 +41,8 @@ private:
     RegionGrid grid_;
 };
 
-// A point of the region's boundary, seen from outside; false when the ray starts inside, or grazes so long
-// that it never arrives.
+// Finds a boundary point with a ray from outside. False if the ray starts inside or does not converge because
+// it grazes the surface.
 bool boundaryPoint(const Region& region, std::mt19937_64& random, dvec3& point) {
     std::uniform_int_distribution<size_t> any(0, region.size() - 1);
     std::normal_distribution<double> n;
@@ -80,7 +80,7 @@ BoundaryError boundaryError(const RegionSpheres& all, const RegionSpheres& kept,
         if (!boundaryPoint(ofAll ? whole : thinned, random, point)) {
             continue;
         }
-        // The kept region contains the whole one: seen from its boundary the other lies inside, and back.
+        // The kept region contains the whole one, so the sign of the distance differs by direction.
         const double d = (ofAll ? thinned : whole).distance(point, bound);
         const double size = std::min(std::abs(d), bound);
         error.worstInside = std::max(error.worstInside, ofAll ? d : -d);

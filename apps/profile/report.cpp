@@ -37,7 +37,7 @@ std::string firstMatch(const std::string& file, const std::string& key) {
     return "unknown";
 }
 
-std::string word(std::string text) { // CSV words hold no comma, quote or line break
+std::string word(std::string text) { // CSV text without commas, quotes or line breaks
     for (char& c : text) {
         c = c == ',' ? ';' : c == '"' || c == '\n' ? ' ' : c;
     }
@@ -85,7 +85,7 @@ Json rowJson(const Study& study, const StudyRow& row) {
     return out;
 }
 
-// What the study says of the row as a default, - of a row that is none; of every row, when it has none.
+// The verdict for a default row; "-" for other rows. A study without defaults gives its reason in every row.
 std::string judgementOf(const Study& study, const StudyRow& row) {
     for (const Verdict& v : study.verdicts) {
         if (row.isDefault && v.source == row.source && v.setting == row.setting) {
@@ -136,8 +136,8 @@ std::string nowInUtc() {
     return text;
 }
 
-// What a table depends on and a scene file may change; the studies that go over one of them say so in their
-// rows.
+// Settings that affect a table and that a scene file can change. Studies that vary one of them record it in
+// their rows.
 Facts sceneFacts(const gpu::Device& device, const Settings& settings) {
     const Scene scene = studyScene(settings);
     std::string radii;
@@ -159,7 +159,7 @@ Facts sceneFacts(const gpu::Device& device, const Settings& settings) {
 
 Facts runFacts(const gpu::Device& device, const Settings& settings, const std::string& command) {
     const DeviceFacts& f = device.facts();
-    const char* const threads = std::getenv("LP_NUM_THREADS"); // of Mesa's software device
+    const char* const threads = std::getenv("LP_NUM_THREADS"); // for Mesa's software device
     const char* kinds[] = {"discrete", "integrated", "cpu", "other"};
     Facts facts{{"command", command},
                 {"version", version()},

@@ -84,7 +84,7 @@ std::string tableOf(const Study& study) {
     return html + "</table></details>\n";
 }
 
-// Where the default settings lie, or why there is nothing to say.
+// The verdicts on the default settings, or the reason why there are none.
 std::string defaultsOf(const Study& study) {
     if (study.verdicts.empty()) {
         return "<p>No default to judge: " + escaped(study.noDefault) + "</p>\n";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the cost of a frame grows and how: image size, share of selected pixels, number of classes. Of a
-// wall with the sensor's noise; without noise thinning leaves fewer points, and what follows it has less to
-// do. Colours are YUYV, as USB cameras send them, and RGBA in rows that say so.
+// Growth of a frame's cost with image size, fraction of selected pixels and number of classes. The wall has
+// sensor noise, because without it thinning keeps fewer points and later passes do less work. Colours are
+// YUYV, as from USB cameras, except in rows that name RGBA.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/studies.h"
 
@@ -11,10 +11,10 @@ namespace fathom::profile {
 
 namespace {
 
-// Patches whose points are compared with the float64 twin: all up to 320x240, so many of a larger image.
+// Number of patches compared with the float64 twin: all of them up to 320x240, a sample in larger images.
 constexpr size_t kTwinPatches = 300;
 
-// What a row has how many of: it has its own column, and the others do not apply.
+// The quantity that a row varies. Each has its own column; the others do not apply.
 enum class Grows { Pixels, SharePercent, Classes };
 
 struct Measured {
@@ -28,8 +28,8 @@ Scene sceneWith(const Settings& settings, uint32_t classes) {
     Settings plain = settings;
     plain.source.clear();
     Scene scene = studyScene(plain);
-    scene.contact.where = Scene::Contact::Where::Cpu; // the frame alone: `query` measures the device's
-    for (uint32_t c = 2; c < classes; ++c) {          // more hues that the image does not show
+    scene.contact.where = Scene::Contact::Where::Cpu; // frame only; the `query` study measures queries
+    for (uint32_t c = 2; c < classes; ++c) {          // extra hues that do not occur in the image
         FixtureClass f = scene.fixtures.front();
         f.name = "class " + std::to_string(c + 1);
         f.role = c % 2 == 0 ? Role::Forbidden : Role::Guidance;
@@ -52,7 +52,7 @@ public:
         const uint32_t guided = bench.run(frames.frames.front()).guidanceCount;
         check(bench, setting, frames);
         Measured m{x, bench.measure(frames.frames, context_.settings.repeats())};
-        if (guided == 0) { // dispatched over nothing
+        if (guided == 0) { // empty dispatch
             m.cost.passes.erase("moments");
         }
         StudyRow row;
@@ -77,7 +77,7 @@ public:
         return m;
     }
 
-    // A line a step of the frame, and the exponent of each.
+    // Draws one line per step of the frame and adds its exponent.
     void draw(const Curve& curve, const std::string& title, const std::string& xLabel, bool logarithmic) {
         PlotPanel panel;
         panel.title = title;
@@ -102,7 +102,7 @@ public:
         add("collect (host)", [](const Measured& m) { return m.cost.collect; });
         add("grid (host)", [](const Measured& m) { return m.cost.grid; });
         for (const auto& [name, spread] : curve.front().cost.passes) {
-            add(name, [pass = name](const Measured& m) { // no guidance, no moments
+            add(name, [pass = name](const Measured& m) { // without guidance, no moments
                 const auto it = m.cost.passes.find(pass);
                 return it != m.cost.passes.end() ? it->second : Spread{};
             });
@@ -111,7 +111,7 @@ public:
     }
 
 private:
-    // Before anything is timed, at every size.
+    // Verifies each size before timing it.
     static void check(FrameBench& bench, const std::string& setting, const FrameSequence& frames) {
         const std::string wrong = bench.differsFromTwins(frames.frames.front(), kTwinPatches);
         verify(wrong.empty(), "scaling", setting, wrong + " differs from the float64 twin");
@@ -141,7 +141,7 @@ Curve sizesOf(ScalingRun& run, WallNoise noise, bool quick) {
     return sizes;
 }
 
-// What colours cost that are sent unpacked, or are another format that the host unpacks.
+// Cost of colours that arrive unpacked, or in another format that the host unpacks.
 void unpackedSizes(ScalingRun& run, bool quick) {
     for (const auto& [w, h] : quick ? Sizes{{160, 120}} : Sizes{{640, 480}, {1280, 720}, {3840, 2160}}) {
         const FrameSequence frames = wallFrame(w, h, 1.0, WallNoise::Sensor);
@@ -166,7 +166,7 @@ Curve classesOf(ScalingRun& run, uint32_t w, uint32_t h, bool quick) {
         classes.push_back(run.take("classes, 10 % forbidden", std::to_string(c) + " classes", Grows::Classes,
                                    c, inYuyv(wallFrame(w, h, 0.1, WallNoise::Sensor)), c));
     }
-    return Curve(classes.rbegin(), classes.rend()); // the most passes first: they name the lines
+    return Curve(classes.rbegin(), classes.rend()); // largest first: its passes name the lines
 }
 
 } // namespace

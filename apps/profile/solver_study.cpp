@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pose error to the converged optimum, and lag, against the time of a tick: solves a turn, step cap, which
-// rows a solve gets, deadline.
+// Pose error against the converged optimum, and lag, over the time of a tick. Varies solves per tick, step
+// cap, row selection and deadline.
 #include "apps/profile/drag.h"
 #include "apps/profile/interleave.h"
 #include "apps/profile/studies.h"
@@ -9,9 +9,9 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kMetric = 0.05;      // [m] that a radian counts
-constexpr double kConverged = 1e-7;   // [m] that twice the solves may still change
-constexpr double kSameOptimum = 1e-5; // [m] rounding, carried on from tick to tick
+constexpr double kMetric = 0.05;      // [m] that one radian counts as
+constexpr double kConverged = 1e-7;   // [m] largest change when the number of solves doubles
+constexpr double kSameOptimum = 1e-5; // [m] rounding error accumulated over ticks
 
 const char* const kReduced = "reduced rows, "; // source of those rows
 
@@ -22,7 +22,7 @@ struct Setting {
     RowReduction rows = {};
 };
 
-// What a solve gets, in words.
+// Describes the row selection of a solve.
 std::string rowsOf(const RowReduction& rows) {
     const RowReduction usual;
     std::string text = rows.reach != usual.reach ? "to " + digits(rows.reach) + " caps" : "";
@@ -72,8 +72,8 @@ Apart apartAll(const DragResult& a, const DragResult& b) {
     return result;
 }
 
-// The default's rows reduced: culled by reach, merged where they are nearly parallel, the most binding first
-// with a look at the rest, or the most binding alone.
+// Ways to reduce the default's rows: cull by reach, merge nearly parallel rows, solve the most binding rows
+// first and then check the rest, or use only the most binding rows.
 std::vector<RowReduction> reductionsOf(bool quick) {
     constexpr double kDegree = M_PI / 180.0;
     if (quick) {
@@ -106,7 +106,7 @@ std::vector<Setting> settingsOf(bool quick) {
     return list;
 }
 
-// Solving on few rows with a look at the rest must lead where solving on all does, tick by tick.
+// Solving on few rows and checking the rest must give the same pose as solving on all rows, at every tick.
 void verifyReduction(const Setting& s, const DragResult& run, const DragResult& usual) {
     if (s.rows.first == 0 || !s.rows.checked) {
         return;
@@ -137,7 +137,8 @@ StudyRow rowOf(const std::string& source, const std::string& name, const Setting
     return row;
 }
 
-// Every setting's run in turns. Where no deadline cuts a turn short, each repeats the first pose by pose.
+// Runs all settings interleaved. Unless a deadline cuts ticks short, each repeat gives the same poses as the
+// first.
 std::vector<DragResult> dragInterleaved(const StudyContext& context, double speed,
                                         const std::vector<Setting>& settings) {
     std::vector<DragResult> runs(settings.size());
@@ -160,7 +161,7 @@ void addSpeed(const StudyContext& context, Study& study, double speed) {
     verify(change.max <= kConverged, "solver", "64 solves",
            "not converged: twice as many move the tool by " + digits(change.max * 1e6) + " um");
     std::vector<Setting> settings = settingsOf(context.settings.quick);
-    const size_t plain = settings.size(); // from here on with rows reduced
+    const size_t plain = settings.size(); // later settings have reduced rows
     for (const RowReduction& rows : reductionsOf(context.settings.quick)) {
         settings.push_back({4, 0.002, 0.0, rows});
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Repeated measurements of one thing: p50, p90, p99, and the clocks that they are taken with.
+// Percentiles of repeated measurements (p50, p90, p99), and the clocks for them.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 namespace fathom::profile {
 
 // Nearest-rank percentiles of `count` values, in the unit of the values; all zero when count is 0. With fewer
-// than 100 values p99 is not a number: by rank it would be the largest of them, whatever that is a rank of.
+// than 100 values p99 is NaN, because its rank would only be the largest value.
 struct Spread {
     double p50 = 0.0, p90 = 0.0, p99 = 0.0;
     size_t count = 0;
@@ -18,23 +18,23 @@ struct Spread {
 };
 Spread spreadOf(std::vector<double> values);
 
-// What one piece of work costs, in ms. They overlap and none is subtracted from another: device time by
-// timestamps, from the submission until its result is known to the host, and CPU time of the calling thread;
-// where a step of the host's is known by its begin and end alone, or several threads share it, wall time.
+// Cost of one piece of work [ms]: device time by timestamps, time from submission until the host knows the
+// result, CPU time of the calling thread, and wall time for host steps with only begin and end times or with
+// several threads. The times overlap; none is subtracted from another.
 struct Cost {
     Spread gpu, submit, cpu;
     Spread wall = {};
 };
 
-// How often a measurement is repeated: at least `least` times, then until `seconds` are over or `most` is
-// reached.
+// Number of repeats: at least `least`, then until `seconds` have passed or `most` is reached.
 struct Repeats {
     size_t least = 10, most = 200;
     double seconds = 0.5;
 };
 
-// Wall time and CPU time of the calling thread since construction [ms]. The CPU clock takes a system call, a
-// fraction of a microsecond: it is read before the wall's begins, so read wallMs() first.
+// Wall time and CPU time of the calling thread since construction [ms]. Reading the CPU clock is a system
+// call of a fraction of a microsecond. The constructor reads it before the wall clock, so read wallMs()
+// first.
 class Clocks {
 public:
     Clocks();
@@ -46,7 +46,7 @@ private:
     std::chrono::steady_clock::time_point wall_;
 };
 
-// Samples of both clocks, of work on one thread [ms].
+// Samples of both clocks for work on one thread [ms].
 struct CpuSamples {
     std::vector<double> wall, cpu;
 
@@ -61,8 +61,8 @@ struct CpuSamples {
     Cost cost() const { return {{}, spreadOf(wall), spreadOf(cpu)}; }
 };
 
-// Calls work() as `effort` says and hands each call's clocks to take(clocks), after calls that warm up for a
-// quarter of its seconds: a GPU that verification on the CPU left idle comes back at a third of its clock.
+// Calls work() as `effort` says and passes each call's clocks to take(clocks). Warms up first for a quarter
+// of the effort's seconds, because a GPU left idle during verification restarts at a third of its clock.
 template <class Work, class Take>
 void repeat(const Repeats& repeats, Work&& work, Take&& take) {
     const Clocks warming;
@@ -78,7 +78,7 @@ void repeat(const Repeats& repeats, Work&& work, Take&& take) {
     }
 }
 
-// CPU work that waits for nobody: wall and CPU time of each call.
+// Wall and CPU time of each call, for CPU work without waiting.
 template <class Work>
 Cost timeCpu(const Repeats& repeats, Work&& work) {
     CpuSamples samples;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The studies by name. Each verifies what it times and throws Error where a result is wrong.
+// The studies by name. Each verifies its results before timing and throws Error when one is wrong.
 #pragma once
 
 #include "apps/profile/study.h"
@@ -19,17 +19,17 @@ Study scalingStudy(const StudyContext& context);
 Study leaveOutStudy(const StudyContext& context);
 Study limitStudy(const StudyContext& context);
 Study budgetsStudy(const StudyContext& context);
-Study peersStudy(const StudyContext& context); // only in a build with -DFATHOM_PEERS=ON
+Study peersStudy(const StudyContext& context); // only in builds with -DFATHOM_PEERS=ON
 
 struct StudyEntry {
     const char* name;
     Study (*run)(const StudyContext&);
 };
-const std::vector<StudyEntry>& allStudies(); // in the order in which they run
+const std::vector<StudyEntry>& allStudies(); // in run order
 
-// Whether a study measures the recording of --source; the others make what they need to measure.
+// Whether a study uses the recording of --source; the others generate their own data.
 bool takesRecording(const std::string& study);
-// What served a study, for people: the recording, or why it did not.
+// Readable source of a study's data: the recording, or why it was not used.
 std::string servedBy(const std::string& study, const Settings& settings);
 
 } // namespace fathom::profile

@@ -10,7 +10,7 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr double kSame = 0.95; // less than 5 % apart: repeats differ by as much
+constexpr double kSame = 0.95; // repeats differ by up to 5 %
 
 std::vector<std::string> sourcesOf(const Study& study) {
     std::vector<std::string> names;
@@ -22,7 +22,7 @@ std::vector<std::string> sourcesOf(const Study& study) {
     return names;
 }
 
-// What rows are compared by.
+// The error and time by which rows are ranked.
 class Ranking {
 public:
     explicit Ranking(const Study& study)
@@ -43,7 +43,7 @@ private:
     const std::string& studyUnit_;
 };
 
-// The front of a cloud of points.
+// Marks the Pareto front of the points.
 void markPoints(std::vector<PlotPoint>& points) {
     for (PlotPoint& p : points) {
         p.isFront = std::none_of(points.begin(), points.end(), [&](const PlotPoint& o) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The image of a study: its panels in one row or two, points labelled by their settings, the default
-// ringed, the Pareto front as a line.
+// The plot of a study: its panels in one row or two, points labelled by setting, the default ringed, the
+// Pareto front as a line.
 #pragma once
 
 #include "apps/profile/study.h"
@@ -8,20 +8,20 @@
 
 namespace fathom::profile {
 
-// subtitle: device and what was verified, one line under the title. Throws Error that names the file.
+// subtitle: one line under the title with the device and what was verified. Throws Error that names the file.
 void writeStudyPlot(const Study& study, const std::string& subtitle, const std::filesystem::path& file);
 
-// How panels stand in a image: row by row, in one row or in two.
+// Arrangement of the panels, row by row in one row or two.
 struct PanelGrid {
     int across, down;
 };
 PanelGrid panelGrid(size_t panels);
 
-// The axis of a panel: linear or logarithmic; on a logarithmic one values <= 0 stand at the low end.
+// The axis of a panel, linear or logarithmic. A logarithmic axis shows values <= 0 at its low end.
 struct PanelAxis {
     bool log = false, hasZero = false;
-    double linear = 0.0;       // signed logarithmic axis: about linear up to here; 0 = another axis
-    double lo = 0.0, hi = 1.0; // of the data, decades when log
+    double linear = 0.0;       // signed logarithmic axis: roughly linear up to here; 0 = other axis
+    double lo = 0.0, hi = 1.0; // range of the data, in decades when log
     double from = 0.0, to = 1.0;
 
     double at(double value) const;
@@ -32,7 +32,7 @@ struct PanelAxis {
     std::vector<Tick> ticks() const;
 };
 PanelAxis panelAxis(const std::vector<double>& values, bool log, double from, double to);
-// Logarithmic in both directions from 0; three decades.
+// Axis that is logarithmic in both directions from 0, over three decades.
 PanelAxis signedLogAxis(const std::vector<double>& values, double from, double to);
 
 } // namespace fathom::profile

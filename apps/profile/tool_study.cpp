@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Protrusion and gaps of a tool's spheres against the time of a tick, over the number of leaves: of covers
-// that `fathom spheres` makes, and of cubic grids.
+// Protrusion and gaps of a tool's spheres against the time of a tick, for different leaf counts. Compares
+// covers from `fathom spheres` with cubic grids.
 #include "apps/profile/drag.h"
 #include "apps/profile/gripper.h"
 #include "apps/profile/studies.h"
@@ -13,9 +13,9 @@ namespace fathom::profile {
 
 namespace {
 
-constexpr size_t kMostMade = 1024; // leaves of a cover that is made: more take minutes
+constexpr size_t kMostMade = 1024; // leaves of a generated cover; more take minutes
 
-// Pressed into the wall and dragged.
+// Presses the tool into the wall and drags it.
 DragResult pressed(const StudyContext& context, const Tool& tool) {
     DragSetting d;
     d.tool = &tool;
@@ -54,8 +54,8 @@ double gapAt(const std::vector<Sphere>& spheres, const dvec3& p) {
     return least;
 }
 
-// What `fathom spheres` makes of the gripper's mesh: it holds the surface; a pocket inside may stay, and is a
-// gap.
+// Covers from `fathom spheres` for the gripper's mesh. They cover the surface; a cavity inside may remain and
+// counts as a gap.
 void addMadeCovers(const StudyContext& context, Study& study, const std::vector<Solid>& shape,
                    const std::vector<size_t>& counts) {
     const TriangleMesh mesh = gripperMesh();
