@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the libraries of others answer about spheres within reach of a tool, against every pair in float64.
+// Checks the other libraries' answers on spheres within reach of a tool against all pairs in float64.
 #include "apps/profile/peers/nearby_oracle.h"
 #include "apps/profile/peers/peers.h"
 
@@ -41,7 +41,7 @@ World randomWorld(size_t spheres, size_t leaves, bool equalRadii, unsigned seed)
     return world;
 }
 
-// Every way on one world; what it found last is returned.
+// Runs every method on one world and returns the last result.
 std::vector<uint32_t> checkAll(const World& world, float reach) {
     const auto gaps = nearbyGaps(world.spheres, world.leaves, reach);
     std::vector<uint32_t> found;
@@ -52,7 +52,7 @@ std::vector<uint32_t> checkAll(const World& world, float reach) {
         peer->query(world.leaves, reach, found);
         CHECK(disagreement(gaps, found).differ == 0);
         const auto first = found;
-        peer->query(world.leaves, reach, found); // nothing is left over from the query before
+        peer->query(world.leaves, reach, found); // no results of the previous query remain
         CHECK(found == first);
     }
     return found;
@@ -60,13 +60,13 @@ std::vector<uint32_t> checkAll(const World& world, float reach) {
 
 } // namespace
 
-TEST_CASE("Every library finds nothing where there are no spheres or no leaves") {
+TEST_CASE("Every library finds nothing without spheres or without leaves") {
     CHECK(checkAll(World{}, 0.01f).empty());
     CHECK(checkAll(randomWorld(0, 5, true, 1), 0.01f).empty());
     CHECK(checkAll(randomWorld(37, 0, true, 2), 0.01f).empty());
 }
 
-TEST_CASE("Every library finds one sphere up to the reach and not beyond") {
+TEST_CASE("Every library finds a sphere within the reach and none beyond it") {
     World world;
     world.sphere(0.1f, 0.2f, 0.9f, 0.02f);
     world.leaf(0.1f, 0.2f, 0.9f - 0.0349f, 0.005f); // gap 9.9 mm
@@ -75,21 +75,21 @@ TEST_CASE("Every library finds one sphere up to the reach and not beyond") {
     CHECK(checkAll(world, 0.01f).empty());
 }
 
-TEST_CASE("A sphere at a corner of the box about a leaf is not within reach") {
+TEST_CASE("A sphere in a corner of a leaf's bounding box is not within reach") {
     World world;
     world.sphere(0.03f, 0.03f, 0.03f, 0.02f); // 52 mm away, boxes overlap
     world.leaf(0.0f, 0.0f, 0.0f, 0.01f);
     CHECK(checkAll(world, 0.01f).empty());
 }
 
-TEST_CASE("Every library finds all spheres when all are within reach, each once") {
+TEST_CASE("Every library finds each sphere once when all are within reach") {
     World world = randomWorld(301, 7, false, 3);
     CHECK(checkAll(world, 2.0f).size() == 301);
 }
 
-TEST_CASE("Every library finds both of two spheres in one place") {
+TEST_CASE("Every library finds both of two coinciding spheres") {
     World world;
-    for (int i = 0; i < 40; ++i) { // more than a leaf of any tree holds
+    for (int i = 0; i < 40; ++i) { // more than any tree's leaf node holds
         world.sphere(0.0f, 0.0f, 0.5f, 0.01f);
     }
     world.leaf(0.0f, 0.0f, 0.47f, 0.015f);
@@ -109,7 +109,7 @@ TEST_CASE("Every library agrees with float64 on random worlds of many sizes") {
     }
 }
 
-TEST_CASE("A library that is built again has forgotten the spheres before") {
+TEST_CASE("A rebuilt library forgets the previous spheres") {
     const World many = randomWorld(200, 3, true, 5), few = randomWorld(3, 3, true, 6), none;
     for (const auto& way : collisionWays()) {
         CAPTURE(way.name);
@@ -123,7 +123,7 @@ TEST_CASE("A library that is built again has forgotten the spheres before") {
     }
 }
 
-TEST_CASE("The oracle counts what is missing, too much, named twice, and ties apart") {
+TEST_CASE("The reference counts missing, extra and repeated spheres, and counts ties separately") {
     const std::vector<double> gaps{-0.1, 0.1, 5e-7, -5e-7, -0.2};
     CHECK(disagreement(gaps, {0, 3, 4}).differ == 0);
     CHECK(disagreement(gaps, {0, 3, 4}).ties == 0);
@@ -131,8 +131,8 @@ TEST_CASE("The oracle counts what is missing, too much, named twice, and ties ap
     CHECK(disagreement(gaps, {4, 2, 0}).ties == 2);
     CHECK(disagreement(gaps, {0, 3}).differ == 1);        // 4 missing
     CHECK(disagreement(gaps, {0, 1, 3, 4}).differ == 1);  // 1 too many
-    CHECK(disagreement(gaps, {0, 0, 3, 4}).differ == 1);  // twice
-    CHECK(disagreement(gaps, {0, 3, 4, 17}).differ == 1); // there is no such sphere
+    CHECK(disagreement(gaps, {0, 0, 3, 4}).differ == 1);  // 0 twice
+    CHECK(disagreement(gaps, {0, 3, 4, 17}).differ == 1); // no such sphere
     World world;
     world.sphere(0.0f, 0.0f, 0.5f, 0.25f);
     CHECK(nearbyGaps(world.spheres, world.leaves, 0.125) ==

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the libraries of others make of depth images, against the formulas that they say they compute.
+// Checks the other libraries' results on depth images against their documented formulas.
 #include "apps/profile/peers/peers.h"
 
 #include <cmath>
@@ -33,7 +33,7 @@ std::vector<float> steppedImage(const Intrinsics& lens) {
     return z;
 }
 
-// bilateralFilter's own formula away from the border: a disc of taps, Gaussians in pixels and in value.
+// The formula of bilateralFilter away from the border: a disc of taps with Gaussians in pixels and in value.
 double bilateralAt(const std::vector<float>& z, const Intrinsics& lens, int u, int v, int radius,
                    double pixels, double metres) {
     const double z0 = z[static_cast<size_t>(v) * lens.width + u];
@@ -54,7 +54,7 @@ double bilateralAt(const std::vector<float>& z, const Intrinsics& lens, int u, i
 
 } // namespace
 
-TEST_CASE("OpenCV's bilateral filter gives its formula to 20 um on any number of threads") {
+TEST_CASE("OpenCV's bilateral filter matches its formula to 20 um for any number of threads") {
     const Intrinsics lens = lensOf(53, 31);
     const auto z = steppedImage(lens);
     for (const auto& way : filterWays(2, 3.5, 0.01)) {
@@ -76,11 +76,11 @@ TEST_CASE("OpenCV's bilateral filter gives its formula to 20 um on any number of
             }
         }
         CHECK(worst < 2e-5);
-        CHECK(moved > 1e-3); // it did something
+        CHECK(moved > 1e-3); // the filter has an effect
     }
 }
 
-TEST_CASE("Every filter keeps the step, smooths the noise and marks no pixel as measured that was not") {
+TEST_CASE("Every filter keeps the step, smooths the noise and adds no depth to unmeasured pixels") {
     const Intrinsics lens = lensOf(64, 47);
     auto z = steppedImage(lens);
     z[5 * 64 + 9] = z[40 * 64 + 60] = kNone;
@@ -107,7 +107,7 @@ TEST_CASE("Every filter keeps the step, smooths the noise and marks no pixel as 
     }
 }
 
-TEST_CASE("A filter leaves a constant frame alone") {
+TEST_CASE("A filter does not change a constant image") {
     const Intrinsics lens = lensOf(17, 9);
     const std::vector<float> z(lens.pixels(), 0.75f);
     for (const auto& way : filterWays(2, 2.0, 0.01)) {
@@ -121,7 +121,8 @@ TEST_CASE("A filter leaves a constant frame alone") {
     }
 }
 
-TEST_CASE("OpenCV's points are the deprojected pixels to float32, and none where there is no measurement") {
+TEST_CASE(
+    "OpenCV's points match the deprojected pixels in float32, and pixels without a measurement have none") {
     for (const auto& [width, height] : {std::pair{1u, 1u}, std::pair{37u, 23u}, std::pair{640u, 3u}}) {
         const Intrinsics lens = lensOf(width, height);
         std::vector<uint16_t> raw;

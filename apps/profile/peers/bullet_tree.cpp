@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bullet: its broad phase's tree of boxes (btDbvt) over the spheres, one collideTV() a leaf; the exact test
-// in the callback. As inserted, or built anew from the top.
+// Bullet: the box tree of its broad phase (btDbvt) over the spheres, with one collideTV() per leaf and the
+// exact test in the callback. The tree is as inserted or rebuilt top-down.
 #include "apps/profile/peers/found_set.h"
 #include "apps/profile/peers/peers.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree: the centres as user geometry, Morton build (RTC_BUILD_QUALITY_LOW, its way for scenes that are made
-// anew each frame), one point query per leaf.
+// Embree: the centres as user geometry with one point query per leaf. Uses the Morton build
+// (RTC_BUILD_QUALITY_LOW), which is meant for scenes that are rebuilt every frame.
 #include "apps/profile/peers/found_set.h"
 #include "apps/profile/peers/peers.h"
 
@@ -30,7 +30,7 @@ void boundsOf(const RTCBoundsFunctionArguments* args) {
 bool visit(RTCPointQueryFunctionArguments* args) {
     const auto& asked = *static_cast<const Asked*>(args->userPtr);
     asked.set->test(*asked.spheres, args->primID, asked.x, asked.y, asked.z, asked.limit, *asked.found);
-    return false; // the query keeps its radius
+    return false; // the query radius does not shrink
 }
 
 class EmbreePoints : public CollisionPeer {

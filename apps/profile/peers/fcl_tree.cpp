@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// FCL: dynamic tree of boxes (its recommended broad phase) over the spheres, one collide() a leaf; the
-// callback makes the exact test.
+// FCL: a dynamic box tree (its recommended broad phase) over the spheres, with one collide() per leaf and the
+// exact test in the callback.
 #include "apps/profile/peers/found_set.h"
 #include "apps/profile/peers/peers.h"
 
@@ -25,7 +25,7 @@ bool visit(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
     const fcl::CollisionObjectd* sphere = a == asked.leaf ? b : a;
     const auto i = static_cast<uint32_t>(reinterpret_cast<uintptr_t>(sphere->getUserData()));
     asked.set->test(*asked.spheres, i, asked.x, asked.y, asked.z, asked.limit, *asked.found);
-    return false; // go on
+    return false; // continue
 }
 
 class FclTree : public CollisionPeer {
@@ -39,7 +39,7 @@ public:
         std::shared_ptr<fcl::Sphered> shape;
         for (size_t i = 0; i < spheres.size(); ++i) {
             const double radius = spheres.radius[i];
-            if (!shape || shape->radius != radius) { // equal spheres share their shape
+            if (!shape || shape->radius != radius) { // equal spheres share one shape
                 shape = std::make_shared<fcl::Sphered>(radius);
             }
             fcl::Transform3d pose = fcl::Transform3d::Identity();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The spheres found so far by the leaves of one query, each once, and the exact test that every peer's
-// candidates pass through: the same for all, so that none is slower or less exact by it.
+// The spheres found so far in one query, each once, and the exact test for candidates. All peers share the
+// test, so that it favours none in time or precision.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -14,7 +14,7 @@ namespace fathom::peers {
 class FoundSet {
 public:
     void begin(size_t spheres) { marks_.assign(spheres, 0); }
-    // Adds sphere i when it obeys d <= limit + R; limit = reach + r_t [m].
+    // Adds sphere i if d <= limit + R, with limit = reach + r_t [m].
     void test(const RegionSpheres& s, uint32_t i, float x, float y, float z, float limit,
               std::vector<uint32_t>& found) {
         if (marks_[i] != 0) {

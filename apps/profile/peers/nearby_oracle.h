@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every leaf against every sphere in float64: what the answers of all are compared with.
+// Tests every leaf against every sphere in float64, as the reference for all answers.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -10,14 +10,14 @@
 
 namespace fathom::peers {
 
-constexpr double kTie = 1e-6; // [m] so near the limit that float32 may say either
+constexpr double kTie = 1e-6; // [m] this close to the limit, float32 may decide either way
 
-// For each sphere its smallest d - (reach + r_t + R) over the leaves [m]: within reach when <= 0. Infinity
+// For each sphere, the smallest d - (reach + r_t + R) over the leaves [m]; within reach if <= 0. Infinity
 // without leaves.
 std::vector<double> nearbyGaps(const RegionSpheres& spheres, const PosedLeaves& leaves, double reach);
 
-// How an answer differs from the gaps: spheres missing, too many or named twice. What lies within kTie of the
-// limit counts apart.
+// Counts differences of an answer from the gaps: missing, extra and repeated spheres. Spheres within kTie of
+// the limit count as ties.
 struct Disagreement {
     size_t differ = 0, ties = 0;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenCV: bilateralFilter on the depth image in float32 metres, rgbd::depthTo3d on raw millimetres.
+// OpenCV: bilateralFilter on a depth image in float32 metres, and rgbd::depthTo3d on raw millimetres.
 #include "apps/profile/peers/peers.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace fathom::peers {
 
 namespace {
 
-// A pixel without a measurement is 0 for OpenCV, which takes it for a depth like any other.
+// OpenCV gets 0 for a pixel without a measurement and treats it like any other depth.
 class OpencvBilateral : public FilterPeer {
 public:
     OpencvBilateral(uint32_t radius, double pixels, double metres, uint32_t threads)

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PCL: FastBilateralFilterOMP on an organised cloud: a bilateral grid, which approximates the Gaussian in the
-// image and in depth and has no window. It puts a depth where there was no measurement; depths() takes that
-// out again.
+// PCL: FastBilateralFilterOMP on an organised cloud. Its bilateral grid approximates the Gaussian in image
+// and depth, without a window. It fills in depths without a measurement; depths() removes these.
 #include "apps/profile/peers/peers.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// PCL: kd-tree (FLANN) over the centres, one radius search per leaf. Unsorted, which is its fast way.
+// PCL: a kd-tree (FLANN) over the centres, with one radius search per leaf. Unsorted results, its faster
+// mode.
 #include "apps/profile/peers/found_set.h"
 #include "apps/profile/peers/peers.h"
 
@@ -17,7 +18,7 @@ public:
         radius_ = largestRadius(spheres);
         tree_.reset();
         if (spheres.size() == 0) {
-            return; // the tree refuses an empty cloud
+            return; // the tree rejects an empty cloud
         }
         const auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
         cloud->reserve(spheres.size());
@@ -34,7 +35,7 @@ public:
         for (size_t l = 0; tree_ && l < leaves.x.size(); ++l) {
             const float limit = reach + leaves.radius[l];
             const pcl::PointXYZ at(leaves.x[l], leaves.y[l], leaves.z[l]);
-            // A little wider, and the exact test after: the tree compares squares of rounded sums.
+            // Searches slightly wider because the tree compares rounded squares; the exact test follows.
             tree_->radiusSearch(at, (limit + radius_) * 1.00001, near_, squares_);
             for (const auto i : near_) {
                 found_.test(*spheres_, static_cast<uint32_t>(i), at.x, at.y, at.z, limit, found);

@@ -8,7 +8,7 @@ namespace fathom::peers {
 
 namespace {
 
-// One thread, and all of the machine where it has more.
+// One thread, and all threads of a machine with several.
 std::vector<uint32_t> threadCounts() {
     const uint32_t all = usableProcessors();
     return all > 1 ? std::vector<uint32_t>{1, all} : std::vector<uint32_t>{1};
@@ -22,7 +22,7 @@ std::string onThreads(const std::string& name, uint32_t threads) {
 
 std::vector<Way<CollisionPeer>> collisionWays() {
     std::vector<Way<CollisionPeer>> ways;
-    for (const uint32_t threads : threadCounts()) { // of the build; a query runs on its caller's thread
+    for (const uint32_t threads : threadCounts()) { // for the build; queries use the calling thread
         ways.push_back(
             {onThreads("Embree points", threads), threads, [threads] { return makeEmbreePoints(threads); }});
     }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Libraries of others doing our work, each behind the same few calls: what `fathom profile peers` measures
-// beside. Each is used the way its own documentation recommends, as fast as that goes; where two ways are
-// natural both are here.
+// Adapters to other libraries for comparison in `fathom profile peers`, all behind the same few calls. Each
+// library is used in its documented and fastest way; if there are two natural ways, both are here.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -16,60 +15,60 @@
 
 namespace fathom::peers {
 
-// Which region spheres lie within reach of a tool: d <= reach + r_t + R for some leaf. One thread.
+// Finds the region spheres within reach of a tool: d <= reach + r_t + R for some leaf. For one thread.
 class CollisionPeer {
 public:
     virtual ~CollisionPeer() = default;
 
-    // From scratch, whatever was built before. The spheres must outlive the queries. Allocates.
+    // Builds from scratch and discards the previous tree. The spheres must outlive the queries. Allocates.
     virtual void build(const RegionSpheres& spheres) = 0;
-    // The index of each such sphere once, in any order. Not before build().
+    // Returns the index of each such sphere once, in any order. Requires build().
     virtual void query(const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) = 0;
 };
 
-// Depth images, row-major [m], not a number = no measurement.
+// A row-major depth image [m]; NaN = no measurement.
 struct DepthImage {
-    Intrinsics lens; // without distortion
+    Intrinsics lens; // pinhole without distortion
     std::span<const float> z;
 };
 
-// Smooths a image. One thread calls; the work may be spread over more.
+// Smooths a depth image. Called by one thread; may use more threads.
 class FilterPeer {
 public:
     virtual ~FilterPeer() = default;
-    // Copies the image into the form that the library takes: not part of what is timed.
+    // Converts the image to the library's format. Not timed.
     virtual void load(const DepthImage& image) = 0;
     virtual void run() = 0;
-    virtual std::vector<float> depths() const = 0; // [m] row-major, not a number = none
+    virtual std::vector<float> depths() const = 0; // [m] row-major, NaN = no depth
 };
 
-// Points of a depth image in the camera's frame. Raw depth in millimetres, 0 = no measurement.
+// Converts a depth image to points in the camera frame. Raw depth in millimetres, 0 = no measurement.
 class PointPeer {
 public:
     virtual ~PointPeer() = default;
     virtual void load(const Intrinsics& lens, std::span<const uint16_t> millimetres) = 0;
     virtual void run() = 0;
-    virtual std::vector<dvec3> points() const = 0; // [m] row-major, z not a number = none
+    virtual std::vector<dvec3> points() const = 0; // [m] row-major, z is NaN = no point
 };
 
 template <class Peer>
 struct Way {
-    std::string name;     // library, version, what of it
-    uint32_t threads = 1; // that the work is spread over
+    std::string name;     // library, version, method
+    uint32_t threads = 1; // threads that share the work
     std::function<std::unique_ptr<Peer>()> make;
 };
 std::vector<Way<CollisionPeer>> collisionWays();
-// A Gaussian of `pixels` pixels in the image and `metres` in depth; window of 2 radius + 1 pixels where the
+// Gaussian with sigmas of `pixels` in the image and `metres` in depth; window of 2 radius + 1 pixels if the
 // library has one.
 std::vector<Way<FilterPeer>> filterWays(uint32_t radius, double pixels, double metres);
 std::vector<Way<PointPeer>> pointWays();
 
-// One a file.
+// One file per function.
 std::unique_ptr<CollisionPeer> makePclRadius();
 std::unique_ptr<CollisionPeer> makeEmbreePoints(uint32_t threads);
 std::unique_ptr<CollisionPeer> makeFclTree();
-// topDown: built anew from the top after the insertions, for faster queries; else as inserted, which is what
-// its broad phase does.
+// topDown: rebuilds the tree top-down after the insertions, for faster queries; otherwise keeps it as
+// inserted, as Bullet's broad phase does.
 std::unique_ptr<CollisionPeer> makeBulletTree(bool topDown);
 std::unique_ptr<FilterPeer> makeOpencvBilateral(uint32_t radius, double pixels, double metres,
                                                 uint32_t threads);
