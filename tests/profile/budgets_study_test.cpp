@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The study of time budgets: its sets are what they say, its rows complete. No times.
+// The study of time budgets: checks its test sets and its rows, but no times.
 #include "apps/profile/budget_sets.h"
 #include "tests/profile/quick_run.h"
 
@@ -30,9 +30,9 @@ std::vector<NearestSphere> nearestOf(const TouchRig& rig, const Pose& pose) {
 } // namespace
 
 TEST_CASE(
-    "Every time budget of the CPU has a row of its size, and is kept just when both ranks are within it") {
+    "Every CPU time budget has a row of its size and is met exactly when both percentiles are within it") {
     const auto rows = budgetRows();
-    std::map<std::string, std::vector<double>> given; // budgets [us], p50 and then p99 a row
+    std::map<std::string, std::vector<double>> given; // budgets [us] per row, p50 then p99
     for (const auto& [what, of] : rows) {
         for (const auto& row : of) {
             const auto &p50 = row["budget_p50_ms"], &p99 = row["budget_p99_ms"];
@@ -47,7 +47,7 @@ TEST_CASE(
                 kept = kept && row["submit_to_result_p99_ms"].get<double>() <= p99.get<double>();
             }
             CHECK(row["kept"].get<double>() == (kept ? 1.0 : 0.0));
-            CHECK(row["repeats"].get<int>() >= 100); // else p99 is the largest
+            CHECK(row["repeats"].get<int>() >= 100); // fewer give no p99
         }
     }
     CHECK(given.at("nearest touching sphere of each leaf") == std::vector{8.0, 20.0});
@@ -63,7 +63,7 @@ TEST_CASE(
     CHECK(rows.at("grid over the whole set").back()["setting"] == "301401 spheres, one thread");
 }
 
-TEST_CASE("What is given a budget in contact is measured in contact") {
+TEST_CASE("Budgets that apply in contact are measured in contact") {
     for (const auto& budget : budgetRows()) {
         CAPTURE(budget.first);
         for (const auto& row : budget.second) {
@@ -74,7 +74,7 @@ TEST_CASE("What is given a budget in contact is measured in contact") {
     }
 }
 
-TEST_CASE("A tool placed in touch is as deep in the wall as asked, by all spheres") {
+TEST_CASE("A tool placed in contact has the requested depth in the wall, measured against all spheres") {
     const TouchRig rig(90, 32, 6, 0.002);
     for (const Pose& pose : rig.poses) {
         double least = HUGE_VAL;
@@ -91,7 +91,7 @@ TEST_CASE("A tool placed in touch is as deep in the wall as asked, by all sphere
     }
 }
 
-TEST_CASE("A nearest sphere that is wrong, missing or invented is told by its leaf") {
+TEST_CASE("A wrong, missing or invented nearest sphere is reported with its leaf") {
     const TouchRig rig(90, 32, 1, 0.002);
     const std::vector<NearestSphere> found = nearestOf(rig, rig.poses[0]);
     CHECK(nearestDiffers(rig, rig.poses[0], 0.0, found).empty());
@@ -107,8 +107,8 @@ TEST_CASE("A nearest sphere that is wrong, missing or invented is told by its le
     }
 }
 
-TEST_CASE("A problem of real contacts has 64 unit rows, none of which its rest violates, and a target that "
-          "some do") {
+TEST_CASE(
+    "A problem of real contacts has 64 unit rows; a zero step violates none, the target violates some") {
     const TouchRig rig(90, 2048, 12, 0.0);
     const std::vector<ContactProblem> problems = contactProblems(rig);
     REQUIRE(problems.size() >= 4);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What studies verify before they time: that a wrong frame is found, wherever in the image it is wrong.
+// The verification before timing: finds a wrong frame wherever in the image the error is.
 #include "apps/profile/frame_sequence.h"
 #include "apps/profile/half_number.h"
 #include "tests/support/vulkan.h"
@@ -21,35 +21,33 @@ struct Rig {
 
 } // namespace
 
-TEST_CASE(
-    "A frame is equal to its twins over every patch and over few, and a wrong depth anywhere is found") {
+TEST_CASE("A frame equals its twins over all and over few patches, and a wrong depth anywhere is found") {
     const Rig rig;
     const SampleFrame& image = rig.source.frames.front();
     CHECK(rig.bench.differsFromTwins(image).empty());
     CHECK(rig.bench.differsFromTwins(image, 7).empty());
     CHECK(rig.bench.differsFromTwins(image, 1).empty());
     for (const size_t pixel : {size_t{0}, size_t{202}, size_t{116 * 203}, size_t{117 * 203 - 1}}) {
-        SampleFrame wrong = image; // the corners are always looked at
+        SampleFrame wrong = image; // the corners are always compared
         wrong.depth[pixel] = static_cast<uint16_t>(wrong.depth[pixel] + 40);
         CAPTURE(pixel);
         CHECK(rig.bench.differsFromTwins(wrong, 1).rfind("point of pixel ", 0) == 0);
     }
     size_t found = 0;
-    for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel per patch; 5 patches asked for, 4 corners besides
+    for (uint32_t p = 0; p < 13 * 8; ++p) { // one pixel per patch; 5 patches requested, plus 4 corners
         SampleFrame wrong = image;
         const size_t u = std::min(p % 13 * 16 + 8, 200u), v = std::min(p / 13 * 16 + 2, 115u);
         wrong.depth[v * 203 + u] = static_cast<uint16_t>(wrong.depth[v * 203 + u] + 40);
         found += rig.bench.differsFromTwins(wrong, 5).empty() ? 0 : 1;
     }
     CHECK(found >= 5);
-    CHECK(found <= 30); // a window reaches over a patch's border
+    CHECK(found <= 30); // a window crosses a patch's border
     SampleFrame grey = image;
     grey.colour[60 * 203 + 100] = 0xff808080u; // class bits are compared everywhere
     CHECK(rig.bench.differsFromTwins(grey, 1) == "class bits of pixel " + std::to_string(60 * 203 + 100));
 }
 
-TEST_CASE(
-    "Every region sphere of a frame stands about a forbidden point of its own, and a moved one is found") {
+TEST_CASE("Every region sphere of a frame is at its own forbidden point, and a moved one is found") {
     Rig rig;
     CHECK(rig.bench.set().host.spheres.size() > 1000);
     CHECK(rig.bench.spheresDiffer().empty());
@@ -64,9 +62,7 @@ TEST_CASE(
     CHECK(rig.bench.spheresDiffer() == "region sphere 9");
 }
 
-TEST_CASE(
-    "Colour of a second camera is looked up through the occlusion cells, and both are compared with their "
-    "twins") {
+TEST_CASE("Colour of a second camera is looked up through occlusion cells, and both match their twins") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = twoCameraFrames("tank", 160, 120, 1);
@@ -75,17 +71,16 @@ TEST_CASE(
     bench.run(image);
     REQUIRE(bench.plan().occlusion);
     CHECK(bench.differsFromTwins(image).empty());
-    SampleFrame near = image; // a cell that must be lower
+    SampleFrame near = image; // gives a smaller cell depth
     near.depth[60 * 160 + 80] = static_cast<uint16_t>(near.depth[60 * 160 + 80] / 2);
     CHECK(bench.differsFromTwins(near).rfind("occlusion cell ", 0) == 0);
-    SampleFrame grey = image; // no pixel finds its class again
+    SampleFrame grey = image; // no pixel has its class any more
     std::fill(grey.colour.begin(), grey.colour.end(), 0xff808080u);
     CHECK(bench.differsFromTwins(grey).rfind("class bits of pixel ", 0) == 0);
 }
 
 TEST_CASE(
-    "The second camera stands 25 mm beside the first, sees the same surfaces there and misses what they "
-    "hide") {
+    "The second camera, 25 mm from the first, sees the same surfaces except those that are hidden from it") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence one = analyticFrames("tank", 320, 240, 1), two = twoCameraFrames("tank", 320, 240, 1);
@@ -98,7 +93,7 @@ TEST_CASE(
         return bench.masks();
     };
     const auto own = masksOf(one.camera, one.frames.front());
-    CameraInfo nowhere = two.camera; // as if both stood in one place
+    CameraInfo nowhere = two.camera; // as if both were at one position
     nowhere.colourTdepth = {};
     const auto seen = masksOf(two.camera, two.frames.front()), astray = masksOf(nowhere, two.frames.front());
     size_t marked = 0, missed = 0, wrong = 0;
@@ -113,7 +108,7 @@ TEST_CASE(
     CHECK(wrong > 2 * missed);
 }
 
-TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidance is what its points say") {
+TEST_CASE("A bench with a self-filter removes the arm's points, and guidance matches its points") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = wallFrame(160, 120, 0.5);
@@ -135,7 +130,7 @@ TEST_CASE("The arm's points are gone from a bench with a self-filter, and guidan
     CHECK(bench.guidanceDiffers() == "guidance of 'yellow'");
 }
 
-TEST_CASE("A frame that is not new costs nothing of the device and publishes nothing") {
+TEST_CASE("An unchanged frame takes no device time and publishes nothing") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const FrameSequence source = wallFrame(160, 120, 0.5);
@@ -156,7 +151,7 @@ TEST_CASE("A frame that is not new costs nothing of the device and publishes not
     CHECK(cost.total.p50 < 0.5 * whole.total.p50);
 }
 
-TEST_CASE("The wall's noise is the simulated camera's: its sigma at 0.8 m, no pixel without a reading") {
+TEST_CASE("The wall's noise has the simulated camera's sigma at 0.8 m, and every pixel has a reading") {
     const FrameSequence noisy = wallFrame(320, 240, 1.0, WallNoise::Sensor),
                         smooth = wallFrame(320, 240, 1.0);
     const auto& a = noisy.frames.front().depth;
@@ -172,9 +167,8 @@ TEST_CASE("The wall's noise is the simulated camera's: its sigma at 0.8 m, no pi
     CHECK(std::abs(sum / count) < 1e-5);
 }
 
-TEST_CASE(
-    "Thinning leaves three quarters of a noisy wall's points at 640x480 and less than a third of a smooth "
-    "one's") {
+TEST_CASE("Thinning keeps three quarters of a noisy wall's points at 640x480 and less than a third of a "
+          "smooth one's") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device{instance, "llvmpipe"};
     const auto left = [&](WallNoise noise) {
@@ -187,7 +181,7 @@ TEST_CASE(
     CHECK(left(WallNoise::None) == doctest::Approx(0.26).epsilon(0.03));
 }
 
-TEST_CASE("Half precision rounds to the nearest, or up where a bound must hold") {
+TEST_CASE("Half precision rounds to nearest, or up for bounds") {
     for (const double value : {0.0, 1.0, 0.5, 65504.0, 6e-8, 0.0312, 1.0009765625, 0.8, 3.14159}) {
         CAPTURE(value);
         const float single = static_cast<float>(value), half = widened(halved(single));
@@ -197,6 +191,6 @@ TEST_CASE("Half precision rounds to the nearest, or up where a bound must hold")
         CHECK(static_cast<double>(up) <= value * (1.0 + 0x1p-10) + 6e-8);
         CHECK(widened(halved(-single)) == -half);
     }
-    CHECK(widened(halved(1.0f + 0x1p-11f)) == 1.0f); // a tie goes to the even one
+    CHECK(widened(halved(1.0f + 0x1p-11f)) == 1.0f); // a tie rounds to even
     CHECK(widened(halvedUp(1.0 + 0x1p-12)) == 1.0f + 0x1p-10f);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom profile peers` from outside: refused with the way to it where the libraries of others are not built
-// in, and where they are, that all of them answer what float64 says.
+// `fathom profile peers` as a program. Without the other libraries, it fails with a hint on how to build them
+// in. With them, all answers must match float64.
 #include "apps/profile/studies.h"
 #include "tests/apps/scratch_folder.h"
 #include "tests/profile/quick_run.h"
@@ -26,8 +26,7 @@ bool builtIn() {
 
 } // namespace
 
-TEST_CASE(
-    "A program without the libraries of others refuses to measure beside them in one line that says how") {
+TEST_CASE("A build without the other libraries rejects `peers` in one line that says how to build them in") {
     if (builtIn()) {
         MESSAGE("this build has them");
         return;
@@ -41,7 +40,7 @@ TEST_CASE(
           "-DFATHOM_PEERS=ON, which './run peers' makes and runs)");
 }
 
-TEST_CASE("Every library answers every source as float64 does, and stands beside ours with its ratio") {
+TEST_CASE("Every library matches float64 on every source and has a ratio to Fathom's time") {
     if (!builtIn()) {
         MESSAGE("built without -DFATHOM_PEERS=ON: see ./run peers --test");
         return;
@@ -55,7 +54,7 @@ TEST_CASE("Every library answers every source as float64 does, and stands beside
     CHECK(std::filesystem::file_size(out / "peers.png") > 1000);
     const auto report = nlohmann::json::parse(textOf(out / "profile.json"));
     const auto& study = report["studies"][0];
-    std::map<std::string, int> answers; // by the first word of the setting, those that were compared
+    std::map<std::string, int> answers; // compared answers by the first word of the setting
     for (const auto& row : study["rows"]) {
         const std::string source = row["source"], setting = row["setting"];
         CAPTURE(source);
@@ -70,12 +69,12 @@ TEST_CASE("Every library answers every source as float64 does, and stands beside
             ++answers[setting.substr(0, setting.find(' '))];
         }
         if (startsWith(source, "contact ") &&
-            setting != "Fathom CPU whole answer") { // its sets are the grid's
+            setting != "Fathom CPU whole answer") { // its spheres come from the grid
             CHECK(row["found_mean"].get<double>() > 0.0);
         }
     }
     CHECK(study["no_default"].is_null());
-    CHECK(study["defaults"].size() >= 6); // a pass or the grid on every source
+    CHECK(study["defaults"].size() >= 6); // one pass or grid per source
     for (const char* library : {"Fathom", "OpenCV", "PCL", "Embree", "FCL", "Bullet"}) {
         CHECK_MESSAGE(answers[library] > 0, library);
     }

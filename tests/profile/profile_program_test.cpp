@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom profile --quick` from outside: that every study runs, verifies what it times and leaves whole files
-// with the fields that they promise. No test looks at a time but that of the whole run.
+// `fathom profile --quick` as a program: every study runs, verifies its results and writes complete files
+// with the documented fields. Only the duration of the whole run is checked, no other times.
 #include "tests/profile/quick_run.h"
 
 #include "engine/types/version.h"
@@ -13,7 +13,7 @@ using namespace fathom;
 using namespace fathom::testing;
 using fathom::profile::Settings;
 
-TEST_CASE("A quick profile verifies every study and ends with code 0") {
+TEST_CASE("A quick profile verifies every study and exits with code 0") {
     const QuickRun& run = quickRun();
     CHECK(run.program.exitCode == 0);
     CHECK(run.program.err.find("error") == std::string::npos);
@@ -25,7 +25,7 @@ TEST_CASE("A quick profile verifies every study and ends with code 0") {
     }
 }
 
-TEST_CASE("A quick profile takes less than two minutes by its own figure") {
+TEST_CASE("A quick profile reports a duration below two minutes") {
     if (kSanitized) {
         MESSAGE("SKIPPED ALOUD: a sanitized program is slower by what its checks cost");
         return;
@@ -34,10 +34,10 @@ TEST_CASE("A quick profile takes less than two minutes by its own figure") {
     const double wall = report["run_seconds"], cpu = report["run_cpu_seconds"];
     CHECK(wall > 1.0);
     CHECK(cpu > 1.0);
-    CHECK(std::min(wall, cpu) < 120.0); // others on the machine stretch the one and not the other
+    CHECK(std::min(wall, cpu) < 120.0); // other load on the machine stretches only the wall time
 }
 
-TEST_CASE("A study that measures no recording says so when one is given, and one that does names it") {
+TEST_CASE("Given a recording, each study names it or says that it does not use one") {
     Settings settings;
     CHECK(profile::servedBy("query", settings) == "frames made for it");
     settings.source = "data/valve_ball_d435/";
@@ -49,7 +49,7 @@ TEST_CASE("A study that measures no recording says so when one is given, and one
     }
 }
 
-TEST_CASE("Every study leaves a table and a frame of its name, and the report embeds the frames") {
+TEST_CASE("Every study writes a table and an image under its name, and the report embeds the images") {
     const auto out = quickRun().folder.path() / "out";
     const std::string html = textOf(out / "report.html");
     for (const auto& entry : profile::allStudies()) {
@@ -100,7 +100,7 @@ TEST_CASE("The report names the device, its driver, the settings and the clocks 
     }
 }
 
-TEST_CASE("Every study says of each default whether it lies on the front and why not, or why it has none") {
+TEST_CASE("Every study says whether each default is on the front and if not, why, or why it has no default") {
     const auto out = quickRun().folder.path() / "out";
     const std::string html = textOf(out / "report.html");
     for (const auto& entry : profile::allStudies()) {
@@ -112,7 +112,7 @@ TEST_CASE("Every study says of each default whether it lies on the front and why
             defaults += row["default"].get<bool>() ? 1 : 0;
         }
         CHECK(study["defaults"].size() == defaults);
-        std::map<std::string, size_t> said; // in the table
+        std::map<std::string, size_t> said; // judgements in the table
         const auto table = tableOf(out / (std::string(entry.name) + ".csv"));
         CHECK(table.front().back() == "default_judgement");
         for (size_t i = 1; i < table.size(); ++i) {
@@ -135,7 +135,7 @@ TEST_CASE("Every study says of each default whether it lies on the front and why
     }
 }
 
-TEST_CASE("Every study that ranks settings marks its default and says whether it lies on the front") {
+TEST_CASE("Every study that ranks settings marks its default and says whether it is on the front") {
     for (const char* name : {"filter", "fixture", "query", "solver", "precision"}) {
         const auto& study = quickRun().study(name);
         size_t defaults = 0, said = 0, front = 0;
@@ -152,7 +152,7 @@ TEST_CASE("Every study that ranks settings marks its default and says whether it
     }
 }
 
-TEST_CASE("--trace puts uploads, passes, queries and ticks on one time line") {
+TEST_CASE("--trace writes uploads, passes, queries and ticks on one timeline") {
     const auto trace = nlohmann::json::parse(textOf(quickRun().folder.path() / "trace.json"));
     std::map<std::string, size_t> spans;
     for (const auto& event : trace["traceEvents"]) {
@@ -166,7 +166,7 @@ TEST_CASE("--trace puts uploads, passes, queries and ticks on one time line") {
     }
 }
 
-TEST_CASE("An unknown study is refused in one line that names those there are") {
+TEST_CASE("An unknown study is rejected in one line that lists the known ones") {
     const ScratchFolder folder;
     const ProgramRun run = runFathom({"profile", "filtre", "--out", (folder.path() / "out").string()});
     CHECK(run.exitCode == 2);
@@ -180,7 +180,7 @@ TEST_CASE("An unknown study is refused in one line that names those there are") 
     }() + ")");
 }
 
-TEST_CASE("A recording gives the scatter between its repeats") {
+TEST_CASE("A recording gives the scatter between its frames") {
     const std::filesystem::path recording = "../shared/data/valve_globe_d435";
     if (!std::filesystem::exists(recording)) {
         MESSAGE("SKIPPED ALOUD: ../shared/data/valve_globe_d435 is absent");

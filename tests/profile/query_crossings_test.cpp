@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where one way of answering a query becomes faster than another, of times that are made up; and what `where:
-// auto` is said to do, against the plan.
+// Crossings between query methods, with synthetic times; and the text about `where: auto` against the plan.
 #include "apps/profile/query_crossings.h"
 #include "engine/gpu/query_crossover.h"
 #include "tests/profile/quick_run.h"
@@ -13,7 +12,7 @@ using namespace fathom::profile;
 
 namespace {
 
-// CPU, GPU and brute force in one set with one tool; times [ms].
+// Adds CPU, GPU and brute-force rows of one tool in one set; times [ms].
 void addWays(std::vector<StudyRow>& rows, double spheres, double leaves, double cpu, double gpu,
              double brute) {
     const std::string source = digits(spheres, 6) + " spheres", tool = " " + digits(leaves) + " leaves";
@@ -23,7 +22,7 @@ void addWays(std::vector<StudyRow>& rows, double spheres, double leaves, double 
         if (std::isfinite(ms)) {
             row.cost.submit = {ms, ms, ms, 5};
         }
-        row.more[way == kCpuWay ? kCpuCullWall : kGpuCullSubmit] = 0.5 * ms; // of the culls
+        row.more[way == kCpuWay ? kCpuCullWall : kGpuCullSubmit] = 0.5 * ms; // time of the culls
         rows.push_back(row);
     }
 }
@@ -34,19 +33,17 @@ bool says(const std::vector<std::string>& findings, const std::string& finding) 
 
 } // namespace
 
-TEST_CASE(
-    "A challenger crosses where it wins every duel of that size and of all larger ones, in whatever order") {
+TEST_CASE("A challenger's crossing is the size from which it wins every duel, in any input order") {
     const Crossing crossing =
         crossingOf({{300, 2, 1}, {10, 2, 1}, {100, 1, 1}, {900, 9, 3}, {50, 1, 2}, {20, 2, 1}, {20, 2, 3}});
     CHECK(crossing.from == 300);                       // at 100 they are equal
-    CHECK(crossing.before == std::vector<double>{10}); // of two duels at 20 one was lost
+    CHECK(crossing.before == std::vector<double>{10}); // one of two duels at 20 was lost
     CHECK(std::isinf(crossingOf({{10, 2, 1}, {20, 1, 2}}).from));
     CHECK(crossingOf({{10, 2, 1}, {20, 2, 1}}).from == 10);
     CHECK(std::isinf(crossingOf({}).from));
 }
 
-TEST_CASE(
-    "The device is asked from the leaves on with which it is faster in the set where it needs the most") {
+TEST_CASE("The device is used from the leaf count at which it is faster in every set") {
     std::vector<StudyRow> rows;
     addWays(rows, 1000, 1, 1, 5, 0.2), addWays(rows, 1000, 64, 6, 5, 8), addWays(rows, 1000, 256, 9, 5, NAN);
     addWays(rows, 60000, 1, 1, 7, 3), addWays(rows, 60000, 64, 6, 7, NAN),
@@ -57,7 +54,7 @@ TEST_CASE(
     CHECK(leavesForTheDevice({}) == gpu::kNeverOnGpu);
 }
 
-TEST_CASE("Each set, each tool and brute force have their crossing said, also where there is none") {
+TEST_CASE("The crossings of each set, each tool and brute force are reported, even if there is none") {
     std::vector<StudyRow> rows;
     addWays(rows, 1000, 1, 1, 5, 0.2), addWays(rows, 1000, 64, 6, 5, 8);
     addWays(rows, 60000, 1, 1, 7, 3), addWays(rows, 60000, 64, 6, 7, NAN);
@@ -72,13 +69,12 @@ TEST_CASE("Each set, each tool and brute force have their crossing said, also wh
     CHECK(says(
         said,
         "contact set with 64 leaves, device faster than CPU: from 300 k region spheres on, and at 1000"));
-    // The culls take half of the above; pairs that brute force did not try are no duels.
+    // The culls take half of the times above. Pairs that brute force skips are not duels.
     CHECK(says(said, "cull alone, the CPU's grid faster than brute force: from 60 k spheres x leaves on"));
     CHECK(says(said, "cull alone, the device's tree faster than brute force: from 64 k spheres x leaves on"));
 }
 
-TEST_CASE("What 'where: auto' is said to do is what its plan does: by leaves, and never on a device that is "
-          "a CPU") {
+TEST_CASE("The text about 'where: auto' matches its plan: by leaf count, and never on a CPU device") {
     DeviceFacts device;
     device.kind = DeviceKind::Discrete;
     device.gpuQueryLeaves = 64;
@@ -98,8 +94,8 @@ TEST_CASE("What 'where: auto' is said to do is what its plan does: by leaves, an
           std::string::npos);
 }
 
-TEST_CASE("A run says the crossing of each set and tool, what 'where: auto' makes of it, and stores nothing "
-          "if quick") {
+TEST_CASE("A run reports the crossing of each set and tool and the choice of 'where: auto', and a quick run "
+          "stores nothing") {
     const auto& study = quickRun().study("query");
     const std::vector<std::string> findings = study["findings"];
     const auto count = [&](const std::string& head) {
@@ -114,7 +110,7 @@ TEST_CASE("A run says the crossing of each set and tool, what 'where: auto' make
                                        [](const std::string& f) { return startsWith(f, "'where: auto' "); });
     CHECK(decision->find("this device is a CPU") != std::string::npos);
     CHECK(decision->find("a quick run stores no crossover") != std::string::npos);
-    for (const auto& row : study["rows"]) { // brute force is measured where it wins, too
+    for (const auto& row : study["rows"]) { // brute force is also measured where it wins
         if (startsWith(row["source"], "0.016 k spheres")) {
             CHECK(row["submit_to_result_p50_ms"].is_null() == !startsWith(row["setting"], "brute force"));
             CHECK(row["found_spheres"].get<double>() > 0.0);

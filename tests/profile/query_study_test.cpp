@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the study of queries found in a quick run: figures that hold on any machine, no times.
+// Results of the query study in a quick run: figures that hold on any machine, no times.
 #include "apps/profile/late_answers.h"
 #include "apps/profile/query_rows.h"
 #include "tests/profile/quick_run.h"
@@ -21,7 +21,7 @@ StudyRow lateAnswers(const char* source, double reach, double stalled, bool isDe
 
 } // namespace
 
-TEST_CASE("With late answers a short reach stalls and lags and a long one does not") {
+TEST_CASE("With late answers, a short reach stalls and lags, and a long one does not") {
     std::map<std::string, nlohmann::json> rows;
     for (const auto& row : quickRun().study("query")["rows"]) {
         rows[row["source"].get<std::string>() + ", " + row["setting"].get<std::string>()] = row;
@@ -33,8 +33,8 @@ TEST_CASE("With late answers a short reach stalls and lags and a long one does n
     CHECK(brief["error"].get<double>() > ample["error"].get<double>());
 }
 
-TEST_CASE(
-    "Stalls are drawn as a share of the drag's turns over the reach, a line a delay, the longest undermost") {
+TEST_CASE("The plot shows stalls as a percentage of ticks over the reach, one line per delay, the longest at "
+          "the bottom") {
     const PlotPanel panel = stallPanel({lateAnswers("answers 0 ticks late", 5.0, 0.0, false),
                                         lateAnswers("answers 0 ticks late", 10.0, 0.0, true),
                                         lateAnswers("answers 20 ticks late", 5.0, 300.0, false),
@@ -42,7 +42,7 @@ TEST_CASE(
                                        300);
     REQUIRE(panel.series.size() == 2);
     const PlotSeries &late = panel.series[0],
-                     &early = panel.series[1]; // in the order in which they are drawn
+                     &early = panel.series[1]; // in drawing order
     CHECK(late.name == "answers 20 ticks late");
     CHECK(early.name == "answers 0 ticks late");
     CHECK(late.name != early.name);
@@ -57,16 +57,16 @@ TEST_CASE(
     CHECK(early.points[1].y == 0.0);
     CHECK(panel.xLabel == "reach [mm]");
     CHECK(panel.yLabel == "stalled ticks [% of 300]");
-    CHECK(!panel.logY); // 0 is a value like others
+    CHECK(!panel.logY); // so that 0 can be shown
 }
 
-TEST_CASE("A row of the query study counts found spheres or stalled turns, never one in the other's place") {
+TEST_CASE("A row of the query study counts either found spheres or stalled ticks, each in its own column") {
     std::map<std::string, double> found;
     for (const auto& row : quickRun().study("query")["rows"]) {
         const bool late = startsWith(row["source"], "answers ");
         CHECK(row["found_spheres"].is_null() == late);
         CHECK(row["stalled_turns"].is_null() != late);
-        CHECK(row["error"].is_null() != late); // lag is a matter of the drag alone
+        CHECK(row["error"].is_null() != late); // only the drag has a lag
         if (!late) {
             found[row["source"].get<std::string>() + " " + row["setting"].get<std::string>()] =
                 row["found_spheres"];
@@ -77,9 +77,7 @@ TEST_CASE("A row of the query study counts found spheres or stalled turns, never
     CHECK(found.at("12.29 k spheres CPU 1000 leaves") >= found.at("12.29 k spheres CPU 1 leaves"));
 }
 
-TEST_CASE(
-    "The cull alone stands beside the whole contact set on rows of the CPU and of the GPU, each by its own "
-    "clocks") {
+TEST_CASE("CPU and GPU rows have the cull alone as well as the full contact set, each with its own clocks") {
     std::map<std::string, size_t> rows;
     for (const auto& row : quickRun().study("query")["rows"]) {
         const std::string setting = row["setting"];
@@ -95,9 +93,9 @@ TEST_CASE(
             rows["cull is whole"] += row["cpu_cull_wall_p50_ms"] == row["submit_to_result_p50_ms"] ? 1 : 0;
         }
     }
-    CHECK(rows["CPU"] == 6 + 9); // in sets of a image, and in few spheres
+    CHECK(rows["CPU"] == 6 + 9); // in sets of an image, and among few spheres
     CHECK(rows["GPU"] == 6);
     CHECK(rows["neither"] == 6 + 9 + 4); // brute force, late answers
-    CHECK(rows["wall is CPU"] < 15);     // two clocks may agree once
+    CHECK(rows["wall is CPU"] < 15);     // two clocks may agree by chance
     CHECK(rows["cull is whole"] < 6);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One quick run of `fathom profile`, shared by all cases that look at what it left behind.
+// One quick run of `fathom profile`, shared by all cases that check its output.
 #pragma once
 
 #include "apps/profile/studies.h"
@@ -33,7 +33,7 @@ struct QuickRun {
     }
 };
 
-inline const QuickRun& quickRun() { // one run serves every case
+inline const QuickRun& quickRun() { // shared by all cases
     static const QuickRun kRun;
     return kRun;
 }

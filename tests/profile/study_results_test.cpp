@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the studies of a quick run found: figures that hold on any machine, no times.
+// Results of the studies in a quick run: figures that hold on any machine, no times.
 #include "apps/profile/frame_sequence.h"
 #include "tests/profile/quick_run.h"
 #include "tests/support/sanitized.h"
@@ -14,7 +14,7 @@ using namespace fathom;
 using namespace fathom::testing;
 
 TEST_CASE(
-    "The filter lowers the depth error of a smooth scene, and patches skipped or not change nothing of it") {
+    "The filter lowers the depth error of a smooth scene, and skipping patches does not change the error") {
     std::map<std::string, double> error;
     for (const auto& row : quickRun().study("filter")["rows"]) {
         if (row["source"] == "corner") {
@@ -25,7 +25,7 @@ TEST_CASE(
     CHECK(error.at("5x5 s10mm") == error.at("5x5 s10mm all patches"));
 }
 
-TEST_CASE("Polynomial weights filter nearly as the exact ones do, but not quite") {
+TEST_CASE("Polynomial weights give nearly the same error as exact ones, but not exactly") {
     std::map<std::string, double> error;
     for (const auto& row : quickRun().study("filter")["rows"]) {
         if (row["source"] == "corner") {
@@ -36,7 +36,8 @@ TEST_CASE("Polynomial weights filter nearly as the exact ones do, but not quite"
     CHECK(error.at("5x5 s10mm polynomial") != error.at("5x5 s10mm"));
 }
 
-TEST_CASE("Few rows with a look at the rest err as all rows do; the worst row alone costs solves") {
+TEST_CASE("Solving on few rows and checking the rest is as exact as all rows; the worst row alone needs more "
+          "solves") {
     std::map<std::string, nlohmann::json> rows;
     for (const auto& row : quickRun().study("solver")["rows"]) {
         if (startsWith(row["source"], "reduced rows, ")) {
@@ -51,7 +52,7 @@ TEST_CASE("Few rows with a look at the rest err as all rows do; the worst row al
     CHECK(rows.at("all rows")["share_in_contact"].get<double>() > 0.9);
 }
 
-TEST_CASE("Formats of less precision err more, and nodes rounded outwards lose nothing that is near") {
+TEST_CASE("Less precise formats have larger errors, and nodes rounded outwards lose no nearby sphere") {
     std::map<std::string, std::map<std::string, nlohmann::json>> rows;
     for (const auto& row : quickRun().study("precision")["rows"]) {
         rows[row["source"]][row["setting"]] = row;
@@ -77,7 +78,7 @@ TEST_CASE("Formats of less precision err more, and nodes rounded outwards lose n
     CHECK(rows.at("frame: filter weights").at("half weights")["error"].get<double>() > 0.0);
 }
 
-TEST_CASE("The boundary error stays within the budget and fewer spheres are kept for a larger one") {
+TEST_CASE("The boundary error stays within the budget, and a larger budget keeps fewer spheres") {
     std::map<std::string, nlohmann::json> rows;
     for (const auto& row : quickRun().study("fixture")["rows"]) {
         if (startsWith(row["source"].get<std::string>(), "plane")) {
@@ -91,8 +92,8 @@ TEST_CASE("The boundary error stays within the budget and fewer spheres are kept
     CHECK(rows.at("1 mm")["spheres"].get<double>() < 0.6 * rows.at("0 mm")["spheres"].get<double>());
 }
 
-TEST_CASE("Error budgets are ranked by the time from upload to published, which collecting and the grid are "
-          "part of") {
+TEST_CASE(
+    "Error budgets are ranked by the time from upload to published, including collection and the grid") {
     const auto& study = quickRun().study("fixture");
     CHECK(study["time"] == "upload until published, p50");
     size_t front = 0;
@@ -109,7 +110,8 @@ TEST_CASE("Error budgets are ranked by the time from upload to published, which 
     CHECK(front >= 2);
 }
 
-TEST_CASE("The spheres and the query of a budget are of the first frame, whichever was measured last") {
+TEST_CASE(
+    "The spheres and the query of a budget belong to the first frame, regardless of the last measured one") {
     const gpu::Instance instance{test::Vulkan::validation()};
     gpu::Device device(instance, "llvmpipe");
     profile::Settings settings;
@@ -123,7 +125,7 @@ TEST_CASE("The spheres and the query of a budget are of the first frame, whichev
         const size_t last = bench.set().host.spheres.size();
         bench.run(source.frames.front());
         const size_t first = bench.set().host.spheres.size();
-        CHECK(first != last); // else this would show nothing
+        CHECK(first != last); // otherwise the test shows nothing
         for (const auto& row : quickRun().study("fixture")["rows"]) {
             if (startsWith(row["source"], source.name) && row["setting"] == "0 mm") {
                 CHECK(row["spheres"].get<size_t>() == first);
@@ -132,7 +134,7 @@ TEST_CASE("The spheres and the query of a budget are of the first frame, whichev
     }
 }
 
-TEST_CASE("Turns and queries have a wall time and a CPU time of their own, neither filed as the other") {
+TEST_CASE("Ticks and queries have separate wall and CPU times, each in its own column") {
     for (const char* name : {"solver", "tool", "query"}) {
         size_t rows = 0, same = 0;
         for (const auto& row : quickRun().study(name)["rows"]) {
@@ -147,7 +149,7 @@ TEST_CASE("Turns and queries have a wall time and a CPU time of their own, neith
     }
 }
 
-TEST_CASE("Larger frames cost more of every fitted step, and the exponents are said") {
+TEST_CASE("Larger frames take more time in every fitted step, and the exponents are reported") {
     size_t fitted = 0;
     for (const std::string finding : quickRun().study("scaling")["findings"]) {
         fitted += finding.find(" grows as x^") != std::string::npos ? 1 : 0;
@@ -165,7 +167,7 @@ TEST_CASE("Larger frames cost more of every fitted step, and the exponents are s
     }
 }
 
-TEST_CASE("A row of the scaling study says its size in pixels, per cent or classes, one of the three") {
+TEST_CASE("A row of the scaling study gives its size in exactly one of pixels, per cent or classes") {
     std::map<std::string, size_t> rows;
     for (const auto& row : quickRun().study("scaling")["rows"]) {
         size_t said = 0;
@@ -175,12 +177,12 @@ TEST_CASE("A row of the scaling study says its size in pixels, per cent or class
         }
         CHECK(said == 1);
     }
-    CHECK(rows.at("pixels") == 7); // three with noise, three without, one of RGBA
+    CHECK(rows.at("pixels") == 7); // three with noise, three without, one with RGBA
     CHECK(rows.at("forbidden_percent") == 3);
     CHECK(rows.at("classes") == 2);
 }
 
-TEST_CASE("Sizes are measured with the sensor's noise, and apart without it") {
+TEST_CASE("Sizes are measured with sensor noise, and separately without it") {
     std::map<std::string, std::map<std::string, double>> spheres;
     for (const auto& row : quickRun().study("scaling")["rows"]) {
         spheres[row["source"]][row["setting"]] = row["spheres"];
@@ -192,7 +194,7 @@ TEST_CASE("Sizes are measured with the sensor's noise, and apart without it") {
     CHECK(smooth.at("400x300") <= noisy.at("400x300"));
 }
 
-TEST_CASE("What is left out of a scene saves the memory that its buffers took") {
+TEST_CASE("Disabling a stage saves the memory of its buffers") {
     std::map<std::string, double> saved, heap, ms;
     for (const auto& row : quickRun().study("leave_out")["rows"]) {
         saved[row["setting"]] = row["memory_saved_MiB"].get<double>();
@@ -208,15 +210,15 @@ TEST_CASE("What is left out of a scene saves the memory that its buffers took") 
     CHECK(saved.at("forbidden class") > saved.at("hold"));
     CHECK(saved.at("filter") == 0.0);
     CHECK(saved.at("times of passes") == 0.0);
-    CHECK(saved.at("colour, of gates that pass all") > 0.5); // the colour image, twice
-    CHECK(ms.at("pictures that are not new") > 90.0);        // nothing is done, not faster
+    CHECK(saved.at("colour, of gates that pass all") > 0.5); // two colour images
+    CHECK(ms.at("pictures that are not new") > 90.0);        // percentage: nothing runs
     for (const char* also : {"trimmed mean", "self-filter", "guidance points on the host (both)"}) {
         CHECK_MESSAGE(saved.count(also) == 1, also);
     }
     CHECK((kSanitized || heap.at("hold") > 1.0)); // lavapipe's buffers are in the heap
 }
 
-TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap") {
+TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gaps") {
     std::map<std::string, std::map<double, nlohmann::json>> rows;
     for (const auto& row : quickRun().study("tool")["rows"]) {
         rows[row["source"]][row["leaves"].get<double>()] = row;
@@ -227,7 +229,7 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
         REQUIRE(of.size() == 2);
         CHECK(of.rbegin()->second["error"].get<double>() < 0.5 * of.begin()->second["error"].get<double>());
         CHECK(of.rbegin()->second["protrusion_mm"].get<double>() > 1.0);
-        CHECK(of.rbegin()->second["share_in_contact"].get<double>() >= 0.9); // else the tick is of free space
+        CHECK(of.rbegin()->second["share_in_contact"].get<double>() >= 0.9); // not a tick in free space
     }
     CHECK(rows.at("covers that fathom spheres makes").rbegin()->second["error"].get<double>() <
           0.5 * rows.at("covering spheres").rbegin()->second["error"].get<double>());
@@ -235,8 +237,8 @@ TEST_CASE("More leaves fit the gripper better, and covering spheres leave no gap
     CHECK(rows.at("smaller spheres, with gaps").rbegin()->second["gap_mm"].get<double>() > 0.1);
 }
 
-TEST_CASE(
-    "Every pass of a frame has a row of its limit: those of a second camera and of the device's query, too") {
+TEST_CASE("Every pass of a frame has a row in the limit study, including those of a second camera and the "
+          "device query") {
     std::map<std::string, std::set<std::string>> steps;
     for (const auto& row : quickRun().study("limit")["rows"]) {
         steps[row["source"]].insert(row["setting"].get<std::string>());
@@ -250,7 +252,7 @@ TEST_CASE(
     CHECK(steps.at("10 % forbidden").count("occlusion") == 0);
 }
 
-// Of the steps on the device: no floor is below the time of an empty dispatch.
+// The smallest floor of the device's steps: the time of an empty dispatch.
 double emptyDispatchMs(const nlohmann::json& rows) {
     double least = std::numeric_limits<double>::infinity();
     for (const auto& row : rows) {
@@ -260,8 +262,8 @@ double emptyDispatchMs(const nlohmann::json& rows) {
     return least;
 }
 
-TEST_CASE("A step's floor is the longest of moving, computing and an empty dispatch, its ratio what it took "
-          "over that, by its own clock") {
+TEST_CASE("A step's floor is the longest of moving, computing and an empty dispatch; its ratio is the "
+          "measured time over the floor") {
     const auto& rows = quickRun().study("limit")["rows"];
     const double dispatch = emptyDispatchMs(rows);
     for (const auto& row : rows) {
@@ -270,10 +272,10 @@ TEST_CASE("A step's floor is the longest of moving, computing and an empty dispa
         const bool host = step == "upload" || step == "collect" || step == "grid";
         const auto& time = row[host ? "wall_p50_ms" : "gpu_p50_ms"];
         CHECK(row[host ? "gpu_p50_ms" : "wall_p50_ms"].is_null());
-        CHECK(row["cpu_p50_ms"].is_null()); // nobody took the threads' own time
+        CHECK(row["cpu_p50_ms"].is_null()); // the threads' CPU time is not measured
         const double work = std::max(moving, computing);
         CHECK(floor == (work == 0.0 || host ? work : std::max(work, dispatch)));
-        if (floor == 0.0) { // dispatched over nothing: every pixel is forbidden and none guides
+        if (floor == 0.0) { // empty dispatch: all pixels are forbidden, none is guidance
             CHECK(row["setting"] == "moments");
             CHECK(startsWith(row["source"], "100 % forbidden"));
             CHECK(row["ratio"].is_null());

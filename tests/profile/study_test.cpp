@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arithmetic that studies rest on: percentiles, the front, the fit, the distance between boundaries.
+// The arithmetic of the studies: percentiles, Pareto front, power law, boundary distance, plot layout.
 #include "apps/profile/interleave.h"
 #include "apps/profile/plot_labels.h"
 #include "apps/profile/region_boundary.h"
@@ -40,12 +40,12 @@ RegionSpheres grid(int n, double spacing, double radius, int stride, double grow
 
 } // namespace
 
-TEST_CASE("Percentiles are values that occurred, by nearest rank, whatever the order") {
+TEST_CASE("Percentiles are nearest-rank values of the input in any order") {
     CHECK(spreadOf({}).count == 0);
     CHECK(!spreadOf({}));
     const Spread one = spreadOf({3.0});
     CHECK(one.p50 == 3.0);
-    CHECK(std::isnan(one.p99)); // by rank the largest, which says nothing
+    CHECK(std::isnan(one.p99)); // by rank it would be the largest
     std::vector<double> values;
     for (int i = 200; i >= 1; --i) {
         values.push_back(i);
@@ -61,7 +61,7 @@ TEST_CASE("Percentiles are values that occurred, by nearest rank, whatever the o
     CHECK(std::isnan(spreadOf(values).p99));
 }
 
-TEST_CASE("The front holds exactly the settings that no other beats in both error and time") {
+TEST_CASE("The front has exactly the settings that no other beats in both error and time") {
     Study study;
     study.rows = {row("quick", 3.0, 1.0), row("good", 1.0, 2.0), row("bad", 2.0, 3.0), row("best", 0.5, 9.0),
                   row("unmeasured", NAN, 0.1)};
@@ -74,7 +74,7 @@ TEST_CASE("The front holds exactly the settings that no other beats in both erro
 }
 
 TEST_CASE(
-    "A default off the front is named with the setting that beats it and the reason; one within 5 % is not") {
+    "A default off the front is reported with the setting that beats it and the reason, unless within 5 %") {
     Study study;
     study.errorUnit = "mm";
     study.rankBy.reason = "because";
@@ -89,7 +89,7 @@ TEST_CASE(
     CHECK(study.findings[0] == "default 'mine' on s lies on the Pareto front");
 }
 
-TEST_CASE("A study whose sources differ in what errs and what is timed is judged by that, in its own unit") {
+TEST_CASE("A study with different errors and times per source ranks each source by its own values and unit") {
     Study study;
     study.errorUnit = "count";
     study.rankBy.reason = "because";
@@ -107,13 +107,13 @@ TEST_CASE("A study whose sources differ in what errs and what is timed is judged
     CHECK(!study.verdicts[0].onFront);
     CHECK(study.rows[1].onFront);
     study.verdicts.clear();
-    study.rows[1].more = {3.1}; // errs more
+    study.rows[1].more = {3.1}; // larger error
     markFront(study);
     CHECK(study.verdicts[0].onFront);
     CHECK(study.verdicts[0].words == "lies on the Pareto front");
 }
 
-TEST_CASE("A default without an error is not called one on the front") {
+TEST_CASE("A default without an error is not reported as on the front") {
     Study study;
     study.rows = {row("mine", NAN, 2.0, true), row("other", 1.0, 3.0)};
     markFront(study);
@@ -122,7 +122,7 @@ TEST_CASE("A default without an error is not called one on the front") {
     CHECK(study.verdicts[0].words == "is not judged: it has no error or no time on this source");
 }
 
-TEST_CASE("A study that ranks by a time of its own is judged by it") {
+TEST_CASE("A study with its own ranking time is judged by it") {
     Study study;
     study.rankBy.time = [](const StudyRow& r) { return r.more[0]; };
     study.rows = {row("slow", 2.0, 1.0), row("quick", 2.0, 3.0)};
@@ -136,7 +136,7 @@ TEST_CASE("A study that ranks by a time of its own is judged by it") {
     CHECK(panel.series.front().points.back().isFront);
 }
 
-TEST_CASE("The device's time of a row without timestamps is that from submission to result") {
+TEST_CASE("Without timestamps, a row's device time is the time from submission to result") {
     StudyRow r = row("any", 1.0, 5.0);
     CHECK(gpuTime(r) == 5.0);
     r.cost.gpu = {2.0, 2.0, 2.0, 5};
@@ -144,7 +144,7 @@ TEST_CASE("The device's time of a row without timestamps is that from submission
     CHECK(submitTime(r) == 5.0);
 }
 
-TEST_CASE("Settings that are measured in turns all have a part in every round, and none is always first") {
+TEST_CASE("Interleaved settings all run in every round, and none is always first") {
     std::vector<size_t> order;
     double seconds = 0.0;
     interleave({8, 40, 2.0}, 3, [&](size_t i, const Repeats& part) {
@@ -157,23 +157,23 @@ TEST_CASE("Settings that are measured in turns all have a part in every round, a
     CHECK(seconds == doctest::Approx(3 * 2.0));
 }
 
-TEST_CASE("Loops that are timed in turns interleave, and each keeps the samples of all its rounds") {
+TEST_CASE("Interleaved loops alternate, and each keeps the samples of all its rounds") {
     std::vector<char> calls;
     const std::vector<Cost> costs =
         timeCpuInterleaved({4, 4, 0.0}, {[&] { calls.push_back('a'); }, [&] { calls.push_back('b'); }});
     REQUIRE(costs.size() == 2);
     CHECK(costs[0].cpu.count == 4);
     CHECK(costs[1].submit.count == 4);
-    // Each round warms up with one call and samples one.
+    // Each round has one warm-up call and one sample.
     CHECK(std::string(calls.begin(), calls.end()) == "aabbbbaaaabbbbaa");
 }
 
-TEST_CASE("A power law is found again from its points, and one point or none gives no law") {
+TEST_CASE("A power law is recovered from its points, and fewer than two points give none") {
     std::vector<PlotPoint> points;
     for (double x : {1.0, 3.0, 10.0, 70.0}) {
         points.push_back({x, 0.2 * std::pow(x, 1.5), "", false, false});
     }
-    points.push_back({5.0, 0.0, "", false, false}); // no logarithm: left out
+    points.push_back({5.0, 0.0, "", false, false}); // has no logarithm, is skipped
     const auto law = fitPower(points);
     REQUIRE(law);
     CHECK(law->exponent == doctest::Approx(1.5));
@@ -183,13 +183,13 @@ TEST_CASE("A power law is found again from its points, and one point or none giv
     CHECK(!fitPower({{2.0, 1.0, "", false, false}, {2.0, 3.0, "", false, false}}));
 }
 
-TEST_CASE("A wrong result is refused by study and setting") {
+TEST_CASE("A wrong result throws an error that names study and setting") {
     CHECK_NOTHROW(verify(true, "query", "x", "y"));
     CHECK_THROWS_WITH_AS(verify(false, "query", "GPU 4", "overflow"),
                          "profile query: 'GPU 4' is wrong and was not timed: overflow", Error);
 }
 
-TEST_CASE("Equal regions have no boundary error and a region that shrank is seen") {
+TEST_CASE("Equal regions have no boundary error, and a shrunken region is detected") {
     const RegionSpheres all = grid(20, 0.004, 0.02, 1, 0.0);
     const BoundaryError same = boundaryError(all, all, 200, 3);
     CHECK(same.max < 1e-6);
@@ -199,7 +199,7 @@ TEST_CASE("Equal regions have no boundary error and a region that shrank is seen
     CHECK(shrunk.worstInside > 5e-4);
 }
 
-TEST_CASE("Thinned spheres that grew enough cover all, and the error is the growth at most") {
+TEST_CASE("Thinned spheres that grow enough cover the region, and the error is at most the growth") {
     const double radius = 0.02, spacing = 0.004,
                  grown = std::sqrt(radius * radius + 2 * 0.008 * 0.008) - radius;
     const BoundaryError error =
@@ -210,7 +210,7 @@ TEST_CASE("Thinned spheres that grew enough cover all, and the error is the grow
     CHECK(error.rms < error.max);
 }
 
-TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart at the low end") {
+TEST_CASE("A logarithmic axis keeps the order of its values and shows zeros separately at its low end") {
     const PanelAxis axis = panelAxis({0.0, 0.01, 0.5, 20.0}, true, 100.0, 500.0);
     CHECK(axis.at(0.0) > 100.0);
     CHECK(axis.at(0.0) < axis.at(0.01));
@@ -222,7 +222,7 @@ TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart
         CHECK(axis.at(tick.value) <= 500.0);
     }
     CHECK(panelAxis({}, true, 0.0, 1.0).ticks().size() >= 1);
-    for (double low : {0.0091, 0.013, 0.47, 3.3, 7.6}) { // a short axis is never without a scale
+    for (double low : {0.0091, 0.013, 0.47, 3.3, 7.6}) { // a short axis also has ticks
         const PanelAxis brief = panelAxis({low, 1.1 * low}, true, 0.0, 100.0);
         CHECK(brief.ticks().size() >= 2);
         CHECK(brief.ticks().size() <= 6);
@@ -230,12 +230,11 @@ TEST_CASE("A logarithmic axis keeps the order of its values and sets zeros apart
     CHECK(panelAxis({5.0, 5.0}, true, 0.0, 1.0).at(5.0) == doctest::Approx(0.5));
 }
 
-TEST_CASE(
-    "Every point of a crowded panel gets a label of its own that meets no other, no point and no border") {
+TEST_CASE("Every point of a crowded panel gets a label that overlaps no other label, point or border") {
     const PlotBox room{80.0, 100.0, 700.0, 560.0};
     std::vector<LabelRequest> requests;
     std::vector<PlotBox> points;
-    for (int i = 0; i < 70; ++i) { // a cluster, and some at the borders
+    for (int i = 0; i < 70; ++i) { // a cluster, and some points at the borders
         const int across = i % 10, down = i / 10;
         const double x = i < 60 ? 300.0 + 7.0 * across : 85.0 + 68.0 * (i - 60),
                      y = i < 60 ? 200.0 + 6.0 * down : (i % 2 == 0 ? 104.0 : 556.0);
@@ -263,7 +262,7 @@ TEST_CASE(
     CHECK(alone.front().beside);
 }
 
-TEST_CASE("A name that several points in one place have is written once, and again where one stands apart") {
+TEST_CASE("A name shared by points in one place is drawn once, and again for a distant point") {
     const std::vector<LabelRequest> requests = {{100.0, 50.0, 90.0, "reach 10 mm"},
                                                 {104.0, 53.0, 90.0, "reach 10 mm"},
                                                 {102.0, 50.0, 90.0, "reach 20 mm"},
@@ -272,17 +271,17 @@ TEST_CASE("A name that several points in one place have is written once, and aga
     CHECK(distinctLabels({}).empty());
 }
 
-TEST_CASE("Panels stand in one row while they can be read there, else in two, each in a place of its own") {
+TEST_CASE("Panels are in one row while they stay readable, otherwise in two, without overlap") {
     for (size_t panels = 0; panels < 9; ++panels) {
         CAPTURE(panels);
         const PanelGrid grid = panelGrid(panels);
         CHECK(static_cast<size_t>(grid.across * grid.down) >= panels);
         CHECK(grid.down == (panels > 3 ? 2 : 1));
-        CHECK((panels < 2 || static_cast<size_t>((grid.across - 1) * grid.down) < panels)); // none empty
+        CHECK((panels < 2 || static_cast<size_t>((grid.across - 1) * grid.down) < panels)); // no empty column
     }
 }
 
-TEST_CASE("Where no spot is free a label still stands beside its point") {
+TEST_CASE("Without a free place, a label is still drawn next to its point") {
     const auto places =
         placeLabels({{50.0, 50.0, 90.0}}, {0.0, 0.0, 100.0, 100.0}, {{0.0, 0.0, 100.0, 100.0}});
     REQUIRE(places.size() == 1);

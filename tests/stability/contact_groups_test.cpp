@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The groups of solver and contact: every case of `fathom stability` in short.
+// The solver and contact groups: every case of `fathom stability` in its short form.
 #include "tests/stability/group_check.h"
 
 #include <filesystem>
@@ -17,7 +17,7 @@ TEST_CASE("Every case of group geometry holds: degenerate contacts, sizes from 1
     checkGroup(geometryCases(), Group::Geometry, 15);
 }
 
-TEST_CASE("Every case of group guarantee holds: no hand and no lateness of the answers makes a leaf enter a "
+TEST_CASE("Every case of group guarantee holds: no hand motion and no delay of answers makes a leaf enter a "
           "region") {
     if (!std::filesystem::exists("../shared/data/valve_globe_d435")) {
         MESSAGE("SKIPPED ALOUD: no recordings at ../shared/data; their cases of guarantee and new-data are "
@@ -26,7 +26,7 @@ TEST_CASE("Every case of group guarantee holds: no hand and no lateness of the a
     checkGroup(guaranteeCases(), Group::Guarantee, 20);
 }
 
-TEST_CASE(
-    "Every case of group new-data holds: the tool comes out of what jumps over it, on the camera's side") {
+TEST_CASE("Every case of group new-data holds: the tool escapes a surface that jumps over it, on the "
+          "camera's side") {
     checkGroup(newDataCases(), Group::NewData, 20);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Runs every case of one group in its shortened form and checks each against its limit.
+// Runs every case of one group in its short form and checks each against its limit.
 #pragma once
 
 #include "apps/stability/stability_run.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The command's own work: names, files, verdicts.
+// The stability command: case names, files and verdicts.
 #include "apps/stability/stability_plots.h"
 #include "apps/stability/stability_report.h"
 #include "engine/types/error.h"
@@ -44,7 +44,7 @@ std::vector<CaseResult> someResults() {
 
 } // namespace
 
-TEST_CASE("The suite has at least sixty cases in nine groups, each with a name of its own") {
+TEST_CASE("The suite has at least sixty cases in nine groups, each with a unique name") {
     const std::vector<Case> all = allCases([]() -> gpu::Device& { throw Error("no case runs here"); });
     CHECK(all.size() >= 60);
     std::set<Group> groups;
@@ -55,7 +55,7 @@ TEST_CASE("The suite has at least sixty cases in nine groups, each with a name o
     CHECK(groups.size() == 9);
 }
 
-TEST_CASE("Cases are chosen by name or group in the order of the suite, and an unknown name is refused with "
+TEST_CASE("Cases are selected by name or group in the suite's order, and an unknown name is rejected with "
           "the known ones") {
     const std::vector<Case> all{
         {"a-1", Group::Solver, {}}, {"b-1", Group::Stiff, {}}, {"b-2", Group::Stiff, {}}};
@@ -76,7 +76,7 @@ TEST_CASE("Cases are chosen by name or group in the order of the suite, and an u
     }
 }
 
-TEST_CASE("A case that throws does not hold, and neither does a figure that is not a number") {
+TEST_CASE("A case that throws or has a NaN figure does not hold") {
     const CaseResult thrown = runCase(
         {"x", Group::Solver, [](RunLength) -> Outcome { throw Error("what happened"); }}, RunLength::Short);
     CHECK(!thrown.outcome.holds());
@@ -88,7 +88,7 @@ TEST_CASE("A case that throws does not hold, and neither does a figure that is n
 }
 
 TEST_CASE(
-    "stability.json has the promised fields, null for what is no number, and the verdict of all cases") {
+    "stability.json has the documented fields, null for non-finite figures, and the verdict of all cases") {
     auto results = someResults();
     const auto good = nlohmann::json::parse(toJson(results, "a device \xff"));
     CHECK(good["holds"] == true);
@@ -109,7 +109,7 @@ TEST_CASE(
     CHECK(nlohmann::json::parse(toJson({}, "d"))["cases"].empty());
 }
 
-TEST_CASE("The report and the plots appear in the output folder, one frame for each pair of axes") {
+TEST_CASE("The output folder has the report and the plots, one image for each pair of axes") {
     const ScratchFolder folder;
     const auto results = someResults();
     writeReport(folder.path(), results, "device | with a bar");
