@@ -29,7 +29,7 @@ struct Scale {
 
     bool has(double value) const { return std::isfinite(value) && (!log || value > 0.0); }
     double at(double value) const { return axis.at(log ? std::log10(value) : value); }
-    // Whole decades on a logarithmic axis, and 2 and 5 as well when the range is short.
+    // Whole decades on a logarithmic axis, also 2 and 5 when the range is short.
     std::vector<PlotTick> ticks(int most) const {
         if (!log) {
             return ticksOf(axis, most);

@@ -32,7 +32,8 @@ void selectFont(cairo_t* cr, double size, bool bold) {
     cairo_set_font_size(cr, size);
 }
 
-// A byte that is not UTF-8 puts a cairo context into an error state for good; device names may contain one.
+// Replaces bytes that are not UTF-8. They would put the cairo context into a permanent error state, and
+// device names may contain them.
 std::string drawable(const std::string& words) {
     std::string result;
     for (size_t i = 0; i < words.size(); ++i) {

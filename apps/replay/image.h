@@ -32,12 +32,12 @@ public:
 
     void setColour(Colour colour) const;
     void line(double x0, double y0, double x1, double y1, Colour colour, double width) const;
-    void box(double x, double y, double width, double height, Colour colour) const; // filled
+    void box(double x, double y, double width, double height, Colour colour) const; // filled rectangle
     void dot(double x, double y, double radius, Colour colour) const;
-    // (x, y) is the left end, middle or right end of the base line; size: pixels per em.
+    // (x, y) is the left end, middle or right end of the baseline. size: pixels per em.
     void text(double x, double y, const std::string& words, double size, Colour colour,
               Align align = Align::Left, bool bold = false) const;
-    // Reads upwards, centred at (x, y): the label of a vertical axis.
+    // Text that reads upwards, centred at (x, y), for the label of a vertical axis.
     void textUpwards(double x, double y, const std::string& words, double size, Colour colour,
                      bool bold = false) const;
     double textWidth(const std::string& words, double size, bool bold = false) const;
@@ -48,7 +48,7 @@ public:
     uint32_t* row(int v) const;
     void endPixels() const;
 
-    // Leaves no partial file. Throws Error that names the file.
+    // Writes the file completely or not at all. Throws Error that names the file.
     void writePng(const std::filesystem::path& file) const;
 
 private:

@@ -8,7 +8,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kNearest = 1e-3; // [m] in front of the camera
+constexpr double kNearest = 1e-3; // [m] smallest distance in front of the camera
 
 glm::dvec2 pinhole(const Intrinsics& lens, const dvec3& point) {
     return {lens.cx + lens.fx * point.x / point.z, lens.cy + lens.fy * point.y / point.z};

@@ -52,10 +52,10 @@ private:
         return static_cast<size_t>(v) * static_cast<size_t>(width_) + static_cast<size_t>(u);
     }
 
-    // Turns left when the pixel ahead-left is inside (diagonal neighbours are connected), goes straight when
-    // the pixel ahead-right is inside, and turns right otherwise.
+    // Turns left if the pixel ahead on the left is inside (diagonal neighbours are connected), goes straight
+    // if the pixel ahead on the right is inside, and otherwise turns right.
     int next(const Corner& c, int heading) const {
-        // The pixel ahead-left of the corner for each heading.
+        // Offset of the pixel ahead on the left of the corner, for each heading.
         constexpr int kLeftU[4] = {0, 0, -1, -1}, kLeftV[4] = {-1, 0, 0, -1};
         const int right = (heading + 1) % 4;
         if (inside(c.u + kLeftU[heading], c.v + kLeftV[heading])) {
@@ -69,7 +69,7 @@ private:
     std::vector<uint8_t> seen_;
 };
 
-// Moving average along the line: removes the staircase of a border between pixels.
+// Moving average along the line. Removes the staircase of a border between pixels.
 OutlineLine smooth(const OutlineLine& line, bool closed) {
     const auto count =
         static_cast<std::ptrdiff_t>(line.size()) - (closed ? 1 : 0); // a closed line repeats its start
@@ -89,7 +89,7 @@ OutlineLine smooth(const OutlineLine& line, bool closed) {
     return result;
 }
 
-// The pieces of a closed walk that do not follow the edge of the image.
+// Appends the pieces of a closed walk that do not follow the edge of the image.
 void appendPieces(const std::vector<Corner>& corners, int width, int height,
                   std::vector<OutlineLine>& lines) {
     const auto edge = [&](const Corner& a, const Corner& b) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The caption of overlay.png: state and force at that moment, and the legend.
+// The caption of overlay.png: state and force at the moment shown, and the legend.
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The background of overlay.png: the colour image, or the depth image as grey.
+// The background of overlay.png: the colour image, or the depth image in grey.
 #include "apps/replay/overlay_layers.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace fathom::overlay {
 
 namespace {
 
-constexpr uint32_t kNothing = 0xff10141au; // 0xAARRGGBB without depth or without any image
+constexpr uint32_t kNothing = 0xff10141au; // 0xAARRGGBB for pixels without depth, or without any image
 
 uint32_t fromColour(uint32_t abgr) {
     return 0xff000000u | (abgr & 0xffu) << 16 | (abgr & 0xff00u) | (abgr >> 16 & 0xffu);
@@ -77,7 +77,7 @@ void drawCameraImage(const Canvas& canvas, const OverlayInput& input) {
     cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_BILINEAR);
     cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD);
     cairo_paint(cr);
-    // Darkened slightly, so that lines stand out from bright walls.
+    // Darkens the image slightly, so that lines stand out from bright walls.
     canvas.image.setColour(kShade.alpha(0.16));
     cairo_paint(cr);
     cairo_restore(cr);

@@ -14,13 +14,13 @@
 
 namespace fathom {
 
-// Everything is read during the call only. Poses in the base frame [m].
+// Input of writeOverlay(), which reads it only during the call. Poses in the base frame [m].
 struct OverlayInput {
     CameraInfo camera;
     Pose baseTcamera;
     std::span<const uint32_t>
         colour; // 0xAABBGGRR, size of camera.colour; otherwise the depth is drawn as grey
-    std::span<const uint16_t> depth;     // raw units, size of camera.depth; empty: plain background
+    std::span<const uint16_t> depth;     // raw units, size of camera.depth; empty: uniform background
     const Fixtures* set = nullptr;       // regions and guidance; null or frame -1: none
     std::vector<std::string> classNames; // rows of Scene::fixtures
     std::span<const Sphere> leaves;      // tool frame [m]
@@ -29,10 +29,10 @@ struct OverlayInput {
 };
 
 // Enlarges the image by an integer factor to at least 960 pixels wide and adds a caption with a legend.
-// Regions: translucent red, hatched and outlined (held regions hatched the other way and dashed). Guidance:
-// blue cross, disc and normal. Tool: solid outline; hand: dashed; force: amber arrow. Time grows with the
-// height of the spheres in pixels: 60,000 spheres of 100 pixels take less than a second. Throws Error that
-// names the file.
+// Regions: translucent red with hatch and outline (held regions have the opposite hatch and a dashed
+// outline). Guidance: blue cross, disc and normal. Tool: solid outline; hand: dashed; force: amber arrow. The
+// time grows with the spheres' height in pixels: 60,000 spheres of 100 pixels take less than a second. Throws
+// Error that names the file.
 void writeOverlay(const std::filesystem::path& file, const OverlayInput& input);
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of overlay.png, lowest first. Layers are independent of each other.
+// The layers of overlay.png, in drawing order. Layers are independent of each other.
 #pragma once
 
 #include "apps/replay/image.h"
@@ -19,24 +19,24 @@ constexpr Colour kShade{0.03, 0.04, 0.06};
 struct Canvas {
     const Image& image;
     const ImageView& view;
-    double size; // 1 up to a width of 1280 pixels
+    double size; // scale of lines and text; 1 up to a width of 1280 pixels
 };
 
 bool hasColour(const OverlayInput& input);
 void drawCameraImage(const Canvas& canvas, const OverlayInput& input);
 void drawRegions(const Canvas& canvas, const Fixtures& set);
 void drawGuidance(const Canvas& canvas, const OverlayInput& input);
-void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input); // above tool and hand
+void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input); // drawn above tool and hand
 void drawTool(const Canvas& canvas, const OverlayInput& input);
 void drawForce(const Canvas& canvas, const OverlayInput& input);
-// Below the camera image.
+// The caption is below the camera image.
 void drawCaption(const Canvas& canvas, const OverlayInput& input, double captionHeight);
 
 // Adds the lines to the current path.
 void tracePath(const Canvas& canvas, const std::vector<OutlineLine>& lines);
 // Strokes the current path over a dark edge, so that it is visible on any background.
 void strokeOnShade(const Canvas& canvas, Colour colour, double width, bool dashed = false);
-// An arrow from a to b; draws nothing when shorter than two pixels.
+// Draws an arrow from a to b, or nothing if it is shorter than two pixels.
 void arrow(const Canvas& canvas, glm::dvec2 a, glm::dvec2 b, Colour colour, double width);
 
 } // namespace fathom::overlay

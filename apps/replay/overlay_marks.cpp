@@ -13,7 +13,7 @@ namespace {
 
 using Pixel = std::optional<glm::dvec2>;
 
-// Text with its left end at `at`, or its right end there (`toLeft`); kept inside the image.
+// Text whose left end (or right end, with `toLeft`) is at `at`, shifted to stay inside the image.
 void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour colour, bool toLeft = false) {
     const double size = 14.0 * canvas.size;
     const double width = canvas.image.textWidth(text, size, true);
@@ -24,7 +24,7 @@ void words(const Canvas& canvas, glm::dvec2 at, const std::string& text, Colour 
 }
 
 void disc(const Canvas& canvas, const dvec3& centre, const dvec3& normal) {
-    constexpr double kRadius = 0.025; // [m]
+    constexpr double kRadius = 0.025; // [m] of the disc
     constexpr int kCorners = 64;
     const dvec3 a =
         glm::normalize(glm::cross(std::abs(normal.x) < 0.9 ? dvec3(1, 0, 0) : dvec3(0, 1, 0), normal));
@@ -92,7 +92,7 @@ void toolOutline(const Canvas& canvas, std::span<const Sphere> leaves, const Pos
     strokeOnShade(canvas, kTool, dashed ? 1.8 : 2.4, dashed);
 }
 
-// The single leaves, as in the figures of the paper; skipped where too many would only be a grey area.
+// Outlines of the single leaves, as in the paper's figures. Skipped if so many would only form a grey area.
 void leafCircles(const Canvas& canvas, std::span<const Sphere> leaves, const Pose& pose) {
     constexpr size_t kMost = 96;
     if (leaves.size() < 2 || leaves.size() > kMost) {
@@ -202,7 +202,7 @@ void drawTool(const Canvas& canvas, const OverlayInput& input) {
 
 void drawForce(const Canvas& canvas, const OverlayInput& input) {
     constexpr double kMetresPerNewton = 0.006;
-    constexpr double kLeast = 0.01; // [N]
+    constexpr double kLeast = 0.01; // [N] smaller forces have no arrow
     const dvec3& force = input.tick.wrench.force;
     if (!isFinite(force) || !isFinite(input.tick.tool) || glm::length(force) < kLeast) {
         return;
@@ -213,7 +213,7 @@ void drawForce(const Canvas& canvas, const OverlayInput& input) {
         return;
     }
     arrow(canvas, *from, *to, kForce, 3.4);
-    const bool toLeft = to->x < from->x; // beyond the tip, so that the text does not cover the arrow
+    const bool toLeft = to->x < from->x; // text beyond the tip does not cover the arrow
     words(canvas, *to + canvas.size * glm::dvec2(toLeft ? -14.0 : 14.0, 5.0),
           shortNumber(glm::length(force)) + " N", kForce, toLeft);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The forbidden regions in overlay.png: tinted and hatched silhouettes, their outlines, and the points that
-// caused them.
+// The forbidden regions in overlay.png: tinted and hatched silhouettes, their outlines, and their source
+// points.
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/silhouette.h"
 
@@ -19,8 +19,8 @@ uint32_t blend(uint32_t below, Colour colour, double alpha) {
     return 0xff000000u | channel(16, colour.r) | channel(8, colour.g) | channel(0, colour.b);
 }
 
-// Coverage 0..1 of the pixel at `along` by a line of the hatch; lines run at 45 degrees with edges one pixel
-// soft.
+// Coverage 0..1 of the pixel at `along` by a hatch line. Lines are at 45 degrees with edges softened over one
+// pixel.
 double hatchAt(int along, double period, double width) {
     const double inPeriod = std::fmod(along + 1e6 * period, period);
     const double distance = std::min(inPeriod, period - inPeriod);
@@ -47,12 +47,12 @@ void tint(const Canvas& canvas, const RegionMasks& masks) {
 }
 
 void outline(const Canvas& canvas, const std::vector<uint8_t>& mask, bool dashed) {
-    constexpr size_t kLeast = 24; // [pixels] ignores specks
+    constexpr size_t kLeast = 24; // [pixels] shorter outlines are ignored
     tracePath(canvas, traceOutline(mask, canvas.view.width(), canvas.view.height(), kLeast));
     strokeOnShade(canvas, kRegion, 2.4, dashed);
 }
 
-// One dot per point, set pixel by pixel: there may be as many points as pixels.
+// One dot per point. Writes pixels directly, because there may be as many points as pixels.
 void points(const Canvas& canvas, const Fixtures& set) {
     const int width = canvas.view.width(), height = canvas.view.height();
     const int dot = std::max(1, static_cast<int>(std::lround(1.6 * canvas.size)));

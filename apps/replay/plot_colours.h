@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours that all plots share.
+// Colours shared by all plots.
 #pragma once
 
 #include "apps/replay/image.h"

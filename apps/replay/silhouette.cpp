@@ -12,7 +12,7 @@ namespace {
 constexpr double kEverywhere = std::numeric_limits<double>::infinity();
 
 struct Range {
-    double lo, hi; // slopes of rays; empty when hi < lo
+    double lo, hi; // range of ray slopes; empty when hi < lo
 };
 
 // Slopes y/z of the two tangents from the eye to the projection of the sphere on the (y, z) plane.
@@ -25,14 +25,14 @@ Range slopesOf(double y, double z, double radius) {
     const double half = std::asin(radius / distance);
     constexpr double kSide = 1.5707963267948966 - 1e-9;
     if (middle - half > kSide || middle + half < -kSide) {
-        return {0.0, -1.0}; // behind
+        return {0.0, -1.0}; // behind the eye
     }
     return {middle - half < -kSide ? -kEverywhere : std::tan(middle - half),
             middle + half > kSide ? kEverywhere : std::tan(middle + half)};
 }
 
-// Slopes x/z at which the ray (x, y, 1) meets the sphere in front of the eye: (c . ray)^2 >= k |ray|^2, k =
-// |c|^2 - r^2.
+// Slopes x/z at which the ray (x, y, 1) meets the sphere in front of the eye: (c . ray)^2 >= k |ray|^2 with k
+// = |c|^2 - r^2.
 Range runAt(const dvec3& c, double k, double y) {
     const double rest = c.y * y + c.z;
     const double a = c.x * c.x - k;
@@ -42,7 +42,8 @@ Range runAt(const dvec3& c, double k, double y) {
     if (a < 0.0) {
         return b * b < a * d ? Range{0.0, -1.0} : Range{(-b + root) / a, (-b - root) / a};
     }
-    // The eye's cone contains a direction in the plane of the row: the run is unbounded on the sphere's side.
+    // The cone of rays to the sphere contains a direction at infinity within the row, so the run is unbounded
+    // on the sphere's side.
     if (a == 0.0 || c.x == 0.0) {
         return {-kEverywhere, kEverywhere};
     }

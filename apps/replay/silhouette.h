@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The outline of many spheres as a camera sees it: their union as a mask, and the border of a mask as lines.
+// The outline of many spheres in a camera image: their union as a mask, and the border of a mask as lines.
 #pragma once
 
 #include "apps/replay/image_view.h"
@@ -12,9 +12,9 @@
 
 namespace fathom {
 
-// A sphere costs its height in pixels, not its area: it adds one run per row, and mask() sums the runs. Runs
-// are exact for a pinhole, where the silhouette is a conic section; lens distortion is evaluated at the
-// centre of the sphere.
+// Accumulates spheres. The cost of a sphere grows with its height in pixels, not its area: it adds one run
+// per row, and mask() sums the runs. Runs are exact for a pinhole, where the silhouette is a conic section.
+// Lens distortion is evaluated at the centre of the sphere.
 class Silhouette {
 public:
     explicit Silhouette(const ImageView& view);
@@ -28,7 +28,7 @@ private:
 
     const ImageView view_;
     int width_, height_;
-    std::vector<int32_t> steps_; // rows of width + 1: runs that begin minus runs that ended
+    std::vector<int32_t> steps_; // rows of width + 1 counts: runs that start minus runs that end here
 };
 
 // Centre of a region sphere in the base frame [m].
@@ -37,9 +37,9 @@ inline dvec3 regionCentre(const Fixtures& set, size_t i) {
     return set.origin + dvec3(double{s.x[i]}, double{s.y[i]}, double{s.z[i]});
 }
 
-// Which pixels of a view the regions of a set cover.
+// The pixels of a view that the regions of a set cover.
 struct RegionMasks {
-    std::vector<uint8_t> seen, held; // held: only where no seen region is
+    std::vector<uint8_t> seen, held; // held: only pixels without a seen region
     bool anyHeld = false;            // some pixel of `held` is set
 };
 RegionMasks regionMasks(const ImageView& view, const Fixtures& set);
@@ -49,7 +49,7 @@ using OutlineLine = std::vector<glm::dvec2>; // [pixels], corners of pixels, smo
 // The borders of a mask as lines between pixels, with the inside to the right. A line ends at the edge of the
 // image; all others are closed (first point = last point). Skips borders shorter than `least` pixels.
 std::vector<OutlineLine> traceOutline(const std::vector<uint8_t>& mask, int width, int height, size_t least);
-// The outline of spheres in the base frame.
+// The outline of spheres whose centres are in the base frame.
 std::vector<OutlineLine> outlineOf(const ImageView& view, std::span<const Sphere> spheres);
 
 } // namespace fathom

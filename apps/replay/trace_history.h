@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A whole run in constant memory: minima and maxima over groups of ticks of equal size, fine enough to draw.
+// A whole run in constant memory: minima and maxima over equal groups of ticks, fine enough for a plot.
 #pragma once
 
 #include "apps/replay/tick_record.h"
@@ -13,17 +13,17 @@ namespace fathom {
 // A group of consecutive ticks. A maximum below its minimum means that it has no finite value.
 struct TraceBin {
     double begin = 0.0, end = 0.0;              // [s] times of the first and of the last tick
-    double forceMin = 0.0, forceMax = -1.0;     // [N] of the norm
-    double torqueMin = 0.0, torqueMax = -1.0;   // [N m] of the norm
-    double guidance = 0.0;                      // largest w
+    double forceMin = 0.0, forceMax = -1.0;     // [N] norm of the force
+    double torqueMin = 0.0, torqueMax = -1.0;   // [N m] norm of the torque
+    double guidance = 0.0;                      // largest guidance weight w, 0..1
     std::array<uint32_t, kTickStates> states{}; // ticks in each state
     uint32_t ticks = 0;
-    uint32_t newFrames = 0; // ticks that first used another frame
+    uint32_t newFrames = 0; // ticks that were the first to use a new frame
 
     uint32_t in(TickState state) const { return states[static_cast<uint8_t>(state)]; }
 };
 
-// Keeps at most `capacity` bins. When they are full, neighbours are merged and each bin covers twice as many
+// Keeps at most `capacity` bins. When all are used, merges neighbours, so that each bin covers twice as many
 // ticks; peaks are kept. A run shorter than the capacity has one tick per bin and is exact.
 class TraceHistory {
 public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Divides a run into a few phases, lettered A, B, C ... as in the figures of the paper.
+// Divides a run into a few phases with letters A, B, C ..., as in the paper's figures.
 #pragma once
 
 #include "apps/replay/trace_history.h"
@@ -18,8 +18,8 @@ struct Phase {
     PhaseKind kind = PhaseKind::Free;
 };
 
-// At most `most` (1..26) phases that cover the run without gaps; neighbours differ in kind. A phase shorter
-// than 2 % of the run is merged into its longer neighbour. Guidance takes precedence over contact.
+// Returns at most `most` (1..26) phases that cover the run without gaps; neighbours differ in kind. Merges a
+// phase shorter than 2 % of the run into its longer neighbour. Guidance takes precedence over contact.
 std::vector<Phase> findPhases(const TraceHistory& history, size_t most = 26);
 
 } // namespace fathom

@@ -11,7 +11,7 @@ namespace fathom::traces {
 namespace {
 
 struct Span {
-    double from, to; // [pixels]
+    double from, to; // [pixels] in x
 };
 
 // Spans of the bins that satisfy `chosen`, at least one pixel wide. Spans that touch are merged, so that

@@ -11,10 +11,10 @@
 namespace fathom::traces {
 
 struct Panel {
-    double top, bottom; // [pixels]
+    double top, bottom; // [pixels] in y
 };
 
-// The kinds of band in a run; the legend names only these.
+// The kinds of band that occur in a run; the legend lists only these.
 struct BandsSeen {
     bool contact = false, guidance = false, alarm = false, idle = false;
 };
@@ -22,14 +22,14 @@ struct BandsSeen {
 BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel);
 void drawPhaseStrip(const Image& image, const TraceHistory& history, const PlotAxis& time);
-// Ticks at the foot of the panel where a new frame became active. Returns false, and draws none, where they
-// would run together.
+// Draws ticks at the bottom of the panel where a new frame became active. Draws none and returns false if
+// they would merge.
 bool drawFrameTicks(const Image& image, const TraceHistory& history, const PlotAxis& time,
                     const Panel& panel);
 void drawLegend(const Image& image, const BandsSeen& seen, bool frameTicks, bool limits,
                 const std::string& remark);
 void dashedLine(const Image& image, double from, double to, double y);
-// Diagonal lines over a rectangle, so that its meaning does not depend on colour alone.
+// Draws diagonal lines over a rectangle, so that its meaning does not depend on colour alone.
 void hatch(const Image& image, double x, double y, double width, double height, Colour colour);
 
 } // namespace fathom::traces

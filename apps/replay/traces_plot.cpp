@@ -24,7 +24,7 @@ struct Series {
     Panel panel;
 };
 
-// From zero to a round value above the peak; includes the limit when the trace comes near it.
+// An axis from zero to a round value above the peak. It includes the limit if the trace comes near it.
 PlotAxis valueAxis(const Series& series) {
     constexpr double kNear = 0.55;
     const double peak = series.peak.value;
@@ -32,7 +32,7 @@ PlotAxis valueAxis(const Series& series) {
     if (series.limit && *series.limit > 0.0 && peak >= kNear * *series.limit) {
         top = std::max(top, 1.12 * *series.limit);
     }
-    // Rounding errors must not set the scale: no hand feels less than this.
+    // Keeps rounding errors from setting the scale; no hand feels less than this.
     top = std::max(top, 1e-6);
     const double step = roundStep(top, 8);
     return {0.0, step * std::ceil(top / step), series.panel.bottom, series.panel.top};
@@ -45,8 +45,7 @@ PlotAxis timeAxis(const TraceHistory& history) {
     if (!(end > begin)) {
         end = begin + 1.0; // an empty run, or one of a single tick
     } else {
-        end += (end - begin) /
-               static_cast<double>(history.ticks() - 1); // the last tick is as long as the others
+        end += (end - begin) / static_cast<double>(history.ticks() - 1); // include the last tick's duration
     }
     return {begin, end, kLeft, kRight};
 }
@@ -92,7 +91,7 @@ void traceLine(const Image& image, const TraceHistory& history, const Series& se
             continue;
         }
         (drawing ? cairo_line_to : cairo_move_to)(cr, x, value.at(hi));
-        cairo_line_to(cr, x, value.at(lo) + 0.01); // so that a single point is drawn as a dot
+        cairo_line_to(cr, x, value.at(lo) + 0.01); // draws a single point as a dot
         drawing = true;
     }
     image.setColour(kTrace);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws traces.png: the norms of force and torque over time with lettered phases, as Figs. 4 and 5 of the
+// Draws traces.png: the norms of force and torque over time with lettered phases, like Figs. 4 and 5 of the
 // paper.
 #pragma once
 
@@ -18,9 +18,9 @@ struct TracesLabels {
     std::optional<double> torqueLimit; // [N m]
 };
 
-// 1600 x 1000 pixels, two panels over one time axis [s]. The background is sand in contact, blue with
-// guidance, hatched red when escaping or trapped, grey when off or fading. Takes a run of any length, also an
-// empty one. Throws Error that names the file.
+// 1600 x 1000 pixels, two panels with one time axis [s]. The background is sand in contact, blue with
+// guidance, hatched red when escaping or trapped, grey when off or fading. Accepts runs of any length, also
+// empty ones. Throws Error that names the file.
 void writeTraces(const std::filesystem::path& file, const TraceHistory& history, const TracesLabels& labels);
 
 } // namespace fathom
