@@ -27,7 +27,7 @@ struct SpheresOptions {
     MeshOptions file;
     std::string up, link;
     bool compare = false;
-    std::vector<std::string> given; // options that need a mesh
+    std::vector<std::string> given; // given options that need a mesh
 };
 
 const std::vector<std::string> kOfMeshes{"--leaves",  "--protrusion", "--up",  "--drop-stray",
@@ -89,7 +89,7 @@ void drawErrors(const SpheresOptions& options, Maker& maker, size_t leaves) {
                    maker.rows());
 }
 
-// Converts a flat set from another program to a tree.
+// Whether the input file already has spheres (also a flat set of another program) instead of a mesh.
 bool isSet(const std::filesystem::path& file) {
     const std::string kind = file.extension().string();
     return kind == ".urdf" || kind == ".yaml" || kind == ".yml" || kind == ".sph";
@@ -158,7 +158,7 @@ void runSpheres(SpheresOptions options) {
                            : "NOT contained; written to ")
               << options.out.string() << std::endl;
     if (!contains) {
-        throw Error("the spheres do not contain the mesh"); // cannot happen by construction
+        throw Error("the spheres do not contain the mesh"); // impossible by construction
     }
 }
 

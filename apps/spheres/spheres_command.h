@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// `fathom spheres MESH --out TOOL.sph`: makes a sphere tree that contains a mesh, and measures it.
+// `fathom spheres MESH --out TOOL.sph`: builds a sphere tree that contains a mesh, and measures its fit.
 #pragma once
 
 namespace CLI {

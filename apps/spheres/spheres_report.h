@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report of `fathom spheres`.
+// The output of `fathom spheres`: text about the mesh, a plot and a JSON file.
 #pragma once
 
 #include "engine/model/cover_measure.h"
@@ -19,15 +19,15 @@ struct CoverRow { // one method of covering the mesh
     double seconds = 0.0;
 };
 
-// Facts of the file and changes by cleaning, one line each; only the size for a clean mesh.
+// Prints facts of the file and changes by cleaning, one line each; for a clean mesh only its size.
 void printMesh(std::ostream& out, const LoadedMesh& loaded);
 void printRows(std::ostream& out, const std::vector<CoverRow>& rows);
 
-// Worst and mean protrusion over leaf count, one curve per method; logarithmic axes.
+// Plots worst and mean protrusion over leaf count, one curve per method, on logarithmic axes.
 void writeErrorPlot(const std::filesystem::path& file, const std::string& title,
                     const std::vector<CoverRow>& rows);
 
-// {"mesh": {...}, "covers": [{...}]}; lengths in m.
+// Writes {"mesh": {...}, "covers": [{...}]}; lengths in m.
 void writeReportJson(const std::filesystem::path& file, const LoadedMesh& loaded,
                      const std::vector<CoverRow>& rows);
 
