@@ -80,7 +80,7 @@ Cost sampleEach(size_t samples, size_t of, Work&& work) {
     return taken.cost();
 }
 
-// Fraction of poses in contact. Compares the depth with all spheres and throws when it is wrong.
+// Fraction of poses in contact. Throws when the depth of a pose is wrong.
 double touching(const TouchRig& rig, const std::string& setting) {
     size_t count = 0;
     for (const Pose& pose : rig.poses) {

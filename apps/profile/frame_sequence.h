@@ -19,7 +19,7 @@ FrameSequence twoCameraFrames(const std::string& scene, uint32_t width, uint32_t
 // The first `frames` valid frames of a recording. Throws BadInput.
 FrameSequence recordedFrames(const std::filesystem::path& folder, uint32_t frames);
 
-// A gently waved wall 0.8 m away. In the image, `share` (0..1, whole rows from the top) is red, the next 2 %
+// A gently wavy wall 0.8 m away. In the image, `share` (0..1, whole rows from the top) is red, the next 2 %
 // yellow, the rest grey. Every pixel has depth. Sensor adds the depth noise of the simulated camera (0.6 mm),
 // with which thinning keeps three times as many points at 640x480.
 enum class WallNoise { None, Sensor };

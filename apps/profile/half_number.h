@@ -21,7 +21,7 @@ inline uint16_t halved(float value) noexcept {
     return static_cast<uint16_t>((bits >> 16 & 0x8000u) | ((body + 0xfffu + (body >> 13 & 1u)) >> 13));
 }
 
-// Rounds a value >= 0 up.
+// Rounds a value >= 0 up to the next half-precision number.
 inline uint16_t halvedUp(double value) noexcept {
     uint16_t half = halved(static_cast<float>(value));
     while (static_cast<double>(widened(half)) < value) {

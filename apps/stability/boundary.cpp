@@ -30,7 +30,7 @@ double bisect(double guess, const std::function<bool(double)>& grows) {
     return lo;
 }
 
-// Energy of a swing over a window of ticks. The sin^2 weight makes the result independent of the phase at
+// Energy of a swing over a window of ticks. The sin^2 weight makes the result insensitive to the phase at
 // which the window starts and ends.
 class Window {
 public:

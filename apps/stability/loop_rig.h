@@ -20,8 +20,8 @@ struct HandModel {
     const char* name;
     double mass, damping, stiffness;
 };
-// Free device, two fingers, and a loose, a normal and a firm grip. The values are within the published range
-// for hands and wrists (0.05-1 kg, 1-15 N s/m, 50-1000 N/m).
+// Free device, two fingers, and a loose, a normal and a firm grip. The values span the published range for
+// hands and wrists (0.05-1 kg, 1-15 N s/m, 50-1000 N/m).
 inline constexpr std::array<HandModel, 5> kHands{{{"free", 0.0, 0.0, 0.0},
                                                   {"fingers", 0.05, 1.0, 50.0},
                                                   {"loose grip", 0.15, 2.5, 150.0},
@@ -81,9 +81,8 @@ public:
     double energyOut() const { return energyOut_; }
     double dissipated() const { return dissipated_; }
     double netEnergyOut() const { return energyOut_ - dissipated_; }
-    double path() const {
-        return pathLength_;
-    } // [m] travelled by the hand; rotations count times the arm length
+    // [m] travelled by the hand; rotations count times the arm length
+    double path() const { return pathLength_; }
 
 private:
     void account(const Wrench& felt, const Pose& before, double period);

@@ -100,7 +100,7 @@ Outcome jumpBurst(RunLength) {
                          "stays a wall has to lift the hand.");
 }
 
-// The wall moves up and down by 2 mm: 15 full periods per second (30 frames), or at the hand's own frequency.
+// The wall moves up and down by 2 mm: at 15 Hz (a jump per frame at 30 Hz), or at the hand's own frequency.
 Outcome shakenWall(RunLength runLength) {
     double worst = 0.0, worstOff = 0.0, energyOn = 0.0, energyOff = 0.0;
     for (size_t h = 1; h < kHands.size(); ++h) {
