@@ -30,8 +30,7 @@ enum class Group : uint8_t {
 inline constexpr const char* kGroupNames[] = {"solver",   "geometry", "guarantee", "new-data", "stiff",
                                               "rotation", "guidance", "precision", "long-run"};
 
-// Full runs the whole case (`fathom stability`); Short runs fewer trials against the same limits (`./run
-// test`).
+// Full is the whole case (`fathom stability`). Short has fewer trials with the same limits (`./run test`).
 enum class RunLength : uint8_t { Full, Short };
 // Selects a count by run length.
 inline int some(RunLength runLength, int full, int brief) {
