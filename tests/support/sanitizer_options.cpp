@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the font library, the Vulkan layers and the software driver keep, and the mesh
-// reader loses over a broken file, until the process ends is not ours
-// and no leak of a test.
+// Memory that the font library, the Vulkan layers and the software driver keep until the process ends, and
+// that the mesh reader loses over a broken file, is not a leak of the tests.
 #ifdef FATHOM_SANITIZED
-extern "C" const char* __lsan_default_suppressions();
+// The sanitizer's runtime looks it up by name: it must stay visible where symbols are hidden by default.
+extern "C" __attribute__((visibility("default"))) const char* __lsan_default_suppressions();
 extern "C" const char* __lsan_default_suppressions() {
     return "leak:libfontconfig\nleak:libVkLayer\nleak:libvulkan\nleak:libLLVM\nleak:libassimp\n";
 }
