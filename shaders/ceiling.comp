@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Not a pass: peak arithmetic rate of the device, for `fathom profile limit`. Each invocation runs 16 independent
-// chains of fused multiply-adds, which hides latency, and four steps per round, which hides the loop. Writing the
-// sum keeps the compiler from removing the work.
+// Not a pass: peak arithmetic rate of the device, for `fathom profile limit`. Each invocation runs 16
+// independent chains of fused multiply-adds, which hides latency, and four steps per round, which hides the
+// loop. Writing the sum keeps the compiler from removing the work.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"

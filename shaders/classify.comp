@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Classes of each pixel: depth in near..far, colour gates, box on the unfiltered point (paper IV.B). One invocation
-// per kRows rows of four pixels. The first pixel with a class marks its patch; no result depends on the order.
+// Finds the classes of each pixel: depth in near..far, colour gates, and box on the unfiltered point (paper
+// IV.B). One invocation per kRows rows of four pixels. The first pixel with a class marks its patch. No
+// result depends on the order of invocations.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -29,15 +30,18 @@ layout(constant_id = kSpecYuyv) const uint kYuyv = 0;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
-layout(binding = 3) uniform usamplerBuffer colours; // R, G, B, - per pixel; kYuyv: Y0, U, Y1, V per two; kFour = 2: their words, four pixels per texel
+// R, G, B, unused per pixel; kYuyv: Y0, U, Y1, V per two pixels; kFour = 2: these words, four pixels per
+// texel.
+layout(binding = 3) uniform usamplerBuffer colours;
 layout(std430, binding = 4) readonly buffer Cells { uint nearest[]; };
 layout(std430, binding = 5) writeonly buffer Masks { uint masks[]; };       // one byte per slot: class bits
 layout(std430, binding = 6) buffer Listed { uint listed[]; };               // patch -> kPatch bits
-layout(std430, binding = 7) writeonly buffer List { uint list[]; };         // patches, any order; its parts: frame_params.h
+// Patches in any order; frame_params.h describes its parts.
+layout(std430, binding = 7) writeonly buffer List { uint list[]; };
 layout(std430, binding = 8) buffer Counters { FrameCounters counters; };
 layout(std430, binding = 9) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held points
-// The arm, about the origin [m]: x of arm[0] = bits of the count of links; a link is two entries, its bound and (bits of) the first
-// and the end of its spheres.
+// Spheres of the arm, relative to the origin [m]. arm[0].x = number of links (integer bits). Each link has
+// two entries: its bounding sphere, then begin and end of its spheres (integer bits).
 layout(std430, binding = 10) readonly buffer Arm { vec4 arm[]; };
 layout(std430, binding = 11) writeonly buffer Depth { uvec2 keptDepth[]; }; // uint16 per pixel, as uploaded
 
@@ -56,7 +60,8 @@ vec3 colourAt(uint pixel) {
     return vec3(texelFetch(colours, int(pixel)).xyz);
 }
 
-// The colour of a point, looked up; false when the colour camera does not see the point.
+// Looks up the colour of a point in the colour image. Returns false when the colour camera does not see the
+// point.
 bool colourOf(vec3 p, out vec3 rgb) {
     rgb = vec3(0.0);
     vec3 q = transformPoint(params.colourTdepth, p);
@@ -70,13 +75,13 @@ bool colourOf(vec3 p, out vec3 rgb) {
     uvec2 cell = uvec2(at) / params.colourSize.w;
     float front = uintBitsToFloat(nearest[cell.y * params.colourSize.z + cell.x]);
     if (q.z > front * 1.02 + 0.005) {
-        return false; // something nearer hides it from the colour camera
+        return false; // a nearer surface hides it from the colour camera
     }
     rgb = colourAt(uint(at.y) * params.colourSize.x + uint(at.x));
     return true;
 }
 
-// Colour of the point without the water in front of it, in whole bytes as the gates expect (Beer-Lambert).
+// Corrects a colour for attenuation in water (Beer-Lambert). Returns whole bytes, as the gates expect.
 vec3 withoutWater(vec3 rgb, vec3 p) {
     return kWater != 0 ? floor(min(rgb * exp(params.water.xyz * length(p)), vec3(255.0)) + 0.5) : rgb;
 }
@@ -117,7 +122,7 @@ bool onArm(vec3 p) {
     return false;
 }
 
-// rgb: the pixel's own colour, where colours are registered.
+// rgb: colour of the same pixel; used only when the colour image is registered.
 uint classBits(uvec2 at, float z, vec3 rgb) {
     vec3 p = vec3(rayOf(at) * z, z);
     bool seen = kColour == 2 ? colourOf(p, rgb) : kColour == 1;
@@ -136,9 +141,9 @@ uint classBits(uvec2 at, float z, vec3 rgb) {
     return mask;
 }
 
-shared uint found[kMaxClasses]; // pixels of the group, a class
+shared uint found[kMaxClasses]; // pixels per class, counted by the group
 
-// Depths of four pixels of a row [m]; 0 outside the frame and where there is no measurement.
+// Depths [m] of four adjacent pixels in a row; 0 outside the image and where there is no measurement.
 vec4 depthsAt(uvec2 at) {
     vec4 z = vec4(0.0);
     if (at.y >= params.size.y) {
@@ -159,7 +164,7 @@ vec4 depthsAt(uvec2 at) {
     return z;
 }
 
-// Registered colours of four pixels of a row; anything outside the frame.
+// Registered colours of four adjacent pixels in a row; undefined outside the image.
 vec3[4] coloursAt(uvec2 at) {
     vec3 rgb[4] = vec3[4](vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     bool inside = all(lessThan(at, params.size.xy));
@@ -183,7 +188,7 @@ vec3[4] coloursAt(uvec2 at) {
     return rgb;
 }
 
-// words: class bits of four pixels of a row, one byte each.
+// words: per row, class bits of four adjacent pixels, one byte each.
 void countPixels(uint words[kRows]) {
     for (uint c = 0; c < kClasses; ++c) {
         uint pixels = 0;
@@ -201,7 +206,7 @@ void countPixels(uint words[kRows]) {
     }
 }
 
-// Class bits of four pixels of a row, one byte each.
+// Class bits of four adjacent pixels in a row, one byte each.
 uint classBitsOfFour(uvec2 at) {
     vec4 z = depthsAt(at);
     vec3 rgb[4] = coloursAt(at);
@@ -212,11 +217,11 @@ uint classBitsOfFour(uvec2 at) {
     return word;
 }
 
-// First pixel of an invocation. Groups are laid out like the patches, so no division is needed.
+// First pixel of an invocation. Groups have the layout of patches, so no division is needed.
 struct Place {
     uint patchIndex, inside; // slot in the patch
     uvec2 at;
-    bool exists; // wide groups reach beyond the last patch of a row
+    bool exists; // false beyond the last patch of a row (wide groups)
 };
 
 Place placeOf() {
@@ -253,7 +258,7 @@ void mark(uint patchIndex, uint bits) {
     }
 }
 
-// some: class bits of any of the invocation's pixels, in any byte.
+// some: the class bits of all pixels of the invocation, combined by OR in any byte.
 void markPatch(Place place, uint some) {
     uint guided = some & ~(params.depthBand.w * 0x01010101u);
     uint bits = some != 0 ? kPatchListed : 0u;

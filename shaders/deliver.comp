@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Ends a frame: copies counters and patch marks to the host's buffers and clears them, so that the next frame
-// starts without a wait. One invocation per word.
+// Ends a frame: copies counters and patch marks to buffers that the host reads, then clears them, so the next
+// frame needs no clearing pass. One invocation per word.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
@@ -13,7 +13,7 @@ layout(std430, binding = 1) buffer Listed { uint listed[]; };     // patch -> kP
 layout(std430, binding = 2) writeonly buffer SetCounters { uint setCounters[]; };
 layout(std430, binding = 3) writeonly buffer SetListed { uint setListed[]; };
 
-// The cleared value of a counter word: 1 for y and z of indirect arguments, else 0.
+// The initial value of a counter word: 1 for y and z of indirect arguments, else 0.
 uint nothing(uint word) {
     return word < kArgumentWords && ((word & 3u) == 1u || (word & 3u) == 2u) ? 1u : 0u;
 }

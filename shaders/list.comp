@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Lists the patches that classify has marked and those with points in memory. One invocation per patch. CPU
-// devices only: there divergent lanes of classify would all pay for the branches. GPUs list in classify.
+// Lists the patches that `classify` marked and those whose memory holds points. One invocation per patch. CPU
+// devices only: in `classify`, divergent lanes would all pay for the branches. On GPUs `classify` makes the
+// lists.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
@@ -14,12 +15,13 @@ layout(constant_id = kSpecSubGroup) const uint kGroupSubs = 64;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(std430, binding = 1) buffer Listed { uint listed[]; };               // patch -> kPatch bits
 layout(std430, binding = 2) readonly buffer Live { uint live[]; };          // patch -> points in memory + 65536 x held points
-layout(std430, binding = 3) writeonly buffer List { uint list[]; };         // patches, any order; its parts: frame_params.h
+// Patches in any order; frame_params.h describes its parts.
+layout(std430, binding = 3) writeonly buffer List { uint list[]; };
 layout(std430, binding = 4) buffer Counters { FrameCounters counters; };
 
 #include "shaders/lib/lists.glsl"
 
-// Patches without held points are listed apart, so that `spheres` skips their memory.
+// Patches without held points have a separate list, so that `spheres` need not read their memory.
 void putByMemory(uint patchIndex, uint patches) {
     if (live[patchIndex] >> 16 != 0) {
         uint place = atomicAdd(counters.holdingGroups.w, 1u);

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Moments of every guidance class in every guided patch: count, mean, sums of products about the mean. Moments of
-// sub-patches are merged in fixed order (Chan, Golub, LeVeque 1979): by one invocation per patch, or (kShared) by
-// the first invocation of a group of 16, one per sub-patch.
+// Moments of each guidance class in each guided patch: count, mean, and sums of products about the mean.
+// Moments of sub-patches are merged in a fixed order (Chan, Golub, LeVeque 1979). One invocation per patch;
+// with kShared a group of 16, one invocation per sub-patch, of which the first merges.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -13,18 +13,19 @@ layout(constant_id = kSpecShared) const uint kShared = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // one byte per slot: class bits
-layout(binding = 2) uniform samplerBuffer points; // per slot: base point about the origin, w = 0: none
-layout(std430, binding = 3) readonly buffer List { uint list[]; }; // its part of guided patches
-layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; }; // patch * kMaxClasses + k-th guidance class
+layout(binding = 2) uniform samplerBuffer points; // per slot: point in base axes, relative to the origin [m]; w = 0: none
+layout(std430, binding = 3) readonly buffer List { uint list[]; }; // the part with guided patches
+// index: patch * kMaxClasses + number of the guidance class.
+layout(std430, binding = 4) writeonly buffer Moments { PatchMoments moments[]; };
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
 
 #include "shaders/lib/masks.glsl"
 
 shared PatchMoments part[kShared != 0 ? 16 : 1];
 
-// Without branches: a CPU device executes both sides of each.
+// No branches: a CPU device executes both sides of each.
 PatchMoments subMoments(uint sub, uint c) {
-    vec4 point[16]; // w = 1: of the class
+    vec4 point[16]; // w = 1: in the class
     uvec4 rows = rowsOfMasks(sub);
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
         point[p] = texelFetch(points, int(sub * 16u + p));
@@ -34,7 +35,8 @@ PatchMoments subMoments(uint sub, uint c) {
     vec3 sum = vec3(0.0), anchor = vec3(0.0);
     float count = 0.0;
     [[unroll]] for (uint p = 0; p < 16u; ++p) {
-        anchor = all(bvec2(count == 0.0, point[p].w != 0.0)) ? point[p].xyz : anchor; // differences of neighbours are exact, so their sums keep all digits
+        // Near points: their differences from it are exact, so the sums lose no digits.
+        anchor = all(bvec2(count == 0.0, point[p].w != 0.0)) ? point[p].xyz : anchor;
         sum += point[p].w != 0.0 ? point[p].xyz - anchor : vec3(0.0);
         count += point[p].w;
     }
@@ -69,7 +71,7 @@ PatchMoments wholePatch(uint patchIndex, uint c) {
 
 // Called by the whole group; the first invocation has the result.
 PatchMoments patchOfGroup(uint patchIndex, uint c) {
-    barrier(); // the previous class has been read
+    barrier(); // the results of the previous class have been read
     part[gl_LocalInvocationID.x] = subMoments(patchIndex * 16u + gl_LocalInvocationID.x, c);
     barrier();
     PatchMoments m = part[0];

@@ -1,7 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Nearest depth in each small cell of the colour image. With it classify tells whether the colour camera sees a
-// point or something nearer hides it (parallax). Only for unregistered cameras.
+// Nearest depth in each small cell of the colour image. `classify` uses it to detect points that a nearer
+// surface hides from the colour camera (parallax). Unregistered cameras only.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"

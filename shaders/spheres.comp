@@ -1,22 +1,22 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Region spheres on CPU devices: one invocation per 4x4 sub-patch of a listed patch. Patches whose memory holds
-// no points and those that hold some (kHold) are dispatched apart, so that only the latter pay for it.
+// Region spheres on CPU devices: one invocation per 4x4 sub-patch of a listed patch. Patches whose memory
+// holds points have a dispatch of their own (kHold), so that the others need not read that memory.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
 layout(constant_id = kSpecHold) const uint kHold = 1;
-// An H100 fetched texels of the memory after they were overwritten, so other devices read buffers.
+// 1 on CPU devices only: an H100 was seen to fetch texels after the same dispatch had overwritten them.
 layout(constant_id = kSpecTexels) const uint kTexels = 1;
 const uint kPack = 0;
 
 #include "shaders/lib/spheres.glsl"
 
-layout(binding = 19) uniform samplerBuffer growth; // per sub-patch: what thin.comp decided
-// The memory of points as texels: an invocation reads per slot before it writes it, and no other invocation does
-// either.
+layout(binding = 19) uniform samplerBuffer growth; // per sub-patch: the decision of thin.comp
+// The memory of points as texels. Safe without barriers: each slot is used by one invocation, which reads it
+// before it writes it.
 layout(binding = 20) uniform samplerBuffer seenBefore;
 layout(binding = 21) uniform samplerBuffer keptBefore;
 layout(binding = 22) uniform usamplerBuffer keptTimeBefore;
@@ -33,9 +33,9 @@ uint keptTimeAt(uint slot) {
     return kTexels != 0 ? texelFetch(keptTimeBefore, int(slot)).x : keptTime[slot];
 }
 
-// Decision of the 4x4 cell at a pixel; all zero outside the image and in patches without work.
+// Decision for the 4x4 cell at a pixel; all zero outside the image and in unlisted patches.
 vec4 cellAt(ivec2 at) {
-    bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
+    bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
     uvec2 p = inside ? uvec2(at) : uvec2(0);
     uint patchIndex = (p.y >> 4) * params.size.z + (p.x >> 4);
     uint used = listed[patchIndex];

@@ -1,23 +1,27 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Region spheres on GPUs: one group per listed patch; one invocation per pixel, then one per sub-patch. The group
-// decides thinning in shared memory. With kPack it packs its spheres into a run for the host, by layer (seen,
-// held), then slot, and says by bits which places these are, so that little more than the spheres crosses the bus.
+// Region spheres on GPUs: one group per listed patch; one invocation per pixel, then one per sub-patch. The
+// group decides thinning in shared memory. With kPack it also packs its spheres for the host into a run
+// ordered by layer (seen, held), then slot. A bit mask marks the occupied slots, so few other bytes cross the
+// bus.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
 layout(constant_id = kSpecHold) const uint kHold = 1;
-layout(constant_id = kSpecPack) const uint kPack = 0; // 1: the host reads runs; 0: radii beside points
+layout(constant_id = kSpecPack) const uint kPack = 0; // 1: the host reads packed runs; 0: it reads points and radii
 
 #include "shaders/lib/spheres.glsl"
 #include "shaders/lib/thin_point.glsl"
 
-layout(std430, binding = 19) writeonly buffer Packed { uint packedWords[]; }; // runs: packing.glsl
-layout(std430, binding = 20) writeonly buffer Places { uint places[]; }; // 16 words per listed patch: bit (layer * 256 + slot in the patch) = packed
-layout(std430, binding = 21) writeonly buffer Runs { uvec2 runs[]; };    // listed patch -> its first word; number of spheres + 65536 x bits of their classes, kRunGrown, kRunWide
-layout(std430, binding = 22) writeonly buffer Decided { vec4 decided[]; }; // sub-patch -> growth as thin.comp writes it, for verification
+layout(std430, binding = 19) writeonly buffer Packed { uint packedWords[]; }; // runs; packing.glsl has the format
+// 16 words per listed patch: bit (layer * 256 + slot in the patch) = packed.
+layout(std430, binding = 20) writeonly buffer Places { uint places[]; };
+// Listed patch -> x: first word of its run; y: number of spheres + 65536 x class bits, kRunGrown, kRunWide.
+layout(std430, binding = 21) writeonly buffer Runs { uvec2 runs[]; };
+// sub-patch -> growth, as thin.comp writes it; for verification only.
+layout(std430, binding = 22) writeonly buffer Decided { vec4 decided[]; };
 
 vec4 seenAt(uint slot) {
     return seen[slot];
@@ -31,12 +35,12 @@ uint keptTimeAt(uint slot) {
     return keptTime[slot];
 }
 
-// Spheres of the patch, then held ones; before them the points that thinning is decided about.
+// Seen spheres of the patch, then held ones; until thinning is decided, the points that it reads.
 shared vec4 ofPatch[kThin != 0 && kHold == 0 ? 441u : 256u * kLayers];
-shared uint notesOfPatch[256];                     // as in PixelResult
-const bool kByDepth = kPack != 0 && kBeam == 0;     // a seen sphere is packed as its depth
+shared uint notesOfPatch[256];                     // PixelResult::note of each pixel
+const bool kByDepth = kPack != 0 && kBeam == 0;     // seen spheres are packed as depths
 shared float zOfPatch[kByDepth ? 256 : 1];
-shared uint rememberedOfPatch;                     // as in `live`
+shared uint rememberedOfPatch;                     // same encoding as `live`
 #include "shaders/lib/thin_patch.glsl"
 #include "shaders/lib/packing.glsl"
 
@@ -64,7 +68,7 @@ void boundOfGroup(uint patchIndex, uint s) {
         notes = noted(notes, p, notesOfPatch[s * 16u + p]);
     }
     putBound(patchIndex * 16u + s, centre, radius, count, notes);
-    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) { // else the run says it
+    if (kPack == 0 || (kClasses > 1 && bitCount(classesOfPatch & 0xffu) > 1)) { // with one class, the run itself names it
         classes[patchIndex * 16u + s] = notes.classes;
     }
     if (kHold != 0 && notes.remembered != 0) {
@@ -80,7 +84,7 @@ void prepareGroup(uint patchIndex, ivec2 patchAt) {
         rememberedOfPatch = 0, classesOfPatch = 0, wideOfPatch = 0;
     }
     if (kThin != 0) {
-        decideCells(patchIndex, patchAt); // ends in a barrier
+        decideCells(patchIndex, patchAt); // ends with a barrier
     } else {
         barrier();
     }
@@ -124,7 +128,7 @@ void wholePatch(uint patchIndex) {
     if (kPack != 0) {
         packPatch(patchIndex);
     }
-    // Patches that are not listed remember nothing, before and after: all of them are written.
+    // Unlisted patches have no memory before or after the frame, so every entry of `live` is valid.
     if (kHold != 0 && gl_LocalInvocationID.x == 0) {
         live[patchIndex] = rememberedOfPatch;
     }

@@ -1,7 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Not a pass: peak memory rate of the device, for `fathom profile limit` (copy and sum of STREAM). Invocations stride
-// over the whole buffer, four independent vectors at a time: loads overlap, and neighbours read neighbours.
+// Not a pass: peak memory rate of the device, for `fathom profile limit` (copy and sum, as in STREAM).
+// Invocations stride over the whole buffer. Each loads four independent vectors at a time, so loads overlap,
+// and adjacent invocations read adjacent vectors.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 

@@ -1,14 +1,15 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Points of the listed patches: flying and isolated pixels rejected, the paper's Cartesian bilateral filter (eq. 1-2),
-// base frame. One group per patch, one invocation per pixel, or (kPair) two of a row, which share what they fetch of their windows, or (kBlock) a 4x4
-// sub-patch, whose pixels share their window and weights in registers.
+// Points of the listed patches in the base frame: rejects flying and isolated pixels and applies the paper's
+// Cartesian bilateral filter (eq. 1-2). One group per patch, one invocation per pixel. With kPair one
+// invocation per two adjacent pixels, which share the fetches of their windows. With kBlock one per 4x4
+// sub-patch, with window and weights in registers.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/frame_params.h"
 
-layout(local_size_x_id = kSpecGroupSize) in;                  // divides 256, with kPair 128
+layout(local_size_x_id = kSpecGroupSize) in;                  // divides 256; with kPair, 128
 layout(constant_id = kSpecRays) const uint kRays = 0;
 layout(constant_id = kSpecRadius) const uint kRadius = 2;
 layout(constant_id = kSpecEdge) const uint kEdge = 1;
@@ -20,11 +21,12 @@ layout(constant_id = kSpecPolynomial) const uint kPolynomial = 0;
 layout(constant_id = kSpecPair) const uint kPair = 0;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
-layout(binding = 1) uniform usamplerBuffer depths; // uint16 a pixel; kFour: four a texel
+layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel; kFour: four per texel
 layout(std430, binding = 2) readonly buffer Rays { vec2 rays[]; };
 layout(binding = 3) uniform usamplerBuffer masks; // one byte per slot: class bits
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
-layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot -> base point about the origin, w = z [m]; 0 = none
+// Slot -> point in base axes, relative to the origin [m]; w = camera z [m], 0 = none.
+layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; };
 
 #include "shaders/lib/depth.glsl"
 #include "shaders/lib/lens.glsl"
@@ -33,12 +35,12 @@ layout(std430, binding = 5) writeonly buffer Points { vec4 points[]; }; // slot 
 
 const uint kHalo = kRadius > 1u ? kRadius : 1u;
 const uint kTileEdge = kTiled != 0 ? 16u + 2u * kHalo : 1u;
-// Points of the camera frame, each worked out once: a point is asked for by up to 25 pixels, and by
-// its neighbours again. Column by column, so that neighbours lie in banks of their own.
+// Points of the window in the camera frame [m]. Each is computed once, though up to 25 pixels read it. One
+// array per coordinate avoids bank conflicts.
 shared float tileX[kTileEdge * kTileEdge], tileY[kTileEdge * kTileEdge], tileZ[kTileEdge * kTileEdge];
 
-bool outside(ivec2 at) { // no && and no ||, which branch
-    return any(greaterThanEqual(uvec2(at), params.size.xy)); // below zero is beyond the end
+bool outside(ivec2 at) { // avoids && and ||, which branch
+    return any(greaterThanEqual(uvec2(at), params.size.xy)); // a negative number converts to a large one
 }
 
 float depthOfPixel(ivec2 at) {
@@ -47,7 +49,8 @@ float depthOfPixel(ivec2 at) {
     return beyond ? 0.0 : z;
 }
 
-// Rounded here, wherever it is taken apart from another one: from shared memory, from registers or at once.
+// Rounded here, so that a difference of points is the same whether they come from shared memory, registers or
+// directly.
 vec3 pointAt(ivec2 at, float z) {
     precise vec2 beside = rayOf(uvec2(at)) * z;
     return vec3(beside, z);
@@ -62,7 +65,8 @@ void fillTile(ivec2 patchOrigin) {
     barrier();
 }
 
-// Point at a pixel of the window, z = 0 where there is no depth; within the tile when there is one.
+// Camera-frame point at a pixel of the window; z = 0 without depth. With kTiled the pixel must be inside the
+// tile.
 vec3 windowPoint(ivec2 at, ivec2 patchOrigin) {
     if (kTiled != 0) {
         ivec2 t = at - patchOrigin + int(kHalo);
@@ -72,7 +76,7 @@ vec3 windowPoint(ivec2 at, ivec2 patchOrigin) {
     return pointAt(at, depthOfPixel(at));
 }
 
-// The pixel and its eight neighbours, row by row.
+// The pixel and its eight neighbours, row-major.
 vec3[9] aroundOf(ivec2 at, ivec2 patchOrigin) {
     vec3 around[9];
     [[unroll]] for (int k = 0; k < 9; ++k) {
@@ -85,7 +89,8 @@ float[9] depthsOf(vec3 p[9]) {
     return float[9](p[0].z, p[1].z, p[2].z, p[3].z, p[4].z, p[5].z, p[6].z, p[7].z, p[8].z);
 }
 
-// Three neighbours on one side. -1: all valid ones are nearer than z by more than the edge; +1: all farther; 0: neither.
+// Depths of three neighbours on one side. Returns -1 when all valid ones are nearer than z by more than the
+// edge threshold, +1 when all are farther, else 0.
 float sideJump(vec3 side, float z) {
     float far = max(side.x, max(side.y, side.z)); // 0: no depth there
     vec3 valid = mix(side, vec3(far), equal(side, vec3(0.0)));
@@ -94,15 +99,15 @@ float sideJump(vec3 side, float z) {
     return far == 0.0 ? 0.0 : jump;
 }
 
-// Between a nearer surface on one side and a farther one on the other: a mixed pixel that lies on neither. A silhouette or
-// a thin rod has jumps of one sign only and stays.
+// A flying pixel mixes two surfaces: nearer neighbours on one side, farther ones on the other. A silhouette
+// or a thin rod has jumps of one sign only and is kept.
 bool isFlying(float n[9]) {
     float across = sideJump(vec3(n[2], n[5], n[8]), n[4]) * sideJump(vec3(n[0], n[3], n[6]), n[4]);
     float down = sideJump(vec3(n[6], n[7], n[8]), n[4]) * sideJump(vec3(n[0], n[1], n[2]), n[4]);
     return min(across, down) < 0.0;
 }
 
-// Fewer than 2 of the 8 neighbours within the isolation distance: marine snow, a speck of noise.
+// Fewer than 2 of the 8 neighbours within the isolation distance, as for marine snow and noise.
 bool isIsolated(vec3 n[9]) {
     float limit = max(params.filterParams.z, params.filterParams.w * n[4].z);
     uint near = 0;
@@ -112,7 +117,8 @@ bool isIsolated(vec3 n[9]) {
     return near < 2u;
 }
 
-// Paper eq. 2 of t = distance^2 / (2 sigma^2). The power touches exp(-t) at 0 and is at most 0.008 off anywhere.
+// Weight of paper eq. 2 for t = distance^2 / (2 sigma^2). The polynomial equals exp(-t) at 0; its error is at
+// most 0.008.
 float weightOf(float t) {
     if (kPolynomial == 0) {
         return exp(-t);
@@ -124,7 +130,7 @@ float weightOf(float t) {
     return w * w;
 }
 
-// Summed as differences from the centre: the mean keeps all digits of a distant surface.
+// Sums differences from the centre, so that the mean of a distant surface loses no digits.
 struct Mean {
     float sum, weights;
 };
@@ -136,7 +142,7 @@ Mean weighed(Mean mean, vec3 q, vec3 p) {
     return Mean(mean.sum + (q.z - p.z) * weight, mean.weights + weight);
 }
 
-// Paper eq. 1-2: v the depth value, weights by the Cartesian distance between the points.
+// Paper eq. 1-2: filtered depth [m], with weights from the Cartesian distance between points.
 float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
     Mean mean = Mean(0.0, 0.0);
     for (int dy = -int(kRadius); dy <= int(kRadius); ++dy) {
@@ -144,7 +150,7 @@ float filtered(ivec2 at, vec3 p, ivec2 patchOrigin) {
             mean = weighed(mean, windowPoint(at + ivec2(dx, dy), patchOrigin), p);
         }
     }
-    return p.z + mean.sum / mean.weights; // weights >= 1: the centre itself
+    return p.z + mean.sum / mean.weights; // weights >= 1 because the centre counts 1
 }
 
 bool isRejected(vec3 around[9]) {
@@ -168,7 +174,8 @@ void filterPixel(uint slot, ivec2 patchOrigin) {
     points[slot] = result;
 }
 
-// Two pixels side by side: what their windows share is fetched once, and summed in the same order.
+// Filters two adjacent pixels. Points in both windows are fetched once; sums keep the order of the
+// single-pixel form.
 void filterPair(uint slot, ivec2 patchOrigin) {
     uvec2 mask = uvec2(maskAt(slot), maskAt(slot + 1u));
     if (mask == uvec2(0)) {
@@ -194,15 +201,15 @@ void filterPair(uint slot, ivec2 patchOrigin) {
     }
 }
 
-// The window of a 4x4 sub-patch: points of the camera frame, z = 0 where there is no depth.
+// Size of the window of a 4x4 sub-patch. It holds camera-frame points, z = 0 without depth.
 const int kReach = 2, kWide = 4 + 2 * kReach;
 
-// Of four pixels of a row, the first in a column that four divides.
+// Depths [m] of four adjacent pixels in a row. The first column must be a multiple of four.
 vec4 fourDepths(ivec2 q) {
     if (kFour == 0) {
         return vec4(depthOfPixel(q), depthOfPixel(q + ivec2(1, 0)), depthOfPixel(q + ivec2(2, 0)), depthOfPixel(q + ivec2(3, 0)));
     }
-    bool beyond = outside(q); // all are or none
+    bool beyond = outside(q); // then all four pixels are
     uvec4 raw = texelFetch(depths, beyond ? 0 : int((uint(q.y) * params.size.x + uint(q.x)) >> 2));
     vec4 z = vec4(metresOf(raw.x), metresOf(raw.y), metresOf(raw.z), metresOf(raw.w));
     return beyond ? vec4(0.0) : z;
@@ -219,13 +226,14 @@ void loadWindow(ivec2 at, out vec3 window[kWide * kWide]) {
     }
 }
 
-// From the earlier point of the window to the later one, so that both ask for the same square and the same weight: half of them
-// are computed once for two pixels.
+// Difference from the earlier to the later point of the window, whichever is the centre. So two pixels need
+// the same weight, and the compiler computes it once.
 vec3 between(vec3 window[kWide * kWide], const int a, const int b) {
     return window[max(a, b)] - window[min(a, b)];
 }
 
-// The same decisions and sums as below, pixel by pixel, in the same order. centre: place of the pixel in the window.
+// Makes the same decisions and sums in the same order as the per-pixel form. centre: index of the pixel in
+// the window.
 float surfaceInWindow(vec3 window[kWide * kWide], const int centre, uint mask) {
     float n[9];
     uint near = 0;

@@ -1,6 +1,7 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Which points the error budget can remove. One invocation per 4x4 cell of a listed patch.
+// Decides which points the error budget lets it remove. One invocation per 4x4 cell of a listed patch. CPU
+// devices only.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -11,26 +12,27 @@ layout(constant_id = kSpecClasses) const uint kClasses = 1;
 
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer masks; // one byte per slot: class bits
-layout(binding = 2) uniform samplerBuffer points; // per slot: base point about the origin, w = 0: none
+layout(binding = 2) uniform samplerBuffer points; // per slot: point in base axes, relative to the origin [m]; w = 0: none
 layout(std430, binding = 3) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 4) readonly buffer List { uint list[]; };
 layout(std430, binding = 5) readonly buffer Counters { FrameCounters counters; };
-layout(std430, binding = 6) writeonly buffer Cells { vec4 growth[]; }; // sub-patch -> growth of the corners of its four 2x2 cells;
-                                                                   // x = -growth when thinned as one 4x4 cell; 0 = kept whole
+// sub-patch -> growth [m] of the corners of its four 2x2 cells; x = -growth when thinned as one 4x4 cell; 0 =
+// not thinned.
+layout(std430, binding = 6) writeonly buffer Cells { vec4 growth[]; };
 
 #include "shaders/lib/masks.glsl"
 #include "shaders/lib/forbidden.glsl"
 #include "shaders/lib/slots.glsl"
 #include "shaders/lib/thin_point.glsl"
 
-const uint kEdge = 5u; // points of a 4x4 cell with the corners of the next ones: 5 x 5, y * 5 + x
+const uint kEdge = 5u; // a 4x4 cell has 5x5 points with the corners of the next cells; index y * 5 + x
 vec3 point[kEdge * kEdge];
-uint kind[kEdge * kEdge]; // forbidden class, kNone
+uint kind[kEdge * kEdge]; // forbidden class, or kNone
 
-// One of the four sub-patches that hold the points: own, right, below, across. Class bits are 0 outside the image
-// and in patches without work.
+// One of the four sub-patches that contain the points: own, right, below, diagonal. Class bits are 0 outside
+// the image and in unlisted patches.
 struct Quarter {
-    uint slot; // of its first pixel
+    uint slot; // slot of its first pixel
     uvec4 rows;
 };
 
@@ -42,7 +44,7 @@ Quarter quarterAt(uvec2 at) {
     return Quarter(slot, all(bvec2(inside, used != 0)) ? rows : uvec4(0));
 }
 
-// All reads come before the first use: one memory latency instead of 25.
+// Issues all reads before the first use: one memory latency instead of 25.
 void readPoints(uvec2 at) {
     Quarter quarters[4] = Quarter[4](quarterAt(at), quarterAt(at + uvec2(4, 0)), quarterAt(at + uvec2(0, 4)), quarterAt(at + uvec2(4, 4)));
     float ranges[kEdge * kEdge];
@@ -58,8 +60,9 @@ void readPoints(uvec2 at) {
     }
 }
 
-// Growth with which the k x k cell at point `first` can drop all points but that corner; -1 = the cell stays whole:
-// it is not full of one class, or the budget does not allow it. Unrolled, without branches.
+// Growth [m] of the corner spheres with which the k x k cell at point `first` can drop all other points. -1:
+// the cell is not thinned, because it is not full of one class or the growth exceeds the budget. Unrolled,
+// without branches.
 float thinned(const uint first, const uint k) {
     const uint c = kind[first];
     float radius = radiusOf(c), most = 0.0;
@@ -73,7 +76,8 @@ float thinned(const uint first, const uint k) {
     return others == 0u ? growthOf(most, radius) : -1.0;
 }
 
-// Growth of the corners of the four 2x2 cells of the 4x4 cell at a pixel; x = -growth when it is thinned as one; 0 = whole.
+// Growth [m] of the corners of the four 2x2 cells of the 4x4 cell at a pixel; x = -growth when it is thinned
+// as one cell; 0 = not thinned.
 vec4 decidedCell(uvec2 at) {
     readPoints(at);
     float whole = thinned(0u, 4u);

@@ -1,8 +1,8 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Parents over 4x4 children, from patches up to one root: centre = mean of all points below, radius = max(|c_k - centre| + r_k)
-// (paper eq. 3 with the children's spheres). One invocation per node; one group builds the top levels, with
-// barriers between them.
+// Builds the region tree from patches up to one root, 4x4 children per node: centre = mean of all points
+// below, radius = max(|c_k - centre| + r_k) over the children (paper eq. 3). One invocation per node. One
+// group builds the top levels, with barriers between them.
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_control_flow_attributes : require
 #include "shaders/shared/constants.h"
@@ -16,11 +16,12 @@ layout(std430, binding = 0) readonly buffer Listed { uint listed[]; };
 layout(std430, binding = 1) coherent buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 2) coherent buffer NodeCounts { uint nodeCounts[]; };
 layout(std430, binding = 3) buffer Counters { FrameCounters counters; };
-// kPatches: nodes and counts of the sub-patches, four counts per texel.
+// With kPatches: nodes and counts of the sub-patches, four counts per texel.
 layout(binding = 4) uniform samplerBuffer subNodes;
 layout(binding = 5) uniform usamplerBuffer subCounts;
 
-// Index of child k of node `at` on `level`; kNoChild when it lies outside. No branch: a CPU device executes both sides of each.
+// Index of child k of node `at` on `level`; kNoChild outside the level. No branch: a CPU device executes both
+// sides of each.
 const uint kNoChild = 0xffffffffu;
 uint childOf(uvec2 at, uint level, uint k) {
     uvec4 below = tree.levels[level - 1u];
@@ -35,7 +36,7 @@ struct Children {
 
 Children subPatchesOf(uint patchIndex) {
     Children c;
-    bool used = listed[patchIndex] != 0u; // sub-patches of an unlisted patch hold old data
+    bool used = listed[patchIndex] != 0u; // sub-patches of an unlisted patch contain old data
     [[unroll]] for (uint k = 0; k < 16u; ++k) {
         c.node[k] = texelFetch(subNodes, int(patchIndex * 16u + k));
     }
@@ -59,7 +60,7 @@ Children nodesBelow(uint level, uint index) {
     return c;
 }
 
-// All children are read before the first use: a node costs one memory latency instead of 32.
+// Reads all children before the first use: a node costs one memory latency instead of 32.
 void buildNode(uint level, uint index) {
     Children below;
     if (kPatches != 0) {

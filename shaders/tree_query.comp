@@ -1,8 +1,9 @@
 #version 460
 // SPDX-License-Identifier: Apache-2.0
-// Contact query (paper V.A): every region sphere whose gap to some tool leaf is at most the reach. One invocation a sub-patch of
-// the region tree: it comes down from the root, each node against the root of the tool tree; where all of them collide, its own
-// bound and then its spheres go down the tool tree to the leaves. Any subgroup size.
+// Contact query (paper V.A): finds every region sphere whose gap to some tool leaf is at most the reach. One
+// invocation per sub-patch of the region tree. It tests the sub-patch's ancestors, from the root down,
+// against the root of the tool tree. If all collide, it tests the sub-patch's bound and then its spheres down
+// the tool tree to the leaves. Any subgroup size.
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/shared/constants.h"
 #include "shaders/shared/query_params.h"
@@ -10,14 +11,15 @@
 layout(local_size_x_id = kSpecGroupSize) in;
 
 layout(std140, binding = 0) uniform Query { QueryParams query; };
-layout(std430, binding = 1) readonly buffer Tool { vec4 tool[]; };    // posed tool tree, breadth first; r < 0 = unused
+// Tool tree at the queried pose, breadth first; r < 0 = unused.
+layout(std430, binding = 1) readonly buffer Tool { vec4 tool[]; };
 layout(std430, binding = 2) readonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 3) readonly buffer Spheres { vec4 spheres[]; };
 layout(std430, binding = 4) readonly buffer Held { vec4 held[]; };
 layout(std430, binding = 5) buffer Count { uint count[]; };           // spheres found, may exceed the capacity
 layout(std430, binding = 6) writeonly buffer Found { uint found[]; }; // slot * 2 + layer, any order
 
-// The test that decides, in the very form that the CPU uses: same operations, same order, no contraction.
+// The deciding test, identical to the CPU's: same operations, same order, no contraction.
 bool within(vec4 a, vec4 b, float reach) {
     precise float dx = a.x - b.x;
     precise float dy = a.y - b.y;
@@ -28,11 +30,11 @@ bool within(vec4 a, vec4 b, float reach) {
     return d2 <= limit2;
 }
 
-// Whether a sphere comes within reach of some leaf. Complete tree of any degree: after a node that cannot collide (or a leaf) the
-// walk goes on at the next sibling of the deepest ancestor that has one.
+// Whether a sphere is within reach of some leaf. The tool tree is complete, of any degree. After a leaf, or a
+// node that cannot collide, the traversal continues at the next sibling of the deepest ancestor that has one.
 bool touchesTool(vec4 sphere) {
     uint degree = query.region.z, firstLeaf = query.region.w;
-    float loose = query.reach.x * 1.00001 + 1e-6; // inner nodes: a bound, rounded outward
+    float loose = query.reach.x * 1.00001 + 1e-6; // for inner nodes: rounded outward, as bounds must be
     uint node = 0;
     for (;;) {
         vec4 t = tool[node];
@@ -44,7 +46,7 @@ bool touchesTool(vec4 sphere) {
             node = node * degree + 1u;
             continue;
         }
-        while (node != 0 && (node - 1u) % degree == degree - 1u) { // the last child is done: climb
+        while (node != 0 && (node - 1u) % degree == degree - 1u) { // last child: go up
             node = (node - 1u) / degree;
         }
         if (node == 0) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Hue, saturation and lightness gates on stored sRGB bytes (hexagonal HSL), decided on the integers behind the
-// fractions: with m = max, d = max - min, hue = 60 (k d + difference) / d, S = d / (255 - |max + min - 255|),
-// L = (max + min) / 510. Products instead of quotients, and a slack of what float32 rounds away of a bound (which the CPU has
-// taken off) and of the product, make the inclusive bounds hold on every device: a colour exactly on a bound is inside.
+// Hue, saturation and lightness gates on stored sRGB bytes (hexagonal HSL), evaluated on the integers in the
+// fractions: with d = max - min, hue = 60 (k d + difference) / d, S = d / (255 - |max + min - 255|), L = (max
+// + min) / 510. Bounds are compared with products instead of quotients, with a slack for the float32 rounding
+// of bounds (subtracted by the CPU) and products. So a colour exactly on a bound is inside on every device.
 // No branch: a CPU device executes both sides of each.
 
-// The integers behind hue, saturation and lightness, once a pixel; every class then compares products.
+// The integers behind hue, saturation and lightness, computed once per pixel for all classes.
 struct Hsl {
     float sum;      // max + min = 510 L
     float d;        // max - min = S x satScale
@@ -21,11 +21,11 @@ Hsl hslOf(vec3 c) {
     return Hsl(sum, d, 255.0 - abs(sum - 255.0), 60.0 * sector);
 }
 
-// How far inside the gates, below -1e-4: outside. Grey, black and white have neither hue nor saturation.
+// Distance inside the gates; below -1e-4: outside. Grey, black and white have neither hue nor saturation.
 float insideGates(Hsl c, ClassParams g) {
     float light = min(c.sum - g.satLight.z, g.satLight.w - c.sum);
     float above = c.hue - g.hue.x * c.d, below = g.hue.y * c.d - c.hue;
-    float hue = g.hue.z != 0.0 ? max(above, below) : min(above, below); // through 0 or not
+    float hue = g.hue.z != 0.0 ? max(above, below) : min(above, below); // wraps through 0, or not
     float saturation = min(c.d - g.satLight.x * c.satScale, g.satLight.y * c.satScale - c.d);
     return min(light, c.d == 0.0 ? g.hue.w : min(hue, saturation));
 }

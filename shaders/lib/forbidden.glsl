@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// The class whose sphere a pixel gets. Needs params and kClasses, how many classes of
-// points there are.
+// The class whose sphere a pixel gets. Needs params and kClasses, the number of point classes.
 
 const uint kNone = 0xffu;
 
-// Largest radius, then file order: params.time.w lists the forbidden classes so, four bits each, 15 ends the list. From the
-// last to the first, the first that the mask has stays; no branch.
+// The first forbidden class of the mask by largest radius, then file order. params.time.w lists classes in
+// this order, four bits each; 15 ends the list. The loop runs backwards so that no branch is needed.
 uint forbiddenClass(uint mask) {
     uint found = kNone;
     [[unroll]] for (uint i = 0; i < kClasses; ++i) {
@@ -15,7 +14,7 @@ uint forbiddenClass(uint mask) {
     return found;
 }
 
-// Region radius [m] of a class; of the first for kNone. By selection: a CPU device reads a uniform index once, and a
+// Region radius [m] of a class; of the first one for kNone. Selects instead of indexing: a CPU device reads a
 // varying index lane by lane.
 float radiusOf(uint c) {
     float radius = params.classes[0].role.x;

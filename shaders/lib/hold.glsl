@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Memory of points that a new frame does not contradict. Each slot has two places: the point that it showed in
-// the last frame, and the point that it holds. Needs params, forbidden.glsl, depth.glsl, lens.glsl, beam.glsl,
-// seen, kept, keptTime, kHold, kFan, kBeam.
+// Memory of points that new frames do not contradict. Each slot stores two points: the one seen in the
+// previous frame and the held one. Needs params, forbidden.glsl, depth.glsl, lens.glsl, beam.glsl, seen,
+// kept, keptTime, kHold, kFan, kBeam.
 
-// The memory as the last frame left it. The including shader says how it is read.
+// The memory after the previous frame. The including shader defines how to read it.
 vec4 seenAt(uint slot);
 vec4 keptAt(uint slot);
 uint keptTimeAt(uint slot);
 
-// What is remembered of a point beside its place: class + 1, 0 = nothing; with beams, above these four bits, what its sphere
-// grows by, rounded up to 10 um. Small enough for any float to keep the bits.
+// The stored note of a point: class + 1 in four bits (0 = no point); with beams, above these, the growth of
+// its sphere rounded up to 10 um. The value is small enough to survive storage as a float.
 uint noteOf(uint c, float grown) {
     return kBeam != 0 ? (c + 1u) | uint(min(ceil(grown * 1e5), 524287.0)) << 4 : c + 1u;
 }
@@ -18,38 +18,39 @@ uint classOfNote(uint note) {
     return kBeam != 0 ? note & 15u : note;
 }
 
-// True while a point may stay: its pixel in the new image shows nothing or something nearer, or lies outside.
-// Without branches, like this whole file.
+// True if the new frame does not contradict the point: its pixel is outside the image, has no depth or shows
+// a nearer surface. No branches, as in this whole file.
 bool uncontradicted(vec3 p) {
     vec3 q = transformPoint(params.cameraTbase, p);
     bool before = q.z > 0.0;
     q.z = before ? q.z : 1.0;
     vec2 pixel = kFan != 0 ? projectFan(q, params.lens) : projectPoint(q, params.lens, params.distortion, params.more.x);
     ivec2 at = ivec2(round(pixel));
-    bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
+    bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
     float z = depthAt(inside ? uint(at.y) * params.size.x + uint(at.x) : 0u);
     float sigma = kBeam != 0 ? beamSigma(length(q)) : params.noise.x + params.noise.y * q.z * q.z;
     float margin = params.noise.z * sigma;
     return any(bvec4(!before, !inside, z == 0.0, z < q.z - margin));
 }
 
-// Moves the slot's memory on by one frame, which shows `point` of class `now` (kNone: no point) there, whose sphere
-// grows by `grown` for its sigma [m]. Returns the held sphere
-// (R < 0: none), its class, and what is remembered: 1 = the point, 2 = the held one. holding: as handlePixel.
+// Updates the memory of a slot with the new frame's `point` of class `now` (kNone: no point), whose sphere
+// grows by `grown` [m] for its sigma. Returns the held sphere (R < 0: none), its class, and flags: 1 = the
+// seen point is remembered, 2 = the held one is. holding: as for handlePixel.
 vec4 updateMemory(uint slot, vec3 point, uint now, float grown, bool holding, out uint heldClass, out uint remembered) {
     vec4 last = seenAt(slot), old = vec4(0.0);
     uint lastNote = floatBitsToUint(last.w), when = 0;
     bool lastStays = all(bvec3(lastNote != 0u, params.time.x - params.time.z <= params.time.y, uncontradicted(last.xyz)));
     bool oldStays = false;
-    if (holding) { // the same for a whole patch
+    if (holding) { // uniform within a patch
         old = keptAt(slot);
         when = keptTimeAt(slot);
         oldStays = all(bvec3(floatBitsToUint(old.w) != 0u, params.time.x - when <= params.time.y, uncontradicted(old.xyz)));
     }
     vec4 hold = lastStays ? last : (oldStays ? old : vec4(0.0));
     seen[slot] = now == kNone ? vec4(0.0) : vec4(point, uintBitsToFloat(noteOf(now, grown)));
-    uint keptAt = lastStays ? params.time.z : when; // it was seen in the last frame
-    if (any(bvec2(keptAt != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) { // most slots hold nothing in both frames
+    uint keptAt = lastStays ? params.time.z : when; // it was seen in the previous frame
+    // Skips the store for most slots, which hold nothing in either frame.
+    if (any(bvec2(keptAt != when, any(notEqual(floatBitsToUint(hold), floatBitsToUint(old)))))) {
         kept[slot] = hold;
         keptTime[slot] = keptAt;
     }

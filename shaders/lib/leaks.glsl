@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a region leaks between two points. Needs params, counters, listed, points, masks.glsl, forbidden.glsl and slots.glsl.
+// Detects where a region leaks between two points. Needs params, counters, listed, points, masks.glsl,
+// forbidden.glsl and slots.glsl.
 
-// Warns of holes: neighbours of one class on one surface that are at least R apart.
+// Records the largest leak: neighbours of one class on one surface that are at least R apart.
 void noteLeak(uvec2 next, vec4 p, uint c) {
     if (any(greaterThanEqual(next, params.size.xy)) || listed[(next.y >> 4) * params.size.z + (next.x >> 4)] == 0) {
         return;
@@ -9,7 +10,7 @@ void noteLeak(uvec2 next, vec4 p, uint c) {
     uint slot = slotOfPixel(next, params.size.z);
     vec4 q = texelFetch(points, int(slot));
     float apart = distance(p.xyz, q.xyz);
-    bool surface = abs(q.w - p.w) <= 0.7 * apart; // steeper than 45 degrees is rather an edge
+    bool surface = abs(q.w - p.w) <= 0.7 * apart; // steeper than 45 degrees counts as an edge
     bool same = forbiddenClass(q.w != 0.0 ? maskAt(slot) & params.depthBand.w : 0u) == c;
     if (all(bvec3(apart >= params.classes[c].role.x, surface, same))) {
         atomicMax(counters.leakSpacing[c], floatBitsToUint(apart));

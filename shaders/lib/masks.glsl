@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Class bits of pixels: one byte per slot, one texel per sub-patch, whose four words are its rows. Needs masks.
+// Class bits of pixels: one byte per slot, one texel per sub-patch, one word per row of it. Needs masks.
 
 uvec4 rowsOfMasks(uint sub) {
     return texelFetch(masks, int(sub));
 }
 
-// Of the pixel in column x (0..3) of a row.
+// Class bits of the pixel in column x (0..3) of a row.
 uint maskInRow(uint row, uint x) {
     return row >> (x * 8u) & 255u;
 }

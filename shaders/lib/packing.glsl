@@ -1,24 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which places of a group's patch have spheres, by layer (seen, held), then slot; and (kPack) these into the run that the host
-// reads. Needs counters, kPack, kThin, kByDepth, kLayers, ofPatch, zOfPatch, notesOfPatch and packedWords, places, runs.
+// Marks which slots of the group's patch have spheres, by layer (seen, held), then slot. With kPack, packs
+// these spheres into the run that the host reads. Needs counters, kPack, kThin, kByDepth, kLayers, ofPatch,
+// zOfPatch, notesOfPatch and packedWords, places, runs.
 //
-// A run is of words. First the seen spheres, each by its depth z, for the host knows the ray of each pixel:
-// - none has grown: the bits of z, a word each;
-// - else a word, the bits of half the first one's z, then a word each: 24 bits that count on from there, 8 bits of how many steps it
-//   has grown by;
-// - or, where 24 bits do not reach (a z below half of the first one's, or twice it and more), the bits of z, then bytes of steps.
-// Then the held ones, centre and R, for their rays were of earlier poses. With beams (kByDepth false) the seen ones are whole, too:
-// their radii come by a root, which no two processors need to round alike.
+// A run is a sequence of words. First come the seen spheres as depths z, because the host knows each pixel's
+// ray:
+// - no sphere has grown: one word each, the float bits of z;
+// - some have grown: first the float bits of half the first z, then one word each: 24 bits of offset from
+// there in
+//   units of the last place, and 8 bits of growth steps;
+// - 24 bits do not suffice (some z is below half or from twice the first z on): the float bits of each z,
+// then the
+//   steps as bytes.
+// Then come the held spheres as centre and R, because their rays belong to earlier poses. With beams
+// (kByDepth false) seen spheres are stored the same way: their radii need a root, which processors may round
+// differently.
 
-const uint kGrownHere = kRunGrown >> 16, kWideHere = kRunWide >> 16; // of the upper half of `runs`
-const uint kRunAlign = 32u; // words: no two groups write to the same 128 bytes of the host's memory
-const uint kReach = 0x800000u; // half of what 24 bits count
-shared uint present[16];    // bit a place: spheres of the patch, then held ones
+const uint kGrownHere = kRunGrown >> 16, kWideHere = kRunWide >> 16; // shifted to the upper half of runs[].y
+const uint kRunAlign = 32u; // [words] so that no two groups write to the same 128 bytes of host memory
+const uint kReach = 0x800000u; // half the range of 24 bits
+shared uint present[16];    // one bit per slot: seen spheres, then held ones
 shared uint packedFrom, packedSeen, packedBase;
-shared uint classesOfPatch; // bit a class that a sphere is of; kGrownHere
+shared uint classesOfPatch; // one bit per class that occurs; kGrownHere
 shared uint wideOfPatch;    // kWideHere, or 0
-shared uint ofRank[kByDepth ? 256 : 1];                    // a seen sphere, as packed: bits of its depth
-shared uint stepsOfRank[kByDepth && kThin != 0 ? 260 : 1]; // and what it has grown by
+shared uint ofRank[kByDepth ? 256 : 1];                    // seen spheres in packed order: float bits of the depth
+shared uint stepsOfRank[kByDepth && kThin != 0 ? 260 : 1]; // and growth in steps
 
 void markPresent(uint place, float radius) {
     if (radius >= 0.0) {
@@ -26,14 +32,14 @@ void markPresent(uint place, float radius) {
     }
 }
 
-// Most patches have one class: only its first sphere pays for the atomic.
+// Most patches have one class, so only its first sphere costs an atomic.
 void markClass(uint mark, float radius) {
     if (radius >= 0.0 && (classesOfPatch & mark) != mark) {
         atomicOr(classesOfPatch, mark);
     }
 }
 
-// Counts sub-patches with a sphere of either layer: one atomic addition per group.
+// Counts sub-patches with a sphere in either layer, by one atomic addition per group.
 void countSubs() {
     uint subs = 0;
     for (uint w = 0; w < 8u; ++w) {
@@ -45,7 +51,7 @@ void countSubs() {
     }
 }
 
-// Spheres of the place's layer before it.
+// Number of spheres before this slot in its layer.
 uint rankOf(uint place) {
     uint rank = bitCount(present[place >> 5] & ((1u << (place & 31u)) - 1u));
     for (uint w = place >> 8 << 3; w < place >> 5; ++w) {
@@ -78,7 +84,7 @@ uint wordsOfSeen() {
     return kByDepth ? packedSeen + wordsOfSteps() : 4u * packedSeen;
 }
 
-// Bits of the depth of the patch's first seen sphere; there is one.
+// Float bits of the depth of the patch's first seen sphere; there must be one.
 uint firstDepth() {
     uint w = 0;
     while (w < 7u && present[w] == 0) {
@@ -87,7 +93,7 @@ uint firstDepth() {
     return floatBitsToUint(zOfPatch[kByDepth ? w * 32u + uint(findLSB(present[w])) : 0u]);
 }
 
-// Reserves room for the patch's spheres in either packing. Patches come in any order; the host sorts them.
+// Reserves space for the patch's run. Runs are in any order; the host sorts them.
 void placeRun() {
     if (kPack != 0) {
         packedSeen = countOf(0);
@@ -109,19 +115,19 @@ void packWhole(uint at, vec4 sphere) {
     }
 }
 
-// Word w of the seen spheres.
+// Word w of the run's seen spheres.
 uint seenWord(uint w) {
     if (!grownHere() || (wideHere() && w < packedSeen)) {
         return ofRank[w];
     }
     if (wideHere()) {
-        uint four = kThin != 0 ? 4u * (w - packedSeen) : 0u; // beyond the last one: of nobody
+        uint four = kThin != 0 ? 4u * (w - packedSeen) : 0u; // beyond the last one: unused
         return stepsOfRank[four] | (stepsOfRank[four + 1u] & 255u) << 8 | (stepsOfRank[four + 2u] & 255u) << 16 | stepsOfRank[four + 3u] << 24;
     }
     return w == 0 ? packedBase : (ofRank[w - 1u] - packedBase) << 8 | stepsOfRank[w - 1u];
 }
 
-// Called by the whole group. Shared memory collects the words, so that whole sectors cross the bus.
+// Called by the whole group. Words are collected in shared memory, so that whole sectors cross the bus.
 void packByDepth() {
     for (uint slot = gl_LocalInvocationID.x; slot < 256u; slot += gl_WorkGroupSize.x) {
         if (isPresent(slot)) {
@@ -142,7 +148,7 @@ void packByDepth() {
     }
 }
 
-// Occupied slots go as bits, which are fewer bytes than their numbers.
+// Writes the occupied slots as bits, which takes fewer bytes than their indices.
 void packPatch(uint patchIndex) {
     for (uint w = gl_LocalInvocationID.x; w < 8u * kLayers; w += gl_WorkGroupSize.x) {
         places[patchIndex * 16u + w] = present[w];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Slots: where a pixel's results lie. Patch-major, then 4x4 sub-patch, then pixel: slot = patch * 256 + sub * 16 + p.
+// A slot is the index of a pixel's results: patch-major, then 4x4 sub-patch, then pixel: slot = patch * 256 +
+// sub * 16 + p.
 
-// Pixel within the patch of a slot within the patch (0..255).
+// Pixel in the patch for a slot in the patch (0..255).
 uvec2 pixelInPatch(uint inside) {
     uint sub = inside >> 4, p = inside & 15u;
     return uvec2((sub & 3u) * 4u + (p & 3u), (sub >> 2) * 4u + (p >> 2));

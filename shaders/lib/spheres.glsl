@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What both forms of `spheres` share: bindings, and the spheres of one pixel. Region spheres of the listed
-// patches and the bounds of their 4x4 sub-patches (paper IV.B.1, eq. 3). With hold, points of earlier frames
-// that the new frame does not contradict stay as a second layer. Needs kHold, kPack; seenAt(), keptAt() and
-// keptTimeAt(), which read the memory of points.
+// Shared by both forms of `spheres`: bindings, and the spheres of one pixel. They compute region spheres of
+// the listed patches and bounds of their 4x4 sub-patches (paper IV.B.1, eq. 3). With kHold, points of earlier
+// frames that the new frame does not contradict stay as a second layer. Needs kHold, kPack, and seenAt(),
+// keptAt(), keptTimeAt(), which read the memory of points.
 
 layout(local_size_x_id = kSpecGroupSize) in; // divides 256
 layout(constant_id = kSpecThin) const uint kThin = 1;
@@ -15,22 +15,25 @@ layout(constant_id = kSpecTree) const uint kTree = 1;
 layout(std140, binding = 0) uniform Params { FrameParams params; };
 layout(binding = 1) uniform usamplerBuffer depths; // uint16 per pixel
 layout(binding = 2) uniform usamplerBuffer masks;  // one byte per slot: class bits
-layout(binding = 3) uniform samplerBuffer points;  // per slot: base point about the origin, w = z [m]; 0 = none
+// Per slot: point in base axes, relative to the origin [m]; w = camera z [m], 0 = none.
+layout(binding = 3) uniform samplerBuffer points;
 layout(std430, binding = 4) readonly buffer Listed { uint listed[]; }; // patch -> kPatch bits
-layout(std430, binding = 5) readonly buffer List { uint list[]; };     // its parts: frame_params.h
+layout(std430, binding = 5) readonly buffer List { uint list[]; };     // frame_params.h describes its parts
 layout(std430, binding = 6) buffer Counters { FrameCounters counters; };
-layout(std430, binding = 7) buffer Seen { vec4 seen[]; };          // slot -> last frame's point, w = bits of class + 1
+layout(std430, binding = 7) buffer Seen { vec4 seen[]; };          // slot -> point of the previous frame, w = bits of class + 1
 layout(std430, binding = 8) buffer Kept { vec4 kept[]; };          // slot -> held point, w = bits of class + 1
-layout(std430, binding = 9) buffer KeptTime { uint keptTime[]; };  // slot -> when it was seen last [us]
+layout(std430, binding = 9) buffer KeptTime { uint keptTime[]; };  // slot -> time when it was last seen [us]
 layout(std430, binding = 10) buffer Live { uint live[]; };         // patch -> points in memory + 65536 x held points
 layout(std430, binding = 11) writeonly buffer Spheres { vec4 spheres[]; };     // slot -> centre, R; R < 0 = none
 layout(std430, binding = 12) writeonly buffer Held { vec4 held[]; };           // the same for held points
-layout(std430, binding = 13) writeonly buffer Classes { uvec4 classes[]; };    // one byte per slot: class of the sphere | class of the held one << 4
+// One byte per slot: class of the sphere | class of the held one << 4.
+layout(std430, binding = 13) writeonly buffer Classes { uvec4 classes[]; };
 layout(std430, binding = 14) writeonly buffer Bits { uint bits[]; };           // sub-patch -> 16 pixels, 1 = forbidden class
 layout(std430, binding = 15) writeonly buffer Nodes { vec4 nodes[]; };
 layout(std430, binding = 16) writeonly buffer NodeCounts { uint nodeCounts[]; };
-layout(std430, binding = 17) writeonly buffer Radii { vec4 radii[]; };         // row of a sub-patch: R of its four points, < 0 = none
-layout(std430, binding = 18) writeonly buffer HeldRadii { vec4 heldRadii[]; }; // the same for held points, which lie in `kept`
+// Per row of a sub-patch: R of its four points; < 0 = none.
+layout(std430, binding = 17) writeonly buffer Radii { vec4 radii[]; };
+layout(std430, binding = 18) writeonly buffer HeldRadii { vec4 heldRadii[]; }; // the same for the held points in `kept`
 
 const uint kRays = 0; // this pass needs no rays
 const vec2 rays[1] = vec2[1](vec2(0.0));
@@ -49,12 +52,13 @@ const uint kLayers = kHold != 0 ? 2u : 1u;
 
 struct PixelResult {
     vec4 sphere, held; // R < 0 = none
-    float z;           // of the point that is seen [m]
-    uint note;         // 1 = a forbidden class; 2 = it is remembered; 4 = the held one is; 256 x class of the sphere; 4096 x class of the held one;
-                       // 65536 x steps that the sphere grows by
+    float z;           // camera z of the seen point [m]
+    // 1 = forbidden class; 2 = seen point is remembered; 4 = held point is remembered; 256 x class of the
+    // sphere; 4096 x class of the held one; 65536 x growth steps.
+    uint note;
 };
 
-// Pixel p (0..15) of the sub-patch `sub`, whose corner lies at `corner`. holding: its patch
+// Handles pixel p (0..15) of sub-patch `sub`, whose first pixel is `corner`. holding: the patch's memory
 // holds points.
 PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAround around, bool holding) {
     uint slot = sub * 16u + p, remembered = 0, heldClass = 0;
@@ -81,9 +85,9 @@ PixelResult handlePixel(uint sub, const uint p, uvec2 corner, uint mask, CellsAr
     return PixelResult(sphere, heldSphere, point.w, (mask != 0u ? 1u : 0u) | remembered << 1 | classBits << 8 | stepsOf(grown) << 16);
 }
 
-// What the pixels of a sub-patch say together.
+// Combined results of the pixels of a sub-patch.
 struct Notes {
-    uint marks, remembered; // one bit per pixel of a forbidden class; points as in `live`
+    uint marks, remembered; // one bit per pixel of a forbidden class; remembered points, encoded as in `live`
     uvec4 classes;          // one byte per pixel
 };
 
@@ -103,7 +107,7 @@ void putBound(uint sub, vec3 centre, float radius, uint count, Notes notes) {
     }
 }
 
-// Of row k of a sub-patch: seen points and held ones.
+// Writes the radii of row k of a sub-patch: seen and held points.
 void putRadii(uint sub, uint k, vec4 seenHere, vec4 heldHere) {
     if (kPack == 0) {
         radii[sub * 4u + k] = seenHere;

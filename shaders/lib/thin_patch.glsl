@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which points of a patch the error budget can do without, by its group: of each cell four invocations ask its quarters, and
-// four others the whole of it. Needs params, masks, points, listed, decided, masks.glsl, forbidden.glsl, slots.glsl,
-// thin_point.glsl, thinning.glsl, kThin, and `ofPatch`, which the points lie in until the cells are decided.
+// Decides which points of a patch the error budget lets it remove, by one group. Per 4x4 cell, four
+// invocations test the quarters and four others the whole cell. Needs params, masks, points, listed, decided,
+// masks.glsl, forbidden.glsl, slots.glsl, thin_point.glsl, thinning.glsl, kThin, and `ofPatch`, which
+// contains the points until the cells are decided.
 
-const uint kSide = 21u; // points of the patch's 4x4 cells and of those left of and above it, with the corners of the next ones
+const uint kSide = 21u; // points per row: the patch's 4x4 cells, the cells left and above, and the corners of the next cells
 const uint kCells = 25u, kQuarters = 4u * kCells;
-shared float asked[kThin != 0 ? 2u * kQuarters : 1u]; // R'^2 - R^2 of a cell by each of the four that ask it, then the growth of each quarter; -1 = kept
-shared vec4 cells[kThin != 0 ? kCells : 1u];          // as `growth`, 5 a row
+// R'^2 - R^2 of a cell, from each of the four invocations that test it; then the growth of each quarter; -1 =
+// not thinned.
+shared float asked[kThin != 0 ? 2u * kQuarters : 1u];
+shared vec4 cells[kThin != 0 ? kCells : 1u];          // decisions, encoded as `growth`; 5 per row
 
-// Points of a square of pixels into `ofPatch`, w = forbidden class; kNone outside the frame and in patches without work.
+// Reads the points of a square of pixels into `ofPatch`, w = forbidden class; kNone outside the image and in
+// unlisted patches.
 void readAround(ivec2 from) {
     for (uint i = gl_LocalInvocationID.x; i < kSide * kSide; i += gl_WorkGroupSize.x) {
         ivec2 at = from + ivec2(i % kSide, i / kSide);
-        bool inside = all(lessThan(uvec2(at), params.size.xy)); // below zero is beyond the end
+        bool inside = all(lessThan(uvec2(at), params.size.xy)); // a negative number converts to a large one
         uint slot = slotOfPixel(inside ? uvec2(at) : uvec2(0), params.size.z);
         vec4 point = texelFetch(points, int(slot));
         uint mask = maskAt(slot) & params.depthBand.w, used = listed[slot >> 8];
@@ -25,8 +29,8 @@ uint cornerOf(uint cell) {
     return (cell / 5u * kSide + cell % 5u) * 4u;
 }
 
-// What a lane asks of a cell: points of it that are no corners, each by one lane. Of the whole cell four lanes, turned by a quarter of
-// a circle about its centre, take five each and the centre; of a quarter one takes all five.
+// The largest R'^2 - R^2 over the points that one lane tests. For a whole cell four lanes test five points
+// each and the centre, rotated by 90 degrees from lane to lane. For a quarter one lane tests all five.
 float askedOf(uint cell, uint quarter, bool whole) {
     uvec2 corner = uvec2(quarter & 1u, quarter >> 1) * 2u;
     uint from = cornerOf(cell) + corner.y * kSide + corner.x;
@@ -60,7 +64,7 @@ vec4 decidedOf(uint cell) {
     return min(least, whole) >= 0.0 ? vec4(-whole, 0.0, 0.0, 0.0) : quarters;
 }
 
-// All of the group call it; at the end `cells` are decided and `ofPatch` is free.
+// Called by the whole group. Afterwards `cells` is complete and `ofPatch` is free.
 void decideCells(uint patchIndex, ivec2 patchAt) {
     readAround(patchAt - 4);
     barrier();
@@ -72,7 +76,7 @@ void decideCells(uint patchIndex, ivec2 patchAt) {
     for (uint i = gl_LocalInvocationID.x; i < kCells; i += gl_WorkGroupSize.x) {
         uvec2 cell = uvec2(i % 5u, i / 5u);
         cells[i] = decidedOf(i);
-        if (min(cell.x, cell.y) > 0u) { // the patch's own
+        if (min(cell.x, cell.y) > 0u) { // a cell of this patch
             decided[patchIndex * 16u + (cell.y - 1u) * 4u + cell.x - 1u] = cells[i];
         }
     }
@@ -80,6 +84,6 @@ void decideCells(uint patchIndex, ivec2 patchAt) {
 }
 
 CellsAround cellsOfGroup(uint sub) {
-    uint at = (sub >> 2) * 5u + (sub & 3u); // of the corner cell
+    uint at = (sub >> 2) * 5u + (sub & 3u); // index of the diagonal cell
     return CellsAround(cells[at + 6u], cells[at + 5u], cells[at + 1u], cells[at]);
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// BT.601, limited range: whole bytes, those that engine/types/yuyv.cpp makes, for every step is exact in float32.
+// BT.601, limited range. Returns the same whole bytes as engine/types/yuyv.cpp, since every step is exact in
+// float32.
 vec3 rgbOfYuv(uint luma, uint blueDifference, uint redDifference) {
     float c = 298.0 * (float(luma) - 16.0) + 128.0;
     float u = float(blueDifference) - 128.0, v = float(redDifference) - 128.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ids of the specialisation constants. A name means the same in every shader, and C++ sets constants by these
-// names. Flags are 0 or 1; what a shader does not declare is ignored.
+// names. Flags are 0 or 1; constants that a shader does not declare are ignored.
 #ifndef FATHOM_SHARED_CONSTANTS_H
 #define FATHOM_SHARED_CONSTANTS_H
 #include "shaders/shared/interop.h"
@@ -19,9 +19,9 @@ FATHOM_CONST kSpecBox = 8;     // some class has a box
 FATHOM_CONST kSpecRange = 9;   // some class has a range gate
 FATHOM_CONST kSpecGuidance = 10;
 FATHOM_CONST kSpecSelfFilter = 11; // points inside the arm's spheres belong to no class
-FATHOM_CONST kSpecThin = 12;       // the error budget removes points
-FATHOM_CONST kSpecHold = 13;       // unseen points are held; `spheres` takes a kHold value
-FATHOM_CONST kSpecLeaks = 14;      // neighbouring points may be a radius apart
+FATHOM_CONST kSpecThin = 12;       // points are removed within the error budget
+FATHOM_CONST kSpecHold = 13;       // points out of view are held; `spheres` takes a kHold value
+FATHOM_CONST kSpecLeaks = 14;      // neighbouring points may be a region radius apart
 FATHOM_CONST kSpecTree = 15;       // the GPU query reads spheres and bounds
 // The filter.
 FATHOM_CONST kSpecRadius = 16;     // window (2 r + 1)^2; 0 = no filter
@@ -31,26 +31,26 @@ FATHOM_CONST kSpecTiled = 19;      // window from shared memory
 FATHOM_CONST kSpecBlock = 20;      // one invocation per 4x4 sub-patch, window in registers
 FATHOM_CONST kSpecPair = 21;       // two pixels per invocation
 // The device.
-FATHOM_CONST kSpecFour = 22;     // width divides by four: one texel holds four pixels, 1 = of depth, 2 = of
-                                 // registered colour, too
+FATHOM_CONST kSpecFour =
+    22; // width is a multiple of four: one texel holds four pixels; 1 = depth, 2 = also registered colour
 FATHOM_CONST kSpecRows = 23;     // rows of four pixels per invocation
 FATHOM_CONST kSpecWide = 24;     // a group covers four patches side by side
 FATHOM_CONST kSpecGather = 25;   // a group counts pixels in shared memory first
-FATHOM_CONST kSpecKeep = 26;     // later passes find the depth on the device
-FATHOM_CONST kSpecLists = 27;    // classify lists patches itself
+FATHOM_CONST kSpecKeep = 26;     // `classify` copies the depth to device memory for later passes
+FATHOM_CONST kSpecLists = 27;    // `classify` makes the patch lists
 FATHOM_CONST kSpecSubGroup = 28; // group size of the sub-patch passes
 FATHOM_CONST kSpecTexels = 29;   // the memory of points is read as texels
 FATHOM_CONST kSpecPack = 30;     // the host reads packed runs
 FATHOM_CONST kSpecShared = 31;   // moments of sub-patches are merged in shared memory
 FATHOM_CONST kSpecPatches = 32;  // `tree` builds the level of patches
 // Measurements of the device.
-FATHOM_CONST kSpecRounds = 33; // of four multiply-adds per chain
-FATHOM_CONST kSpecCopy = 34;   // `stream` copies; else it adds up
+FATHOM_CONST kSpecRounds = 33; // rounds of four multiply-adds per chain
+FATHOM_CONST kSpecCopy = 34;   // 1: `stream` copies; 0: it sums
 
-// kSpecColour.
+// Values of kSpecColour.
 FATHOM_CONST kColourNone = 0, kColourRegistered = 1, kColourLookedUp = 2;
-// kSpecHold of `spheres` on CPU devices: patches whose memory holds no points and those that hold some are
-// dispatched apart.
+// Values of kSpecHold for `spheres`. On CPU devices, patches whose memory holds points have a dispatch of
+// their own.
 FATHOM_CONST kHoldNone = 0, kHoldQuiet = 1, kHoldHolding = 2;
 
 FATHOM_SHARED_END

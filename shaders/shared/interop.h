@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lets one text declare a struct for GLSL and for C++. Only vec4, uvec4, float, uint: their layouts agree by
-// nature.
+// Lets GLSL and C++ share struct declarations. Members are only vec4, uvec4, float and uint, whose layouts
+// agree.
 #ifndef FATHOM_SHARED_INTEROP_H
 #define FATHOM_SHARED_INTEROP_H
 
