@@ -16,7 +16,7 @@ namespace {
 using gpu::Buffer;
 using gpu::MemoryKind;
 
-// Of what the host reads when nothing is packed.
+// Memory of the buffers that the host reads when the plan does not pack.
 MemoryKind slotMemory(const Plan& plan) {
     return plan.spheres && !plan.pack ? MemoryKind::Readback : MemoryKind::Device;
 }
@@ -55,9 +55,9 @@ WorkBuffers::WorkBuffers(const gpu::Device& device, const Plan& plan, const Patc
         live = Buffer(device, patches * 4, MemoryKind::Device, "live");
     }
     if (plan.occlusion) {
-        // A cell half as wide again as the distance between neighbouring depth pixels in the colour picture:
-        // a surface that ticks its face to the colour camera is stretched there, and a gap would let what it
-        // hides show through.
+        // Cells are 1.5 times as wide as the distance between neighbouring depth pixels in the colour image.
+        // A surface that faces the colour camera is stretched there, and gaps would show the points that it
+        // hides.
         const double ratio = std::max(camera.colour.fx / camera.depth.fx, camera.colour.fy / camera.depth.fy);
         cellEdge = std::max(1u, static_cast<uint32_t>(std::ceil(1.5 * ratio)));
         cellsAcross = (camera.colour.width + cellEdge - 1) / cellEdge;

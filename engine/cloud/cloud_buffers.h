@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffers of the frame path: shared between passes, uploaded with a frame, or part of one fixture set.
+// Buffers of the frame cadence: shared by the passes, uploaded with each frame, or part of one fixture set.
 #pragma once
 
 #include "engine/gpu/buffer.h"
@@ -11,15 +11,15 @@
 
 namespace fathom::cloud {
 
-// Buffers that passes share. One copy, because frames run one after the other on the device. Slots are in
-// patch-major order.
+// Buffers that the passes share. One copy suffices because the device runs frames one after the other. Slots
+// are in patch-major order (shaders/README.md).
 struct WorkBuffers {
     WorkBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout,
                 const CameraInfo& camera);
 
     gpu::Buffer masks;                // uint8 per slot: class bits
     gpu::Buffer listed;               // uint per patch: kPatch bits
-    gpu::Buffer list;                 // uint: patches, any order, in three parts (FrameCounters)
+    gpu::Buffer list;                 // uint: patches in any order, in three parts (FrameCounters)
     gpu::Buffer counters;             // FrameCounters
     gpu::Buffer points;               // vec4 per slot
     gpu::Buffer growth;               // vec4 per sub-patch: thinning
@@ -27,14 +27,14 @@ struct WorkBuffers {
     gpu::Buffer live;                 // uint per patch: points in memory + 65536 x held points
     gpu::Buffer nearest;              // uint per cell of the colour image: occlusion
     gpu::Buffer rays;                 // vec2 per pixel, row-major
-    gpu::Buffer radii, heldRadii;     // float a slot: R of the sphere about its point, and about the point in
-                                      // `kept`; < 0 = none. Empty with pack
-    gpu::Buffer classes; // uint8 a slot: class of the sphere | class of the held one << 4; with pack of
-                         // patches with several
+    gpu::Buffer radii, heldRadii; // float per slot: R [m] of the spheres around the seen and the held point;
+                                  // < 0 = none. Empty with Plan::pack
+    gpu::Buffer classes; // uint8 per slot: class of the seen sphere | class of the held one << 4; with
+                         // Plan::pack only in patches with several classes
     gpu::Buffer depth;   // uint16 per pixel, row-major: copy of the upload; empty unless Plan::keepDepth
-    // Without pack the CPU reads points, kept, both radii and classes; with pack only classes, when there are
-    // several. listed and counters are clear between frames; each set has a copy.
-    gpu::Buffer unused; // bound in place of buffers that the plan skips
+    // The CPU reads points, kept, both radii and classes; with Plan::pack only classes, if there are several.
+    // listed and counters are cleared between frames; each set has a copy.
+    gpu::Buffer unused; // bound instead of buffers that are not in the plan
 
     uint32_t cellEdge = 1, cellsAcross = 1, cellsDown = 1; // occlusion cells [colour pixels]
 };
@@ -45,10 +45,10 @@ inline constexpr VkFormat kPointTexels = VK_FORMAT_R32G32B32A32_SFLOAT;
 inline constexpr VkFormat kColourTexels = VK_FORMAT_R8G8B8A8_UINT;
 inline constexpr VkFormat kMaskTexels = VK_FORMAT_R32G32B32A32_UINT; // one texel per sub-patch
 
-// Uploads of one frame: parameters and images. Images are copied unless the device can read them in place.
+// Uploads of one frame: parameters and images. Images are copied, unless the device can read them in place.
 struct UploadBuffers {
-    // Imports the memory given here (one image of the camera's size each); throws Error when the device
-    // cannot.
+    // Imports the given memory, which holds one image of the camera's size each. Throws Error when the device
+    // cannot import it.
     UploadBuffers(const gpu::Device& device, const Plan& plan, const CameraInfo& camera,
                   const std::shared_ptr<const void>& depthMemory = nullptr,
                   const std::shared_ptr<const void>& colourMemory = nullptr);
@@ -56,23 +56,25 @@ struct UploadBuffers {
     gpu::Buffer params; // FrameParams
     gpu::Buffer depth;  // uint16 per pixel, row-major
     gpu::Buffer
-        colour; // uint per pixel, or (Plan::yuyv) per two pixels, row-major; empty when no class uses colour
+        colour; // uint per pixel, or per two pixels (Plan::yuyv), row-major; empty when no class uses colour
     bool yuyv = false; // Plan::yuyv
-    gpu::Buffer arm;   // vec4: links and spheres of the arm, as classify.comp says; empty without self-filter
+    gpu::Buffer
+        arm; // vec4: links and spheres of the arm, in the format of classify.comp; empty without self-filter
 };
 
-// Device side of one fixture set. Readback buffers are what the CPU copies from.
+// Device side of one fixture set. The CPU copies from the readback buffers.
 struct SetBuffers {
     SetBuffers() = default; // none
     SetBuffers(const gpu::Device& device, const Plan& plan, const PatchLayout& layout);
 
-    gpu::Buffer packed; // words: runs of a patch's spheres (shaders/lib/packing.glsl), one after the other in
-                        // any order; empty without pack
-    gpu::Buffer places; // 16 uint per listed patch, 8 per layer: bit (layer * 256 + slot) = there is a sphere
-    gpu::Buffer runs;   // uvec2 per listed patch: first word of its run; number of spheres + 65536 x bits of
-                        // their classes, kRunGrown, kRunWide
-    gpu::Buffer bits;   // uint per sub-patch of a listed patch: pixels of a forbidden class
-    gpu::Buffer nodes;  // vec4 per node; empty without a tree
+    gpu::Buffer packed; // words: one run per patch with its spheres (shaders/lib/packing.glsl), in any order;
+                        // empty without Plan::pack
+    gpu::Buffer
+        places; // 16 uint per listed patch, 8 per layer: bit (layer * 256 + slot) = the slot has a sphere
+    gpu::Buffer runs;  // uvec2 per listed patch: first word of its run; number of spheres + 65536 x class
+                       // bits, kRunGrown, kRunWide
+    gpu::Buffer bits;  // uint per sub-patch of a listed patch: bits of the pixels with a forbidden class
+    gpu::Buffer nodes; // vec4 per node; empty without a tree
     gpu::Buffer nodeCounts;    // uint per node
     gpu::Buffer spheres, held; // vec4 per slot, R < 0 = none; for the GPU query, else empty
     gpu::Buffer moments;       // PatchMoments, kMaxClasses per patch
@@ -81,7 +83,7 @@ struct SetBuffers {
     gpu::Buffer points, masks; // copies for guidance classes that need their points
 };
 
-// One T per upload slot, made when the slot is first used.
+// One T per upload slot, created when the slot is first used.
 template <class T>
 class PerUpload {
 public:
@@ -97,7 +99,7 @@ private:
     std::vector<T> all_;
 };
 
-// What passes are made from. Its references outlive the passes.
+// What the passes are built from. All referenced objects must outlive the passes.
 struct CloudContext {
     const gpu::Device& device;
     const Plan& plan;

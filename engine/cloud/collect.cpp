@@ -17,10 +17,10 @@ namespace fathom::cloud {
 
 namespace {
 
-constexpr size_t kLeastReadings = 16384; // of a part
+constexpr size_t kLeastReadings = 16384; // readings per part
 
-// 16 bits of each of the four rows of pixels that the sub-patches sub[0..3], side by side, have; of row k
-// from bit 16 k on: four times four nibbles, transposed.
+// Converts four adjacent sub-patches sub[0..3] to four rows of 16 pixel bits, row k from bit 16 k on:
+// transposes 4x4 nibbles.
 uint64_t rowsOfSubs(const uint32_t* sub) {
     uint64_t n = 0;
     for (uint32_t k = 0; k < 4; ++k) {
@@ -28,12 +28,12 @@ uint64_t rowsOfSubs(const uint32_t* sub) {
     }
     const uint64_t near = (n ^ n >> 12) & 0x0000f0f00000f0f0; // nibbles of 2x2 blocks
     n ^= near ^ near << 12;
-    const uint64_t far = (n ^ n >> 24) & 0x00000000ff00ff00; // the blocks
+    const uint64_t far = (n ^ n >> 24) & 0x00000000ff00ff00; // the 2x2 blocks
     return n ^ far ^ far << 24;
 }
 
-// Sub-patch bits of the listed patches of a row of patches to row-major bits of the frame. Returns how many
-// there are.
+// Converts the sub-patch bits of a row of patches to row-major bits of the image. Returns the number of set
+// bits.
 uint32_t takeBitsOfRow(FixtureSet& set, uint32_t down, const PatchLayout& layout) {
     const auto listed = set.device.listed.as<uint32_t>();
     const auto bits = set.device.bits.as<uint32_t>();
@@ -44,7 +44,7 @@ uint32_t takeBitsOfRow(FixtureSet& set, uint32_t down, const PatchLayout& layout
             uint64_t rows = rowsOfSubs(&bits[patch * 16 + four * 4]);
             count += static_cast<uint32_t>(std::popcount(rows));
             uint32_t pixel = (down * 16 + four * 4) * set.host.camera.depth.width + across * 16;
-            for (; rows != 0; rows >>= 16, pixel += set.host.camera.depth.width) { // none below the frame
+            for (; rows != 0; rows >>= 16, pixel += set.host.camera.depth.width) { // no bits below the image
                 const uint64_t placed = (rows & 0xffff) << pixel % 32;
                 out[pixel / 32] |= static_cast<uint32_t>(placed);
                 if (placed >> 32 != 0) {
@@ -56,7 +56,7 @@ uint32_t takeBitsOfRow(FixtureSet& set, uint32_t down, const PatchLayout& layout
     return count;
 }
 
-// Two rows of patches, or the last: 32 rows of pixels end with a word, whatever the frame's width.
+// Handles two rows of patches, or the last one: 32 rows of pixels end at a word boundary for any image width.
 uint32_t takeBitsOfPair(FixtureSet& set, uint32_t pair, const PatchLayout& layout) {
     return takeBitsOfRow(set, 2 * pair, layout) +
            (2 * pair + 1 < layout.down ? takeBitsOfRow(set, 2 * pair + 1, layout) : 0);
@@ -106,7 +106,7 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
 
 uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
-    // Beyond what the sensor can say nothing is near enough.
+    // An empty band beyond the sensor's range: no reading is near enough.
     const auto least = static_cast<uint16_t>(lo <= hi ? lo : 1),
                most = static_cast<uint16_t>(lo <= hi ? hi : 0);
     host.depth.resize(depth.size());
@@ -132,7 +132,8 @@ FrameCounts countsOf(const shared::FrameCounters& c, size_t classes) {
     return counts;
 }
 
-// All that a forbidden class needs, and the guidance, shared: guidance first, for it may take longest.
+// Runs the work for forbidden classes and guidance on all workers. Guidance comes first because it may take
+// longest.
 void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
                     const Plan& plan, const std::vector<uint32_t>& rows, const PatchLayout& layout,
                     ThreadPool& workers, FrameCounts& counts) {
@@ -140,7 +141,7 @@ void collectSpheres(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
     SphereCollector spheres(set, work, seen, plan, rows, layout, workers);
     const uint32_t guidance = plan.moments ? 1 : 0, pairs = (layout.down + 1) / 2, runs = (pairs + 3) / 4;
     std::atomic<uint32_t> forbidden{0};
-    std::exception_ptr failed; // of the one part that takes memory: a job must not throw
+    std::exception_ptr failed; // from the one part that allocates: a job must not throw
     workers.run(guidance + spheres.parts() + runs, [&](uint32_t part) {
         if (part < guidance) {
             try {

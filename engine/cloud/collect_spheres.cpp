@@ -14,10 +14,10 @@ namespace fathom::cloud {
 namespace {
 
 constexpr uint32_t kLeastPart = 4096; // spheres
-constexpr size_t kLeastPatches = 64;  // that are counted in one go
+constexpr size_t kLeastPatches = 64;  // patches counted per part
 
-// The device has just written them, patches in any order: none of a run's lines is near, and the processor
-// cannot guess where the next run begins.
+// The device has just written the runs in any patch order, so their cache lines are cold and the processor
+// cannot predict where the next run begins.
 template <class T>
 void bringNear(std::span<T> run) noexcept {
     constexpr size_t kLine = 64; // bytes
@@ -26,7 +26,7 @@ void bringNear(std::span<T> run) noexcept {
     }
 }
 
-// Of 32 slots, < 0 = none.
+// Bits of the slots with a sphere, of 32 radii; < 0 = none.
 FATHOM_CLONES uint32_t bitsOfSpheres(const float* radii) noexcept {
     uint32_t bits = 0;
     for (uint32_t k = 0; k < 32; ++k) {
@@ -69,13 +69,13 @@ uint32_t SphereCollector::placePatches(ThreadPool& workers) {
         }
     });
     uint32_t next = 0;
-    for (uint32_t& begin : begins_) { // the last is of no patch, and 0
+    for (uint32_t& begin : begins_) { // the last entry has no patch and count 0
         next += std::exchange(begin, next);
     }
     return next;
 }
 
-// Runs and radii of patches that are not listed are of earlier frames.
+// Runs and radii of unlisted patches belong to earlier frames.
 uint32_t SphereCollector::spheresOf(uint32_t patch) const noexcept {
     if (set_.device.listed.as<uint32_t>()[patch] == 0) {
         return 0;
@@ -93,7 +93,7 @@ uint32_t SphereCollector::spheresOf(uint32_t patch) const noexcept {
     return n;
 }
 
-// A part begins and ends with a patch, and all have about as many spheres.
+// Parts consist of whole patches and have about equally many spheres.
 void SphereCollector::take(uint32_t part) noexcept {
     const auto patchAt = [&](uint64_t share) {
         const uint64_t sphere = begins_.back() * share / parts();
@@ -116,7 +116,7 @@ SphereCounts SphereCollector::counts() const {
     return all;
 }
 
-// Of patches [first, end).
+// Takes patches [first, end).
 void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
     const auto packed = set_.device.packed.as<uint32_t>();
     const auto places = set_.device.places.as<uint32_t>();
@@ -125,7 +125,7 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
     const auto bring = [&](uint32_t patch) {
         const uint32_t n = patch < end ? begins_[patch + 1] - begins_[patch] : 0;
         if (n > 0) {
-            const size_t words = plan_.packsDepths() ? n : 4 * n; // held ones are few
+            const size_t words = plan_.packsDepths() ? n : 4 * n; // ignores the few held ones
             bringNear(packed.subspan(runs[patch].x, words));
             bringNear(places.subspan(size_t{patch} * 16, 8));
         }
@@ -144,13 +144,13 @@ void SphereCollector::takePacked(uint32_t first, uint32_t end, SphereColumns& co
     }
 }
 
-// Of patches [first, end), where nothing is packed.
+// Takes patches [first, end) when the plan does not pack.
 void SphereCollector::takeSlots(uint32_t first, uint32_t end, SphereColumns& columns) const noexcept {
     const std::array<std::span<const glm::vec4>, 2> points{work_.points.as<glm::vec4>(),
                                                            work_.kept.as<glm::vec4>()};
     const std::array<std::span<const float>, 2> radii{work_.radii.as<float>(), work_.heldRadii.as<float>()};
     const auto classes = work_.classes.as<uint8_t>();
-    std::array<glm::vec4, 512> spheres; // of a patch
+    std::array<glm::vec4, 512> spheres; // of one patch
     std::array<uint32_t, 16> places;
     for (uint32_t patch = first; patch < end; ++patch) {
         PatchSpheres s;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Region spheres from the device's readback memory to the host's columns, by patch, then layer (seen, held),
-// then slot.
+// Copies region spheres from the device's readback memory to the host's columns, ordered by patch, layer
+// (seen, held) and slot.
 #pragma once
 
 #include "engine/cloud/sphere_columns.h"
@@ -12,17 +12,18 @@ class ThreadPool;
 namespace fathom::cloud {
 
 // Fills set.host.spheres and, for a GPU query, set.keys, in parts that several threads may share. rows: row
-// of Scene::fixtures of each class of points. Allocates when it is made; taking does not.
+// of Scene::fixtures for each point class. Only the constructor allocates.
 class SphereCollector {
 public:
-    // seen: of the frame's frame; null where the plan packs no depths.
+    // seen: points of this frame; null if the plan does not pack depths.
     SphereCollector(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Plan& plan,
                     const std::vector<uint32_t>& rows, const PatchLayout& layout, ThreadPool& workers);
 
     uint32_t parts() const { return static_cast<uint32_t>(counts_.size()); }
-    void take(uint32_t part) noexcept; // each once, in any order, on any thread
-    SphereCounts counts() const;       // when all are taken
-    // Nodes with spheres that a tree over the patches has, from the patches up to the root; likewise.
+    void take(uint32_t part) noexcept; // call once per part, in any order, on any thread
+    SphereCounts counts() const;       // after all parts are taken
+    // Number of nodes with spheres in a tree over the patches, from the patches up to the root. After all
+    // parts are taken.
     uint32_t nodesAbove() const;
 
 private:
@@ -37,8 +38,8 @@ private:
     const Plan& plan_;
     const std::vector<uint32_t>& rows_;
     const PatchLayout& layout_;
-    std::vector<uint32_t> begins_;     // of each patch: place of its first sphere; and the end
-    std::vector<SphereCounts> counts_; // of each part
+    std::vector<uint32_t> begins_;     // index of each patch's first sphere, then the end
+    std::vector<SphereCounts> counts_; // one per part
 };
 
 } // namespace fathom::cloud

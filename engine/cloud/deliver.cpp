@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The end of a frame: hands counters and marks of patches to the host and clears them.
+// Ends a frame: copies counters and patch marks for the host and clears them.
 #include "engine/cloud/passes.h"
 
 #include "shaders/deliver.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fixture set: all that one frame yields, on the device and on the host.
+// A fixture set: everything made from one frame, on the device and on the host.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
@@ -9,20 +9,21 @@
 
 namespace fathom::cloud {
 
-// Written by the frame cadence, then read-only until no reader leases it. The host part outlives the device.
+// Written by the frame cadence, then read-only while a reader leases it. The host part survives the loss of
+// the device.
 struct FixtureSet {
     Fixtures host;
     RegionGrid grid;            // over host.spheres
-    std::vector<uint32_t> keys; // of each sphere: patch * 512 + layer * 256 + slot in the patch, ascending;
-                                // empty without a GPU query
+    std::vector<uint32_t> keys; // per sphere: patch * 512 + layer * 256 + slot in the patch, ascending; empty
+                                // without a GPU query
     SetBuffers device;
 
-    FixtureSet() = default; // of the host alone
+    FixtureSet() = default; // without a device side
     FixtureSet(const gpu::Device& gpu, const Plan& plan, const PatchLayout& layout)
         : device(gpu, plan, layout) {}
 };
 
-// Sets that are used again once nobody looks at them.
+// Sets are reused when no reader leases them.
 using FixturePool = LeasePool<FixtureSet>;
 
 } // namespace fathom::cloud

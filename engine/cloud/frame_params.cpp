@@ -12,11 +12,11 @@ namespace {
 
 using glm::vec4;
 
-// Isolated points: fewer than 2 neighbours this near; wide-angle and far frames are coarser than 20 mm by
-// nature.
+// A point with fewer than 2 neighbours this near is isolated. Wide-angle and far images are coarser, so the
+// distance grows with the pixel width.
 constexpr double kIsolation = 0.020; // [m]
 constexpr double kIsolationPixels = 3.0;
-constexpr double kGamma = 2.2; // of stored bytes
+constexpr double kGamma = 2.2; // gamma of stored colour bytes
 
 vec4 lensOf(const Intrinsics& lens) {
     return {lens.fx, lens.fy, lens.cx, lens.cy};
@@ -33,8 +33,8 @@ void setRows(vec4 (&rows)[3], const Pose& pose) {
     }
 }
 
-// Bounds as insideGates (shaders/lib/colour.glsl) takes them: outward by what float32 may round away of them
-// and of the products with them. What has no gate lies inside of any.
+// Bounds for insideGates (shaders/lib/colour.glsl), widened by the float32 rounding of bounds and products. A
+// missing gate gets bounds that every colour passes.
 void setGates(shared::ClassParams& c, const FixtureClass& f) {
     constexpr double kIn = 1.0 - 1.9e-7, kOut = 1.0 + 1.9e-7;
     const auto asks = [](const std::optional<Band>& b) { return b && (b->lo > 0.0 || b->hi < 1.0); };
@@ -52,7 +52,7 @@ shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene
     shared::ClassParams c{};
     setGates(c, f);
     if (f.box) {
-        // Outward by what float32 may round away: a point exactly on a face is inside.
+        // Widened by the float32 rounding, so that a point exactly on a face is inside.
         const double slack = 3e-7 * std::max(1.0, scene.farZ);
         c.boxMin = vec4(glm::vec3(f.box->min - origin - slack), 1.0f);
         c.boxMax = vec4(glm::vec3(f.box->max - origin + slack), c.boxMax.w);
@@ -62,7 +62,7 @@ shared::ClassParams classParams(const FixtureClass& f, uint32_t row, const Scene
     return c;
 }
 
-// Outward by what float32 may round away, as a box.
+// Widened by the float32 rounding, like a box.
 vec4 rangeOf(const FixtureClass& f, double farZ) {
     const double slack = 3e-7 * std::max(1.0, farZ);
     return f.range ? vec4(f.range->lo - slack, f.range->hi + slack, 1.0, 0.0) : vec4(0.0f);
@@ -130,7 +130,8 @@ shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, co
         p.beam = {camera.beam->range, camera.beam->perMetre, camera.beam->across(), 0.0};
     }
     if (scene.attenuation) {
-        // Stored bytes are about light^(1 / 2.2): a metre takes the 2.2nd part of the logarithm from them.
+        // Stored bytes are about light^(1 / 2.2), so their attenuation per metre is that of light divided
+        // by 2.2.
         p.water = vec4(glm::vec3(*scene.attenuation / kGamma), 0.0f);
     }
     setRows(p.colourTdepth, camera.colourTdepth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The numbers that all passes of a frame read, from the scene, the camera and the frame's pose.
+// Computes the parameters of the passes from the scene, the camera and the frame's pose.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
@@ -11,20 +11,21 @@
 
 namespace fathom::cloud {
 
-// Rows of Scene::fixtures that are classes of points, in file order: bit c of a pixel's mask is row
+// Rows of Scene::fixtures that are point classes, in file order: bit c of a pixel's mask is row
 // classRows(scene)[c].
 std::vector<uint32_t> classRows(const Scene& scene);
 
-// Smallest and largest raw depth value whose metres lie in near..far, inclusive; 1e-9 of a unit absorbs the
-// rounding of the quotient. Empty (first > second) when no value does.
+// Smallest and largest raw depth value within near..far, inclusive. A tolerance of 1e-9 units absorbs the
+// rounding of the quotient. Empty (first > second) when no value is in range.
 std::pair<uint32_t, uint32_t> depthBand(const Scene& scene, double metresPerUnit);
 
-// What does not change from frame to frame. origin: base frame [m], what float32 positions are relative to.
-// cells: occlusion cells of the colour image (edge, across), 1 and 1 when the plan has none.
+// Parameters that stay the same from frame to frame. origin [m]: point of the base frame to which float32
+// positions are relative. cells: edge and number across of the occlusion cells; 1 and 1 when the plan has
+// none.
 shared::FrameParams sceneParams(const Scene& scene, const CameraInfo& camera, const PatchLayout& layout,
                                 const dvec3& origin, uint32_t cellEdge, uint32_t cellsAcross);
 
-// Sets the pose and the times of one frame; the clock wraps at 2^32 us, ages stay right.
+// Sets the pose and the times of one frame. Times wrap at 2^32 us, which keeps ages correct.
 void setFrame(shared::FrameParams& params, const Pose& baseTcamera, const dvec3& origin, double captureTime,
               double previousTime);
 

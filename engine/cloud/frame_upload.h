@@ -8,9 +8,8 @@
 
 namespace fathom::cloud {
 
-// Copies the parameters, depth and, when the plan has it, colour, unless the slot has them where the frame
-// does. The slot's last submission must have completed. Throws Error when the frame's images are smaller than
-// the camera said.
+// Copies parameters, depth and, if the plan uses it, colour; skips images that the slot reads in place. The
+// slot's last submission must have completed. Throws Error when an image is smaller than the camera's size.
 void uploadFrame(const UploadBuffers& slot, const Frame& frame, const shared::FrameParams& params);
 
 } // namespace fathom::cloud

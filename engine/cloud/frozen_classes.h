@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Classes of points that stay where they were while the frame goes on.
+// Point classes whose spheres stay fixed in the base frame while new frames arrive.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -10,12 +10,12 @@
 
 namespace fathom::cloud {
 
-// On the host's copy of a set, so for contact queries of the CPU only. Frame cadence.
+// Changes the host copy of a set only, so it requires the CPU contact query. Frame thread only.
 class FrozenClasses {
 public:
-    // Spheres and targets of FixtureClass::frozen become those of the first set that was given here since
-    // they are; other classes are left alone. Sources of frozen spheres are moved by twice the pixels, so
-    // that no two spheres of a set share one.
+    // Replaces spheres and targets of classes with FixtureClass::frozen by those of the first set since the
+    // class was frozen. Other classes are unchanged. Sources of frozen spheres are offset by twice the number
+    // of pixels, so that every source in a set is unique.
     void apply(Fixtures& set, const Scene& scene);
 
 private:

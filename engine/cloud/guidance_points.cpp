@@ -17,8 +17,8 @@ struct Pixel {
     float z; // along the optical axis [m]
 };
 
-// Takes the pixels of a class that have a point, row by row. Reads what the device wrote once, of patches
-// with guided pixels only.
+// Collects the pixels of a class that have a point, in row-major order. Reads device memory once, and only in
+// patches with guided pixels.
 class PixelsOfClass {
 public:
     PixelsOfClass(const FixtureSet& set, uint32_t c, const PatchLayout& layout)
@@ -28,7 +28,7 @@ public:
         , width_(set.host.camera.depth.width)
         , height_(set.host.camera.depth.height) {
         const auto listed = set.device.listed.as<uint32_t>();
-        std::vector<uint32_t> guided; // of a row of patches
+        std::vector<uint32_t> guided; // guided patches in a row of patches
         for (uint32_t down = 0; down < layout.down; ++down) {
             guided.clear();
             for (uint32_t patch = down * layout.across; patch < (down + 1) * layout.across; ++patch) {
@@ -47,7 +47,7 @@ public:
     std::vector<Pixel> take() { return std::move(pixels_); }
 
 private:
-    // Of the patch that begins in column u; four pixels of a sub-patch are a word.
+    // Takes one pixel row of the patch that begins in column u. A word holds four pixels of a sub-patch.
     void takeRow(uint32_t patch, uint32_t u, uint32_t v) {
         for (uint32_t sub = 0; sub < 4; ++sub) {
             const uint32_t slot = patch * 256 + (v % 16 / 4 * 4 + sub) * 16 + v % 4 * 4;
@@ -91,16 +91,16 @@ private:
     std::vector<uint32_t> parent_;
 };
 
-// 8-connected: every pixel with the one before it and with the three above it.
+// 8-connected: joins each pixel with the one to its left and the three above it.
 Parts partsOf(const std::vector<Pixel>& pixels, double edge) {
     Parts parts(pixels.size());
-    const auto joinNear = [&](uint32_t i, uint32_t j) { // the same from either side
+    const auto joinNear = [&](uint32_t i, uint32_t j) { // symmetric in i and j
         const float z = pixels[i].z, w = pixels[j].z;
         if (edge == 0.0 || std::abs(w - z) <= edge * std::min(w, z)) {
             parts.join(i, j);
         }
     };
-    uint32_t above = 0; // first that does not lie before the three above pixel i
+    uint32_t above = 0; // the first pixel not before the three above pixel i
     for (uint32_t i = 0; i < pixels.size(); ++i) {
         const auto [u, v, slot, z] = pixels[i];
         if (i > 0 && pixels[i - 1].v == v && pixels[i - 1].u + 1 == u) {
@@ -116,7 +116,7 @@ Parts partsOf(const std::vector<Pixel>& pixels, double edge) {
     return parts;
 }
 
-// The first of those that are largest.
+// Of equally large parts, keeps the first.
 void keepLargestPart(std::vector<Pixel>& pixels, double edge) {
     Parts parts = partsOf(pixels, edge);
     std::vector<uint32_t> sizes(pixels.size(), 0);
@@ -133,7 +133,7 @@ void keepLargestPart(std::vector<Pixel>& pixels, double edge) {
     pixels.resize(kept);
 }
 
-// Of points as far from the mean as each other the first stay.
+// Of points at equal distance from the mean, keeps the first.
 void trimFarthest(std::vector<dvec3>& points, double share) {
     const dvec3 mean = momentsOf(points).mean;
     std::vector<std::pair<double, uint32_t>> order(points.size());
@@ -145,7 +145,7 @@ void trimFarthest(std::vector<dvec3>& points, double share) {
     if (kept == points.size()) {
         return;
     }
-    const auto first = order.begin() + static_cast<std::ptrdiff_t>(kept); // that goes
+    const auto first = order.begin() + static_cast<std::ptrdiff_t>(kept); // first point to drop
     std::nth_element(order.begin(), first, order.end());
     const std::pair<double, uint32_t> limit = *first;
     size_t to = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Guidance classes that ask for more than a plain mean: the largest connected part, a trimmed mean. On the
-// CPU, from the copied points; built only for scenes that ask.
+// Guidance options beyond the plain mean: largest connected part and trimmed mean. Computed on the CPU from
+// copied points, only for scenes that use them.
 #pragma once
 
 #include "engine/cloud/fixture_set.h"
@@ -8,10 +8,10 @@
 
 namespace fathom::cloud {
 
-// Moments about the origin of the points of class bit c that are left after fixture.largestPart (8-connected
-// pixels whose depths differ by at most edge, relative; 0 = any; of parts as large the one that
-// begins first, row by row) and fixture.trim (that share of the points
-// farthest from the mean is left out).
+// Moments, relative to the set's origin, of the points of class bit c after two filters. fixture.largestPart
+// keeps the largest part of 8-connected pixels whose depths differ by at most edge (relative; 0 = any); of
+// equal parts, the first in row-major order. fixture.trim then drops this share of the points, those farthest
+// from the mean.
 Moments chosenMoments(const FixtureSet& set, uint32_t c, const FixtureClass& fixture, double edge,
                       const PatchLayout& layout);
 

@@ -37,14 +37,14 @@ void jacobiRotate(double (&a)[3][3], double (&v)[3][3], int p, int q) noexcept {
     }
 }
 
-// Tool axes: +z along -normal; +x along the long axis of the points or, without one, as near the scene's x as
-// the normal lets it.
+// Tool axes: +z along -normal; +x along the long axis of the points or, without one, as near to the scene's x
+// as possible.
 dquat targetRotation(const dvec3& normal, const dvec3& longAxis, bool rollFree, const dquat& scene) {
     const dvec3 z = -normal;
     const dvec3 sceneX = scene * dvec3(1, 0, 0);
     dvec3 x = rollFree ? sceneX : (glm::dot(longAxis, sceneX) < 0.0 ? -longAxis : longAxis);
     x -= glm::dot(x, z) * z;
-    if (glm::length(x) < 1e-6) { // the scene's x lies along the normal: its y will do
+    if (glm::length(x) < 1e-6) { // the scene's x is parallel to the normal: use its y
         x = scene * dvec3(0, 1, 0);
         x -= glm::dot(x, z) * z;
     }
@@ -88,7 +88,7 @@ Moments momentsOf(std::span<const dvec3> points) {
         return m;
     }
     m.count = static_cast<double>(points.size());
-    dvec3 sum(0.0); // about the first, so that nothing is lost of a small set far away
+    dvec3 sum(0.0); // relative to the first point: a small set far away loses no digits
     for (const dvec3& p : points) {
         sum += p - points[0];
     }
@@ -106,7 +106,8 @@ Moments momentsOf(std::span<const dvec3> points) {
 Eigen3 symmetricEigen(const std::array<double, 6>& m) noexcept {
     double a[3][3] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}};
     double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int sweep = 0; sweep < 12; ++sweep) { // quadratic convergence: 4 to 6 do, near-equal roots included
+    for (int sweep = 0; sweep < 12;
+         ++sweep) { // quadratic convergence: 4 to 6 sweeps suffice, also for near-equal eigenvalues
         jacobiRotate(a, v, 0, 1);
         jacobiRotate(a, v, 0, 2);
         jacobiRotate(a, v, 1, 2);

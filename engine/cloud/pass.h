@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compute pass: its descriptor, and the pipeline and bindings made from it.
+// A compute pass: its descriptor, and the pipeline and bindings built from it.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
@@ -25,7 +25,7 @@ struct PassBinding {
         , texels(texelFormat) {}
 
     Of of;
-    VkFormat texels; // undefined: FrameParams bind as a uniform buffer, others as storage buffers
+    VkFormat texels; // undefined: FrameParams is bound as a uniform buffer, all others as storage buffers
 };
 
 using Groups = std::array<uint32_t, 3>;
@@ -34,33 +34,33 @@ struct GroupsCounted {
     size_t offset;
 };
 
-// What runs before the next pass of the frame.
+// The barrier between this pass and the next one.
 enum class After {
-    Barrier,         // the next pass may read what this one wrote
-    IndirectBarrier, // the same, and its number of groups, too
+    Barrier,         // the next pass may read the results of this one
+    IndirectBarrier, // the same; the next pass may also read its number of groups
     Nothing,         // the next pass is independent of this one
 };
 
 struct PassInfo {
-    const char* name; // passes of one name that follow each other are timed together
+    const char* name; // consecutive passes of the same name are timed together
     std::span<const uint32_t> spirv;
     std::vector<PassBinding> bindings; // 0..n-1
     std::vector<gpu::Constant> constants;
     std::variant<Groups, GroupsCounted> groups;
     After after = After::Barrier;
     std::optional<shared::TreeParams> push = {};
-    // Filled before the dispatch, and a barrier.
+    // Zeroed before the dispatch, with a barrier.
     gpu::Buffer WorkBuffers::*filled = nullptr;
     uint32_t fill = 0;
 };
 
-// One thread. What the context refers to outlives the pass.
+// One thread. Objects that the context refers to must outlive the pass.
 class Pass {
 public:
     Pass(const CloudContext& context, PassInfo info);
 
     const PassInfo& info() const { return info_; }
-    void bind(uint32_t upload, const UploadBuffers& buffers); // before record() with that upload
+    void bind(uint32_t upload, const UploadBuffers& buffers); // before record() with that upload slot
     void record(gpu::Commands& commands, uint32_t upload, uint32_t set) const;
 
 private:

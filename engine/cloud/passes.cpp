@@ -49,8 +49,8 @@ PassInfo classify(const CloudContext& c) {
     const uint32_t colour = !plan.colour ? kColourNone : plan.occlusion ? kColourLookedUp : kColourRegistered;
     const uint32_t four = c.camera.depth.width % 4 != 0 ? 0u : (colour == kColourRegistered ? 2u : 1u);
     const VkFormat fourColours = plan.yuyv ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
-    // A patch takes 64 invocations of four pixels of one row, or 16 of four rows; a wide group covers four
-    // patches.
+    // A patch takes 64 invocations of four pixels in one row, or 16 of four pixels in four rows. A wide group
+    // covers four patches.
     const uint32_t rows = plan.byPixel ? 1u : 4u, invocations = plan.byPixel ? 256u : 16u;
     const uint32_t group = std::min(invocations, plan.pixelGroup);
     return {"classify",
@@ -110,7 +110,7 @@ PassBinding depthOf(const Plan& plan, VkFormat texels) {
 PassInfo surface(const CloudContext& c) {
     const Plan& plan = c.plan;
     const bool four = plan.filterBlock && c.camera.depth.width % 4 == 0;
-    // 16 sub-patches per patch. Pairs take smaller groups, of which more are under way.
+    // 16 sub-patches per patch. Pairs use smaller groups, so that more of them run at once.
     const uint32_t group =
         plan.filterBlock ? 16u : std::min(plan.pixelGroup, plan.filterPairs() ? 64u : 256u);
     return {"surface",
@@ -148,7 +148,7 @@ PassInfo thin(const CloudContext& c) {
 }
 
 PassInfo moments(const CloudContext& c) {
-    // Without shared memory one invocation does per patch; `guidedGroups` counts groups of subGroup / 16
+    // Without shared memory one invocation handles a patch; `guidedGroups` counts groups of subGroup / 16
     // patches.
     const uint32_t group = c.plan.byPixel ? 16u : std::max(8u, c.plan.subGroup / 16u);
     return {"moments",
@@ -161,10 +161,10 @@ PassInfo moments(const CloudContext& c) {
              &Work::counters},
             {{kSpecGroupSize, group}, {kSpecShared, c.plan.byPixel}},
             GroupsCounted{offsetof(FrameCounters, guidedGroups)},
-            c.plan.spheres ? After::Nothing : After::Barrier}; // `spheres` reads nothing that it writes
+            c.plan.spheres ? After::Nothing : After::Barrier}; // `spheres` does not read its results
 }
 
-// Of both forms, with the bindings and constants that they share (shaders/lib/spheres.glsl).
+// Bindings and constants that both forms of `spheres` share (shaders/lib/spheres.glsl).
 PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_t counted) {
     const Plan& plan = c.plan;
     return {"spheres",
@@ -200,7 +200,7 @@ PassInfo spheresOf(const CloudContext& c, std::span<const uint32_t> spirv, size_
 PassInfo spheresByPatch(const CloudContext& c) {
     PassInfo pass = spheresOf(c, spheres_by_patch_spv, offsetof(FrameCounters, patchGroups));
     pass.bindings.insert(pass.bindings.end(), {&Set::packed, &Set::places, &Set::runs, &Work::growth});
-    // Smaller groups wait for less at a time; larger ones finish a patch sooner.
+    // Smaller groups wait less at barriers; larger ones finish a patch sooner.
     const uint32_t group = std::min(c.plan.pixelGroup, c.plan.manyPatches ? 128u : 256u);
     pass.constants.insert(pass.constants.end(),
                           {{kSpecGroupSize, group}, {kSpecHold, c.plan.hold}, {kSpecPack, c.plan.pack}});
@@ -228,12 +228,12 @@ std::vector<PassInfo> spheres(const CloudContext& c) {
         return {spheresBySub(c, kHoldNone, offsetof(FrameCounters, subGroups))};
     }
     PassInfo quiet = spheresBySub(c, kHoldQuiet, offsetof(FrameCounters, quietGroups));
-    quiet.filled = &Work::live; // classify has read it; both dispatches count it anew
+    quiet.filled = &Work::live; // `classify` has read it; both dispatches count again
     return {quiet, spheresBySub(c, kHoldHolding, offsetof(FrameCounters, holdingGroups))};
 }
 
-// The level of patches, or all above it, which one group builds: on a GPU a larger one, whose invocations
-// wait for memory side by side.
+// Builds the level of patches, or all levels above it in one group. GPUs use a larger group, so that memory
+// latencies overlap.
 PassInfo treeLevels(const CloudContext& c, bool patches) {
     const uint32_t group =
         !patches && c.plan.byPixel ? std::max(c.plan.subGroup, c.plan.pixelGroup) : c.plan.subGroup;

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-// The compute passes of a frame (shaders/README.md), described as the plan wants them.
+// Descriptors of the compute passes of a frame (shaders/README.md), as the plan requires.
 #pragma once
 
 #include "engine/cloud/pass.h"
 
 namespace fathom::cloud {
 
-// In the order in which they run, without `deliver`.
+// All passes in the order in which they run, except `deliver`.
 std::vector<PassInfo> framePasses(const CloudContext& context);
 
-// The end of a frame: counters and marks of patches go to the host and are cleared for the next frame. On
-// GPUs that is the pass `deliver`, because each copy and each fill takes as long as a dispatch. On CPU
-// devices, where a dispatch starts threads, deliverByCopies() does it.
+// Ends a frame: copies counters and patch marks for the host and clears them for the next frame. GPUs use the
+// pass `deliver`, because there each copy or fill takes as long as a dispatch. CPU devices use
+// deliverByCopies(), because there a dispatch starts threads.
 PassInfo deliverPass(const CloudContext& context);
 void deliverByCopies(gpu::Commands& commands, const WorkBuffers& work, const SetBuffers& set);
-// As each frame finds them: nothing counted, no patch marked.
+// Sets counters and patch marks to their state at the start of a frame.
 void clearCounters(gpu::Commands& commands, const WorkBuffers& work);
 
 } // namespace fathom::cloud

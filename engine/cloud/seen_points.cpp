@@ -7,7 +7,7 @@ namespace fathom::cloud {
 
 namespace {
 
-// Of the slot's pixel in its patch (shaders/lib/slots.glsl).
+// Column and row of a slot's pixel in its patch (shaders/lib/slots.glsl).
 uint32_t acrossOf(uint32_t slot) {
     return (slot >> 2 & 12) + (slot & 3);
 }
@@ -30,7 +30,7 @@ FATHOM_CLONES void toPoints(const uint16_t* slots, size_t n, const float* depths
     }
 }
 
-// rays: of the patch's first pixel and on.
+// rays: from the patch's first pixel on.
 FATHOM_CLONES void toPointsByTable(const uint16_t* slots, size_t n, const float* depths,
                                    const glm::vec2* rays, uint32_t width, const glm::vec4* rows,
                                    float* __restrict x, float* __restrict y, float* __restrict z) noexcept {

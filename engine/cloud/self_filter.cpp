@@ -10,12 +10,12 @@ namespace fathom::cloud {
 
 namespace {
 
-// Outward: float32 must not let a point of the arm out that float64 holds.
+// Rounded outward: a point inside the sphere in float64 must be inside in float32.
 glm::vec4 entryOf(const dvec3& centre, double radius) {
     return {glm::vec3(centre), static_cast<float>(radius * (1.0 + 1e-6) + 1e-6)};
 }
 
-// About the middle of the link's spheres.
+// Bounding sphere of a link, about the middle of its spheres.
 glm::vec4 boundOf(const LinkSpheres& arm, uint32_t begin, uint32_t end, const dvec3& origin) {
     dvec3 middle(0.0);
     for (uint32_t i = begin; i < end; ++i) {

@@ -11,9 +11,9 @@ namespace fathom::cloud {
 namespace {
 
 constexpr uint32_t kEveryClass = (1u << shared::kMaxClasses) - 1;
-static_assert(shared::kMaxClasses <= 8); // three bits of `classOf` a layer, a byte of a run
+static_assert(shared::kMaxClasses <= 8); // classes take three bits per layer in `classOf` and a byte in a run
 
-// The places of the bits of a byte, from the lowest on; what is beyond them does not matter.
+// The indices of the set bits of a byte, lowest first; later entries are unused.
 constexpr std::array<std::array<uint8_t, 8>, 256> bitsOfBytes() {
     std::array<std::array<uint8_t, 8>, 256> out{};
     for (size_t byte = 0; byte < 256; ++byte) {
@@ -34,7 +34,7 @@ FATHOM_CLONES void toColumns(const glm::vec4* spheres, size_t n, float* __restri
     }
 }
 
-// Eight bits at a time, whatever is there: `places` has room for eight beyond the last.
+// Writes eight entries per byte, however many bits are set: `places` has eight spare entries at the end.
 FATHOM_CLONES void toPlaces(const uint32_t* bits, uint32_t words, uint16_t* __restrict places) noexcept {
     for (uint32_t word = 0; word < words; ++word) {
         for (uint32_t k = 0; bits[word] != 0 && k < 4; ++k) {
@@ -49,8 +49,8 @@ FATHOM_CLONES void toPlaces(const uint32_t* bits, uint32_t words, uint16_t* __re
     }
 }
 
-// Pixels, row-major in the frame, of a patch whose first is `corner`; held points count on from the last
-// pixel.
+// Row-major pixel indices in a patch whose first pixel is `corner`. Held points are numbered from the end of
+// the image on.
 FATHOM_CLONES void toSources(const uint16_t* places, size_t n, uint32_t corner, uint32_t width,
                              uint32_t pixels, uint32_t* __restrict source) noexcept {
     for (size_t i = 0; i < n; ++i) {
@@ -115,7 +115,7 @@ void SphereColumns::putCentres(uint32_t patch, size_t first, const PatchSpheres&
     }
 }
 
-// And the radii of classes where spheres come as depths.
+// Writes the classes and, where spheres are given as depths, the radii.
 void SphereColumns::putClasses(size_t first, const PatchSpheres& spheres, const Places& places) noexcept {
     uint8_t* const fixture = &set_.host.spheres.fixture[first];
     float* const radius = &set_.host.spheres.radius[first];
@@ -125,14 +125,14 @@ void SphereColumns::putClasses(size_t first, const PatchSpheres& spheres, const 
     for (uint32_t bits = spheres.classes & kEveryClass; bits != 0; bits &= bits - 1) {
         ++counts_.patchesOfClass[static_cast<size_t>(std::countr_zero(bits))];
     }
-    if (std::has_single_bit(spheres.classes)) { // as in most patches
+    if (std::has_single_bit(spheres.classes)) { // true for most patches
         const auto only = static_cast<size_t>(std::countr_zero(spheres.classes));
         counts_.ofClass[only] += spheres.n();
         std::fill_n(fixture, spheres.n(), rows_[only]);
         std::fill_n(radius, depths, depths > 0 ? seen_->radiusOf(only) : 0.0f);
         return;
     }
-    const std::array rows = rows_; // a byte that is written might be any of the members otherwise
+    const std::array rows = rows_; // a copy: byte writes may alias the member
     for (uint32_t i = 0; i < spheres.n(); ++i) {
         const size_t pointClass = spheres.classOf[places[i] & 255] >> (places[i] >> 8) * 4 & 7u;
         ++counts_.ofClass[pointClass];

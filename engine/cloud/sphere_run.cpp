@@ -9,7 +9,7 @@ namespace fathom::cloud {
 
 namespace {
 
-// 24 bits that count on from `base`, 8 bits of steps.
+// Splits words into 24 bits of offset from `base` and 8 bits of growth steps.
 FATHOM_CLONES void takeApart(const uint32_t* words, size_t n, uint32_t base, float* __restrict z,
                              uint8_t* __restrict steps) noexcept {
     for (size_t i = 0; i < n; ++i) {

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The run of words that a group of spheres.comp packs of its patch's spheres (shaders/lib/packing.glsl).
+// Decodes the run of words into which the device packs a patch's spheres (shaders/lib/packing.glsl).
 #pragma once
 
 #include "engine/cloud/sphere_columns.h"
 
 namespace fathom::cloud {
 
-// Takes runs apart, one at a time: what it returns refers to it and to the run. One thread.
+// Decodes one run at a time. The result refers to this object and to the run. One thread.
 class SphereRun {
 public:
-    explicit SphereRun(bool depths) // false: seen spheres are whole
+    explicit SphereRun(bool depths) // false: seen spheres are stored as centre and R
         : depths_(depths) {}
-    // n > 0 spheres; mark: the upper half of `runs`; places as PatchSpheres has them. Without classOf.
+    // n: number of spheres, > 0. mark: upper half of runs[].y. places: as in PatchSpheres. Leaves classOf
+    // unset.
     PatchSpheres take(const uint32_t* words, uint32_t n, uint32_t mark, const uint32_t* places) noexcept;
 
 private:

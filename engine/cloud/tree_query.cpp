@@ -12,7 +12,7 @@ namespace fathom::cloud {
 namespace {
 
 constexpr uint32_t kGroup = 64;
-constexpr float kOutward = 1.00001f; // inner nodes: float32 rounding of pose and sum, outward
+constexpr float kOutward = 1.00001f; // for inner nodes: covers the float32 rounding of pose and sum
 
 std::vector<gpu::BindingKind> bindingsOfQuery() {
     std::vector<gpu::BindingKind> kinds(7);
@@ -58,7 +58,7 @@ void TreeQuery::grow() {
     makeAnswer();
 }
 
-// Leaves are the very floats that the CPU query tests; inner nodes are bounds and may be larger.
+// Leaves are the same floats that the CPU query tests; inner nodes are bounds and may be larger.
 void TreeQuery::poseTree(const PosedLeaves& leaves, const Pose& baseTtool, const dvec3& origin) {
     const SphereTree& tree = tool_.tree();
     const auto out = toolTree_.as<glm::vec4>();

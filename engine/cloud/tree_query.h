@@ -12,26 +12,25 @@
 
 namespace fathom::cloud {
 
-// One thread, the contact cadence. Has a timeline and a command buffer of its own; shares the queue with the
-// frame path.
+// Contact thread only. Has its own timeline and command buffer; shares the queue with the frame cadence.
 class TreeQuery {
 public:
-    // sets: every set of the pool, so that descriptors are made once. capacity: spheres that an answer may
-    // hold.
+    // sets: every set of the pool, so that descriptors are created once. capacity: largest number of spheres
+    // in an answer.
     TreeQuery(gpu::Device& device, const Plan& plan, const PatchLayout& layout, FixturePool& pool,
               const Tool& tool, uint32_t capacity = 65536);
 
-    // Writes into `found` the index (into set.host.spheres) of every sphere with d^2 <= (reach + r_t + R)^2
-    // for some leaf, in any order. leaves: poseLeaves() at that pose about the set's origin. False, with
-    // `found` unusable, when there are more than the capacity; grow() doubles it. Waits for the device:
-    // submit to result.
+    // Writes to `found` the index (into set.host.spheres) of every sphere with d^2 <= (reach + r_t + R)^2 for
+    // some leaf, in any order. leaves: poseLeaves() at the same pose, relative to the set's origin. Returns
+    // false, with `found` invalid, when there are more than the capacity; grow() doubles it. Blocks until the
+    // device has finished.
     bool cull(const FixtureSet& set, const PosedLeaves& leaves, const Pose& baseTtool, float reach,
               std::vector<uint32_t>& found);
     void grow();
     uint32_t capacity() const { return capacity_; }
 
-    // Timestamps are written only when asked for: each costs the device a little. gpuMs(): of the last cull;
-    // 0 when not asked or when the device has none.
+    // Enables timestamps, which cost the device a little. gpuMs(): device time of the last cull; 0 when not
+    // enabled or not supported.
     void askForTime() { timed_ = true; }
     double gpuMs() const;
 
@@ -52,7 +51,7 @@ private:
     gpu::Stopwatch watch_;
     bool timed_ = false;
     gpu::Buffer params_, toolTree_, count_, found_, unused_;
-    std::vector<gpu::Bindings> bindings_; // a set
+    std::vector<gpu::Bindings> bindings_; // one per set
     uint64_t ticket_ = 0;
 };
 

@@ -24,13 +24,13 @@ UploadSlots::Choice UploadSlots::choose(const Frame& frame, std::optional<uint32
         return {copied(inFlight), false};
     }
     if (const std::optional<uint32_t> known = find(images)) {
-        return {*known == inFlight ? copied(inFlight) : *known, false}; // the device reads it at this moment
+        return {*known == inFlight ? copied(inFlight) : *known, false}; // the device is reading that slot
     }
     const std::optional<uint32_t> slot = room(inFlight);
     return slot && import(*slot, images) ? Choice{*slot, true} : Choice{copied(inFlight), false};
 }
 
-// A block counts only when it begins where the frame does: a frame may have been replaced by another.
+// A block counts only when it begins at the image's address: the image may have been replaced by another.
 UploadSlots::Images UploadSlots::inPlace(const Frame& frame) const {
     Images images;
     if (!plan_.inPlace || refused_) {
@@ -58,8 +58,8 @@ std::optional<uint32_t> UploadSlots::find(const Images& images) const {
 }
 
 std::optional<uint32_t> UploadSlots::room(std::optional<uint32_t> inFlight) const {
-    // Held by each slot of it here and by that slot's buffer; more by a camera that is still there, or its
-    // frames. A pair of which either is gone never comes again.
+    // A slot and its buffer each hold the memory once. A higher count means that the camera or a frame still
+    // uses it. If one memory of a pair is gone, the pair never returns.
     const auto gone = [this](const std::shared_ptr<const void>& memory) {
         const auto slots = std::count_if(images_.begin(), images_.end(), [&](const Images& p) {
             return p.depth == memory || p.colour == memory;

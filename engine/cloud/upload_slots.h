@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the device finds a frame's pictures: copied into one of two slots, or left where the camera wrote
-// them.
+// Chooses where the device reads a frame's images: from one of two slots after a copy, or in place in the
+// camera's memory.
 #pragma once
 
 #include "engine/cloud/cloud_buffers.h"
@@ -10,25 +10,25 @@
 
 namespace fathom::cloud {
 
-// Slots 0 and 1 are copied into. A frame whose memory the device can import (Plan::inPlace) gets a slot of
-// its own when that memory is seen first; a camera's few blocks come round again and again. One thread.
+// Frames are copied to slots 0 and 1. Memory that the device can import (Plan::inPlace) gets its own slot
+// when it is first seen, because a camera reuses a few blocks. One thread.
 class UploadSlots {
 public:
     static constexpr uint32_t kCopied = 2; // frames in flight: double-buffered
-    // Pairs of depth and colour: of a live camera four of the driver's and five of its own. Memory that is
-    // new after that is copied.
+    // Slots for pairs of depth and colour memory: a live camera has four blocks in the driver and five of its
+    // own. When all are in use, new memory is copied.
     static constexpr uint32_t kMost = 2 + 20;
 
     UploadSlots(const gpu::Device& device, const Plan& plan, const CameraInfo& camera);
 
-    // Where one frame's frames go.
+    // The slot for one frame.
     struct Choice {
         uint32_t slot;
-        bool isNew; // its buffers were made just now
+        bool isNew; // its buffers have just been created
     };
-    // A slot for the frame, never the one that is in flight. Memory that nobody but a slot holds any more
-    // makes room for memory that is new. A device that refuses to import both is asked for colour alone
-    // (depth may lie in a driver's pages), and then not again.
+    // Returns a slot for the frame, never the one in flight. Slots whose memory has no other owner are reused
+    // for new memory. If the device cannot import both images, tries colour alone (depth may be in a driver's
+    // pages), then stops trying.
     Choice choose(const Frame& frame, std::optional<uint32_t> inFlight);
 
     const UploadBuffers& operator[](uint32_t slot) const { return *slots_[slot]; }
@@ -47,7 +47,7 @@ private:
     const Plan& plan_;
     const CameraInfo& camera_;
     std::vector<std::unique_ptr<UploadBuffers>> slots_;
-    std::vector<Images> images_; // a slot
+    std::vector<Images> images_; // one per slot
     uint32_t nextCopied_ = 0;
     bool depthRefused_ = false, refused_ = false;
 };

@@ -41,7 +41,7 @@ Buffer::Buffer(const Device& device, const HostPages& pages, const char* name)
     const uint32_t types = needs.memoryTypeBits & device.hostPointerTypes(pages_.get());
     VkImportMemoryHostPointerInfoEXT import{VK_STRUCTURE_TYPE_IMPORT_MEMORY_HOST_POINTER_INFO_EXT};
     import.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_HOST_ALLOCATION_BIT_EXT;
-    import.pHostPointer = const_cast<void*>(pages_.get()); // read only: no pass writes what was uploaded
+    import.pHostPointer = const_cast<void*>(pages_.get()); // only read: no pass writes to uploads
     VkMemoryAllocateInfo allocate{VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, &import};
     allocate.allocationSize = (bytes_ + page - 1) / page * page;
     const bool whole = reinterpret_cast<uintptr_t>(pages_.get()) % page == 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A buffer with its own memory, mapped for life when the CPU can see it.
+// A Vulkan buffer with its own memory, permanently mapped when the CPU can access it.
 #pragma once
 
 #include "engine/gpu/device.h"
@@ -9,22 +9,21 @@
 
 namespace fathom::gpu {
 
-// Memory of the host's that a device reads where it is: whole pages from `memory` on.
+// Host memory that a device reads in place: whole pages from `memory` on.
 struct HostPages {
-    std::shared_ptr<const void> memory; // kept for as long as the buffer lives
-    uint64_t bytes;                     // of them that matter
+    std::shared_ptr<const void> memory; // owned as long as the buffer exists
+    uint64_t bytes;                     // bytes in use
 };
 
-// Move-only. Buffers are made at start, on the frame path only for memory of a camera that is new there. A
-// default-constructed buffer is empty: handle null.
+// Move-only. Buffers are created at start, and during frames only for new camera memory. A
+// default-constructed buffer is empty: its handle is null.
 class Buffer {
 public:
     Buffer() = default;
-    // Throws Error when bytes exceed the device's largest storage buffer (a uniform buffer holds parameters
-    // only) or memory runs out.
+    // Throws Error when bytes exceed the device's largest storage buffer or memory runs out.
     Buffer(const Device& device, uint64_t bytes, MemoryKind kind, const char* name);
-    // The host's pages as a buffer that the device reads (VK_EXT_external_memory_host). Throws Error when
-    // this device cannot import them.
+    // Imports host pages as a buffer that the device reads (VK_EXT_external_memory_host). Throws Error when
+    // the device cannot import them.
     Buffer(const Device& device, const HostPages& pages, const char* name);
     ~Buffer();
     Buffer(Buffer&& other) noexcept { swap(other); }
@@ -37,7 +36,7 @@ public:
     uint64_t bytes() const { return bytes_; }
     explicit operator bool() const { return handle_ != VK_NULL_HANDLE; }
 
-    // Whether the memory is the host's, imported; nothing is mapped then.
+    // Whether the memory is imported host memory; it is not mapped then.
     bool imported() const { return pages_ != nullptr; }
 
     // The mapped memory as T; only for Upload and Readback.
@@ -47,7 +46,8 @@ public:
     }
 
 private:
-    Buffer(const Device& device, uint64_t bytes); // no handle yet; who delegates to it may throw
+    Buffer(const Device& device,
+           uint64_t bytes); // leaves the handle null, so that delegating constructors may throw
     VkMemoryRequirements create(const void* next);
     void bind(const VkMemoryAllocateInfo& allocate, const char* name);
     void swap(Buffer& other) noexcept;

@@ -95,8 +95,8 @@ void Commands::barrier(VkPipelineStageFlags to, VkAccessFlags access) {
     VkMemoryBarrier all{VK_STRUCTURE_TYPE_MEMORY_BARRIER};
     all.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     all.dstAccessMask = access;
-    // What only read before is waited for, too: its buffers may be written after. Arguments are read before
-    // the shaders that they start.
+    // Also waits for earlier reads, because later commands may write to the same buffers. Indirect arguments
+    // are read before the shaders start.
     vkCmdPipelineBarrier(handle_, kWork, to, 0, 1, &all, 0, nullptr, 0, nullptr);
 }
 

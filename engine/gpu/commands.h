@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recording of one submission, as a recipe: begin, dispatch, barrier, ..., end.
+// Records one submission: begin, dispatch, barrier, ..., end.
 #pragma once
 
 #include "engine/gpu/pipeline.h"
@@ -12,7 +12,7 @@ namespace fathom::gpu {
 // How often a recording is submitted.
 enum class Submissions { One, Many };
 
-// One thread at a time. Recorded anew for each submission, or once for many; the previous one must have
+// One thread at a time. Record again for each submission, or once for many; the previous submission must have
 // completed.
 class Commands {
 public:
@@ -24,11 +24,12 @@ public:
     VkCommandBuffer handle() const { return handle_; }
     uint32_t dispatches() const { return dispatches_; } // recorded since begin()
 
-    // Starts with a global memory barrier: hazards across submissions are ours to prevent.
+    // Starts with a global memory barrier, because Vulkan does not prevent hazards between submissions.
     void begin(Submissions submissions = Submissions::One);
     void end();
 
-    // groups: work groups, in x or in x, y, z. push: Pipeline::pushBytes of push constants, copied at once.
+    // groups: work groups in x, or in x, y and z. push: Pipeline::pushBytes bytes of push constants, copied
+    // by the call.
     void dispatch(const Pipeline& pipeline, const Bindings& bindings, uint32_t groups,
                   const void* push = nullptr) {
         dispatch(pipeline, bindings, {groups, 1, 1}, push);
@@ -41,10 +42,10 @@ public:
     void fill(const Buffer& buffer, uint32_t value);                                      // the whole buffer
     void update(const Buffer& buffer, uint64_t offset, uint64_t bytes, const void* data); // at most 64 KiB
     void copy(const Buffer& from, const Buffer& to, uint64_t bytes);
-    // Makes earlier writes visible to later commands, except to the host (see end()) and to reads of indirect
-    // arguments: each of these two costs a GPU as much as the rest.
+    // Makes earlier writes visible to later commands, but not to the host (see end()) or to reads of indirect
+    // arguments: each of these would double the cost on a GPU.
     void barrier();
-    void barrierBeforeIndirect(); // the same, also for the arguments of dispatchIndirect()
+    void barrierBeforeIndirect(); // also covers the arguments of dispatchIndirect()
 
 private:
     void barrier(VkPipelineStageFlags to, VkAccessFlags access);

@@ -27,7 +27,7 @@ Device::Device(const Instance& instance, const std::string& selector, Drawing dr
     log::info("device {} ({})", facts_.name, facts_.driver);
 }
 
-// A queue of its own wherever there is one: of the compute family, else of the first family that draws.
+// Prefers a separate graphics queue: in the compute family, else in the first graphics family.
 void Device::chooseDrawQueue() {
     uint32_t count = 0;
     vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
@@ -61,10 +61,10 @@ void Device::createLogicalDevice(bool gpuAssisted, Drawing drawing) {
 
     VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
     v12.timelineSemaphore = VK_TRUE;
-    v12.hostQueryReset = VK_TRUE; // every device of Vulkan 1.2 has both
+    v12.hostQueryReset = VK_TRUE; // required in Vulkan 1.2
     VkPhysicalDeviceFeatures2 features{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
     features.pNext = &v12;
-    // GPU-assisted validation writes its findings from every stage; nothing of ours needs these.
+    // Only GPU-assisted validation needs these features: it writes its findings from every stage.
     features.features.fragmentStoresAndAtomics = gpuAssisted ? VK_TRUE : VK_FALSE;
     features.features.vertexPipelineStoresAndAtomics = gpuAssisted ? VK_TRUE : VK_FALSE;
 

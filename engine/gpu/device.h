@@ -14,24 +14,24 @@
 
 namespace fathom::gpu {
 
-// Memory of a buffer, by how the CPU uses it.
+// Memory kinds, by how the CPU uses them.
 enum class MemoryKind {
-    Device,   // the CPU never touches it
-    Upload,   // the CPU writes it in order, the GPU reads it; device-local when the host can see that
-    Readback, // host-cached: the CPU reads it; the GPU may write it straight
+    Device,   // no CPU access
+    Upload,   // the CPU writes sequentially, the GPU reads; device-local if the host can map it
+    Readback, // host-cached: the CPU reads it; the GPU may write to it directly
 };
 
-// What a window needs beside compute.
+// What a window needs in addition to compute.
 enum class Drawing {
     None,
-    Offscreen, // a queue that draws
-    Surface,   // the same, and swapchains
+    Offscreen, // a graphics queue
+    Surface,   // a graphics queue and swapchains
 };
 
 class Device {
 public:
     // selector: empty = discrete, else integrated, else CPU; a number = index; otherwise part of the name.
-    // Throws BadInput listing what there is, each with the reason when refused.
+    // Throws BadInput that lists all devices, with the reasons for rejected ones.
     Device(const Instance& instance, const std::string& selector = {}, Drawing drawing = Drawing::None);
     ~Device();
     Device(const Device&) = delete;
@@ -46,27 +46,27 @@ public:
 
     // Memory type of a kind among those allowed by typeBits; throws Error when there is none.
     uint32_t memoryType(MemoryKind kind, uint32_t typeBits) const;
-    // Bits of the coherent memory types as which the host's memory at `memory` can be imported; 0 = it
-    // cannot.
+    // Bits of the coherent memory types that can import the host memory at `memory`; 0 = none.
     uint32_t hostPointerTypes(const void* memory) const;
 
-    // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue. The
-    // mutex of the queue is held for the call only. Never called by the haptic thread.
+    // Submits one command buffer; waits for waitValue of the timeline when not 0 and signals signalValue.
+    // Holds the queue's mutex during the call. Never called by the haptic thread.
     void submit(VkCommandBuffer commands, VkSemaphore timeline, uint64_t waitValue, uint64_t signalValue);
 
-    // The queue that draws; null when Drawing::None. Where the device has one queue only it is the one that
-    // computes, and sharesQueue() is true: then whoever draws yields to passes in flight.
+    // The graphics queue; null for Drawing::None. If the device has only one queue, it is also the compute
+    // queue and sharesQueue() is true: drawing then yields to passes in flight.
     VkQueue drawQueue() const { return drawQueue_; }
     uint32_t drawFamily() const { return drawFamily_; }
     bool sharesQueue() const { return drawQueue_ == queue_; }
-    // vkQueueSubmit and vkQueuePresentKHR on that queue, one at a time. The result of present() is the
-    // caller's to judge.
+    // Serialised vkQueueSubmit and vkQueuePresentKHR on the graphics queue. The caller handles the result of
+    // present().
     void submitDrawing(const VkSubmitInfo& submit, VkFence fence);
     VkResult present(const VkPresentInfoKHR& info);
-    // Waits until that queue is idle, presentation included; call before destroying what it uses.
+    // Waits until the graphics queue is idle, presentation included. Call before destroying objects that it
+    // uses.
     void waitForDrawing() noexcept;
 
-    // One line for each physical device: name, kind, or the reason for refusing it.
+    // One line per physical device: name and kind, or the reason for rejecting it.
     static std::vector<std::string> list(const Instance& instance);
 
 private:
@@ -80,12 +80,12 @@ private:
     uint32_t family_ = 0;
     VkQueue drawQueue_ = VK_NULL_HANDLE;
     uint32_t drawFamily_ = 0, drawIndex_ = 0;
-    std::mutex queueMutex_, drawMutex_;  // the second one only where the queues differ
-    std::optional<PipelineCache> cache_; // always, once the device is made
-    mutable PipelineStore pipelines_;    // what is kept changes nothing of the device
+    std::mutex queueMutex_, drawMutex_;  // drawMutex_ only if the queues differ
+    std::optional<PipelineCache> cache_; // set once the device is created
+    mutable PipelineStore pipelines_;    // a cache, so mutable
     VkPhysicalDeviceMemoryProperties memory_{};
     DeviceFacts facts_;
-    PFN_vkGetMemoryHostPointerPropertiesEXT hostPointerProperties_ = nullptr; // null: nothing is imported
+    PFN_vkGetMemoryHostPointerPropertiesEXT hostPointerProperties_ = nullptr; // null: cannot import
 };
 
 } // namespace fathom::gpu

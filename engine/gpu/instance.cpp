@@ -20,8 +20,7 @@ std::atomic<uint32_t> messages{0};
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT,
                                          VkDebugUtilsMessageTypeFlagsEXT,
                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void* /*user*/) {
-    // The GPU-assisted checks announce their own settings as warnings; those say nothing about our use of
-    // Vulkan.
+    // The GPU-assisted checks report their own settings as warnings. These do not concern our use of Vulkan.
     if (data->pMessageIdName != nullptr &&
         std::strstr(data->pMessageIdName, "UNASSIGNED-GPU-Assisted Validation") &&
         std::strstr(data->pMessage, "Internal Warning") != nullptr) {
@@ -45,15 +44,14 @@ bool layerPresent() {
     return false;
 }
 
-// The loader has found no driver at all, or none that it can load.
+// Throws when the loader found no driver or could not load any.
 [[noreturn]] void refuseDrivers() {
     throw BadInput(
         "--device", "Vulkan driver", "none is installed",
         "a Vulkan 1.2 driver: install your GPU's, or mesa-vulkan-drivers, which also runs on the CPU");
 }
 
-// A driver that is unloaded before the program ends takes its symbols from leak reports with it: sanitized
-// builds keep it.
+// Sanitized builds keep drivers loaded until the program ends; otherwise leak reports lack their symbols.
 void keepDriversLoaded() {
 #ifdef FATHOM_SANITIZED
     dl_iterate_phdr(

@@ -11,18 +11,17 @@
 
 namespace fathom::gpu {
 
-// Which checks of the validation layer are asked for.
+// The requested checks of the validation layer.
 struct Validation {
     bool enabled = false;     // core and synchronisation checks
-    bool gpuAssisted = false; // instruments shaders as well: slow
+    bool gpuAssisted = false; // also instruments shaders: slow
 };
 
-// Used from the thread that builds the engine.
+// Used by the thread that builds the engine.
 class Instance {
 public:
-    // extensions: of the instance, for a window (what its toolkit names); the calls below need none.
-    // Throws Error when there is no Vulkan 1.2 loader or the layer or extension that was asked for is
-    // missing.
+    // extensions: instance extensions that a window's toolkit needs, else none. Throws Error without a
+    // Vulkan 1.2 loader or when the requested layer or an extension is missing.
     explicit Instance(Validation validation = {}, std::span<const char* const> extensions = {});
     ~Instance();
     Instance(const Instance&) = delete;
@@ -38,8 +37,8 @@ private:
     Validation validation_;
 };
 
-// Warnings and errors that the layer has reported in this process so far, of instances that are gone, too:
-// some come as a device is destroyed. Each is logged. Any thread.
+// Number of warnings and errors that the layer has reported in this process. Includes destroyed instances,
+// because some reports come when a device is destroyed. Each is logged. Any thread.
 uint32_t validationMessages();
 
 } // namespace fathom::gpu

@@ -14,9 +14,9 @@ namespace fathom::gpu {
 
 namespace {
 
-constexpr uint32_t kMostBindings = 20; // of our largest pass
+constexpr uint32_t kMostBindings = 20; // bindings of the largest pass
 
-// Whatever the case of letters; of nothing, always.
+// Ignores case. True for an empty part.
 bool contains(const std::string& name, const std::string& part) {
     const auto same = [](char a, char b) {
         return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));

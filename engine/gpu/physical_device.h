@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Facts of a physical device and the choice between several.
+// Reads the facts of physical devices and chooses one.
 #pragma once
 
 #include "engine/gpu/instance.h"
@@ -10,13 +10,13 @@
 
 namespace fathom::gpu {
 
-// What the driver says of a device; hostProcessors is of the thread that asks.
+// Facts that the driver reports. hostProcessors: CPUs that the calling thread may use.
 DeviceFacts readFacts(VkPhysicalDevice device);
 
-// Queue family to use: compute, preferably without graphics. Empty when none computes.
+// The queue family to use: compute, preferably without graphics. Empty when there is none.
 std::optional<uint32_t> computeFamily(VkPhysicalDevice device);
 
-// Empty when the device is usable; otherwise why it is not.
+// Empty when the device is usable; otherwise the reason why not.
 std::string refusal(VkPhysicalDevice device);
 
 // See Device's constructor. Throws BadInput.

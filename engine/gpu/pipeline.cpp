@@ -46,7 +46,8 @@ VkPipelineLayout makeLayout(VkDevice device, VkDescriptorSetLayout set, uint32_t
 }
 
 std::shared_ptr<const CompiledPipeline> compile(const Device& device, const PipelineInfo& info) {
-    const auto made = std::make_shared<CompiledPipeline>(device.handle()); // frees what exists on a throw
+    const auto made =
+        std::make_shared<CompiledPipeline>(device.handle()); // on a throw, frees what was created
     made->setLayout = makeSetLayout(device.handle(), info.bindings);
     made->layout = makeLayout(device.handle(), made->setLayout, info.pushBytes);
     std::vector<VkSpecializationMapEntry> entries;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A compute pipeline whose bindings are buffers 0..n-1, and the descriptor sets that fill them.
+// A compute pipeline with buffers at bindings 0..n-1, and its descriptor sets.
 #pragma once
 
 #include "engine/gpu/buffer.h"
@@ -9,7 +9,8 @@
 
 namespace fathom::gpu {
 
-// Compiled once per device: pipelines of the same code share the compiled object (pipeline_store.h).
+// Compiled once per device: pipelines with the same code and constants share the compiled object
+// (pipeline_store.h).
 class Pipeline {
 public:
     Pipeline(const Device& device, PipelineInfo info);
@@ -26,8 +27,8 @@ private:
     std::shared_ptr<const CompiledPipeline> compiled_;
 };
 
-// One descriptor set of a pipeline, filled once. Null and empty buffers are replaced by `unused`, which the
-// shader does not access with the pipeline's constants. Move-only.
+// One descriptor set of a pipeline, written once. `unused` replaces null and empty buffers, which the shader
+// does not access with these constants. Move-only.
 class Bindings {
 public:
     Bindings() = default;

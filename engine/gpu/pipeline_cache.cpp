@@ -24,14 +24,14 @@ namespace fs = std::filesystem;
 constexpr size_t kMostBytes = size_t{256} << 20;
 constexpr std::array<char, 8> kMagic{'f', 'a', 't', 'h', 'o', 'm', 'P', '1'};
 
-// Before the data. The file is of this machine alone: its order of bytes is the machine's.
+// File header. Byte order is the machine's, because the file is used only on this machine.
 struct Head {
     std::array<char, 8> magic = kMagic;
     uint64_t bytes = 0;
     uint64_t sum = 0;
 };
 
-// FNV-1a, 64 bits: against files that were cut or damaged, not against anybody.
+// FNV-1a, 64 bits: detects truncated or damaged files, not manipulation.
 uint64_t sumOf(std::span<const char> data) {
     uint64_t sum = 0xcbf29ce484222325u;
     for (const char c : data) {
@@ -40,7 +40,7 @@ uint64_t sumOf(std::span<const char> data) {
     return sum;
 }
 
-// Beside the file, of this process and this call alone.
+// A temporary name in the same folder, unique to this process and call.
 fs::path freshBeside(const fs::path& file) {
     static std::atomic<uint32_t> count{0};
     return file.string() + "." + std::to_string(::getpid()) + "." + std::to_string(count++) + ".new";
@@ -74,7 +74,7 @@ void storePipelines(const fs::path& file, std::span<const char> data) {
     std::ofstream out(fresh, std::ios::binary);
     out.write(reinterpret_cast<const char*>(&head), sizeof head);
     out.write(data.data(), static_cast<std::streamsize>(data.size()));
-    out.close(); // writes what is left, and the disk may be full by then
+    out.close(); // writes the remaining bytes; may fail on a full disk
     if (out) {
         fs::rename(fresh, file, failed);
     }
@@ -89,7 +89,8 @@ PipelineCache::PipelineCache(VkDevice device, fs::path file)
     : device_(device)
     , file_(std::move(file)) {
     const std::vector<char> data = file_.empty() ? std::vector<char>() : storedPipelines(file_);
-    if (data.empty() || create(data) != VK_SUCCESS) { // what a driver refuses, it refuses at every start
+    if (data.empty() ||
+        create(data) != VK_SUCCESS) { // start empty: a driver would reject this data at every start
         check(create({}), "vkCreatePipelineCache");
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a driver keeps of compiled pipelines from one start to the next, in a file of the user's cache folder.
-// A cache that cannot be read or written costs time at the next start, and nothing else.
+// Keeps the driver's pipeline cache between starts, in a file in the user's cache folder. If the file cannot
+// be read or written, the next start takes longer.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@ namespace fathom::gpu {
 
 class PipelineCache {
 public:
-    // Of a device that outlives it; begins with what the file holds. file: empty = nothing is kept. Throws
-    // what check() does when there can be none, not even an empty one.
+    // Starts with the contents of the file. The device must outlive the cache. file: empty = the cache is not
+    // stored. Throws like check() when the driver cannot even create an empty cache.
     PipelineCache(VkDevice device, std::filesystem::path file);
     ~PipelineCache(); // writes the file
     PipelineCache(const PipelineCache&) = delete;
@@ -30,12 +30,11 @@ private:
     VkPipelineCache handle_ = VK_NULL_HANDLE;
 };
 
-// The data in that file; nothing unless they are there as they were stored, to the last bit: drivers need not
-// check what they are handed.
+// Reads the data of the file. Empty unless the checksum fits, because drivers need not check cache data.
 std::vector<char> storedPipelines(const std::filesystem::path& file);
 
-// In place of what the file held, in one step, at most 256 MiB. Throws Error, and leaves the file as it was
-// and nothing beside it.
+// Replaces the file atomically, at most 256 MiB. If it throws Error, the file is unchanged and no temporary
+// file remains.
 void storePipelines(const std::filesystem::path& file, std::span<const char> data);
 
 } // namespace fathom::gpu

@@ -34,7 +34,7 @@ PipelineStore::keep(PipelineInfo info, std::shared_ptr<const CompiledPipeline> c
     }
     entries_.push_back({std::move(info), compiled});
     for (auto e = entries_.begin(); e != entries_.end() && entries_.size() > kMost;) {
-        e = e->compiled.use_count() == 1 ? entries_.erase(e) : e + 1; // only the store owns it
+        e = e->compiled.use_count() == 1 ? entries_.erase(e) : e + 1; // the store is the only owner
     }
     return compiled;
 }

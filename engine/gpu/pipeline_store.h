@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled pipelines of a device, kept for reuse: an edited scene rebuilds its passes, and most of them are
-// unchanged. A driver's own cache may keep less (llvmpipe processes the SPIR-V each time).
+// Keeps a device's compiled pipelines for reuse: an edited scene rebuilds all passes, though most are
+// unchanged. A driver's own cache may save less (llvmpipe processes the SPIR-V each time).
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@
 
 namespace fathom::gpu {
 
-// One buffer binding. A texel buffer is read by texelFetch: on a CPU device that is one vector gather, where
-// a storage buffer is read lane by lane.
+// One buffer binding. Texel buffers are read by texelFetch. On a CPU device that is one vector gather,
+// whereas storage buffers are read lane by lane.
 struct BindingKind {
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    VkFormat texels = VK_FORMAT_UNDEFINED; // of texel buffers; one that every device can fetch from a buffer
+    VkFormat texels =
+        VK_FORMAT_UNDEFINED; // for texel buffers; a format that every device supports in buffers
     bool operator==(const BindingKind&) const = default;
 };
 inline constexpr BindingKind kStorage{}, kUniform{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
@@ -27,10 +28,10 @@ struct Constant {
     bool operator==(const Constant&) const = default;
 };
 
-// What a pipeline is made from.
+// The input of a pipeline.
 struct PipelineInfo {
     const char* name;                  // appears in messages and traces
-    std::span<const uint32_t> spirv;   // outlives the device
+    std::span<const uint32_t> spirv;   // must outlive the device
     std::vector<BindingKind> bindings; // 0..n-1
     std::vector<Constant> constants;
     uint32_t pushBytes = 0; // <= 128
@@ -58,10 +59,10 @@ struct CompiledPipeline {
 // Thread: any.
 class PipelineStore {
 public:
-    static constexpr size_t kMost = 48; // more are kept only while they are in use
+    static constexpr size_t kMost = 48; // beyond that, only pipelines in use are kept
 
-    std::shared_ptr<const CompiledPipeline> find(const PipelineInfo& info); // null: none
-    // Returns the pipeline to use: the first one when two threads compiled the same code.
+    std::shared_ptr<const CompiledPipeline> find(const PipelineInfo& info); // null: not compiled yet
+    // Adds a pipeline and returns the one to use: the first, if two threads compiled the same code.
     std::shared_ptr<const CompiledPipeline> keep(PipelineInfo info,
                                                  std::shared_ptr<const CompiledPipeline> compiled);
     size_t size() const;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From how many tool leaves on this device answers contact queries faster than the CPU: measured by `fathom
-// profile query`, kept beside the pipelines of the device.
+// The number of tool leaves from which a device answers contact queries faster than the CPU. `fathom profile
+// query` measures it and stores it in the cache folder.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace fathom::gpu {
 
-// Leaves that no tool has: the CPU answers always.
+// More leaves than any tool has: the CPU always answers.
 inline constexpr uint32_t kNeverOnGpu = 0xffffffffu;
 
-// File of one device and driver in the user's cache folder; empty when there is no such folder.
+// File for one device and driver in the user's cache folder; empty when there is no such folder.
 std::string cacheFileOf(VkPhysicalDevice device, const std::string& extension);
 
-// What was stored last, else `fallback`. Never throws: a damaged file is as good as none.
+// The stored number, else `fallback`. Never throws; a damaged file counts as missing.
 uint32_t storedQueryCrossover(VkPhysicalDevice device, uint32_t fallback) noexcept;
-// False when it could not be stored.
+// Returns false when the number could not be stored.
 bool storeQueryCrossover(VkPhysicalDevice device, uint32_t leaves) noexcept;
 
 } // namespace fathom::gpu

@@ -6,8 +6,8 @@
 
 namespace fathom::gpu {
 
-// Throws DeviceLost for a lost device, OutOfMemory, and Error for all else below VK_SUCCESS; each names the
-// call and the code.
+// Throws DeviceLost, OutOfMemory, or Error for any other code below VK_SUCCESS. The message names the call
+// and the code.
 void check(VkResult result, const char* call);
 
 } // namespace fathom::gpu

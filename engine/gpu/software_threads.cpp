@@ -15,7 +15,7 @@ std::optional<uint32_t> softwareThreads(uint32_t processors) noexcept {
 void askForSoftwareThreads() noexcept {
     if (const std::optional<uint32_t> threads = softwareThreads(usableProcessors())) {
         ::setenv("LP_NUM_THREADS", std::to_string(*threads).c_str(),
-                 0); // fails only without memory: its own choice then
+                 0); // fails only when out of memory: then the default applies
     }
 }
 

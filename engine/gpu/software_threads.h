@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How many threads Mesa's software device works with.
+// The number of threads of Mesa's software device (llvmpipe).
 #pragma once
 
 #include <cstdint>
@@ -7,13 +7,14 @@
 
 namespace fathom::gpu {
 
-// What to ask of the software device that may run on so many processors; nothing where its own choice, a
-// thread for each, is as good. On two the kernel often wakes both threads on one processor, for the other is
-// busy until who wakes them sleeps, and a pass is over before that is put right; of four some end up on each.
+// The number of threads to request on so many processors; empty where the driver's default, one thread per
+// processor, is as good. On two processors the kernel often wakes both threads on the same one, because the
+// waking thread still occupies the other, and a pass ends before the kernel balances them. Four threads
+// spread over both.
 std::optional<uint32_t> softwareThreads(uint32_t processors) noexcept;
 
-// Asks by the environment variable LP_NUM_THREADS (Mesa's, read when a device is listed), unless it is set
-// already. To be called before there are threads, by a program: a library changes no environment.
+// Sets Mesa's environment variable LP_NUM_THREADS, unless it is set; Mesa reads it when devices are listed.
+// Call in a program before threads start. A library must not change the environment.
 void askForSoftwareThreads() noexcept;
 
 } // namespace fathom::gpu

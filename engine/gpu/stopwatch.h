@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// GPU timestamps: marks written between passes, read after the submission has ended.
+// GPU timestamps: marks written between passes, read after the submission has completed.
 #pragma once
 
 #include "engine/gpu/device.h"
 
 namespace fathom::gpu {
 
-// One submission's worth of marks. Reset on the host: the device would do it within the frame that it times.
+// The marks of one submission. Reset on the host, so that the reset does not count in the frame's time.
 class Stopwatch {
 public:
     Stopwatch(const Device& device, uint32_t marks);
@@ -15,13 +15,13 @@ public:
     Stopwatch& operator=(const Stopwatch&) = delete;
 
     bool works() const { return pool_ != VK_NULL_HANDLE; } // false: the device has no timestamps
-    // Before marks are recorded; no submission of any may be in flight.
+    // Call before recording marks. No submission with marks may be in flight.
     void reset();
-    // Before the same commands are submitted again; likewise.
+    // Call before submitting the same commands again. The same condition applies.
     void again() const;
-    void mark(VkCommandBuffer commands); // after all work recorded so far
-    // When the device reaches the next command, even while earlier work runs: for passes that overlap, where
-    // mark() would serialise them.
+    void mark(VkCommandBuffer commands); // taken after all work recorded so far
+    // Taken when the device reaches the next command, even if earlier work still runs. For overlapping
+    // passes, which mark() would serialise.
     void markReached(VkCommandBuffer commands);
     uint32_t marks() const { return used_; }
 

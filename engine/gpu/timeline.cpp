@@ -38,7 +38,7 @@ bool Timeline::comesSoon(uint64_t value) const {
 }
 
 void Timeline::wait(uint64_t value) const {
-    // On a CPU device the loop would take the very processor that works.
+    // On a CPU device polling would take a processor from the passes.
     if (device_.facts().kind != DeviceKind::Cpu && comesSoon(value)) {
         return;
     }

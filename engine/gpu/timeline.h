@@ -14,12 +14,12 @@ public:
     Timeline& operator=(const Timeline&) = delete;
 
     VkSemaphore handle() const { return handle_; }
-    uint64_t value() const; // reached so far
-    // Throws DeviceLost. Asks in a loop for kAsk first where the device is not this CPU: a kernel's wake-up
-    // takes as long as half a frame's passes do there.
+    uint64_t value() const; // current value
+    // Throws DeviceLost. On GPUs polls for kAsk before it sleeps, because a wake-up by the kernel takes as
+    // long as half of a frame's passes.
     void wait(uint64_t value) const;
 
-    static constexpr double kAsk = 500e-6; // [s]
+    static constexpr double kAsk = 500e-6; // [s] polling time
 
 private:
     bool comesSoon(uint64_t value) const;
