@@ -106,7 +106,7 @@ void takeGuidance(FixtureSet& set, const Scene& scene, const std::vector<uint32_
 
 uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers) {
     const auto [lo, hi] = depthBand(scene, host.camera.metresPerUnit);
-    // An empty band beyond the sensor's range: no reading is near enough.
+    // lo > hi: no depth value is in near..far, so the band 1..0 counts nothing.
     const auto least = static_cast<uint16_t>(lo <= hi ? lo : 1),
                most = static_cast<uint16_t>(lo <= hi ? hi : 0);
     host.depth.resize(depth.size());

@@ -10,7 +10,7 @@ namespace fathom {
 
 namespace {
 
-constexpr size_t kMostLeaves = 4096; // of a Tool
+constexpr size_t kMostLeaves = 4096; // leaves of a Tool
 
 class RigMaker {
 public:
@@ -29,7 +29,7 @@ public:
         rig_->baseTarm = arm_.baseTarm;
         rig_->freeDirection = arm_.freeDirection;
         rig_->graspButton = arm_.grasp.fingers.empty() ? 0 : arm_.grasp.button;
-        // As regions grow: where the camera is known so well, the arm is seen that far off.
+        // Includes 3 sigma like regions, because the registration error also displaces the image of the arm.
         rig_->padding = arm_.selfFilter ? *arm_.selfFilter + 3.0 * scene_.registrationSigma : 0.0;
         rig_->proxy.stepCap = scene_.haptics.stepCap;
         rig_->proxy.solves = scene_.haptics.solves;

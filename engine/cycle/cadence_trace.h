@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trace of the three cadences: which track each writes, and a frame's steps laid out in time.
+// Trace of the three cadences: one track each, and the steps of a frame in time.
 #pragma once
 
 #include "engine/cycle/frame_cycle.h"
@@ -7,19 +7,19 @@
 
 namespace fathom {
 
-// Each function belongs to the thread of its cadence; the trace is drained and finished by another (or, in
-// lockstep, the same). frame(), query() and turn() are wait-free and allocate nothing.
+// Each function is called by the thread of its cadence. Another thread drains and finishes the trace (in
+// lockstep the same one). frame(), query() and step() are wait-free and do not allocate.
 class CadenceTrace {
 public:
-    // passes: FrameCycle::passNames(). Throws what Trace throws.
+    // passes: FrameCycle::passNames(). Throws like Trace.
     CadenceTrace(const std::filesystem::path& file, const std::vector<std::string>& passes);
 
-    // Instant at the capture, spans of upload and publish, and the passes on the device's own track. A pass
-    // lies where the submission and the device's intervals since put it: device and host clocks are not
-    // calibrated against each other.
+    // Writes an instant at the capture, spans for upload and publish, and the passes on the device's track.
+    // The time of a pass is the submission's plus the device's intervals since, because the two clocks are
+    // not calibrated.
     void frame(const FrameReport& report) noexcept;
     void query(TraceTime begin, TraceTime end, size_t spheres) noexcept;
-    // lateSeconds: from when the tick was due to its start.
+    // lateSeconds: delay of the step's start after its due time.
     void step(TraceTime begin, TraceTime end, double lateSeconds) noexcept;
 
     Trace& file() { return trace_; }

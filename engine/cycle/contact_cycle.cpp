@@ -7,7 +7,7 @@ namespace fathom {
 
 namespace {
 
-constexpr double kNothingToTouch = 1000.0; // [m] certified where no region exists: the tool may go anywhere
+constexpr double kNothingToTouch = 1000.0; // [m] certified reach without regions: the tool may go anywhere
 
 } // namespace
 
@@ -33,17 +33,17 @@ void ContactCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout&
 }
 
 void ContactCycle::query(const cloud::FixtureSet& set, const ToolState& place, ContactSet& out) {
-    if (arm_ != nullptr) { // its leaves are in the base frame already
+    if (arm_ != nullptr) { // the arm's leaves are already in the base frame
         ask(arm_->toolAt(place.arm), set, Pose{}, out);
     } else {
         ask(tool_, set, place.pose, out);
     }
-    out.query = ++queries_; // one row of numbers, whoever answers
+    out.query = ++queries_; // one numbering for CPU and GPU answers
 }
 
 void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool,
                        ContactSet& out) {
-    const bool onHost = !gpu_ || !set.device.nodes; // the device or the set's part of it is gone
+    const bool onHost = !gpu_ || !set.device.nodes; // the device or the set's device side is gone
     switch (where_ == Plan::Query::Gpu && onHost ? Plan::Query::Cpu : where_) {
     case Plan::Query::None:
         fillContactSet(tool, baseTtool, kNothingToTouch, set.host, {}, out);
@@ -57,7 +57,7 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
         const auto onDevice = [&](const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) {
             const bool fits = gpu_->cull(set, leaves, baseTtool, reach, found);
             if (!fits) {
-                gpu_->grow(); // the next query has room; this one tries again with what the loop decides
+                gpu_->grow(); // for the next query; this one retries with the reach that the loop chooses
             }
             return fits;
         };

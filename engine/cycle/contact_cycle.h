@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The contact cadence: a fixture set and a tool pose in, a certified contact set out, by the CPU or the GPU
-// as the plan says.
+// The contact cadence: from a fixture set and a tool pose to a certified contact set, on the CPU or GPU as
+// planned.
 #pragma once
 
 #include "engine/cloud/tree_query.h"
@@ -13,22 +13,22 @@
 
 namespace fathom {
 
-// One thread. Both ways give equal sets.
+// One thread. CPU and GPU give equal sets.
 class ContactCycle {
 public:
-    // arm: null = the tool moves freely; else what is asked about is the whole arm, by its posture. Without
-    // a device the CPU answers, whatever the plan says.
+    // arm: null = the tool moves freely; else queries cover the whole arm at its posture. Without a device
+    // the CPU answers.
     ContactCycle(const Tool& tool, double reach, const ArmRig* arm);
-    // The same, and use(). gpuCapacity: spheres of the first answer of a GPU; it doubles when they are more.
+    // The same, then use(). gpuCapacity: largest first answer of the GPU [spheres]; it doubles on overflow.
     ContactCycle(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool,
                  const Tool& tool, double reach, const ArmRig* arm = nullptr,
                  uint32_t gpuCapacity = kGpuCapacity);
 
-    // What the plan wants of a device, from the next query on; and no device any more.
+    // use(): creates what the plan needs on a device, from the next query on. leave: returns to the CPU.
     void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
     void dropDevice() { gpu_.reset(); }
 
-    // Without forbidden points the set is empty and its reach unlimited.
+    // Without forbidden points the contact set is empty and its reach is unlimited.
     void query(const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out) {
         query(set, ToolState{baseTtool, {}}, out);
     }

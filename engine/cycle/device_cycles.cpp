@@ -23,7 +23,7 @@ std::unique_ptr<FrameCycle> DeviceCycles::openFrames(gpu::Device& device) const 
     return frames;
 }
 
-// From the borrowers to the owner. The set that is in force stays, on the host.
+// Destroys users of the device before the device. The newest set is kept on the host.
 void DeviceCycles::close() {
     const std::lock_guard lock(mutex_);
     if (frames_) {
@@ -41,7 +41,7 @@ void DeviceCycles::close() {
 
 void DeviceCycles::renew() {
     close();
-    try { // without the lock: this takes seconds, in which the CPU answers
+    try { // without the lock: this takes seconds, during which the CPU answers
         device_ = std::make_unique<gpu::Device>(parts_.instance, parts_.selector, parts_.drawing);
         if (device_->facts().name != facts_.name) {
             throw DeviceLost(facts_.name + " is not there; " + device_->facts().name +
@@ -54,7 +54,7 @@ void DeviceCycles::renew() {
         ++renewals_;
     } catch (const DeviceFailed&) {
         throw;
-    } catch (const Error& e) { // a driver that is being started anew may say anything
+    } catch (const Error& e) { // a restarting driver may report any error
         throw DeviceLost(e.what());
     }
 }
@@ -65,7 +65,7 @@ bool DeviceCycles::newestSet(Fixtures& set, RegionGrid& grid) {
         grid = newest->grid;
         return true;
     }
-    const std::lock_guard lock(mutex_); // answer() lets it go
+    const std::lock_guard lock(mutex_); // waits for answer() to release it
     if (stale_) {
         set = stale_->host;
         grid = stale_->grid;

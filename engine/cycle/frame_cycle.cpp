@@ -26,8 +26,8 @@ std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
     return buffers;
 }
 
-// On a GPU the workers spin while the passes run, which take less than a millisecond; a CPU device needs the
-// processors itself.
+// On a GPU workers spin while the passes run, for less than a millisecond. A CPU device needs the processors
+// itself.
 std::chrono::microseconds spinTimeOf(const Plan& plan) {
     return std::chrono::microseconds(plan.pack ? 1000 : 100);
 }
@@ -114,7 +114,7 @@ void FrameCycle::setScene(const Scene& scene) {
     if (origin_) {
         params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
     }
-    lastSource_.reset(); // the same frame makes another set now
+    lastSource_.reset(); // the same frame gives a different set now
 }
 
 // Some drivers compile a pipeline at its first use, so run each one now. A frame of zero depth selects
@@ -229,7 +229,7 @@ FrameReport FrameCycle::finish() {
     report.passMs.assign(passNames().size(), 0.0);
     if (!f.unchanged) {
         ThreadPool* const meanwhile =
-            plan_.pack ? &workers_ : nullptr; // a CPU device works on its processors
+            plan_.pack ? &workers_ : nullptr; // a CPU device uses the same processors
         if (meanwhile != nullptr && workers_.size() > 1) {
             workers_.wake();
         }

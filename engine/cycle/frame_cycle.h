@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame cadence: a frame in, a published fixture set out. Owns the passes and the pool of sets; knows no
-// camera and no thread.
+// The frame cadence: from a frame to a published fixture set. Owns the passes and the pool of sets; knows no
+// cameras or threads.
 #pragma once
 
 #include "engine/cloud/collect.h"
@@ -21,52 +21,54 @@
 
 namespace fathom {
 
-// What became of one frame.
+// Result of one frame.
 struct FrameReport {
     uint32_t index = 0;
     bool unchanged = false; // a repeated frame (same source number): no work, only a new capture time
-    bool inPlace = false;   // the device read depth where the camera left it
+    bool inPlace = false;   // the device read depth in the camera's memory
     cloud::FrameCounts counts;
-    uint32_t guidanceCount = 0; // pixels in guidance classes, as classify marks them
+    uint32_t guidanceCount = 0; // pixels in guidance classes, as counted by `classify`
     double uploadMs = 0.0, publishMs = 0.0, latencyMs = 0.0; // [ms]
     std::vector<double> passMs; // [ms] in the order of FrameCycle::passNames(); device time, zeros without
                                 // Plan::passTimes
     struct Times {              // on the host's monotonic clock
-        // landed: the device is done; collected: what it made is the host's; published: so is its grid
+        // landed: the device has finished; collected: the host has the results; published: the grid is built,
+        // too
         std::chrono::steady_clock::time_point started, uploaded, submitted, landed, collected, published;
     } times;
 };
 
-// One thread (the frame cadence) calls everything but sets() and captureTime(), which any reader may use.
+// Frame thread only, except sets() and captureTime(), which any reader may call.
 class FrameCycle {
 public:
-    // readers: how many leases may be held at once. Compiles every pipeline and runs an empty frame.
+    // readers: largest number of leases held at once. Compiles every pipeline and runs an empty frame.
     FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
                uint32_t readers);
     ~FrameCycle();
 
-    // State that a cycle on another device resumes from: generations continue, positions keep their origin,
-    // fixtures stay as setScene() left them, and frozen classes stay where they are.
+    // State with which a cycle on another device resumes: generations continue, positions keep their origin,
+    // fixtures keep the last setScene(), and frozen classes keep their spheres.
     struct Mark {
         uint64_t generation = 0;
         std::optional<dvec3> origin; // [m] base frame; empty = not chosen yet
-        std::optional<Scene> scene;  // empty = the one that the cycle is made with
+        std::optional<Scene> scene;  // empty = the scene of the constructor
         cloud::FrozenClasses frozen;
     };
     Mark mark() const { return {generation_, origin_, scene_, frozen_}; }
     void resumeFrom(const Mark& mark); // before the first frame
 
-    // One frame through, start to end.
+    // Processes one frame from upload to publish.
     FrameReport process(Frame frame);
-    // Instead of process(), for a frame that makes no set: the active one stays.
+    // Call instead of process() for a frame that gives no new set.
     FrameReport without(uint32_t index) const;
-    // Changes gates, radii, roles, boxes and frozen classes from the next frame on. The scene must have as
-    // many classes of points as before, and the same plan; throws Error otherwise.
+    // Changes gates, radii, roles, boxes and frozen classes from the next frame on. Throws Error if the
+    // number of point classes or the plan would change.
     void setScene(const Scene& scene);
-    // Forgets held points of earlier frames, so that the next frame may have any time (a jump in a
+    // Drops the held points of earlier frames, so that the next frame may have any time (a jump in a
     // recording). Waits for the device; no frame may be in flight.
     void forget();
-    // The arm that the frames show from the next upload() on. No effect without a self-filter in the plan.
+    // Sets the arm's spheres for the self-filter from the next upload() on. No effect without a self-filter
+    // in the plan.
     void setArm(cloud::LinkSpheres arm) { arm_ = std::move(arm); }
     // process() in three steps: upload() may run while the device works on the previous frame.
     void upload(Frame frame);
@@ -80,7 +82,7 @@ public:
     const std::vector<std::string>& passNames() const { return passes_.names(); }
     const PatchLayout& layout() const { return layout_; }
     const CameraInfo& camera() const { return camera_; }
-    uint32_t dispatches() const { return dispatches_; } // of the last frame
+    uint32_t dispatches() const { return dispatches_; } // in the last frame
     const cloud::WorkBuffers& work() const {
         return work_;
     } // for tests that compare passes with their CPU twins
@@ -93,7 +95,7 @@ private:
         double uploadMs = 0.0;
         FrameReport::Times times;
         Pose pose;
-        shared::FrameParams params{}; // as the passes read them
+        shared::FrameParams params{}; // parameters of the passes
     };
 
     void placeOrigin(const dvec3& origin);
@@ -113,11 +115,11 @@ private:
     cloud::WorkBuffers work_;
     cloud::UploadSlots uploads_;
     cloud::FixturePool pool_;
-    std::optional<cloud::SeenPoints> seenPoints_; // where the plan packs depths
+    std::optional<cloud::SeenPoints> seenPoints_; // if the plan packs depths
     std::vector<cloud::SetBuffers*> setBuffers_;
     FramePasses passes_;
     gpu::Timeline timeline_;
-    ThreadPool workers_; // shares the layout of a set
+    ThreadPool workers_; // lay out a set for the host
 
     cloud::LinkSpheres arm_;
     cloud::FrozenClasses frozen_;

@@ -80,7 +80,7 @@ void FramePasses::recordEnd(gpu::Commands& commands, uint32_t upload, uint32_t s
             commands.copy(from, to, to.bytes());
         }
     };
-    copy(work.points, s.points); // beside what delivers
+    copy(work.points, s.points); // in addition to `deliver`
     copy(work.masks, s.masks);
     if (deliver_) {
         deliver_->record(commands, upload, set);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passes of a frame in their order, as the plan wants them, with a stopwatch mark after each.
+// The planned passes of a frame in their order, with a stopwatch mark after each.
 #pragma once
 
 #include "engine/cloud/passes.h"
@@ -16,15 +16,15 @@ class FramePasses {
 public:
     explicit FramePasses(const cloud::CloudContext& context);
 
-    // Binds the buffers of an upload slot: before its first frame() and whenever the buffers change. No
+    // Binds the buffers of an upload slot. Call before its first frame() and whenever the buffers change. No
     // submission of that slot may be in flight.
     void bind(uint32_t upload, const cloud::UploadBuffers& buffers);
 
-    // One frame, ready to submit. Recorded at the first use of each pair, because from frame to frame only
-    // the contents of buffers change. No submission of the same slot may be in flight.
+    // Commands of one frame, ready to submit. Recorded once per pair of slot and set, because only buffer
+    // contents change between frames. No submission of the same slot may be in flight.
     const gpu::Commands& frame(uint32_t upload, uint32_t set);
     const std::vector<std::string>& names() const { return names_; }
-    // Of the pair used last; has no marks unless the plan times passes.
+    // Stopwatch of the pair used last; has no marks unless the plan times passes.
     const gpu::Stopwatch& watch(uint32_t upload) const { return *watches_[upload]; }
 
 private:
@@ -33,7 +33,7 @@ private:
 
     cloud::CloudContext context_;
     std::vector<cloud::Pass> passes_;
-    std::unique_ptr<cloud::Pass> deliver_; // null: copies
+    std::unique_ptr<cloud::Pass> deliver_; // null: deliverByCopies()
     std::vector<std::string> names_;
     cloud::PerUpload<std::vector<std::unique_ptr<gpu::Commands>>> commands_; // per set; null = not recorded
     cloud::PerUpload<std::unique_ptr<gpu::Stopwatch>> watches_;

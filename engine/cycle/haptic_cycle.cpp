@@ -22,13 +22,13 @@ PassivityOptions passivityOf(const HapticOptions& options) {
     return passivity;
 }
 
-// |part| over |whole|, 1 where there is nothing.
+// |part| / |whole|; 1 when `whole` is zero.
 double shareOf(const dvec3& part, const dvec3& whole) {
     const double length = glm::length(whole);
     return length > 0.0 ? glm::length(part) / length : 1.0;
 }
 
-// Where the hand commands the tool before the first step.
+// The pose that the hand commands before the first step.
 Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm) {
     if (tool0 == nullptr) {
         return map.map(start, false);

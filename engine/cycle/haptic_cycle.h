@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One step of the haptic cadence: hand pose in, wrench out, in the same tick.
+// One step of the haptic cadence: from the hand's pose to the wrench, in the same tick.
 #pragma once
 
 #include "engine/cycle/arm_rig.h"
@@ -13,8 +13,8 @@
 
 namespace fathom {
 
-// One thread (the haptic one). Allocates in the constructor only; step() never locks, throws, waits or
-// touches Vulkan. The caller owns the device, the clock and the contact sets. Rules of a step:
+// Haptic thread only. Allocates only in the constructor; step() never locks, throws, waits or uses Vulkan.
+// The caller owns the device, the clock and the contact sets. Rules of a step:
 // - Until the first contact set (when the scene needs one): the tool is held, the wrench is zero, the state
 // is off.
 // - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over 0.2
@@ -34,17 +34,17 @@ namespace fathom {
 // zero.
 class HapticCycle {
 public:
-    // start: raw pose of the hand before the first step; the tool starts where it commands, or at base_T_tool
-    // `tool0` when that is given: then the hand map is aligned, as after a clutch. arm: null = the tool moves
-    // freely; else it must outlive this, the tool is its tip and starts where the arm does (tool0, when
-    // given, says only that the hand map is aligned to that), and contact sets are of ArmRig::toolAt().
+    // start: raw pose of the hand before the first step. The tool starts where the hand commands it or, if
+    // given, at base_T_tool `tool0`, with the hand map aligned as after a clutch. arm: null = the tool moves
+    // freely. Otherwise it must outlive this, the tool is its tip and starts there (tool0, if given, only
+    // requests the alignment), and contact sets refer to ArmRig::toolAt().
     HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
                 const Pose& start, const Pose* tool0 = nullptr, const ArmRig* arm = nullptr);
 
     StepRecord step(const StepInput& input) noexcept;
 
-    // Call before a step when a real arm follows; from the first call on the rules above apply. True when the
-    // tool moved to the measured arm: pose() and place() have changed.
+    // Call before a step when a real arm follows; from the first call on, the rules above apply. Returns true
+    // when the tool moved to the measured arm, which changes pose() and place().
     bool follow(const ArmFollow& told) noexcept;
 
     // Replaces the authored shapes from the next step on; drops those beyond the room made by the
@@ -53,13 +53,13 @@ public:
         arm_ ? arm_->setShapes(shapes) : proxy_->setShapes(shapes);
     }
 
-    const Pose& pose() const { return tool_; } // base_T_tool: what the next contact query asks about
+    const Pose& pose() const { return tool_; } // base_T_tool for the next contact query
     // Pose and, on an arm, posture.
     ToolState place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
     bool onArm() const { return arm_.has_value(); }
     const Springs& springs() const {
         return watch_.springs();
-    } // active: those of the options, or softer ones while ticks are slow
+    } // active springs: those of the options, or softer ones while ticks are slow
     const PassivityController& passivity() const { return passivity_; }
     const HapticOptions& options() const { return options_; }
     uint64_t notFinite() const { return notFinite_; } // steps with a number that is not finite
@@ -112,15 +112,15 @@ private:
     HandMap map_;
     Guidance guidance_;
     const ArmRig* rig_;
-    std::optional<ArmProxy> arm_; // exactly one of these two is there
+    std::optional<ArmProxy> arm_; // exactly one of these two exists
     std::optional<Proxy> proxy_;
     StiffnessWatch watch_;
     PassivityController passivity_;
 
     std::vector<double> leafRadius_; // [m]
     Pose tool_;                      // base_T_tool after the last step
-    Pose springEnd_;                 // base_T_tool that the solver aims at: device, led by guidance
-    Pose device_, handle_;           // last good sample: mapped, raw
+    Pose springEnd_;       // base_T_tool that the solver aims at: device pose moved by the guidance lead
+    Pose device_, handle_; // last good sample: mapped, raw
     Pose toolBefore_, deviceBefore_; // at the end of the previous step, for the damping
     Wrench smooth_;                  // low-pass
     Wrench previous_;                // delivered, for the slew limit

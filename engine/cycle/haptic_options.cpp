@@ -26,7 +26,7 @@ HapticOptions makeHapticOptions(const Scene& scene, const Tool& tool) {
     options.coupling.stiffness = haptics.stiffness;
     options.coupling.rotationalStiffness = haptics.rotationalStiffness;
     options.coupling.paperGuidance = options.paperGuidance;
-    // The hand feels tau / s (hand_map.h): with a fine map, s < 1, its limit is the tighter one.
+    // The hand feels torque / s (hand_map.h), so with a fine map (s < 1) the hand's limit is the tighter one.
     const double torqueShare = std::min(1.0, scene.hand.scale);
     options.slewForce = options.coupling.slewForce = haptics.slewForce;
     options.slewTorque = options.coupling.slewTorque = haptics.slewTorque * torqueShare;

@@ -19,13 +19,13 @@ struct HapticOptions {
     GuidanceLimits guidance;
     bool paperGuidance = false; // mode `paper`, else `target`
     dquat baseRdevice{1.0, 0.0, 0.0, 0.0};
-    double handScale = 1.0;                      // tool over hand, of lengths
-    uint32_t clutchBit = 4;                      // mask of StepInput::buttons; 0 = none
-    double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] at the tool: the hand's torque limit counts too
+    double handScale = 1.0;                       // tool motion per hand motion
+    uint32_t clutchBit = 4;                       // mask of StepInput::buttons; 0 = none
+    double forceLimit = 20.0, torqueLimit = 2.0;  // [N], [N m] at the tool; includes the hand's torque limit
     double slewForce = 2000.0, slewTorque = 50.0; // [N/s], [N m/s]
     double lowPassGain = 1.0;                     // limits.h; 1 = off
     bool needsContacts = true; // the scene has regions of points: hold the tool until the first contact set
-    double armTime = 0.2;      // [s] in which forces return after forces off or an open dead-man
+    double armTime = 0.2;      // [s] time for forces to return after forces off or an open dead-man
     double staleAfter = 0.1;   // [s] scene age from which forces fade
     // Damps the energy that moving fixtures feed into the hand (engine/haptics/passivity.h); changes no force
     // when there is none.

@@ -28,13 +28,13 @@ enum class StepState : uint8_t {
 
 // Bits of a hand's buttons.
 inline constexpr uint32_t kGuidanceButton = 1;
-inline constexpr uint32_t kDeadManOpen = 2; // by level; the clutch's bit is an option
+inline constexpr uint32_t kDeadManOpen = 2; // level-sensitive; the clutch's bit is an option
 
 // Input of a step.
 struct StepInput {
     double time = 0.0;    // [s] of this step, on the clock of capture times
     Pose deviceThandle;   // raw, as the device gives it
-    uint32_t buttons = 0; // bit field by level
+    uint32_t buttons = 0; // level-sensitive bit field
     bool forcesOff = false;
 
     // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
@@ -47,7 +47,7 @@ struct StepInput {
     int64_t frame = -1;
     uint64_t generation = 0;
     double captureTime =
-        0.0; // [s] of the newest frame that shows it: later than the set's own while nothing changes
+        0.0; // [s] of the newest frame that confirms the set; later than the set's own while nothing changes
     std::span<const GuidancePose> guidance;
     bool sourceEnded = false; // lockstep: the last frame stays valid and does not age
 
@@ -55,23 +55,23 @@ struct StepInput {
     Deadline deadline;           // realtime; none in lockstep
 };
 
-// A number that no step has measured yet.
+// A value that no step has measured yet.
 inline constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
 
 // A row that pushed in the last solve of the step, for displays and logs. Base frame [m].
 struct Touch {
     ContactRow::Kind kind = ContactRow::Kind::Sphere;
-    dvec3 point{0.0};        // of the leaf's surface, nearest to the region
-    dvec3 normal{0.0};       // unit, out of the region; zero in a row of pure rotation
+    dvec3 point{0.0};        // on the leaf's surface, nearest to the region
+    dvec3 normal{0.0};       // unit, out of the region; zero for a row of pure rotation
     double gap = 0.0;        // [m] when the row was made
-    double multiplier = 0.0; // its weight in the answer, > 0
-    uint32_t leaf = 0;       // of the tool
+    double multiplier = 0.0; // of the row in the solution, > 0
+    uint32_t leaf = 0;       // index in the tool
     uint32_t source = 0;  // sphere: slot in the fixture set (RegionSpheres::source); else the shape's index
     uint32_t fixture = 0; // row of Scene::fixtures
 };
 inline constexpr size_t kMostTouches = 8;
 
-// Pose of the tool, and the posture of its arm if it has one: the input of a contact query.
+// Pose of the tool, and posture of its arm if it has one: the input of a contact query.
 struct ToolState {
     Pose pose; // base_T_tool
     ArmPosture arm;
@@ -79,22 +79,22 @@ struct ToolState {
 
 // Status of the real arm that follows the tool's arm, before a step.
 struct ArmFollow {
-    bool follows = false; // false: it stands still
-    bool known = false;   // `posture` was measured lately
+    bool follows = false; // false: the arm stands still
+    bool known = false;   // `posture` was measured recently
     ArmPosture posture;
 };
 
-// What a step did to an arm; all zero without one.
+// Result of a step for an arm; all zero without an arm.
 struct ArmRecord {
     ArmPosture posture;          // after the step
     double residual = 0.0;       // [m] distance to the target in the metric M
     double manipulability = 0.0; // [m/rad] smallest singular value of M^1/2 J
-    uint32_t atLimits = 0;       // limits of joints or of their speeds that pushed
-    bool graspHeld = false;      // a finger would have entered a region
-    bool singular = false;       // damped
+    uint32_t atLimits = 0;       // active limits of joints or joint speeds
+    bool graspHeld = false;      // the grasp stopped because a finger would have entered a region
+    bool singular = false;       // near a singularity: the solution is damped
 };
 
-// One row of haptics.csv, and what the window shows besides.
+// One row of haptics.csv, and further values for the window.
 struct StepRecord {
     double t = 0.0;            // [s]
     Pose device;               // base_T_tool that the hand commands, mapped
@@ -104,7 +104,7 @@ struct StepRecord {
     double minGap = kNotKnown; // [m] over the contact set after the step; its reach when none is nearer
     StepState state = StepState::Off;
     double guidance = 0.0;                                         // w
-    int64_t frame = -1;                                            // index of the set obeyed
+    int64_t frame = -1;                                            // index of the frame behind the active set
     double sceneAge = kNotKnown;                                   // [s]
     bool stalled = false;                                          // cut by the trust region
     double marginPassive = kNotKnown, marginUncoupled = kNotKnown; // [N s/m]; NaN = b unknown
@@ -113,13 +113,13 @@ struct StepRecord {
     Wrench deviceWrench;     // for HapticDevice::write: device axes, about the handle, on actuated axes only
     Wrench residual;         // base axes: what the device cannot render
     bool adopted = false;    // StepInput::offered is active now
-    bool finite = true;      // false: some number is not, and the wrench of this step is zero
-    bool armHold = true;     // an arm that follows the tool must stand still
+    bool finite = true;      // false: some number is not finite, and the wrench of this step is zero
+    bool armHold = true;     // a real arm must stand still
     uint32_t solves = 0;     // linearisations
     uint32_t infeasible = 0; // solver calls without an answer
     int guidanceClass = -1;  // index into StepInput::guidance of the target that pulls
     Pose guidanceTarget;     // held and slewed; valid when guidanceClass >= 0
-    std::array<Touch, kMostTouches> touches; // the first touchCount of them count
+    std::array<Touch, kMostTouches> touches; // the first touchCount entries are valid
     uint32_t touchCount = 0;
 };
 

@@ -12,7 +12,7 @@ namespace fathom {
 
 namespace {
 
-constexpr uint64_t kRoomForTheEnd = 4096; // [bytes] of maxBytes: names of tracks, counts
+constexpr uint64_t kRoomForTheEnd = 4096; // [bytes] of maxBytes reserved for track names and counts
 
 std::string quoted(const char* text) {
     std::string out = "\"";
@@ -51,7 +51,7 @@ std::string arguments(const TraceDetail& detail) {
     return ",\"args\":{" + quoted(detail.name) + ":" + value + "}";
 }
 
-// What was written takes its place in the end, and nothing but a file may be taken away for it.
+// The finished trace replaces this file, so the name must be free or a regular file.
 std::filesystem::path replaceable(std::filesystem::path file) {
     if (!isReplaceable(file)) {
         throw Error("trace " + file.string() + ": cannot be written: a folder, a device or a pipe");
@@ -77,7 +77,7 @@ Trace::Trace(std::filesystem::path file, uint64_t maxBytes)
 Trace::~Trace() {
     try {
         finish();
-    } catch (...) { // the run's own error, if any, is the one to hear of
+    } catch (...) { // must not hide the run's own error
     }
 }
 
@@ -124,7 +124,7 @@ void Trace::drain() {
     }
 }
 
-// Tracks in the order in which they were added, whatever their names.
+// Writes track names and keeps the tracks in the order in which they were added.
 void Trace::writeNames() {
     for (size_t i = 0; i < tracks_.size(); ++i) {
         const std::string where = ",\"pid\":1,\"tid\":" + std::to_string(i + 1) + ",\"args\":{";

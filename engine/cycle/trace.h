@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A timeline of a run as Chrome trace JSON (chrome://tracing, ui.perfetto.dev): spans and instants on named
+// Timeline of a run as Chrome trace JSON (chrome://tracing, ui.perfetto.dev): spans and instants on named
 // tracks.
 #pragma once
 
@@ -15,18 +15,18 @@
 
 namespace fathom {
 
-// The clock of every event; shown as time since the trace was made.
+// Clock of all events; displayed as time since the trace was created.
 using TraceTime = std::chrono::steady_clock::time_point;
 
-// Something worth reading beside an event: a number, or a word when `word` is set. Null name = nothing. All
-// texts must live as long as the trace: literals, or what Trace::keep() returned.
+// A detail of an event: a number, or a word when `word` is set. Null name = no detail. All texts must live as
+// long as the trace: literals, or results of Trace::keep().
 struct TraceDetail {
     const char* name = nullptr;
     double number = 0.0;
     const char* word = nullptr;
 };
 
-// One span or instant of a track.
+// One span or instant on a track.
 struct TraceEvent {
     const char* name = nullptr;
     TraceTime begin{};
@@ -36,8 +36,8 @@ struct TraceEvent {
     bool frequent = false;
 };
 
-// One thread at a time writes a track. Wait-free, allocates nothing; an event that finds the ring full is
-// lost and counted.
+// One thread at a time writes a track. Wait-free, does not allocate. When the queue is full, events are
+// dropped and counted.
 class TraceTrack {
 public:
     TraceTrack(std::string name, uint64_t capacity)
@@ -47,7 +47,7 @@ public:
     void span(const char* name, TraceTime begin, TraceTime end, const TraceDetail& detail = {}) noexcept {
         ring_.push({name, begin, end - begin, detail, false, false});
     }
-    // The same for what happens thousands of times a second: the first to be left out when the file grows.
+    // The same for events at thousands per second, which are dropped first when the file grows.
     void frequentSpan(const char* name, TraceTime begin, TraceTime end,
                       const TraceDetail& detail = {}) noexcept {
         ring_.push({name, begin, end - begin, detail, false, true});
@@ -62,25 +62,24 @@ private:
     SpscQueue<TraceEvent> ring_;
 };
 
-// Tracks are added before their threads start; drain() and finish() belong to one other thread (or the same
-// one, in lockstep). Frequent spans are all written while the file is small (half of maxBytes), after that
-// only those of at least kLongSpan; at maxBytes nothing more is. What was left out is counted in the file.
+// Add tracks before their threads start. One other thread (in lockstep the same one) calls drain() and
+// finish(). Up to half of maxBytes all frequent spans are written, then only those of at least kLongSpan, and
+// nothing beyond maxBytes. The file counts the dropped events.
 class Trace {
 public:
-    // Throws Error that names the file. The file appears under its name at finish(): whole or not at all.
+    // Throws Error that names the file. finish() renames the complete file to its name.
     explicit Trace(std::filesystem::path file, uint64_t maxBytes = 50'000'000);
     Trace(const Trace&) = delete;
     Trace& operator=(const Trace&) = delete;
-    ~Trace(); // finishes; a failure to write stays silent there
+    ~Trace(); // finishes; ignores a failure to write
 
     TraceTrack& track(std::string name, uint64_t capacity = 8192);
     // A copy of the text that lives as long as the trace.
     const char* keep(std::string text);
 
-    // Moves what the tracks hold into the file. Cheap when there is nothing; call it more often than the
-    // rings fill.
+    // Moves the events of all tracks to the file. Cheap without events; call it before the queues fill up.
     void drain();
-    // Drains and closes the file. Throws Error that names it. Nothing may be traced after.
+    // Drains and closes the file. Throws Error that names it. No events may follow.
     void finish();
 
     static constexpr std::chrono::microseconds kLongSpan{100};

@@ -9,7 +9,7 @@ namespace fathom::v0 {
 
 namespace {
 
-constexpr Nanoseconds kAhead = 5'000'000; // that a stamp may be ahead of now
+constexpr Nanoseconds kAhead = 5'000'000; // [ns] by which a stamp may be ahead of now
 
 bool aligned(const void* data, size_t to) {
     return data != nullptr && reinterpret_cast<uintptr_t>(data) % to == 0;
@@ -36,8 +36,8 @@ SubmitStatus CameraPort::Impl::checkImages(const Frame& frame) const noexcept {
     return isFinite(front::internal(frame.baseTcamera)) ? SubmitStatus::Accepted : SubmitStatus::BadPose;
 }
 
-// One is always free: the others are at most waiting, taken, uploaded and on the device. With lent frames
-// among those, more are free.
+// At least one is free: the others are at most waiting, taken, uploaded and on the device. Borrowed frames
+// use none.
 CameraPort::Impl::Copy& CameraPort::Impl::unused() {
     for (;;) {
         for (Copy& copy : copies_) {
@@ -123,7 +123,7 @@ SubmitStatus CameraPort::Impl::put(const Frame& frame, std::function<void()> rel
     {
         const std::lock_guard lock(mutex_);
         if (closed_) {
-            return SubmitStatus::Closed; // `next` is released outside of the lock
+            return SubmitStatus::Closed; // `next` is released outside the lock
         }
         std::swap(waiting_, next);
     }
@@ -150,7 +150,7 @@ std::optional<fathom::Frame> CameraPort::Impl::take() {
 }
 
 void CameraPort::Impl::close() {
-    std::optional<fathom::Frame> unwanted; // released outside of the lock
+    std::optional<fathom::Frame> unwanted; // released outside the lock
     {
         const std::lock_guard lock(mutex_);
         closed_ = true;

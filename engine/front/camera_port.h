@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mailbox behind a CameraPort: the camera thread puts frames in, the frame thread takes the newest.
+// The mailbox behind a CameraPort: the camera thread puts in frames, the frame thread takes the newest.
 #pragma once
 
 #include "engine/front/public.h"
@@ -19,22 +19,22 @@ struct CameraPort::Impl {
         : model(given)
         , info(made) {}
 
-    // Camera thread. `release` empty: copies; else lends where the formats allow it. Calls release() exactly
-    // once.
+    // Camera thread. Copies the frame if `release` is empty; otherwise borrows it if the formats allow. Calls
+    // release() exactly once.
     SubmitStatus put(const Frame& frame, std::function<void()> release);
 
-    // One thread: the frame, copied, whatever its stamp. Throws BadInput for a missing image or pose.
+    // One thread. Copies the frame, whatever its stamp. Throws BadInput for a missing image or pose.
     fathom::Frame copy(const Frame& frame);
 
     // Frame thread. Waits for a frame until close(); nothing then.
     std::optional<fathom::Frame> take();
-    // Any thread. Drops the frame that waits; from now on none is taken.
+    // Any thread. Drops the waiting frame; take() returns nothing from now on.
     void close();
 
     const CameraModel model;
     const CameraInfo info;
     std::atomic<uint64_t> dropped{0}, processed{0};
-    Nanoseconds last = 0; // camera thread: stamp of the newest frame; 0 = any may follow
+    Nanoseconds last = 0; // camera thread: stamp of the newest frame; 0 = any stamp may follow
 
 private:
     struct Copy { // memory for one copied frame
@@ -49,7 +49,7 @@ private:
     void copyColour(const Frame& frame, Copy& copy) const;
     fathom::Frame contentOf(const Frame& frame, std::function<void()> release);
 
-    static constexpr size_t kCopies = 5; // being filled, waiting, taken, uploaded, on the device
+    static constexpr size_t kCopies = 5; // one each: being filled, waiting, taken, uploaded, on the device
     std::array<Copy, kCopies> copies_;
     uint32_t count_ = 0; // camera thread
     std::mutex mutex_;   // of all below

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Engine and Lockstep are made of: scene, tool, haptic options, and the device with its cycles.
+// The parts of Engine and Lockstep: scene, tool, haptic options, and the device with its cycles.
 #pragma once
 
 #include "engine/contact/shapes.h"
@@ -19,7 +19,7 @@ struct Scene::Data {
 
 namespace fathom::front {
 
-// What the haptic thread needs. Immutable after construction.
+// Data for the haptic thread. Immutable after construction.
 struct HapticSide {
     explicit HapticSide(const fathom::Scene& from);
     std::unique_ptr<HapticCycle> cycle(const v0::HandStart& start) const;
@@ -30,7 +30,7 @@ struct HapticSide {
     HapticOptions options;
 };
 
-// What the frame and contact threads need. `haptic` must outlive it.
+// Data for the frame and contact threads. `haptic` must outlive it.
 struct ComputeSide {
     ComputeSide(const HapticSide& haptic, const v0::CameraModel& camera, const std::string& device);
 

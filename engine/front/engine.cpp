@@ -10,7 +10,7 @@
 
 namespace fathom::front {
 
-// The submitted frames as the frame loop sees them. Frame thread only, but for lost.
+// Feeds submitted frames to the frame loop. Frame thread only, except `lost`.
 class SubmittedFeed final : public FrameFeed {
 public:
     SubmittedFeed(v0::CameraPort::Impl& camera, DeviceCycles& cycles, Channels& channels)
@@ -19,7 +19,8 @@ public:
         , channels_(channels) {}
 
     std::optional<uint32_t> fetch() override {
-        for (PublishedFrame* done = nullptr; channels_.frames.pop(done);) { // nobody writes them
+        for (PublishedFrame* done = nullptr;
+             channels_.frames.pop(done);) { // not recorded: return them at once
             channels_.emptied.push(done);
         }
         next_ = camera_.take();
@@ -51,7 +52,7 @@ public:
         lost.store(false);
     }
 
-    std::atomic<bool> lost{false}; // the device is
+    std::atomic<bool> lost{false}; // the device is lost
 
 private:
     v0::CameraPort::Impl& camera_;
@@ -108,7 +109,7 @@ struct Engine::Impl {
         }
     }
 
-    // What a thread throws ends the input of frames; the forces fade.
+    // An exception in a thread ends the input of frames, so forces fade.
     template <class Body>
     void guarded(Body&& body) noexcept {
         const front::FloatMode mode;
@@ -123,7 +124,8 @@ struct Engine::Impl {
         camera->close();
     }
 
-    static constexpr double kFramePeriod = 1.0 / 30.0; // [s]; submitted frames have their own times
+    static constexpr double kFramePeriod =
+        1.0 / 30.0; // [s] unused for pacing: submitted frames have their own times
 
     std::shared_ptr<front::Shared> shared;
     front::ComputeSide compute;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floating-point mode that all results are computed in, whatever the calling program uses.
+// The floating-point mode of all computations, whatever mode the calling program uses.
 #pragma once
 
 #if defined(__SSE2__)
@@ -8,7 +8,7 @@
 
 namespace fathom::front {
 
-// Round to nearest, denormals kept, no traps, while it lives; then the caller's mode again. Threads inherit
+// Sets round to nearest, denormals kept, no traps; the destructor restores the caller's mode. Threads inherit
 // the mode of the thread that starts them, so the engine's own threads use it, too.
 class FloatMode {
 public:

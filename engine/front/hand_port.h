@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What outlives an engine for its hand: the haptic cycle, its inputs, and the channels that the engine's
-// threads fill.
+// State of a HandPort that outlives its engine: the haptic cycle, its inputs, and the channels that the
+// engine's threads fill.
 #pragma once
 
 #include "engine/front/core.h"
@@ -19,12 +19,12 @@ struct Shared {
         clock.start(-kPast);
     }
     HapticSide haptic;
-    RunClock clock; // t = 0 lies in the past, so that frames older than the engine keep their age
+    RunClock clock; // t = 0 is in the past, so that frames older than the engine keep their age
     Channels channels;
     std::atomic<bool> failed{false};
     std::atomic<bool> handOpen{false};
 
-    static constexpr uint64_t kRows = 16;  // of queues that nobody reads
+    static constexpr uint64_t kRows = 16;  // capacity of queues that are never read
     static constexpr double kPast = 100.0; // [s]
 };
 

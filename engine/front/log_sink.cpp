@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// In place of engine/types/log.cpp: the library passes its log lines to the callback of the program that uses
-// it and does not link spdlog.
+// Replaces engine/types/log.cpp: the library passes log lines to the calling program's callback and does not
+// link spdlog.
 #include "engine/front/public.h"
 #include "engine/types/log.h"
 

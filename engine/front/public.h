@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The public headers as the library's own sources see them, and the way between public and internal types.
-// Public types live in fathom::v0; internal ones with the same names in fathom.
+// Public headers for the library's own sources, and conversions between public and internal types. Public
+// types are in fathom::v0, internal ones of the same names in fathom.
 #pragma once
 
 #define FATHOM_BUILDING_LIBRARY

@@ -13,7 +13,7 @@ namespace {
 
 const double kHalfDiagonal = 0.5 * std::sqrt(3.0);
 
-// Dense points of the surface, no two neighbours farther apart than `spacing`.
+// Dense surface points; neighbours are at most `spacing` apart.
 std::vector<dvec3> surfacePoints(const TriangleMesh& mesh, double spacing) {
     std::vector<dvec3> points;
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
@@ -96,7 +96,7 @@ Sphere sphereOf(const Cube& cube, const MeshDistance& distance, double spacing) 
     for (const dvec3& p : cube.points) {
         tight.radius = std::max(tight.radius, glm::distance(p, tight.centre));
     }
-    tight.radius += 0.6 * spacing; // the surface between the points
+    tight.radius += 0.6 * spacing; // covers the surface between the points
     return tight.radius < whole.radius ? tight : whole;
 }
 
@@ -108,7 +108,7 @@ std::vector<Sphere> gridCover(const TriangleMesh& mesh, const MeshDistance& dist
     const double longest = std::max({size.x, size.y, size.z});
     const std::vector<dvec3> points = surfacePoints(mesh, longest / 400.0);
     std::vector<Sphere> best;
-    for (int n = 1, misses = 0; misses < 3 && n < 200; ++n) { // the count need not rise with n
+    for (int n = 1, misses = 0; misses < 3 && n < 200; ++n) { // the count may fall as n rises
         const double edge = longest / n;
         const std::set<Cell> cells = occupied(points, distance, low, high, edge);
         if (cells.size() > most) {

@@ -21,7 +21,7 @@ bool hueWithin(double hue, const Band& band) {
     if (band.lo <= band.hi) {
         return within(hue, band);
     }
-    return hue >= band.lo - kRounding || hue <= band.hi + kRounding; // through 0
+    return hue >= band.lo - kRounding || hue <= band.hi + kRounding; // the band wraps through 0
 }
 
 bool passesColour(const FixtureClass& f, uint32_t rgba) {
@@ -30,7 +30,7 @@ bool passesColour(const FixtureClass& f, uint32_t rgba) {
            (!f.hue || (!c.grey && hueWithin(c.hue, *f.hue)));
 }
 
-// A gate that everything passes asks for nothing.
+// A gate that everything passes needs no colour.
 bool asksColour(const FixtureClass& f) {
     const auto cuts = [](const std::optional<Band>& b) { return b && (b->lo > 0.0 || b->hi < 1.0); };
     return f.hue || cuts(f.saturation) || cuts(f.lightness);
@@ -86,7 +86,7 @@ Seen lookUp(const FrameView& view, const CellImage* cells, int u, int v, const d
     }
     const double front = cells->nearest[static_cast<uint32_t>(at.v) / cells->edge * cells->across +
                                         static_cast<uint32_t>(at.u) / cells->edge];
-    const double limit = 1.02 * front + 0.005; // two percent and 5 mm are one surface
+    const double limit = 1.02 * front + 0.005; // within 2 % and 5 mm counts as the same surface
     const bool unsure = at.unsure || std::abs(q.z - limit) < kMetres * std::max(1.0, q.z);
     return q.z > limit ? Seen{std::nullopt, unsure} : Seen{view.colour(at.u, at.v), unsure};
 }

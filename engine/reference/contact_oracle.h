@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Brute force over every leaf and every region sphere: what the queries, the pair lists and the proxy are
-// tested against.
+// Brute-force oracles over all leaves and region spheres, for tests of the queries, the pair lists and the
+// proxy.
 #pragma once
 
 #include "engine/contact/contact_set.h"
@@ -10,8 +10,8 @@
 
 namespace fathom {
 
-// Sources, ascending, of the spheres that the query must return: the float32 test of CullCpu::query on every
-// pair.
+// Sources of the spheres that the query must return, ascending: applies the float32 test of CullCpu::query to
+// every pair.
 std::vector<uint32_t> oracleSources(const Tool& tool, const Pose& baseTtool, double reach,
                                     const Fixtures& fixtures);
 
@@ -23,11 +23,11 @@ struct OraclePair {
     }
 };
 
-// Every pair with gap <= limit [m] in float64, by leaf and source.
+// Every pair with gap <= limit [m] in float64, sorted by leaf and source.
 std::vector<OraclePair> oraclePairs(const Tool& tool, const Pose& baseTtool, double limit,
                                     const Fixtures& fixtures);
 
-// Smallest gap over all pairs [m]: below 0 it is the deepest penetration. Infinity without spheres.
+// Smallest gap over all pairs [m]; a negative gap is the deepest penetration. Infinity without spheres.
 double oracleSmallestGap(const Tool& tool, const Pose& baseTtool, const Fixtures& fixtures);
 
 } // namespace fathom

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// One frame as the float64 twins see it: the plain scene, camera and pose, row-major frames. Every twin of
-// a GPU pass lives in namespace reference and is written from the formulas in the paper, not from the
-// shader.
+// Input of the float64 twins: scene, camera, pose and row-major images. Every twin of a GPU pass is in
+// namespace reference and implements the formulas of the paper, independently of the shader.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -12,10 +11,10 @@
 
 namespace fathom::reference {
 
-// The classes of points of a scene in file order: bit c of a pixel's mask is pointClasses(scene)[c].
+// The point classes of a scene in file order: bit c of a pixel's mask is pointClasses(scene)[c].
 std::vector<const FixtureClass*> pointClasses(const Scene& scene);
 
-// Keeps references: scene, camera and frames must outlive it. Rays are computed once.
+// Keeps references: scene, camera and images must outlive it. Rays are computed once.
 class FrameView {
 public:
     FrameView(const Scene& scene, const CameraInfo& camera, const Pose& baseTcamera,
@@ -31,8 +30,8 @@ public:
         return static_cast<size_t>(v) * camera_.depth.width + static_cast<size_t>(u);
     }
 
-    // Depth [m]; 0 where there is no measurement in near..far and outside the frame. The bounds are
-    // inclusive; 1e-9 of a depth unit absorbs the rounding of near / unit.
+    // Depth [m]; 0 outside the image and without a measurement in near..far. The bounds are inclusive; a
+    // tolerance of 1e-9 depth units absorbs the rounding of near / unit.
     double z(int u, int v) const noexcept;
     // Point at depth z [m] on the pixel's ray, camera frame.
     dvec3 point(int u, int v, double z) const noexcept;
@@ -55,12 +54,12 @@ struct PointImage {
     std::vector<double> z;
 };
 
-// Where a point of the camera frame (z > 0) falls: the nearest pixel, and whether that choice hangs on less
-// than slack [pixels].
+// The pixel nearest to the projection of a camera-frame point (z > 0), and whether that choice depends on
+// less than slack [pixels].
 struct NearestPixel {
     int u = 0, v = 0;
     bool unsure = false;
-    double fu = 0.0, fv = 0.0; // the position itself
+    double fu = 0.0, fv = 0.0; // the exact projection [pixels]
 };
 NearestPixel nearestPixel(const Intrinsics& lens, const dvec3& point, double slack);
 

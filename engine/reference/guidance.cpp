@@ -64,7 +64,7 @@ GuidancePose guidance(std::span<const dvec3> points, const FixtureClass& fixture
     Eigen::Matrix3d c;
     c << m.covariance[0], m.covariance[1], m.covariance[2], m.covariance[1], m.covariance[3], m.covariance[4],
         m.covariance[2], m.covariance[4], m.covariance[5];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(c); // eigenvalues rise
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(c); // eigenvalues in ascending order
     const Eigen::Vector3d sigma = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt();
     pose.planar = sigma(0) <= std::max(0.003, 0.1 * sigma(1)) && sigma(1) >= 0.005;
     if (!pose.planar) {

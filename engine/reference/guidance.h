@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of the guidance pose (paper IV.B.2): plane test, normal, target; and of the choices that a
-// class may ask for. The eigenvectors come from Eigen.
+// Twin of the guidance pose (paper IV.B.2): plane test, normal, target; and of a class's options largest_part
+// and trim. Eigenvectors come from Eigen.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -11,12 +11,12 @@ namespace fathom::reference {
 // Pose of the points of one guidance class. camera: base frame [m]. GuidancePose::fixture is left at 0.
 GuidancePose guidance(std::span<const dvec3> points, const FixtureClass& fixture, const dvec3& camera);
 
-// Of the pixels with class bit c and a point: the largest 8-connected part, where neighbours' depths differ
-// by at most edge (relative to either; 0 = any). Marks by pixel; the first in reading order of equals.
+// Marks the largest 8-connected part of the pixels with class bit c and a point. Depths of neighbours differ
+// by at most edge (relative to either; 0 = any). Of equal parts, takes the first in row-major order.
 std::vector<uint8_t> largestPart(int width, int height, std::span<const uint32_t> masks,
                                  const PointImage& points, size_t c, double edge);
 
-// Without floor(share x count) of the points that lie farthest from the mean of all.
+// Drops the floor(share x count) points farthest from the mean of all.
 std::vector<dvec3> trimmed(std::vector<dvec3> points, double share);
 
 } // namespace fathom::reference

@@ -21,7 +21,7 @@ HoldMemory::Verdict HoldMemory::stays(const FrameView& view, const Memory& memor
         return verdict;
     }
     const NearestPixel at = nearestPixel(view.camera().depth, q, 1e-3);
-    const double z = view.z(at.u, at.v); // 0 outside the frame
+    const double z = view.z(at.u, at.v); // 0 outside the image
     const double nearer = q.z - 3.0 * view.camera().sigmaAt(q);
     verdict.stays = z == 0.0 || z < nearer;
     verdict.unsure =

@@ -6,17 +6,17 @@
 
 namespace fathom::reference {
 
-// A memory of two points per pixel: the forbidden point that it showed last frame, and the one that it holds.
+// Memory of two points per pixel: the forbidden point seen in the previous frame, and the held one.
 class HoldMemory {
 public:
-    // The next frame: what is held in it, one sphere per pixel. classes: class of the forbidden point seen
-    // now at each pixel. previousTime: the capture time at which the last frame's points were still seen. A
-    // point stays while it was last seen at most scene.holdSeconds ago and its pixel now shows no depth, or
-    // something nearer by more than 3 sigma of depth, or lies outside the frame.
+    // Processes the next frame and returns the held spheres, one per pixel. classes: class of the forbidden
+    // point seen now at each pixel. previousTime: capture time of the previous frame. A point stays if it was
+    // last seen at most scene.holdSeconds ago and its pixel now has no depth, shows a surface nearer by more
+    // than 3 sigma of depth, or is outside the image.
     std::vector<RegionSphere> step(const FrameView& view, double captureTime, double previousTime,
                                    std::span<const int> classes, const PointImage& points);
 
-    // Pixels where some decision so far hung on less than 1e-6 m, 1e-3 pixels or a microsecond.
+    // Pixels where some decision so far depended on less than 1e-6 m, 1e-3 pixels or a microsecond.
     const std::vector<uint8_t>& unsure() const { return unsure_; }
 
 private:
@@ -24,7 +24,7 @@ private:
         dvec3 at{0.0};
         int cls = -1;
         double time = 0.0;
-        double grown = 0.0; // [m] for its sigma, as it was seen
+        double grown = 0.0; // [m] growth for its sigma when it was seen
     };
     struct Verdict {
         bool stays = false, unsure = false;

@@ -55,7 +55,7 @@ KktResidual checkKkt(const NearestPointProblem& problem, std::span<const double>
         const Vector unscaled = lower.solve(normal);
         const long double length = unscaled.norm();
         const long double violation = problem.offsets[i] - normal.dot(answer);
-        // A row without direction is either void or hopeless.
+        // A row with a zero normal is either always satisfied or infeasible.
         out.primal =
             std::max(out.primal, length > 0.0L ? ratio(violation / length, scale) : ratio(violation, 0.0L));
         const long double lambda = static_cast<long double>(multipliers[i]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Karush-Kuhn-Tucker check of a nearest-point answer: minimise (x - t)^T M (x - t) subject to n_i^T x >= d_i.
-// The problem is strictly convex, so that these four conditions together prove that x is the one optimum.
+// The problem is strictly convex, so these four conditions prove that x is the unique optimum.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ struct NearestPointProblem {
     std::span<const double> metric; // unknowns x unknowns
     std::span<const double> target;
     std::span<const double> normals;
-    std::span<const double> offsets; // one a row
+    std::span<const double> offsets; // one per row
 };
 
-// Relative figures, all >= 0, computed in long double from the problem itself; 0 is perfect. Lengths are
-// measured by the metric: |v|_M = sqrt(v^T M v), |n| = sqrt(n^T M^-1 n); the scale is |t|_M + |x|_M.
+// Relative residuals, all >= 0, computed in long double; 0 is exact. Lengths use the metric: |v|_M = sqrt(v^T
+// M v), |n| = sqrt(n^T M^-1 n). The scale is |t|_M + |x|_M.
 struct KktResidual {
     double stationarity = 0.0;    // |M (x - t) - sum lambda_i n_i| over |M (x - t)| + sum lambda_i |n_i|
     double primal = 0.0;          // largest (d_i - n_i^T x) / |n_i| over the scale

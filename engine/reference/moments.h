@@ -17,7 +17,7 @@ struct PointMoments {
 };
 PointMoments moments(std::span<const dvec3> points);
 
-// The points of class bit c, in order of the frame.
+// The points of class bit c in row-major order.
 std::vector<dvec3> pointsOfClass(std::span<const uint32_t> masks, const PointImage& points, size_t c);
 
 } // namespace fathom::reference

@@ -15,8 +15,8 @@ using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 using Vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr long double kNoResidual = 1e-12L;
-constexpr long double kGradient = 1e-16L;     // of what is left
-constexpr long double kLongRounding = 1e-18L; // of f, whose length is 1
+constexpr long double kGradient = 1e-16L;     // relative to the residual
+constexpr long double kLongRounding = 1e-18L; // relative to f, whose length is 1
 
 Vector widen(std::span<const double> v) {
     return Eigen::Map<const Eigen::VectorXd>(v.data(), static_cast<Eigen::Index>(v.size()))
@@ -31,7 +31,7 @@ Vector leastSquares(const Matrix& e, const Vector& f, const std::vector<Eigen::I
     return Eigen::HouseholderQR<Matrix>(columns).solve(f);
 }
 
-// Moves u towards the least-squares answer on the passive columns and takes out those that reach 0.
+// Moves u towards the least-squares solution on the passive columns and removes columns that reach 0.
 void settle(const Matrix& e, const Vector& f, std::vector<Eigen::Index>& passive, Vector& u) {
     while (!passive.empty()) {
         const Vector wanted = leastSquares(e, f, passive);
@@ -66,7 +66,7 @@ Vector nonNegativeLeastSquares(const Matrix& e, const Vector& f) {
     for (Eigen::Index step = 0; step < 10 * (e.cols() + e.rows()); ++step) {
         const Vector rest = f - e * u;
         if (rest.norm() < kNoResidual) {
-            return u; // what is left is rounding: no column points anywhere
+            return u; // only rounding is left: no column has a gradient
         }
         const Vector gradient = e.transpose() * rest;
         Eigen::Index best = -1;
@@ -82,7 +82,7 @@ Vector nonNegativeLeastSquares(const Matrix& e, const Vector& f) {
             return u;
         }
         passive.push_back(best);
-        // The new column must come out positive; rounding can say otherwise, then it is no way down.
+        // The new column must get a positive weight. If not, because of rounding, it gives no descent.
         if (leastSquares(e, f, passive)[static_cast<Eigen::Index>(passive.size()) - 1] <= 0.0L) {
             passive.pop_back();
             refused[static_cast<size_t>(best)] = 1;
@@ -100,7 +100,7 @@ struct LeastDistance {
     Vector target;
     Matrix columns;
     Vector lengths;        // |L^-1 n|
-    bool hopeless = false; // a row without direction asks for something
+    bool hopeless = false; // a row with a zero normal cannot be satisfied
 };
 
 LeastDistance leastDistance(const NearestPointProblem& problem) {
@@ -140,7 +140,7 @@ NearestPoint nearestPoint(const NearestPointProblem& problem) {
     }
     const long double largest = ldp.columns.cols() > 0 ? ldp.columns.row(n).maxCoeff() : 0.0L;
     out.multipliers.assign(problem.offsets.size(), 0.0);
-    if (largest <= 0.0L) { // t itself obeys every row
+    if (largest <= 0.0L) { // t itself satisfies every row
         out.feasible = true;
         out.residual = 1.0;
         out.x.assign(problem.target.begin(), problem.target.end());

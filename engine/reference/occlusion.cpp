@@ -9,7 +9,7 @@ namespace fathom::reference {
 
 namespace {
 
-// Lowers every cell that the frame position (u, v) +- slack can belong to. Returns how many those are.
+// Lowers every cell that the image position (u, v) +- slack may belong to. Returns their number.
 int lowerCells(CellImage& cells, const Intrinsics& lens, double u, double v, double slack, double z) {
     int touched = 0;
     int last[4][2] = {};

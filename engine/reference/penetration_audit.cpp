@@ -11,15 +11,15 @@ namespace fathom {
 
 namespace {
 
-// What is nearer than this when a leaf is searched becomes a candidate, looked at every tick until it has
-// moved as far.
+// Spheres within this distance of a leaf become candidates, tested every tick until the leaf has moved this
+// far.
 constexpr double kNear = 0.002; // [m]
-// How far a search looks for the nearest sphere of a free leaf [m]: it may move as far before the next one.
+// Search radius for the nearest sphere of a free leaf [m]. The leaf may move this far before the next search.
 constexpr double kFar = 0.02;
-// Distances of float64 at metres are good to 1e-15; a search is done again this much early [m].
+// float64 distances of metres are accurate to 1e-15; a search is repeated this much early [m].
 constexpr double kAuditRounding = 1e-9;
 
-// The grid leaves out spheres that are not finite: they have no place.
+// The grid skips non-finite spheres, which have no cell.
 size_t placedSpheres(const RegionSpheres& spheres) {
     size_t count = 0;
     for (size_t i = 0; i < spheres.size(); ++i) {
@@ -120,7 +120,7 @@ void PenetrationAudit::checkGrid() const {
     }
 }
 
-// About the set's origin; the origin goes first, so that a base frame far away costs no digits.
+// Relative to the set's origin. The origin is subtracted first, so that a far base frame loses no digits.
 dvec3 PenetrationAudit::centreOf(const Leaf& leaf, const Pose& pose) const {
     return (pose.position - set_->origin) + pose.rotation * leaf.centre;
 }
@@ -131,8 +131,8 @@ double PenetrationAudit::gapTo(const Leaf& leaf, const dvec3& centre, uint32_t s
     return glm::length(centre - region) - leaf.radius - double{s.radius[sphere]};
 }
 
-// Finds the candidates at `centre`. What a pair had left of its allowance stays with it; a pair that is no
-// candidate any more does not touch, so nothing of its allowance is left.
+// Finds the candidates at `centre`. A pair keeps its remaining allowance. A pair that is no longer a
+// candidate does not touch, so its allowance is 0.
 void PenetrationAudit::search(Leaf& leaf, const dvec3& centre) {
     for (const Candidate& candidate : leaf.candidates) {
         allowed_[candidate.sphere] = candidate.allowance;
@@ -159,7 +159,7 @@ void PenetrationAudit::takeAllowances() {
     for (size_t i = 0; i < leaves_.size(); ++i) {
         Leaf& leaf = leaves_[i];
         const dvec3 centre = start_[i];
-        leaf.candidates.clear(); // they are of another set
+        leaf.candidates.clear(); // they belong to another set
         search(leaf, centre);
         for (Candidate& candidate : leaf.candidates) {
             candidate.allowance = std::max(0.0, -gapTo(leaf, centre, candidate.sphere));
@@ -167,7 +167,7 @@ void PenetrationAudit::takeAllowances() {
     }
 }
 
-// Depths of one leaf after the tick, against its allowances, which shrink to them.
+// Compares the depths of one leaf after the tick with its allowances, then shrinks these to the depths.
 PenetrationAudit::Worst PenetrationAudit::judge(Leaf& leaf, const dvec3& centre) {
     if (glm::length(centre - leaf.searchedAt) + kAuditRounding >= leaf.mayMove) {
         search(leaf, centre);

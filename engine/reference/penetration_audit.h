@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Independent witness of the engine's promise: no tool leaf enters a region sphere of the active set beyond
-// its allowance (the depth the pair had when the set came into force, shrinking, never growing; 0 if it did
-// not touch).
+// Independent check of the engine's guarantee: no tool leaf enters a region sphere of the active set beyond
+// its allowance. The allowance is the depth of the pair when the set became active (0 without contact). It
+// shrinks with the depth and never grows.
 #pragma once
 
 #include "engine/contact/fixtures.h"
@@ -14,28 +14,28 @@
 
 namespace fathom {
 
-// Sees the poses alone, nothing of the solver: every depth is taken in float64 from the very floats of the
-// set. A search round a leaf finds all spheres near it, and looks at these alone until the leaf has moved so
-// far that another could touch: exact, and a tick in free water costs a few nanoseconds per leaf. Allocates;
-// not for the haptic thread.
+// Uses only the poses, not the solver: computes every depth in float64 from the floats of the set. A search
+// around a leaf finds all near spheres, and only these are tested until the leaf has moved far enough to
+// touch another one. So the audit is exact, and a tick in free space costs a few nanoseconds per leaf.
+// Allocates; not for the haptic thread.
 class PenetrationAudit {
 public:
     explicit PenetrationAudit(const Tool& tool);
 
-    // One tick: the set it obeyed, the grid built from that very set, base_T_tool it started from and ended
-    // at. A new Fixtures::generation is a new set, and its allowances are the depths at `start`. Leaves in
-    // `behind` (indices) are exempt from the promise: their depth is counted apart. A set without frame (-1)
-    // is no set. Throws Error when the grid is not of the set's size or a pose is not finite.
+    // Audits one tick. set: the set that the step obeyed. grid: built from that set. start, end: base_T_tool
+    // before and after. With a new Fixtures::generation, the allowances become the depths at `start`. Leaves
+    // in `behind` (indices) are exempt from the guarantee and counted separately. A set with frame -1 is
+    // ignored. Throws Error when the grid does not fit the set or a pose is not finite.
     void tick(const Fixtures& set, const RegionGrid& grid, const Pose& start, const Pose& end,
               std::span<const uint32_t> behind = {});
 
-    // The same for a tool whose leaves move among themselves: their centres in the base frame [m], in the
-    // order of the tool that the constructor got. Throws Error when there are not as many.
+    // The same for a tool whose leaves move relative to each other: takes their centres in the base frame
+    // [m], in the order of the constructor's tool. Throws Error when their number differs.
     void tick(const Fixtures& set, const RegionGrid& grid, std::span<const dvec3> start,
               std::span<const dvec3> end, std::span<const uint32_t> behind = {});
 
-    // Before a turn whose tool was put somewhere by something else than the engine (a real arm that stood
-    // still): its allowances are the depths at that tick's start.
+    // Call before a tick whose tool was moved by something other than the engine (a real arm that stood
+    // still). Allowances restart from the depths at the start of that tick.
     void retake() { anySet_ = false; }
 
     // [m] largest depth of one leaf beyond its allowance, so far.
@@ -45,12 +45,12 @@ public:
     double maxBehindDepth() const { return maxBehindDepth_; } // [m] largest depth of a leaf flagged behind
     uint64_t escapeTicks() const {
         return escapeTicks_;
-    } // turns that ended with some depth inside the allowance
-    uint64_t behindTicks() const { return behindTicks_; } // turns with a leaf flagged behind that touched
+    } // ticks that ended with some depth inside the allowance
+    uint64_t behindTicks() const { return behindTicks_; } // ticks in which a leaf flagged behind touched
     uint64_t penetrationTicks() const {
         return penetrationTicks_;
-    }                                         // turns that ended with depth beyond allowance
-    uint64_t ticks() const { return ticks_; } // turns that had a set
+    }                                         // ticks that ended with some depth beyond the allowance
+    uint64_t ticks() const { return ticks_; } // ticks with a set
 
 private:
     struct Candidate {
@@ -58,11 +58,11 @@ private:
         double allowance; // [m] >= 0
     };
     struct Leaf {
-        dvec3 centre;                      // tool frame [m]
-        double radius;                     // [m]
-        dvec3 searchedAt{0.0};             // about the set's origin: where the last search was
-        double mayMove = 0.0;              // [m] from there, before any sphere but the candidates can touch
-        std::vector<Candidate> candidates; // all that were near there
+        dvec3 centre;          // tool frame [m]
+        double radius;         // [m]
+        dvec3 searchedAt{0.0}; // relative to the set's origin: place of the last search
+        double mayMove = 0.0;  // [m] distance from there within which only the candidates can touch
+        std::vector<Candidate> candidates; // all spheres near that place
         double worst = 0.0;                // [m] beyond the allowance, over all ticks
     };
     struct Worst {
@@ -79,14 +79,14 @@ private:
 
     std::vector<Leaf> leaves_;
     std::vector<dvec3> start_,
-        end_;                       // scratch, a leaf each: about the set's origin, before and after the tick
-    std::vector<double> allowed_;   // scratch, a sphere each: allowance for the leaf at hand [m], else 0
+        end_; // scratch, per leaf: relative to the set's origin, before and after the tick
+    std::vector<double> allowed_;   // scratch, per sphere: allowance for the current leaf [m], else 0
     std::vector<Candidate> before_; // scratch
-    std::vector<uint8_t> behind_;   // a leaf: flagged in this tick
+    std::vector<uint8_t> behind_;   // per leaf: flagged in this tick
     const Fixtures* set_ = nullptr; // during tick() only
     const RegionGrid* grid_ = nullptr;
     uint64_t generation_ = 0;
-    size_t placed_ = 0; // finite spheres of the set: what its grid must hold
+    size_t placed_ = 0; // finite spheres of the set, as many as its grid must have
     bool anySet_ = false;
 
     double maxPenetration_ = 0.0, maxEscapeDepth_ = 0.0, maxBehindDepth_ = 0.0;

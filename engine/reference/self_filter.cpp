@@ -8,7 +8,8 @@ namespace fathom::reference {
 
 namespace {
 
-constexpr double kSlack = 5e-6; // [m] float32 at metres, and what the shader's spheres are rounded outward by
+constexpr double kSlack =
+    5e-6; // [m] float32 rounding at metres, plus the outward rounding of the shader's spheres
 
 } // namespace
 

@@ -12,30 +12,29 @@ namespace fathom::reference {
 struct RegionSphere {
     dvec3 centre{0.0};    // [m] base frame
     double radius = -1.0; // [m]; < 0 = none
-    int cls = -1;         // class of points, -1 = none
+    int cls = -1;         // point class, -1 = none
 };
 
-// The class whose sphere a pixel gets: of its forbidden classes the one with the largest radius, then the
-// first in the file; -1 = none.
+// The class whose sphere a pixel gets: the forbidden class with the largest radius, then the first in the
+// file; -1 = none.
 int forbiddenClass(const Scene& scene, uint32_t mask);
 
 // Class of the forbidden point at each pixel; -1 where the pixel has no point or no forbidden class.
 std::vector<int> forbiddenClasses(const Scene& scene, std::span<const uint32_t> masks,
                                   const PointImage& points);
 
-// Radius of a class's region [m]: with 3 sigma of the registration.
+// Radius of a class's region [m], including 3 sigma of the registration.
 double regionRadius(const Scene& scene, int cls);
 
-// What each point's sphere grows by for its own sigma [m]: three of the beam's at its range; zeros without
-// beams.
+// Growth of each point's sphere for its own sigma [m]: 3 sigma of the beam at its range; zeros without beams.
 std::vector<double> beamGrowth(const FrameView& view, const PointImage& points);
 
-// One sphere a kept point. growth: what thinning adds to each, -1 = left out; empty = every point is kept.
+// One sphere per kept point. growth [m]: added by thinning, -1 = dropped; empty = every point is kept.
 std::vector<RegionSphere> spheres(const Scene& scene, std::span<const int> classes, const PointImage& points,
                                   std::span<const double> growth);
 
-// Neighbours (right, below) of one class on one surface that are at least R apart: largest spacing and range
-// of each class [m], 0 = none. A step in depth of more than 0.7 of the distance (steeper than 45 degrees) is
+// Leaks: neighbours (right, below) of one class on one surface that are at least R apart. Largest spacing and
+// range per class [m], 0 = none. A depth step of more than 0.7 of the distance (steeper than 45 degrees) is
 // an edge, not a surface.
 struct Leaks {
     std::array<double, 8> spacing{}, range{};

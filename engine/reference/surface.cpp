@@ -12,7 +12,7 @@ constexpr double kThreshold = 1e-6;
 
 enum class Side { Neither, Nearer, Farther };
 
-// What the three neighbours on one side are, all of those with depth; Neither when none has.
+// Classifies the three neighbours on one side by those with depth; Neither when none has depth.
 Side sideOf(const FrameView& view, int u, int v, int du, int dv, bool& unsure) {
     const double z = view.z(u, v), edge = view.scene().filter.edge;
     double nearest = HUGE_VAL, farthest = 0.0;

@@ -10,12 +10,12 @@ namespace fathom::reference {
 struct SurfaceImage {
     PointImage points;
     std::vector<uint8_t>
-        unsure; // 1: a distance or a depth lies within 1e-6 (relative, metres) of its threshold
+        unsure; // 1: a distance or depth is within 1e-6 (relative or metres) of its threshold
 };
 
-// Points of the pixels with a class (masks != 0). Flying: nearer than all neighbours on one side by more than
-// filter.edge (relative) and farther than all on the opposite side. Isolated: fewer than 2 of the 8
-// neighbours within 20 mm, or within three pixels' width where the frame is coarser.
+// Computes the points of the pixels with a class (masks != 0). Flying: nearer than all neighbours on one side
+// by more than filter.edge (relative) and farther than all on the opposite side. Isolated: fewer than 2 of
+// the 8 neighbours within 20 mm, or within three pixels' width where the frame is coarser.
 SurfaceImage surface(const FrameView& view, std::span<const uint32_t> masks);
 
 } // namespace fathom::reference

@@ -54,8 +54,8 @@ double cellGrowth(const Scene& scene, const ClassifiedPoints& p, int u, int v, i
     return growth;
 }
 
-// Spheres hashed by cubes as wide as the largest diameter: whatever covers a point lies in the 27 cubes round
-// it.
+// Spheres hashed by cubes as wide as the largest diameter: every sphere that covers a point is in the 27
+// cubes around it.
 class SphereHash {
 public:
     explicit SphereHash(std::span<const RegionSphere> spheres) {
@@ -69,7 +69,7 @@ public:
         }
     }
 
-    // Distance to the union [m], <= 0 when covered (the search ends at the first sphere that covers).
+    // Distance to the union [m]; <= 0 when covered (stops at the first sphere that covers).
     double outside(const dvec3& p) const {
         const glm::i64vec3 centre = cubeOf(p);
         double nearest = HUGE_VAL;
@@ -97,7 +97,7 @@ private:
     std::unordered_map<uint64_t, std::vector<RegionSphere>> cubes_;
 };
 
-// Distance from `from` along the unit vector to where the ray leaves the last sphere that it meets.
+// Distance from `from` along a unit vector to where the ray leaves the last sphere.
 double lastExit(std::span<const RegionSphere> spheres, const dvec3& from, const dvec3& along) {
     double exit = 0.0;
     for (const RegionSphere& s : spheres) {
@@ -154,7 +154,7 @@ std::vector<double> keptGrowth(int width, int height, std::span<const CellThinni
             }
             bool allWhole = true;
             for (const int dv :
-                 {-1, 0}) { // the four pixels round the corner stand for the cells that meet in it
+                 {-1, 0}) { // the four pixels around the corner identify the cells that meet there
                 for (const int du : {-1, 0}) {
                     const double whole = cellOf(u + du, v + dv).whole;
                     allWhole = allWhole && whole >= 0.0;

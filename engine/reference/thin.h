@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Twin of shaders/thin.comp and of the rule that reads its decisions, and an oracle for the property that
-// matters: the spheres that are kept cover all that every point's sphere would.
+// Twin of shaders/thin.comp and of the rule that applies its decisions, and an oracle for the required
+// property: the kept spheres cover the spheres of all points.
 #pragma once
 
 #include "engine/reference/spheres.h"
 
 namespace fathom::reference {
 
-// What becomes of a 4x4 cell of pixels: thinned as one (corners grow by whole), or each of its 2x2 cells by
-// itself (row-major); < 0 = not thinned.
+// Decision for a 4x4 cell of pixels: thinned as one (corners grow by `whole`), or each of its 2x2 cells
+// separately (row-major); < 0 = not thinned.
 struct CellThinning {
     double whole = -1.0;
     std::array<double, 4> quarters{-1.0, -1.0, -1.0, -1.0};
-    bool unsure = false; // some growth lies within 1e-6 m of the budget
+    bool unsure = false; // some growth is within 1e-6 m of the budget
 };
 
 // Cells of 4x4 pixels, row-major, ceil(width / 4) across. A k x k cell is thinned when its (k+1)^2 points are
@@ -22,17 +22,17 @@ struct CellThinning {
 std::vector<CellThinning> thin(const Scene& scene, int width, int height, std::span<const int> classes,
                                const PointImage& points);
 
-// What every pixel's sphere grows by; -1 = left out. Kept are: every corner of a 4x4 cell; a corner of a 2x2
-// cell unless all 4x4 cells that contain it are thinned as one; any other pixel unless the cell that owns it
-// is thinned.
+// Growth of every pixel's sphere [m]; -1 = dropped. Kept are all corners of 4x4 cells; corners of 2x2 cells,
+// unless all 4x4 cells that contain them are thinned as one; and other pixels, unless their own cell is
+// thinned.
 std::vector<double> keptGrowth(int width, int height, std::span<const CellThinning> cells);
 
-// Draws points in the union of `all` and looks for each in the union of `kept`. Every fourth lies on the
-// outer boundary of the union, where a dimple shows: where a ray from a random centre leaves the last sphere
-// on its way. The draws depend on the seed alone. Brute force: samples x spheres.
+// Draws points in the union of `all` and tests whether the union of `kept` contains them. Every fourth point
+// is on the outer boundary, where a ray from a random centre leaves its last sphere; there dimples show.
+// Draws depend only on the seed. Brute force: samples x spheres.
 struct Coverage {
-    uint32_t samples = 0, holes = 0; // holes: outside by more than tolerance
-    double worst = 0.0;              // [m] farthest outside
+    uint32_t samples = 0, holes = 0; // holes: points outside by more than the tolerance
+    double worst = 0.0;              // [m] largest distance outside
 };
 Coverage coverage(std::span<const RegionSphere> all, std::span<const RegionSphere> kept, uint32_t samples,
                   double tolerance, uint64_t seed);

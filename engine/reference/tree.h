@@ -9,13 +9,12 @@
 
 namespace fathom::reference {
 
-// The nodes of a level (1 = patches, ..., the last = root), row-major, over the bounds of the level below:
-// centre = mean of all points below, radius = max(|c_k - centre| + r_k) over at most 4x4 children (paper eq.
-// 3).
+// The nodes of a level (1 = patches, ..., last = root), row-major, from the bounds of the level below: centre
+// = mean of all points below, radius = max(|c_k - centre| + r_k) over at most 4x4 children (paper eq. 3).
 std::vector<Bound> parents(const PatchLayout& layout, size_t level, const std::vector<Bound>& below);
 
-// Empty when the tree holds: one root, every used child inside its parent (float64, no tolerance), counts
-// that add up, empty nodes with radius < 0 and count 0.
+// Empty when the tree is valid: one root, every used child inside its parent (float64, no tolerance), correct
+// counts, and empty nodes with radius < 0 and count 0.
 std::string validateTree(const PatchLayout& layout, const std::vector<std::vector<Bound>>& levels);
 
 } // namespace fathom::reference

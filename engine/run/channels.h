@@ -31,17 +31,17 @@ struct TickRow {
     Pose start;              // base_T_tool before the step
     ArmPosture startArm;     // and the arm's posture, if there is an arm
     uint64_t generation = 0; // of the fixture set behind the active contacts; 0 = none
-    uint64_t query = 0;      // that made the active contact set; 0 = none
+    uint64_t query = 0;      // number of the query that gave the active contact set; 0 = none
     double wokenLate = 0.0;  // [s] from the due time to the start of the step
     double micros = 0.0;     // [us] compute time of the step
     bool late = false;       // ended more than one period after it was due
     uint32_t missed = 0;     // periods before this one without a step
     bool driven = false;     // a real arm follows
     bool placed = false;     // the step started from where that arm was measured
-    ArmStatus armStatus;     // of that arm, before the step
+    ArmStatus armStatus;     // status of that arm before the step
 };
 
-// Contact thread to writer: one answer. The audit exempts its leaves behind a surface.
+// Contact thread to writer: one answer. The audit exempts leaves that are behind a surface.
 struct QueryNote {
     uint64_t query = 0;
     double micros = 0.0;

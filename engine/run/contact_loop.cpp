@@ -30,7 +30,7 @@ void ContactLoop::answerOne(const ToolState& place) {
     channels_.queries.push(note_);
     channels_.contacts.publish();
     if (trace_ != nullptr) {
-        trace_->query(begin, end, set.size()); // still readable: only back() takes it away
+        trace_->query(begin, end, set.size()); // still readable until the next back()
     }
 }
 

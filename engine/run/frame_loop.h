@@ -29,14 +29,14 @@ public:
     // Makes that frame, captured at t [s], the newest fixture set. Fills everything in `out` but its t. A
     // repeated frame makes no set: `changed` is false, the set and the colour in `out` are left alone.
     virtual void publish(double t, PublishedFrame& out) = 0;
-    // Whether the device under publish() can be opened again after that threw DeviceFailed; if not, these
-    // errors end the run.
+    // Whether the device that publish() uses can be opened again after publish() threw DeviceFailed. If not,
+    // such an error ends the run.
     virtual bool renewable() const { return false; }
     // The device is known to be lost before any frame was given to it: it is opened again even while the
     // camera is gone.
     virtual bool lost() const { return false; }
-    // Opens it again. Throws the same while it is not there (the loop asks again later), and when `stop` is
-    // set while it waits for another thread.
+    // Opens the device again. Throws DeviceFailed while it is missing (the loop retries later), or when
+    // `stop` is set while it waits for another thread.
     virtual void renew(const std::atomic<bool>& /*stop*/) {}
 };
 

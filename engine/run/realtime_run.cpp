@@ -38,7 +38,7 @@ private:
     std::thread thread_;
 };
 
-// Warns once of a scene that is too old; short spells on a slow machine are only counted.
+// Warns once about a scene that is too old. Short spells on a slow machine are only counted.
 class AgeAlarm {
 public:
     explicit AgeAlarm(double staleAfter)

@@ -9,7 +9,8 @@
 
 namespace fathom {
 
-// start() before the threads that read it; everything else from any thread, noexcept, without allocation.
+// Call start() before the threads that read the clock. All else is for any thread, noexcept and without
+// allocation.
 class RunClock {
 public:
     using Time = std::chrono::steady_clock::time_point;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the frame cadence tells the haptic cadence besides spheres, and the step input made from it.
+// What the frame thread sends to the haptic thread besides spheres, and the step input made from it.
 #pragma once
 
 #include "engine/cycle/step_record.h"
@@ -15,14 +15,14 @@ namespace fathom {
 struct SceneUpdate {
     int64_t frame = -1;
     uint64_t generation = 0;
-    double captureTime = 0.0; // of the newest frame that shows it
+    double captureTime = 0.0; // of the newest frame that confirms the set
     bool sourceEnded = false; // no frame will follow: the last one stays valid and does not age
     bool live = false;        // frames arrive by themselves: only the hand's path ends the run
     bool gone = false; // the camera or the compute device is lost, maybe for a while: the last frame ages
     uint32_t guidanceCount = 0;
     std::array<GuidancePose, shared::kMaxClasses> guidance;
 
-    // Takes over what a new fixture set says; the times stay.
+    // Copies the data of a new fixture set; keeps the times.
     void show(const Fixtures& set) noexcept {
         frame = set.frame;
         generation = set.generation;

@@ -38,7 +38,7 @@ private:
 };
 
 // Makes the calling thread the haptic thread: pinned, SCHED_FIFO, exact timers, the process's memory locked
-// as it is touched, stack touched. Returns what the system refused, in words, or nothing. Call before the
+// as it is touched, stack touched. Returns what the system refused, as text, or nothing. Call before the
 // first step.
 std::string makeHapticThread(const ThreadPlacement& placement);
 // Undoes what outlives the thread (locked memory).

@@ -11,10 +11,10 @@ namespace fathom {
 namespace {
 
 constexpr uint32_t kMaxWidth = 3840, kMaxHeight = 2160;
-constexpr uint32_t kManyPatches = 6000; // measured on an H100: 1280x720 has 3600, 1920x1080 8160
+constexpr uint32_t kManyPatches = 6000; // measured on an H100; 1280x720 has 3600 patches, 1920x1080 has 8160
 constexpr uint32_t kManyProcessors = 8, kMostPublishers = 12;
-constexpr uint32_t kOtherThreads = 4;    // haptics, contact, writer or window, and one for the system
-constexpr uint64_t kSmallestPage = 4096; // of any host: a camera's memory comes in whole pages
+constexpr uint32_t kOtherThreads = 4;    // haptic, contact, writer or window, and one for the system
+constexpr uint64_t kSmallestPage = 4096; // [bytes] on any host: camera memory consists of whole pages
 
 bool mayLeak(const Scene& scene, const Intrinsics& lens) {
     return std::any_of(scene.fixtures.begin(), scene.fixtures.end(), [&](const FixtureClass& f) {
@@ -41,7 +41,8 @@ void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.water = plan.colour && scene.attenuation;
     plan.occlusion = plan.colour && !camera.registered;
     plan.beam = plan.spheres && camera.beam.has_value();
-    plan.thin = plan.spheres && scene.errorBudget > 0.0 && !plan.beam; // its proof needs one radius per class
+    plan.thin = plan.spheres && scene.errorBudget > 0.0 &&
+                !plan.beam; // the proof of thinning needs one radius per class
     plan.hold = plan.spheres && scene.holdSeconds > 0.0;
     plan.leaks = plan.spheres && mayLeak(scene, camera.depth);
     for (const FixtureClass& f : scene.fixtures) {
@@ -64,7 +65,7 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
     plan.inPlace =
         plan.cloud && device.hostPointerAlignment > 0 && device.hostPointerAlignment <= kSmallestPage;
     plan.memoryTexels = plan.hold && cpu;
-    plan.pack = plan.spheres && !cpu; // there nothing crosses a bus, and it takes 2 ms
+    plan.pack = plan.spheres && !cpu; // a CPU device has no bus to cross, and packing takes 2 ms
     plan.keepDepth = plan.cloud && !cpu && camera.depth.width % 4 == 0;
     while (plan.pixelGroup > device.maxInvocations) {
         plan.pixelGroup /= 2;
@@ -78,11 +79,11 @@ void decideByDevice(const CameraInfo& camera, const DeviceFacts& device, Plan& p
     }
     // Measured: on a CPU device shared-memory tiles are 2-4 times slower than direct reads.
     plan.tiled = !cpu && plan.filterRadius >= 2 && bytesOfTile(plan.filterRadius) <= device.maxSharedBytes;
-    plan.groupCounts = !cpu; // there a barrier costs more than the counts
-    plan.byPixel = !cpu;     // there shared memory made it twice as slow
+    plan.groupCounts = !cpu; // on a CPU device a barrier costs more than the counts
+    plan.byPixel = !cpu;     // on a CPU device shared memory took twice as long
     plan.manyPatches =
         plan.byPixel && patchLayout(camera.depth.width, camera.depth.height).patches() >= kManyPatches;
-    // On a CPU device a load is a gather, lane by lane: neighbours share theirs.
+    // On a CPU device a load is a gather, lane by lane, so neighbouring pixels share their loads.
     plan.filterBlock = cpu && plan.filterRadius <= 2;
 }
 
@@ -96,7 +97,7 @@ void decideQuery(const Scene& scene, uint32_t toolLeaves, const DeviceFacts& dev
     plan.tree = plan.query == Plan::Query::Gpu;
 }
 
-// Decides the switches; the items that explain them follow from these alone.
+// Decides the switches. The items that explain them depend only on these.
 Plan decide(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device) {
     Plan plan;
     decideByScene(scene, camera, plan);

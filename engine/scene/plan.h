@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Decides which passes, buffers and threads a scene needs on a device, and says why.
+// Decides which passes, buffers and threads a scene needs on a device, and gives the reasons.
 #pragma once
 
 #include "engine/scene/scene.h"
@@ -12,7 +12,7 @@
 
 namespace fathom {
 
-// Pure data. Code that builds pipelines and buffers reads it and decides nothing itself.
+// Pure data. Code that builds pipelines and buffers only follows it.
 struct Plan {
     // A part that is in the plan or skipped, with the reason.
     struct Item {
@@ -25,70 +25,71 @@ struct Plan {
     std::vector<Item> items;
 
     // Passes.
-    bool occlusion = false; // unregistered colour: which points the colour camera sees
-    bool cloud = false;     // any class of points: classify and surface
-    bool spheres = false;   // any forbidden class of points
+    bool occlusion = false; // unregistered colour: finds the points that the colour camera sees
+    bool cloud = false;     // any point class: classify and surface
+    bool spheres = false;   // any forbidden point class
     bool thin = false;      // error budget
-    bool tree = false;      // bounds of spheres up to one root: the GPU's query walks them
+    bool tree = false;      // bounds of spheres up to one root, for the GPU query
     bool hold = false;
     bool moments = false;        // any guidance class
-    bool guidancePoints = false; // a guidance class wants its points on the CPU (largest part, trimmed mean)
+    bool guidancePoints = false; // a guidance class needs its points on the CPU (largest part, trimmed mean)
     // Variants.
-    bool rays = false;        // distorted lens, or a fan
-    bool colour = false;      // some class uses colour: it is uploaded
-    bool yuyv = false;        // as the camera sends it, two pixels per word
+    bool rays = false;        // ray table: distorted lens, or a fan
+    bool colour = false;      // some class uses colour, so it is uploaded
+    bool yuyv = false;        // colour is uploaded as YUYV, two pixels per word
     bool inPlace = false;     // images in whole pages are read in place, not copied
-    bool tiled = false;       // the filter's window from shared memory
+    bool tiled = false;       // the filter reads its window from shared memory
     bool filterBlock = false; // one invocation per 4x4 sub-patch, window in registers (radius <= 2)
-    uint32_t classes = 0;     // classes of points
+    uint32_t classes = 0;     // number of point classes
     bool box = false;         // some class has a box
     bool range = false;       // some class has a range gate
     bool fan = false;         // the sensor's pixels are beams at equal angles
     bool beam = false;        // each point's sphere grows by its own sigma
-    bool leaks = false; // neighbours may be a region radius apart somewhere in near..far: it is looked for
-    bool polynomialWeights = false; // the filter's, in place of exp
+    bool leaks = false; // somewhere in near..far neighbours may be a region radius apart: leaks are detected
+    bool polynomialWeights = false; // of the filter, instead of exp
     uint32_t filterRadius = 0;
     bool edge = false;
-    bool groupCounts = false; // classify counts in shared memory before it counts for all
-    // Spheres: one invocation per pixel, moments: one per sub-patch, with shared memory. Else one per
-    // sub-patch and one per patch.
+    bool groupCounts = false; // classify counts per group in shared memory first
+    // With shared memory: `spheres` has one invocation per pixel, `moments` one per sub-patch. Otherwise one
+    // per sub-patch and one per patch.
     bool byPixel = false;
-    bool pack = false; // with byPixel: spheres in runs for the host, for the device has memory of its own
-    bool memoryTexels = false; // memory of points is read as texels: faster on a CPU device, but elsewhere a
-                               // fetch may come after what is written to the same place
+    bool pack =
+        false; // with byPixel: the device packs spheres for the host, because its memory is across a bus
+    bool memoryTexels = false; // the memory of points is read as texels: faster on a CPU device; on a GPU a
+                               // fetch may follow the write to the same place
     bool keepDepth = false;    // classify leaves the depth on the device for the passes after it
     // Groups run in several rounds, so throughput counts more than latency. Decided by the image size,
     // because the number of patches with work is unknown when passes are recorded.
     bool manyPatches = false;
-    uint32_t pixelGroup = 256; // invocations a group of the pixel passes, at most; divides 256
-    uint32_t subGroup = 64;    // invocations a group of the sub-patch passes
-    bool arm = false;        // an arm carries the tool: joints are the unknowns, all links meet the fixtures
-    bool water = false;      // colours are corrected for attenuation in water
-    bool selfFilter = false; // points inside the arm's spheres are removed
-    bool passTimes = true;   // passes are timed by the device; else their times are zero
-    uint32_t publishers = 1; // threads that lay out a set for the host, including the frame thread
+    uint32_t pixelGroup = 256; // most invocations per group of the pixel passes; divides 256
+    uint32_t subGroup = 64;    // invocations per group of the sub-patch passes
+    bool arm = false;          // an arm carries the tool: joints are the unknowns, and all links collide
+    bool water = false;        // colours are corrected for attenuation in water
+    bool selfFilter = false;   // points inside the arm's spheres are removed
+    bool passTimes = true;     // the device times the passes; else their times are zero
+    uint32_t publishers = 1;   // threads that lay out a set for the host, including the frame thread
     // Contact query.
     enum class Query { None, Cpu, Gpu } query = Query::None;
 
     bool has(const std::string& name) const;
-    // A separate pass lists patches on CPU devices: there divergent lanes of classify would all pay for it.
+    // CPU devices list patches in a separate pass, because divergent lanes of classify would all pay for it.
     bool lists() const { return cloud && !byPixel; }
-    // A separate pass thins, unless the group that makes a patch's spheres does.
+    // Thinning is a separate pass, unless the group that computes a patch's spheres does it.
     bool thins() const { return thin && !byPixel; }
-    // A seen sphere is packed as its depth, which its pixel's ray makes a point; with beams whole.
+    // A seen sphere is packed as its depth, from which the host computes the point. With beams it is packed
+    // whole.
     bool packsDepths() const { return pack && !beam; }
-    uint64_t packedBytes() const { // a slot, at most
+    uint64_t packedBytes() const { // per slot, at most
         return packsDepths() ? 4u + (thin ? 1u : 0u) + (hold ? 16u : 0u) : (hold ? 32u : 16u);
     }
     // Two filtered pixels per invocation: a sixth faster with many groups, slower with few.
     bool filterPairs() const { return manyPatches && tiled && !filterBlock && filterRadius == 2; }
-    bool delivers() const { return cloud && byPixel; } // by a dispatch; CPU devices copy
-    uint32_t dispatchesPerFrame() const;               // of the frame path, query excluded
+    bool delivers() const { return cloud && byPixel; } // by a dispatch; CPU devices copy instead
+    uint32_t dispatchesPerFrame() const;               // of the frame cadence, without the query
 };
 
 // Range [m] below which neighbouring points of one surface (|dz| <= 0.7 of their distance) are nearer to each
-// other than `radius` [m]; 0 = not known: fans, distorted and very wide
-// lenses.
+// other than `radius` [m]. 0 = unknown: fans, distorted and very wide lenses.
 double leaksFrom(const Intrinsics& lens, double radius) noexcept;
 
 // Size of the image in 16x16 patches, and of each level of the region tree.
@@ -103,7 +104,7 @@ struct PatchLayout {
     uint32_t slots() const { return patches() * 256; }
     uint32_t nodes() const { return levels.back().first + levels.back().across * levels.back().down; }
 };
-// Of a depth image [pixels]. Throws BadInput when it is empty or larger than 3840x2160.
+// Layout for a depth image [pixels]. Throws BadInput when it is empty or larger than 3840x2160.
 PatchLayout patchLayout(uint32_t width, uint32_t height);
 
 // Slot of a pixel in patch-major order: the same arithmetic as shaders/lib/slots.glsl.
@@ -112,10 +113,9 @@ inline uint32_t slotOfPixel(uint32_t u, uint32_t v, uint32_t patchesAcross) {
            u % 4;
 }
 
-// toolLeaves decides between CPU and GPU query where the scene says auto: the GPU from
-// DeviceFacts::gpuQueryLeaves on, and only on a device that is not a CPU. The answers are equal to the last
-// bit. An arm's leaves move among themselves, so that its query is the CPU's; throws BadInput where the scene
-// asks for the GPU's.
+// toolLeaves chooses between CPU and GPU query for `auto`: the GPU from DeviceFacts::gpuQueryLeaves on,
+// unless the device is a CPU. Both answers are equal to the last bit. An arm requires the CPU query, because
+// its leaves move relative to each other; throws BadInput when the scene requests the GPU.
 Plan makePlan(const Scene& scene, const CameraInfo& camera, uint32_t toolLeaves, const DeviceFacts& device);
 
 } // namespace fathom

@@ -28,7 +28,7 @@ glm::dvec2 Intrinsics::ray(double u, double v) const noexcept {
         return seen;
     }
     glm::dvec2 r = seen;
-    for (int i = 0; i < 100; ++i) { // contracts for every lens whose distortion is monotone in the frame
+    for (int i = 0; i < 100; ++i) { // converges for every lens whose distortion is monotone in the image
         const glm::dvec2 error = distort(r, distortion) - seen;
         r -= error;
         if (std::abs(error.x) + std::abs(error.y) < 1e-14) {

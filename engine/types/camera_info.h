@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a depth + colour camera tells of itself once: sizes, lenses, registration, depth unit.
+// Constant properties of a depth and colour camera: sizes, lenses, registration, depth unit.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -16,29 +16,29 @@ struct Intrinsics {
     uint32_t width = 0, height = 0;                // [pixels]
     double fx = 0.0, fy = 0.0, cx = 0.0, cy = 0.0; // [pixels]
     std::array<double, 5> distortion{};            // k1 k2 p1 p2 k3; all zero = none
-    // Sonar, laser scan: (u - cx) / fx is the azimuth from z towards x [rad], (v - cy) / fy the elevation
-    // towards y; fx, fy in [pixels/rad]; no distortion; all within 85 degrees of the axis.
+    // Sonar or laser scanner: (u - cx) / fx is the azimuth from z towards x [rad], (v - cy) / fy the
+    // elevation towards y. fx, fy in [pixels/rad]; no distortion; all rays within 85 degrees of the axis.
     bool fan = false;
 
     bool distorted() const { return distortion != std::array<double, 5>{}; }
     bool pinhole() const { return !fan && !distorted(); } // a ray is linear in the pixel
     uint32_t pixels() const { return width * height; }
 
-    // Ray (x/z, y/z) through pixel (u, v): inverts the distortion by fixed-point iteration, float64.
+    // Ray (x/z, y/z) through pixel (u, v). Inverts the distortion by fixed-point iteration in float64.
     glm::dvec2 ray(double u, double v) const noexcept;
-    // Pixel of the point with z > 0, distortion applied.
+    // Pixel of a point with z > 0, distortion included.
     glm::dvec2 project(const dvec3& point) const noexcept;
 };
 
-// What a sensor that measures along beams (sonar, laser) tells of where a point lies: at the measured range
-// on the beam's axis, off by a normal error along it and anywhere within the beam across it.
+// Uncertainty of a point from a sensor that measures along beams (sonar, laser): a normal error along the
+// beam's axis and a uniform one across the beam.
 struct BeamSigma {
     double range = 0.0;    // [m] standard deviation along the beam
-    double perMetre = 0.0; // [m] more of it a metre of range
-    double width = 0.0;    // [rad] whole angle of the beam, 0..1
+    double perMetre = 0.0; // [m/m] additional per metre of range
+    double width = 0.0;    // [rad] full angle of the beam, 0..1
 
-    // sqrt((range + perMetre r)^2 + (r tan(width / 2))^2 / 3) [m], the second that of a uniform distribution:
-    // three of them exceed the beam's half width.
+    // Standard deviation sqrt((range + perMetre r)^2 + (r tan(width / 2))^2 / 3) [m]. The second term is that
+    // of a uniform distribution, so 3 sigma exceed the beam's half width.
     double at(double metres) const noexcept;
     double across() const noexcept; // tan(width / 2) / sqrt(3)
 };
@@ -50,13 +50,13 @@ struct CameraInfo {
     Pose colourTdepth;            // maps depth-camera points to the colour camera; identity when registered
     double metresPerUnit = 0.001; // depth value 1 in metres; depth value 0 = no measurement
     bool hasColour = true;
-    bool yuyv = false;  // colour comes as YUYV (yuyv.h); its width is even then
-    double sigma = 0.0; // [m] of its points beyond noise: what a correction leaves; regions grow by 3 of them
-    bool inWater = false;          // a flat port was corrected for already; sigma says what that left
-    std::optional<BeamSigma> beam; // of each point; its region grows by 3 of them
+    bool yuyv = false;    // colour is YUYV (yuyv.h); its width must be even
+    double sigma = 0.0;   // [m] systematic error of points that a correction leaves; regions grow by 3 sigma
+    bool inWater = false; // depth is already corrected for a flat port; sigma is the remaining error
+    std::optional<BeamSigma> beam; // per-point uncertainty; each sphere grows by 3 sigma
 
-    uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of a frame
-    double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading there, camera frame
+    uint64_t colourBytes() const { return (yuyv ? 2ull : 4ull) * colour.pixels(); } // of one frame
+    double sigmaAt(const dvec3& point) const noexcept; // [m] of a reading at this point, camera frame
 };
 
 // Standard deviation of a depth reading at range z [m], [m]: the model of structured-light and stereo cameras

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame's colours for who reads them on the host.
+// Colours of a frame for readers on the host.
 #pragma once
 
 #include "engine/types/frame.h"
@@ -8,15 +8,15 @@
 
 namespace fathom {
 
-// R8 G8 B8 A8 of whatever the camera sent; empty when it sent no colour.
+// Converts the frame's colours to R8 G8 B8 A8; empty when it has none.
 void readColours(const Frame::Content& content, std::vector<uint32_t>& rgba);
 
-// A copy that is made before the frame goes on, and unpacked when it has: what waits for the frame does not
-// wait for that.
+// Copies a frame's colours before the frame is passed on and unpacks them afterwards, so that unpacking does
+// not delay the frame.
 class ColourCopy {
 public:
     void take(const Frame::Content& content);
-    // As readColours(), of what was taken last. The memory in `rgba` may be kept for the next.
+    // Like readColours(), for the colours taken last. May keep the memory of `rgba` for the next copy.
     void giveTo(std::vector<uint32_t>& rgba);
 
 private:

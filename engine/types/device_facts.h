@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What was discovered of the compute device, in plain numbers, so that the plan needs no Vulkan.
+// Properties of the compute device in plain numbers, so that the plan needs no Vulkan.
 #pragma once
 
 #include <array>
@@ -8,25 +8,25 @@
 
 namespace fathom {
 
-// What the driver calls the device.
+// The device type that the driver reports.
 enum class DeviceKind { Discrete, Integrated, Cpu, Other };
 
 struct DeviceFacts {
     std::string name;
     std::string driver;
     std::array<uint8_t, 16>
-        uuid{}; // VkPhysicalDeviceIDProperties::deviceUUID: the same in other interfaces of a driver
+        uuid{}; // VkPhysicalDeviceIDProperties::deviceUUID, also reported by the driver's other interfaces
     DeviceKind kind = DeviceKind::Cpu;
     uint32_t subgroupSize = 1;
     uint32_t maxInvocations = 128;   // of one work group
     uint32_t maxSharedBytes = 16384; // of one work group
     uint64_t maxStorageBufferBytes = 1u << 27;
-    uint32_t hostProcessors = 1;       // that the thread that made the device may use
-    uint64_t hostPointerAlignment = 0; // of imported host memory; 0 = cannot import
+    uint32_t hostProcessors = 1;       // CPUs usable by the thread that created the device
+    uint64_t hostPointerAlignment = 0; // [bytes] of imported host memory; 0 = cannot import
     double timestampPeriodNs = 1.0;    // 0 = no timestamps
-    // From so many tool leaves on `contact.where: auto` asks this device, when it is not a CPU. Never, unless
-    // `fathom profile query` measured it here: on an NVIDIA H200 the CPU was faster at every tool
-    // (docs/h200).
+    // Number of tool leaves from which `contact.where: auto` uses this device, if it is not a CPU. The
+    // default is never, unless `fathom profile query` measured otherwise: on an NVIDIA H200 the CPU was
+    // faster for every tool (docs/h200).
     uint32_t gpuQueryLeaves = 0xffffffffu;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The family of exceptions. Thrown while things are built; never on the haptic tick, which returns values.
+// The exception types. Never thrown in a haptic step, which reports by return values.
 #pragma once
 
 #include "engine/types/printable.h"
@@ -10,7 +10,7 @@
 
 namespace fathom {
 
-// Root of the family, one line whatever it quotes. exitCode() is what the program ends with when nothing
+// Base class. The message is one line, whatever it quotes. exitCode() is the program's exit code if nothing
 // catches it.
 class Error : public std::runtime_error {
 public:
@@ -19,32 +19,31 @@ public:
     virtual int exitCode() const noexcept { return 1; }
 };
 
-// Something the user gave is unusable: one line with the file (or option), the field, the value, what is
-// allowed.
+// Unusable input of the user. The message names file or option, field, value, and what is allowed.
 class BadInput : public Error {
 public:
     BadInput(const std::string& file, const std::string& field, const std::string& value,
              const std::string& allowed)
         : Error(file + ": " + field + ": " + value + " (allowed: " + allowed + ")") {}
-    // A line of that kind that another process has made.
+    // Wraps such a message from another process.
     explicit BadInput(std::string line)
         : Error(std::move(line)) {}
     int exitCode() const noexcept override { return 2; }
 };
 
-// A device that worked does so no more; opened again it may.
+// A device stopped working; opening it again may help.
 class DeviceFailed : public Error {
 public:
     using Error::Error;
 };
 
-// A GPU, or the host for it, has no memory left.
+// GPU memory, or host memory for the GPU, is exhausted.
 class OutOfMemory : public DeviceFailed {
 public:
     using DeviceFailed::DeviceFailed;
 };
 
-// A GPU, camera or haptic device is gone.
+// A GPU, camera or haptic device is lost.
 class DeviceLost : public DeviceFailed {
 public:
     using DeviceFailed::DeviceFailed;

@@ -13,12 +13,12 @@
 
 namespace fathom {
 
-// The memory belongs to the camera and returns to it when the lease is destroyed. Depth: width x height
-// uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, or YUYV (yuyv.h) of a camera whose
-// CameraInfo says so; the other is empty, and both are when the camera has none.
+// The memory belongs to the camera. Destroying the lease returns it. Depth: width x height
+// uint16 rows without gaps, 0 = no measurement. Colour: R8 G8 B8 A8, or YUYV (yuyv.h) if CameraInfo::yuyv;
+// the other span is empty. Both are empty when the camera has no colour.
 class Frame {
 public:
-    // What a frame is made of.
+    // The data of a frame.
     struct Content {
         uint32_t index = 0;        // line of associations.txt from 0, or a live counter
         uint64_t sourceNumber = 0; // the source's own frame number; unchanged = the same frame again
@@ -27,8 +27,8 @@ public:
         std::span<const uint32_t> colour; // 0xAABBGGRR
         std::span<const uint32_t> yuyv;   // two pixels per word
         std::optional<Pose> baseTcamera;  // when the source knows it (poses.txt, simulated); else the scene's
-        // Blocks of whole pages that begin where depth and colour do: a device may read them there, and who
-        // holds one keeps its address from being used for anything else. Null, or of another address: copied.
+        // Blocks of whole pages that begin at the depth and colour data, which a device may read in place.
+        // Holding one prevents reuse of its address. Null, or at another address: the image is copied.
         std::shared_ptr<const void> depthMemory, colourMemory;
 
         std::span<const uint32_t> colours(bool asYuyv) const { return asYuyv ? yuyv : colour; }
@@ -52,7 +52,7 @@ public:
         }
     }
 
-    // Gives the frame another capture time [s]: lockstep runs on a clock of its own.
+    // Sets another capture time [s]: lockstep uses its own clock.
     void retime(double captureTime) { content_.captureTime = captureTime; }
 
     const Content* operator->() const { return &content_; }

@@ -12,11 +12,11 @@ namespace fathom {
 // One sample of the hand.
 struct HandSample {
     Pose deviceThandle;   // raw, device frame: position [m], orientation
-    uint32_t buttons = 0; // bit field by level: 1 guidance, 2 dead-man open, 4 clutch
+    uint32_t buttons = 0; // level-sensitive bit field: 1 guidance, 2 dead-man open, 4 clutch
 };
 
-// Called only by the haptic thread, once per tick: read, then write. Never allocates, locks, throws or waits
-// longer than the device's own exchange.
+// Called only by the haptic thread, once per tick: read, then write. Never allocates, locks or throws, and
+// waits only for the exchange with the device.
 class HapticDevice {
 public:
     virtual ~HapticDevice() = default;

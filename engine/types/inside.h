@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether a path that a file names stays in that file's folder.
+// Checks whether a path named in a file stays inside that file's folder.
 #pragma once
 
 #include <filesystem>
@@ -7,14 +7,14 @@
 
 namespace fathom {
 
-// By its words alone: not absolute, and no more steps up than down.
+// Checks the text only: the path is relative and never leads above the folder.
 inline bool staysInside(const std::filesystem::path& path) {
     const std::filesystem::path plain = path.lexically_normal();
     return !plain.is_absolute() && (plain.empty() || *plain.begin() != "..");
 }
 
-// By where the links on the way lead, as far as there is something there; the folder itself may be a link.
-// True where that cannot be told: then the file cannot be opened either.
+// Follows symbolic links as far as the path exists; the folder itself may be a link. True if this fails,
+// because then the file cannot be opened either.
 inline bool liesInside(const std::filesystem::path& file, const std::filesystem::path& folder) {
     namespace fs = std::filesystem;
     std::error_code noFile, noFolder;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pool of values: readers lease the newest one while one writer fills another. No side waits.
+// Pool of values: readers lease the newest one while one writer fills another. Neither side waits.
 #pragma once
 
 #include <atomic>
@@ -55,7 +55,7 @@ public:
         }
     }
 
-    // Reader. The newest published value; empty before the first publish().
+    // Reader. Leases the newest published value; empty before the first publish().
     Lease newest() noexcept {
         for (;;) {
             const int32_t index = newest_.load(std::memory_order_acquire);
@@ -73,7 +73,7 @@ public:
         }
     }
 
-    // Writer. A value that is neither the newest nor leased; the same one again until publish().
+    // Writer. A value that is neither the newest nor leased; stays the same until publish().
     T& back() noexcept {
         if (writing_ < 0) {
             for (size_t i = 0; writing_ < 0; i = (i + 1) % entries_.size()) {
@@ -96,7 +96,7 @@ public:
     }
 
     size_t size() const { return entries_.size(); }
-    // For setting values up before the threads start.
+    // For setting up values before the threads start.
     T& at(size_t i) { return *entries_[i].value; }
 
 private:

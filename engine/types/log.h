@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lines of the program's log, by spdlog's default logger. Its templates stay in one file: compiled into every
-// file that writes a line they are a tenth of a whole build, and a fifth of one under sanitizers.
+// Writes the program's log through spdlog's default logger. spdlog's templates are confined to log.cpp,
+// because including them everywhere takes a tenth of the build time.
 #pragma once
 
 #include <fmt/core.h>
 
 namespace fathom::log {
 
-// How much a line matters.
+// Severity of a line.
 enum class Level { Debug, Info, Warning, Error };
 
-// Any thread but the haptic one: it makes a text, takes the logger's lock and writes.
+// Any thread except the haptic one: formats a text, takes the logger's lock and writes.
 void write(Level level, fmt::string_view format, fmt::format_args values);
 
-// Placeholders are checked against the values by the compiler.
+// The compiler checks placeholders against the values.
 template <class... Values>
 void debug(fmt::format_string<Values...> format, Values&&... values) {
     write(Level::Debug, format, fmt::make_format_args(values...));

@@ -6,19 +6,19 @@
 namespace fathom {
 
 dvec3 rotationLog(const dquat& q) noexcept {
-    const double sign = q.w < 0.0 ? -1.0 : 1.0; // q and -q are the same rotation: take the short way
+    const double sign = q.w < 0.0 ? -1.0 : 1.0; // q and -q are the same rotation: take the shorter arc
     const dvec3 v = sign * dvec3(q.x, q.y, q.z);
     const double s = glm::length(v);
     const double w = sign * q.w;
     if (s < 1e-12) {
-        return v * 2.0; // sin(a/2) = a/2 to the last digit; also the exact zero
+        return v * 2.0; // sin(a/2) = a/2 to the last digit; also covers zero
     }
     return v * (2.0 * std::atan2(s, w) / s);
 }
 
 dquat rotationExp(const dvec3& v) noexcept {
     const double angle = glm::length(v);
-    // sin(a/2)/a by its series near zero, where the quotient loses digits
+    // series of sin(a/2)/a near zero, where the quotient loses digits
     const double k = angle < 1e-6 ? 0.5 - angle * angle / 48.0 : std::sin(0.5 * angle) / angle;
     return glm::normalize(dquat(std::cos(0.5 * angle), v.x * k, v.y * k, v.z * k));
 }

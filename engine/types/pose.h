@@ -17,12 +17,12 @@ struct Pose {
     dvec3 apply(const dvec3& point) const { return position + rotation * point; }
 };
 
-// a_T_c of a_T_b and b_T_c.
+// a_T_c from a_T_b and b_T_c.
 inline Pose operator*(const Pose& aTb, const Pose& bTc) {
     return {aTb.apply(bTc.position), aTb.rotation * bTc.rotation};
 }
 
-// b_T_a of a_T_b.
+// b_T_a from a_T_b.
 inline Pose inverse(const Pose& aTb) {
     const dquat inv = glm::conjugate(aTb.rotation);
     return {inv * -aTb.position, inv};
@@ -34,7 +34,7 @@ dvec3 rotationLog(const dquat& q) noexcept;
 // Unit quaternion of a rotation vector [rad].
 dquat rotationExp(const dvec3& v) noexcept;
 
-// Between a (s = 0) and b (s = 1): straight line and shortest arc.
+// Interpolates between a (s = 0) and b (s = 1) on a straight line and the shortest arc.
 Pose interpolate(const Pose& a, const Pose& b, double s) noexcept;
 
 // All numbers finite and the quaternion of non-zero length.

@@ -5,8 +5,8 @@
 
 namespace fathom {
 
-// How many CPUs the calling thread may run on now (sched_setaffinity(2), cpusets), at least one. The standard
-// library's count is the machine's.
+// Number of CPUs on which the calling thread may run (sched_setaffinity(2), cpusets), at least one. The
+// standard library counts those of the machine.
 uint32_t usableProcessors() noexcept;
 
 } // namespace fathom

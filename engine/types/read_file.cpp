@@ -34,7 +34,7 @@ std::optional<std::string> readFileAtMost(const std::filesystem::path& file, siz
         in.read(text.data() + before, static_cast<std::streamsize>(piece));
         text.resize(before + static_cast<size_t>(in.gcount()));
     }
-    if (in.bad()) { // a disk or a network that failed: what came is not the file
+    if (in.bad()) { // the disk or network failed: the text is incomplete
         return std::nullopt;
     }
     return text;

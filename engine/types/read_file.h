@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whole files, never more of them than a reader can use.
+// Reads whole files up to a size limit.
 #pragma once
 
 #include <cstddef>
@@ -9,19 +9,18 @@
 
 namespace fathom {
 
-// Links followed. False for what is not there, for folders, and for pipes, sockets and devices, of which
-// opening or reading need have no end: a reader of files asks before it opens one.
+// Follows links. False for missing files, folders, pipes, sockets and devices. Readers check this before they
+// open a file, because opening or reading a pipe or device may never end.
 bool isRegularFile(const std::filesystem::path& file);
-// Why such a reader has nothing to read: "a pipe or a device", else "cannot be read".
+// The reason why a file is not readable: "a pipe or a device", else "cannot be read".
 std::string whyUnreadable(const std::filesystem::path& file);
 
-// The first `most` bytes of a file, and one more if it has more: then size() > most. Memory grows with what
-// is read, so that a huge file costs no more. Nothing when it cannot be opened or is
-// no regular file.
+// Reads at most `most` + 1 bytes, so size() > most means that the file is larger. Memory grows with the bytes
+// read. Empty when the file cannot be opened or is not a regular file.
 std::optional<std::string> readFileAtMost(const std::filesystem::path& file, size_t most);
 
-// The whole of it. Throws BadInput when it cannot be read or has more than `most` bytes (a whole number of
-// MiB), with both sizes. kind: what is allowed, "a readable ...".
+// Reads the whole file. Throws BadInput when it cannot be read or has more than `most` bytes (a whole number
+// of MiB); the message has both sizes. kind: the allowed kind of file, "a readable ...".
 std::string readWholeFile(const std::filesystem::path& file, size_t most, const std::string& kind);
 
 } // namespace fathom

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a file that is written whole and then renamed may take the place of.
+// Checks whether a file that is written completely and then renamed may replace what has that name.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +8,8 @@
 
 namespace fathom {
 
-// True where nothing is, and of a regular file; the name must not be the system's, either: /dev/stdout may
-// lead to a file, but it is the link that would be replaced.
+// True if the name is free or a regular file. False for system names: /dev/stdout may lead to a file, but
+// renaming would replace the link.
 inline bool isReplaceable(const std::filesystem::path& file) {
     namespace fs = std::filesystem;
     std::error_code unknown;

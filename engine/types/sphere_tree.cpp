@@ -47,7 +47,7 @@ void placeLeaves(SphereTree& tree, uint64_t node, uint32_t level, std::span<Sphe
     placeLeaves(tree, node * 2 + 2, level + 1, part.subspan(half));
 }
 
-// Parent sphere about the mean of the used children, as paper eq. 3 does for patches.
+// Parent sphere about the mean of the used children, as in paper eq. 3 for patches.
 void encloseChildren(SphereTree& tree, uint64_t node) {
     dvec3 mean{0.0};
     double count = 0.0;

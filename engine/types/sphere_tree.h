@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sphere tree: a complete tree of fixed degree, breadth first, as the .sph files of the Sphere-Tree Toolkit
-// store it.
+// Sphere tree: a complete tree of fixed degree in breadth-first order, as in the .sph files of the
+// Sphere-Tree Toolkit.
 #pragma once
 
 #include "engine/types/pose.h"
@@ -18,23 +18,22 @@ struct Sphere {
     double radius = -1.0; // [m]; negative = unused slot
 };
 
-// Node 0 is the root; child k of node n is n * degree + 1 + k. All leaves lie on the last level; every used
+// Node 0 is the root; child k of node n is n * degree + 1 + k. All leaves are on the last level. Every used
 // node encloses the spheres of its used children.
 struct SphereTree {
-    uint32_t levels = 0; // counts the root
-    uint32_t degree = 0; // children a node
+    uint32_t levels = 0; // including the root
+    uint32_t degree = 0; // children per node
     std::vector<Sphere> nodes;
 
     uint32_t firstLeaf() const; // index of the first slot of the last level
     std::span<const Sphere> lastLevel() const;
 };
 
-// Groups a flat set of spheres top-down (longest axis, median split, 2 children per node) into a tree that
-// encloses them. Leaf order follows the split, not the input. At least one sphere; radii must be positive:
-// throws Error.
+// Builds an enclosing tree top-down (longest axis, median split, 2 children per node). Leaf order follows the
+// split, not the input. Throws Error without spheres or when a radius is not positive.
 SphereTree buildSphereTree(std::span<const Sphere> leaves);
 
-// Empty when the tree is sound; otherwise one sentence that names the first node that breaks a rule.
+// Empty when the tree is valid; otherwise one sentence that names the first invalid node.
 std::string validate(const SphereTree& tree);
 
 } // namespace fathom

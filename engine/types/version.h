@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which Fathom this is.
+// Version of the library.
 #pragma once
 
 namespace fathom {

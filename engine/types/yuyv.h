@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour as most USB cameras send it, 4:2:2 in BT.601's limited range, two pixels per word: Y0 | U << 8 |
+// YUYV, the colour format of most USB cameras: 4:2:2, BT.601 limited range, two pixels per word Y0 | U << 8 |
 // Y1 << 16 | V << 24.
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace fathom {
 
-// The word's two pixels, 0xAABBGGRR: BT.601 in steps of 1/256, rounded and cut to bytes.
-// shaders/lib/yuyv.glsl makes the same bytes.
+// The two pixels of a word as 0xAABBGGRR: BT.601 in steps of 1/256, rounded and clamped to bytes.
+// shaders/lib/yuyv.glsl gives the same bytes.
 std::array<uint32_t, 2> rgbaOfYuyv(uint32_t word) noexcept;
 
-// Rows of an even width, without gaps: rgba is twice as long as words.
+// Unpacks rows of even width without gaps; rgba is twice as long as words.
 void unpackYuyv(std::span<const uint32_t> words, std::span<uint32_t> rgba) noexcept;
-// What a camera sends of those pixels: luma rounded, chroma of the mean of both. Alpha is lost.
+// Packs pixels as a camera does: luma rounded, chroma from the mean of two pixels. Drops alpha.
 void packYuyv(std::span<const uint32_t> rgba, std::span<uint32_t> words) noexcept;
 
 } // namespace fathom
