@@ -24,7 +24,7 @@ public:
                  const Tool& tool, double reach, const ArmRig* arm = nullptr,
                  uint32_t gpuCapacity = kGpuCapacity);
 
-    // use(): creates what the plan needs on a device, from the next query on. leave: returns to the CPU.
+    // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU.
     void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
     void dropDevice() { gpu_.reset(); }
 

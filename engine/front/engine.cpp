@@ -124,8 +124,7 @@ struct Engine::Impl {
         camera->close();
     }
 
-    static constexpr double kFramePeriod =
-        1.0 / 30.0; // [s] unused for pacing: submitted frames have their own times
+    static constexpr double kFramePeriod = 1.0 / 30.0; // [s] nominal: submitted frames have their own times
 
     std::shared_ptr<front::Shared> shared;
     front::ComputeSide compute;

@@ -51,7 +51,7 @@ void compare(const CloudRig& rig, Worst& worst) {
 
 } // namespace
 
-TEST_CASE("A fan's points lie on its beams and each sphere grows by three sigma of its own range") {
+TEST_CASE("A fan's points are on its beams, and each sphere grows by three sigma at its own range") {
     Worst worst;
     for (const bool byPixel : {false, true}) {
         for (const auto& [width, height] : {std::pair(1u, 1u), {33u, 17u}, {64u, 48u}, {129u, 50u}}) {
@@ -75,8 +75,8 @@ TEST_CASE("A fan's points lie on its beams and each sphere grows by three sigma 
             " um over ", worst.spheres);
 }
 
-TEST_CASE(
-    "A range gate takes what lies between two spheres about the sensor, inclusive, beside other gates") {
+TEST_CASE("A range gate accepts points between two spheres about the sensor, inclusive, combined with other "
+          "gates") {
     Scene scene = plainScene();
     scene.fixtures[0].range = Band{0.8, 1.1};
     scene.fixtures.push_back(guidanceClass("far"));
@@ -107,7 +107,7 @@ TEST_CASE(
     CHECK((rig.masks()[0] & 1u) == 1);
 }
 
-TEST_CASE("A point that a moving fan no longer sees keeps the size that it was seen with") {
+TEST_CASE("A held point of a moving fan keeps the sphere size from when it was last seen") {
     Scene scene = plainScene();
     scene.holdSeconds = 0.2;
     const CameraInfo camera = fanCamera(40, 24);
@@ -140,7 +140,7 @@ TEST_CASE("A point that a moving fan no longer sees keeps the size that it was s
     MESSAGE(held, " held points, largest difference of a radius ", worst * 1e6, " um");
 }
 
-TEST_CASE("Nothing of beams is in the plan of a camera, and each part only where it is asked for") {
+TEST_CASE("A camera's plan has no beam features, and a fan's plan has only those that it needs") {
     Scene scene = plainScene();
     scene.errorBudget = 0.0001;
     const DeviceFacts facts = vulkan().device.facts();

@@ -66,9 +66,8 @@ void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::Se
 
 } // namespace
 
-TEST_CASE(
-    "Each buffer is there exactly when the plan has it, and as large as the plan says, beside a CPU and a "
-    "device of its own, whoever answers the query") {
+TEST_CASE("Each buffer exists exactly when planned and has the planned size, on CPU and GPU plans with "
+          "either query") {
     using Where = Scene::Contact::Where;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);

@@ -146,7 +146,7 @@ TEST_CASE(
     CHECK(pixels > 50000);
 }
 
-TEST_CASE("A hue band of zero width takes exactly the pixels whose hue is that fraction") {
+TEST_CASE("A hue band of zero width accepts exactly the pixels whose hue is that fraction") {
     const CameraInfo camera = pinholeCamera(256, 64);
     Image image = drawnImage(camera, [](int, int) { return 1.0; });
     // Spreads whose sixtieths have at most three decimals: hue = 60 k / spread.
@@ -180,7 +180,7 @@ TEST_CASE("A hue band of zero width takes exactly the pixels whose hue is that f
     MESSAGE(marked, " pixels lie exactly on both bounds of their band");
 }
 
-TEST_CASE("The hue gate alone lets no grey pixel through, and a class without gates takes every valid one") {
+TEST_CASE("The hue gate alone rejects grey pixels, and a class without gates accepts every valid pixel") {
     const CameraInfo camera = pinholeCamera(48, 3);
     Image image = drawnImage(camera, [](int u, int) { return u % 3 == 2 ? 0.0 : 0.8; });
     for (size_t i = 0; i < image.colour.size(); ++i) {
@@ -197,7 +197,7 @@ TEST_CASE("The hue gate alone lets no grey pixel through, and a class without ga
     CHECK(compareMasks(rig).different == 0);
 }
 
-TEST_CASE("Near and far that fall on a depth unit are inclusive at every unit, and 0 never counts") {
+TEST_CASE("Near and far bounds at exact depth units are inclusive for every unit, and depth 0 never counts") {
     for (const double unit : {0.001, 0.0002, 0.0001, 0.00012345}) {
         CAPTURE(unit);
         const CameraInfo camera = pinholeCamera(64, 40, unit);
@@ -217,8 +217,7 @@ TEST_CASE("Near and far that fall on a depth unit are inclusive at every unit, a
     }
 }
 
-TEST_CASE("A class that asks for a colour takes nothing of a camera without colour, and one that does not "
-          "takes all") {
+TEST_CASE("Without colour, a class with colour gates accepts no pixel and a class without them accepts all") {
     CameraInfo camera = pinholeCamera(37, 21);
     camera.hasColour = false;
     Image image = drawnImage(camera, [](int, int) { return 0.8; });
@@ -238,7 +237,7 @@ TEST_CASE("A class that asks for a colour takes nothing of a camera without colo
     CHECK(compareMasks(rig).different == 0);
 }
 
-TEST_CASE("A range that holds no depth unit takes no pixel") {
+TEST_CASE("A depth range that contains no depth unit accepts no pixel") {
     const CameraInfo camera = pinholeCamera(37, 21, 0.001);
     const Image image = drawnImage(camera, [](int u, int) { return 0.5 + 0.001 * (u % 3); });
     Scene scene = plainScene();
@@ -249,7 +248,7 @@ TEST_CASE("A range that holds no depth unit takes no pixel") {
     CHECK(compareMasks(rig).different == 0);
 }
 
-TEST_CASE("A box takes the points that lie exactly on its faces") {
+TEST_CASE("A box accepts points exactly on its faces") {
     const CameraInfo camera = [] {
         CameraInfo c = pinholeCamera(40, 40);
         c.depth.fx = c.depth.fy = 100.0, c.depth.cx = c.depth.cy = 20.0; // x = (u - 20) z / 100
@@ -270,7 +269,7 @@ TEST_CASE("A box takes the points that lie exactly on its faces") {
     }
 }
 
-TEST_CASE("Frames without a depth, with all pixels selected and with none selected run through") {
+TEST_CASE("Frames without depth, with all pixels selected and with none selected are processed") {
     const CameraInfo camera = pinholeCamera(100, 50);
     Scene scene = classesScene(2);
     scene.fixtures[0] = forbiddenClass("all", 0.03);

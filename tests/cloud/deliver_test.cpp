@@ -50,7 +50,7 @@ void checkDelivered(const CloudRig& rig) {
 
 } // namespace
 
-TEST_CASE("The host gets each frame's own counters and marks, and the device keeps none of them") {
+TEST_CASE("The host gets the counters and marks of each frame, and the device clears them") {
     for (const bool byPixel : {false, true}) {
         for (const auto& size : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {640u, 333u}}) {
             const uint32_t width = size.first, height = size.second; // CAPTURE takes no structured binding

@@ -36,7 +36,7 @@ void checkSame(const CloudRig& rig, const std::vector<dvec3>& points) {
 
 } // namespace
 
-TEST_CASE("The largest connected part and the trimmed mean leave out what the twin leaves out") {
+TEST_CASE("The largest connected part and the trimmed mean drop the same points as the twin") {
     const CameraInfo camera = pinholeCamera(200, 150, 0.0001);
     // Two patches of the class: the larger on the right, and a third that touches it behind a jump in depth.
     const auto depth = [](int u, int v) {
@@ -72,7 +72,7 @@ TEST_CASE("The largest connected part and the trimmed mean leave out what the tw
     }
 }
 
-TEST_CASE("The largest part of scattered pixels is the twin's, however it winds") {
+TEST_CASE("The largest part of scattered pixels equals the twin's for winding shapes") {
     const CameraInfo camera = pinholeCamera(131, 77, 0.0001);
     for (uint32_t seed = 1; seed <= 8; ++seed) {
         CAPTURE(seed);
@@ -97,7 +97,7 @@ TEST_CASE("The largest part of scattered pixels is the twin's, however it winds"
     }
 }
 
-TEST_CASE("Of parts as large as each other the one that begins first is taken") {
+TEST_CASE("Of equally large parts the first one is chosen") {
     const CameraInfo camera = pinholeCamera(80, 60, 0.0001);
     for (const int top : {9, 20}) {
         FixtureClass f = chosenClass();

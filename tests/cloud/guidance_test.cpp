@@ -64,8 +64,8 @@ Scene goalScene(const FixtureClass& f) {
 
 } // namespace
 
-TEST_CASE("A plane seen at any angle gives its normal towards the camera, the target stands off along it, +z "
-          "looks at it") {
+TEST_CASE("A plane seen at any angle gives its normal towards the camera, and the target stands off along it "
+          "with +z facing it") {
     const CameraInfo camera = pinholeCamera(160, 120, 0.0001);
     const Pose pose{{0.4, -0.3, 1.1}, rotationExp({0.5, -0.7, 0.2})};
     double worst = 0.0;
@@ -100,7 +100,7 @@ TEST_CASE("A plane seen at any angle gives its normal towards the camera, the ta
             " degrees (depth in units of 0.1 mm)");
 }
 
-TEST_CASE("The long axis gives the roll, a square leaves it to the scene") {
+TEST_CASE("The long axis gives the roll, and a square leaves it to the scene") {
     const CameraInfo camera = pinholeCamera(160, 120, 0.0001);
     for (const double angle : {0.0, 25.0, -60.0}) {
         CAPTURE(angle);
@@ -125,7 +125,7 @@ TEST_CASE("The long axis gives the roll, a square leaves it to the scene") {
     }
 }
 
-TEST_CASE("The pose equals the twin's for slabs, balls, rods and lines in any place, near and 100 km away") {
+TEST_CASE("The pose equals the twin's for slabs, balls, rods and lines anywhere, also 100 km away") {
     std::mt19937_64 random(5);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     PoseError worst;
@@ -162,7 +162,7 @@ TEST_CASE("The pose equals the twin's for slabs, balls, rods and lines in any pl
             " m, rotation ", worst.rotation, " rad");
 }
 
-TEST_CASE("The plane test draws its line at 3 mm, at a tenth of the width and at 5 mm of width") {
+TEST_CASE("The plane test has thresholds of 3 mm thickness, a tenth of the width and 5 mm width") {
     // Eight corners of a box have exactly these standard deviations along its axes.
     const auto pose = [](double a, double b, double c) {
         std::vector<dvec3> points;

@@ -105,32 +105,32 @@ const std::vector<uint32_t> kNothing(8, 0);
 
 } // namespace
 
-TEST_CASE("Points that drop out stay for hold_s after they were seen last, and then go") {
+TEST_CASE("Points without depth are held for hold_s after they were last seen, then dropped") {
     CloudRig rig(holdScene(0.2), kCamera);
     CHECK(heldAfter(rig, script(kCamera, 0.0), 8) == kSixFrames); // 0.2 s are six frames
     CHECK(rig.counters().patchGroups.x == 0);                     // no patch is kept on the list for nothing
 }
 
-TEST_CASE("Points behind a nearer occluder stay for hold_s") {
+TEST_CASE("Points behind a nearer occluder are held for hold_s") {
     CloudRig rig(holdScene(0.2), kCamera);
     CHECK(heldAfter(rig, script(kCamera, 0.4, kGrey), 8) == kSixFrames);
 }
 
-TEST_CASE(
-    "Points whose pixel is now deeper go at once, and so do those of another colour at the same depth") {
+TEST_CASE("Points are dropped at once when their pixel shows a deeper surface or another colour at the same "
+          "depth") {
     CloudRig deeper(holdScene(0.2), kCamera), other(holdScene(0.2), kCamera);
     CHECK(heldAfter(deeper, script(kCamera, 0.9, kGrey), 8) == kNothing);
     CHECK(heldAfter(other, script(kCamera, kWall, kGrey), 8) == kNothing);
 }
 
-TEST_CASE("Nearer counts from 3 sigma of depth on") {
+TEST_CASE("An occluder counts as nearer from 3 sigma of depth on") {
     const double three = 3.0 * depthSigma(kWall); // 4.2 mm
     CloudRig within(holdScene(0.2), kCamera), beyond(holdScene(0.2), kCamera);
     CHECK(heldAfter(within, script(kCamera, kWall - three + 0.0012, kGrey), 8) == kNothing);
     CHECK(heldAfter(beyond, script(kCamera, kWall - three - 0.0012, kGrey), 8) == kSixFrames);
 }
 
-TEST_CASE("With hold 0 nothing is held and no memory exists") {
+TEST_CASE("With hold 0 no points are held and no memory is allocated") {
     CloudRig rig(holdScene(0.0), kCamera);
     rig.run(script(kCamera, kWall));
     const FrameReport report = rig.run(script(kCamera, 0.0));
@@ -143,7 +143,7 @@ TEST_CASE("With hold 0 nothing is held and no memory exists") {
     }
 }
 
-TEST_CASE("A pixel that flickers is covered in every frame and never twice") {
+TEST_CASE("A flickering pixel has exactly one sphere in every frame") {
     CloudRig rig(holdScene(0.1), kCamera);
     rig.run(script(kCamera, kWall));
     for (int k = 1; k < 12; ++k) {
@@ -154,7 +154,7 @@ TEST_CASE("A pixel that flickers is covered in every frame and never twice") {
     }
 }
 
-TEST_CASE("A held point stays where it is in the base frame while the camera moves, also out of the frame") {
+TEST_CASE("A held point stays fixed in the base frame while the camera moves, also outside the image") {
     Scene scene = holdScene(0.2);
     scene.baseTcamera = {{1000.0, -2000.0, 5.0}, rotationExp({0.3, -0.2, 0.1})};
     CloudRig rig(scene, kCamera);
@@ -178,7 +178,7 @@ TEST_CASE("A held point stays where it is in the base frame while the camera mov
     CHECK(countOf(rig.spheres(true)) == 0);
 }
 
-TEST_CASE("The clock of the memory wraps at 2^32 us without losing or keeping points") {
+TEST_CASE("The memory's clock wraps at 2^32 us without losing points or keeping them too long") {
     for (const double start : {4294.80, 4294.967, 1.7e9}) {
         CAPTURE(start);
         CloudRig rig(holdScene(0.2), kCamera);

@@ -125,9 +125,8 @@ void runBands(const CloudRig::Change& change, const CameraInfo& camera, bool gui
 
 } // namespace
 
-TEST_CASE(
-    "Each patch with work is listed once, guided ones and those that hold points apart, whoever makes the "
-    "lists") {
+TEST_CASE("Each patch with work is listed once, with separate lists for guided and holding patches, in "
+          "either pass that makes lists") {
     for (const bool byPixel : {false, true}) {
         const auto change = [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; };
         for (const auto& size : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {333u, 250u}}) {
@@ -141,7 +140,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A patch is read of no memory before it holds something, and forgets that it did when it is over") {
+TEST_CASE("A patch's memory is read only while it holds points") {
     const CameraInfo camera = pinholeCamera(100, 60);
     bool byPixel = false;
     SUBCASE("listed apart") {}

@@ -107,8 +107,8 @@ void add(MomentsAgreement& all, const MomentsAgreement& a) {
 
 } // namespace
 
-TEST_CASE("Counts are equal, means within 1 um, covariances within 1e-6 of their trace, for every size and "
-          "set of classes") {
+TEST_CASE("Counts are equal, means agree within 1 um and covariances within 1e-6 of their trace, for every "
+          "size and set of classes") {
     MomentsAgreement all;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
@@ -151,7 +151,7 @@ TEST_CASE("A small far guidance class keeps its covariance") {
     }
 }
 
-TEST_CASE("Guidance classes that share pixels with each other and with forbidden ones each count their own") {
+TEST_CASE("Guidance classes that share pixels with other classes each count their own") {
     const CameraInfo camera = pinholeCamera(90, 70);
     Scene scene = plainScene();
     for (int i = 0; i < 7; ++i) {

@@ -194,7 +194,7 @@ TEST_CASE("Occlusion cells and looked-up class bits equal the twins' for several
             " marked pixels differ, all within 1e-3 pixels of a border between two colour pixels");
 }
 
-TEST_CASE("Points that a nearer plate hides from the colour camera stay unclassified, all others get their "
+TEST_CASE("Points that a nearer plate hides from the colour camera have no class, and all others get their "
           "own colour") {
     for (const double ratio : {0.8, 1.0, 1.6}) {
         for (const double baseline : {0.03, -0.05}) {
@@ -221,7 +221,7 @@ TEST_CASE("Points that a nearer plate hides from the colour camera stay unclassi
     }
 }
 
-TEST_CASE("A class without colour gates takes hidden points too") {
+TEST_CASE("A class without colour gates accepts hidden points") {
     const CameraInfo camera = parallaxCamera(1.6, 0.05);
     CloudRig rig(colourScene(), camera);
     const FrameReport report = rig.run(plateBeforeWall(camera, Plate{}));
@@ -229,7 +229,7 @@ TEST_CASE("A class without colour gates takes hidden points too") {
     CHECK(report.counts.classPixels[0] + report.counts.classPixels[1] < report.counts.valid);
 }
 
-TEST_CASE("Two-plane and empty frames of one pixel run through the occlusion pass") {
+TEST_CASE("Two-plane and empty frames of one pixel pass through the occlusion pass") {
     CameraInfo camera = parallaxCamera(1.0, 0.01);
     camera.depth.width = camera.depth.height = 1;
     camera.depth.cx = camera.depth.cy = 0.0;
@@ -243,8 +243,8 @@ TEST_CASE("Two-plane and empty frames of one pixel run through the occlusion pas
     }
 }
 
-TEST_CASE("The unregistered D435 frame: twins agree, and what lies behind a nearer point of the same colour "
-          "pixel is unclassified") {
+TEST_CASE("In the unregistered D435 frame, the twins agree and points behind a nearer point of the same "
+          "colour pixel have no class") {
     const RecordedShots shots = recordedShots("realsense_bag", {0});
     if (shots.images.empty()) {
         return;

@@ -7,9 +7,8 @@
 using namespace fathom;
 using namespace fathom::test;
 
-TEST_CASE(
-    "From depths and whole steps of growth the host makes the very spheres that the device has: lenses, "
-    "fans, poses, classes, thinned and held") {
+TEST_CASE("From depths and growth steps the host computes exactly the device's spheres for lenses, fans, "
+          "poses, classes, thinned and held points") {
     uint32_t grown = 0, held = 0, distorted = 0;
     bool holds = false;
     for (CloudCase& c : cloudCases()) {
@@ -74,8 +73,8 @@ TEST_CASE("A frame in flight keeps the radii and the pose that its passes read")
     }
 }
 
-TEST_CASE("Spheres that have grown are packed in 24 bits a depth, and in 32 where those of a patch differ by "
-          "more than that") {
+TEST_CASE(
+    "Grown spheres are packed in 24 bits per depth, or 32 bits in patches with a larger range of depths") {
     CameraInfo camera = pinholeCamera(61, 49, 0.0001);
     camera.depth.fx = camera.depth.fy = 600.0; // pixels lie closer than regions are wide
     camera.colour = camera.depth;

@@ -9,8 +9,8 @@
 using namespace fathom;
 using namespace fathom::test;
 
-TEST_CASE("What the host reads has every sphere of every slot once, in order, at sizes that are not whole "
-          "patches") {
+TEST_CASE(
+    "The host reads every sphere of every slot once and in order, also at sizes that are not whole patches") {
     for (const glm::uvec2 size :
          std::initializer_list<glm::uvec2>{{1, 1}, {16, 16}, {17, 33}, {67, 41}, {320, 240}}) {
         const uint32_t width = size.x, height = size.y;
@@ -25,7 +25,7 @@ TEST_CASE("What the host reads has every sphere of every slot once, in order, at
     }
 }
 
-TEST_CASE("Held spheres follow the seen ones of their patch, thinned ones are left out") {
+TEST_CASE("Held spheres follow the seen ones of their patch, without thinned ones") {
     const CameraInfo camera = pinholeCamera(130, 70);
     Scene scene = plainScene();
     scene.holdSeconds = 1.0;
@@ -49,7 +49,8 @@ TEST_CASE("Held spheres follow the seen ones of their patch, thinned ones are le
                       [](uint32_t source) { return source >= 130 * 70; }));
 }
 
-TEST_CASE("A frame without one point, with few over the corner of four patches, and with every point") {
+TEST_CASE(
+    "Frames without points, with few points at the corner of four patches and with all points are packed") {
     const CameraInfo camera = pinholeCamera(66, 50);
     for (const int points : {0, 16, 66 * 50}) {
         CAPTURE(points);
@@ -62,7 +63,7 @@ TEST_CASE("A frame without one point, with few over the corner of four patches, 
     }
 }
 
-TEST_CASE("A set that several threads lay out is the one that a single thread lays out") {
+TEST_CASE("A set laid out by several threads equals that of a single thread") {
     const CameraInfo camera = pinholeCamera(321, 243);
     bool pack = false;
     SUBCASE("read from slots") {}
@@ -96,7 +97,7 @@ TEST_CASE("A set that several threads lay out is the one that a single thread la
     }
 }
 
-TEST_CASE("Slots that a GPU query keeps for itself are packed the same, and each sphere knows its own") {
+TEST_CASE("Packing is unchanged when a GPU query keeps slots, and each sphere has the key of its slot") {
     const CameraInfo camera = pinholeCamera(90, 40);
     Scene scene = plainScene();
     scene.holdSeconds = 1.0;
@@ -125,8 +126,8 @@ TEST_CASE("Slots that a GPU query keeps for itself are packed the same, and each
     CHECK(held > 0);
 }
 
-TEST_CASE("Packed spheres have the class that they have in their slots, in patches of one class and of "
-          "several, seen and held") {
+TEST_CASE(
+    "Packed spheres have the classes of their slots, in patches of one class and of several, seen and held") {
     const CameraInfo camera = pinholeCamera(150, 70);
     for (const uint32_t classes : {1u, 3u, 8u}) {
         CAPTURE(classes);

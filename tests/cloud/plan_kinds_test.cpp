@@ -67,7 +67,7 @@ void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
 
 } // namespace
 
-TEST_CASE("What a CPU's plan makes in registers and a GPU's in shared memory is the same") {
+TEST_CASE("CPU plans with registers and GPU plans with shared memory give the same results") {
     bool holds = false;
     uint32_t cases = 0;
     for (CloudCase& c : cloudCases()) {

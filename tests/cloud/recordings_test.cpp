@@ -79,7 +79,7 @@ Count countOf(const CloudRig& rig) {
 
 } // namespace
 
-TEST_CASE("Valid, forbidden and class pixels of every recorded frame equal a plain float64 count and lie "
+TEST_CASE("Valid, forbidden and class pixels of every recorded frame equal a plain float64 count and are "
           "near the measured figures") {
     for (const Recording& recording : kRecordings) {
         if (kSanitized && &recording != &kRecordings.front()) {

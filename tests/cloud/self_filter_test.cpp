@@ -60,7 +60,7 @@ cloud::LinkSpheres linksOf(std::vector<Sphere> spheres, std::vector<uint32_t> en
 
 } // namespace
 
-TEST_CASE("Points of the arm, padding included, belong to no class, and all others keep theirs") {
+TEST_CASE("Points of the arm, padding included, have no class, and all others keep theirs") {
     for (const auto& [width, height] : {std::pair{160u, 120u}, {61u, 47u}, {1u, 1u}}) {
         CloudRig rig = filteredRig(width, height);
         std::vector<Sphere> balls;
@@ -86,7 +86,7 @@ TEST_CASE("Points of the arm, padding included, belong to no class, and all othe
     }
 }
 
-TEST_CASE("An arm is taken out of a frame whose camera is off by three sigma of its registration") {
+TEST_CASE("An arm is removed from a frame whose camera is off by three sigma of its registration") {
     const auto urdf = std::filesystem::temp_directory_path() /
                       ("fathom_registered_" + std::to_string(::getpid()) + ".urdf");
     std::ofstream(urdf) << "<robot name='r'><link name='a'><collision><geometry><sphere radius='0.05'/>"
@@ -138,7 +138,7 @@ TEST_CASE("Two thousand spheres on twenty links, at a pose far from the base ori
     CHECK(a.marked > 500);
 }
 
-TEST_CASE("An arm that moves is taken out where each frame shows it, and one that is nowhere takes nothing") {
+TEST_CASE("A moving arm is removed where each frame shows it, and an arm outside the view removes nothing") {
     CloudRig rig = filteredRig(64, 48);
     const Image wall = wallAndBalls(rig.camera(), {});
     rig.run(wall);

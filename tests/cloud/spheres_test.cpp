@@ -82,8 +82,8 @@ void withSlots(Plan& plan) {
 
 } // namespace
 
-TEST_CASE("Sphere centres and radii lie within 1 um of the twin's, classes and forbidden pixels are equal, "
-          "for every size") {
+TEST_CASE("Sphere centres and radii are within 1 um of the twin's, and classes and forbidden pixels are "
+          "equal, for every size") {
     SpheresAgreement all;
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
@@ -102,8 +102,8 @@ TEST_CASE("Sphere centres and radii lie within 1 um of the twin's, classes and f
             " um over ", all.spheres);
 }
 
-TEST_CASE(
-    "Of several forbidden classes the largest radius wins, then file order; guidance counts beside it") {
+TEST_CASE("Of several forbidden classes the largest radius wins, then file order; guidance is counted "
+          "independently") {
     const CameraInfo camera = pinholeCamera(64, 48);
     Scene scene = plainScene();
     scene.registrationSigma = 0.002;
@@ -133,7 +133,7 @@ TEST_CASE(
     CHECK(compareSpheres(rig).wrong == 0);
 }
 
-TEST_CASE("A class with a smaller radius first in the file wins only where it is alone, for 1 to 8 classes") {
+TEST_CASE("A class with a smaller radius wins only where it is alone, for 1 to 8 classes") {
     const CameraInfo camera = freiburgCamera(77, 45);
     for (uint32_t count = 1; count <= 8; ++count) {
         CAPTURE(count);
@@ -175,7 +175,7 @@ TEST_CASE("Leaks are reported with the largest spacing and range of the class, a
     }
 }
 
-TEST_CASE("1920x1080 and 3840x2160 with every pixel selected run through and count every pixel") {
+TEST_CASE("Frames of 1920x1080 and 3840x2160 with every pixel selected count every pixel") {
     for (const auto& [width, height] : {std::pair{1920u, 1080u}, {3840u, 2160u}}) {
         const CameraInfo camera = pinholeCamera(width, height, 0.0001);
         Scene scene = plainScene();

@@ -7,7 +7,7 @@
 using namespace fathom;
 using namespace fathom::test;
 
-TEST_CASE("Two pixels an invocation give the points of one, and a patch that has one pixel of a pair") {
+TEST_CASE("Two pixels per invocation give the points of one, also in patches with one pixel of a pair") {
     for (const double edge : {0.0, 0.03}) {
         for (const uint32_t width : {67u, 68u, 1u}) {
             CAPTURE(edge);
@@ -33,7 +33,7 @@ TEST_CASE("Two pixels an invocation give the points of one, and a patch that has
     }
 }
 
-TEST_CASE("Two pixels an invocation are for a GPU's large frames and the 5x5 filter") {
+TEST_CASE("Two pixels per invocation are planned for large frames on GPUs with the 5x5 filter") {
     Scene scene = edgeScene(0.03);
     scene.filter.radius = 2;
     const auto planOf = [&](uint32_t width, uint32_t height, DeviceKind kind) {

@@ -18,7 +18,7 @@ bool keeps(const CloudRig& rig, int u, int v) {
 
 } // namespace
 
-TEST_CASE("Surface points lie within 1 um of the twin's at 1 m and the same pixels are rejected, for every "
+TEST_CASE("Surface points are within 1 um of the twin's at 1 m and the same pixels are rejected, for every "
           "size and option") {
     SurfaceAgreement all;
     for (const CloudCase& c : cloudCases()) {
@@ -69,7 +69,7 @@ TEST_CASE("Windows from shared memory, direct reads and blocks in registers give
     }
 }
 
-TEST_CASE("Polynomial weights follow their own twin and stay within 3 % of the noise of the exact ones") {
+TEST_CASE("Polynomial weights equal their own twin's and stay within 3 % of the noise of the exact ones") {
     const CameraInfo camera = pinholeCamera(67, 41, 0.0001);
     const auto noise = [](int u, int v) {
         return 0.001 * std::sin(u * 12.9898 + v * 78.233) * std::cos(u * 3.1 - v * 7.7);
@@ -126,7 +126,7 @@ TEST_CASE(
     MESSAGE("largest distance from its pixel ", worst, " pixels");
 }
 
-TEST_CASE("A base frame 100 km away and a camera that moves there cost no precision") {
+TEST_CASE("A base frame 100 km away with a moving camera loses no precision") {
     SimulatedCameraOptions options;
     options.width = 321, options.height = 241;
     const Shot shot = simulatedShot("torus", options);
@@ -151,7 +151,7 @@ TEST_CASE("A base frame 100 km away and a camera that moves there cost no precis
 }
 
 TEST_CASE(
-    "A mixed pixel between two surfaces is rejected; a silhouette, a thin rod and a smooth slope stay") {
+    "A mixed pixel between two surfaces is rejected; a silhouette, a thin rod and a smooth slope are kept") {
     const CameraInfo camera = pinholeCamera(40, 30);
     const auto depth = [](int u, int v) {
         if (v < 10) { // a mixed column between a near surface and a far one
@@ -177,7 +177,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A speck of up to two pixels is rejected as marine snow, three pixels in a bunch stay") {
+TEST_CASE("A speck of up to two pixels is rejected as marine snow, and three adjacent pixels are kept") {
     const CameraInfo camera = pinholeCamera(64, 48);
     const auto depth = [](int u, int v) {
         const bool one = u == 10 && v == 10, two = (u == 30 || u == 31) && v == 10,
@@ -197,7 +197,7 @@ TEST_CASE("A speck of up to two pixels is rejected as marine snow, three pixels 
     CHECK(report.counts.spheres == 3);
 }
 
-TEST_CASE("The filter flattens noise on a plane by what its weights promise and leaves a step standing") {
+TEST_CASE("The filter reduces noise on a plane as its weights predict and keeps a step") {
     const CameraInfo camera = pinholeCamera(120, 60, 0.0001);
     const auto noise = [](int u, int v) {
         return 0.001 * std::sin(u * 12.9898 + v * 78.233) * std::cos(u * 3.1 - v * 7.7);

@@ -89,8 +89,8 @@ Scene budgetScene(double budget) {
 
 } // namespace
 
-TEST_CASE("Thinning decides as the twin does and asks for the same growth, for every size and option, in a "
-          "pass of its own and within spheres") {
+TEST_CASE("Thinning makes the twin's decisions with the same growth for every size and option, as a separate "
+          "pass and within spheres") {
     ThinAgreement all;
     std::vector<CloudCase> cases = cloudCases();
     std::erase_if(cases, [](const CloudCase& c) { return c.scene.errorBudget == 0.0; });
@@ -116,8 +116,7 @@ TEST_CASE("Thinning decides as the twin does and asks for the same growth, for e
             " thinned cells of ", all.cells, " (4x4); ", all.unsure, " decisions on the budget differ");
 }
 
-TEST_CASE("Each of a cell's 25 points is asked: one that is unlike the rest decides about its cell and its "
-          "quarter") {
+TEST_CASE("Each of a cell's 25 points counts: one unlike the rest decides about its cell and its quarter") {
     const CameraInfo camera = longLens(68, 68);
     const auto isUnlike = [](int u, int v) { // a point of its own in each third cell across and down
         const int cell = u / 12 + v / 12 * 5;
@@ -150,7 +149,7 @@ TEST_CASE("Each of a cell's 25 points is asked: one that is unlike the rest deci
     }
 }
 
-TEST_CASE("Kept spheres are those of the rule that the twin states, and no other") {
+TEST_CASE("Exactly the spheres of the twin's rule are kept") {
     for (const char* name : {"sphere", "corner"}) {
         SimulatedCameraOptions options;
         options.width = 163, options.height = 121, options.focal = 600, options.noise = false,
@@ -175,7 +174,7 @@ TEST_CASE("Kept spheres are those of the rule that the twin states, and no other
     }
 }
 
-TEST_CASE("The kept spheres cover every point of the whole region and none grows by more than the budget") {
+TEST_CASE("The kept spheres cover the whole region and none grows by more than the budget") {
     double worst = 0.0;
     uint32_t samples = 0;
     struct Row {
@@ -206,7 +205,7 @@ TEST_CASE("The kept spheres cover every point of the whole region and none grows
     MESSAGE("coverage: ", samples, " samples, farthest outside ", worst * 1e9, " nm");
 }
 
-TEST_CASE("Overlapping classes with other radii keep their cover class by class") {
+TEST_CASE("Overlapping classes with different radii are covered class by class") {
     const CameraInfo camera = longLens(160, 120);
     Scene scene = budgetScene(0.0004);
     scene.fixtures = {forbiddenClass("left", 0.02), forbiddenClass("all", 0.01), guidanceClass("goal"),
@@ -224,8 +223,8 @@ TEST_CASE("Overlapping classes with other radii keep their cover class by class"
     CHECK(compareCells(rig).wrong == 0);
 }
 
-TEST_CASE(
-    "On a plane without noise thinning keeps about a sixteenth of the points, at budget 0 all of them") {
+TEST_CASE("On a plane without noise thinning keeps about a sixteenth of the points, and all of them with "
+          "budget 0") {
     const CameraInfo camera = longLens(320, 240);
     for (const double angle : {0.0, 30.0, 50.0}) {
         CAPTURE(angle);
@@ -244,7 +243,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A point whose cell is not full of its class is always kept: edges, holes, steps") {
+TEST_CASE("A point whose cell is not full of its class is kept at edges, holes and steps") {
     const CameraInfo camera = longLens(48, 48);
     const auto depth = [](int u, int v) { return u == 21 && v == 21 ? 0.0 : u >= 30 ? 0.9 : 0.6; };
     CloudRig rig(budgetScene(0.0002), camera);
@@ -265,7 +264,7 @@ TEST_CASE("A point whose cell is not full of its class is always kept: edges, ho
     CHECK(checkCoverage(rig, 4000).coverage.holes == 0);
 }
 
-TEST_CASE("The coverage oracle itself finds a region that shrank") {
+TEST_CASE("The coverage oracle detects a region that shrank") {
     const CameraInfo camera = longLens(64, 64);
     CloudRig rig(budgetScene(0.0005), camera);
     rig.run(drawnImage(camera, [](int, int) { return 0.5; }));

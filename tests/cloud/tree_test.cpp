@@ -90,7 +90,7 @@ void withTree(Plan& plan) {
 
 } // namespace
 
-TEST_CASE("Every leaf sphere lies inside its sub-patch, every child inside its parent, up to one root, for "
+TEST_CASE("Every leaf sphere is inside its sub-patch and every child inside its parent, up to one root, for "
           "every size") {
     TreeAgreement all;
     for (const CloudCase& c : cloudCases()) {
@@ -108,7 +108,7 @@ TEST_CASE("Every leaf sphere lies inside its sub-patch, every child inside its p
             " um over ", all.nodes, " nodes");
 }
 
-TEST_CASE("The tree holds for tall, wide and odd frames with held points in it") {
+TEST_CASE("The tree is valid for tall, wide and odd frames with held points") {
     for (const std::pair<uint32_t, uint32_t>& size : std::vector<std::pair<uint32_t, uint32_t>>{
              {16u, 16u}, {17u, 16u}, {64u, 64u}, {65u, 64u}, {300u, 5u}, {5u, 300u}, {257u, 129u}}) {
         CAPTURE(size.first);
@@ -126,7 +126,7 @@ TEST_CASE("The tree holds for tall, wide and odd frames with held points in it")
     }
 }
 
-TEST_CASE("A set without spheres has an empty root, and old data of unlisted patches never comes back") {
+TEST_CASE("A set without spheres has an empty root, and old data of unlisted patches never returns") {
     const CameraInfo camera = pinholeCamera(100, 80);
     CloudRig rig(plainScene(), camera, withTree);
     checkTree(rig, rig.run(drawnImage(camera, [](int, int) { return 0.7; })));
@@ -143,7 +143,7 @@ TEST_CASE("A set without spheres has an empty root, and old data of unlisted pat
     checkTree(rig, none);
 }
 
-TEST_CASE("Where no query walks a tree none is built, and its nodes are counted all the same") {
+TEST_CASE("Without a GPU query no tree is built, but its nodes are counted") {
     for (const CloudCase& c : cloudCases()) {
         CAPTURE(c.name);
         CloudRig with(c.scene, c.camera, withTree), without(c.scene, c.camera);

@@ -64,7 +64,7 @@ TEST_CASE("Red that water has turned green is red again at every range, in the p
     CHECK(twin.masks == cleared.masks());
 }
 
-TEST_CASE("With water the pass marks what its float64 twin marks, but for bytes that lie between two") {
+TEST_CASE("With water the pass marks the same pixels as its twin, except at rounding thresholds") {
     for (uint64_t seed = 1; seed <= 6; ++seed) {
         const bool wide = seed % 2 == 0;
         const CameraInfo camera = wide ? freiburgCamera(131, 83) : pinholeCamera(160, 90);
@@ -86,7 +86,7 @@ TEST_CASE("With water the pass marks what its float64 twin marks, but for bytes 
     }
 }
 
-TEST_CASE("Without attenuation, or with one of zero, colours are those of the frame") {
+TEST_CASE("Colours are unchanged without attenuation or with zero attenuation") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = classesScene(5);
     CloudRig plain(scene, camera);

@@ -92,8 +92,7 @@ void checkSame(const Scene& scene, const CameraInfo& camera) {
 
 } // namespace
 
-TEST_CASE(
-    "Classes of a camera that sends YUYV are the twin's, at widths that are and are not multiples of four") {
+TEST_CASE("Classes from YUYV equal the twin's at widths that are and are not multiples of four") {
     for (const glm::uvec2 size : {glm::uvec2(2, 1), glm::uvec2(62, 33), glm::uvec2(64, 48),
                                   glm::uvec2(130, 35), glm::uvec2(204, 117)}) {
         CAPTURE(size.x);
@@ -114,7 +113,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Colour goes up as YUYV where a class asks for it and the camera sends it, in half the bytes") {
+TEST_CASE("Colour is uploaded as YUYV, in half the bytes, if a class uses it and the camera sends it") {
     const CameraInfo camera = pinholeCamera(64, 48);
     Scene scene = gates();
     const auto planOf = [&](const CameraInfo& of) { return makePlan(scene, of, 1, vulkan().device.facts()); };
@@ -131,29 +130,29 @@ TEST_CASE("Colour goes up as YUYV where a class asks for it and the camera sends
     CHECK(bytesOf(planOf(sendsYuyv(camera))) == 0);
 }
 
-TEST_CASE("Any word of YUYV falls in the classes of what the host unpacks it to, to the last bit") {
+TEST_CASE("Every YUYV word has the classes of its host-unpacked colours, to the last bit") {
     checkSame(gates(), pinholeCamera(640, 480)); // 153600 words, four pixels a fetch
     checkSame(gates(), pinholeCamera(322, 241)); // two
 }
 
-TEST_CASE("Colours that are looked up in another camera's YUYV are those of the same frame unpacked") {
+TEST_CASE("Colours looked up in another camera's YUYV image equal those of the unpacked image") {
     checkSame(gates(), beside(pinholeCamera(160, 120)));
 }
 
-TEST_CASE("Colours sent as YUYV are put right for water like others") {
+TEST_CASE("YUYV colours are corrected for water like others") {
     Scene scene = gates();
     scene.attenuation = dvec3(0.6, 0.15, 0.1);
     checkSame(scene, pinholeCamera(322, 241));
 }
 
-TEST_CASE("A camera whose colour has an odd width is refused when it says that it sends YUYV") {
+TEST_CASE("A YUYV camera with an odd colour width is rejected") {
     const CameraInfo camera = sendsYuyv(pinholeCamera(63, 48));
     CHECK_THROWS_WITH_AS(
         makePlan(gates(), camera, 1, vulkan().device.facts()),
         "camera: width of its YUYV colour: 63 (allowed: even, because two pixels share a word)", BadInput);
 }
 
-TEST_CASE("A frame without the YUYV that its camera promised is refused, and so is one that lacks a row") {
+TEST_CASE("A frame without the announced YUYV image or with a missing row is rejected") {
     const CameraInfo camera = sendsYuyv(pinholeCamera(64, 48));
     CloudRig rig(classesScene(3), camera);
     const Image image = stressImage(camera, 1);
@@ -167,7 +166,7 @@ TEST_CASE("A frame without the YUYV that its camera promised is refused, and so 
                          "frame: YUYV image of 6016 bytes, needs 6144", Error);
 }
 
-TEST_CASE("YUYV in whole pages is read where it lies, and gives what a copy gives") {
+TEST_CASE("YUYV in whole pages is read in place and gives the results of a copy") {
     const CameraInfo camera = sendsYuyv(pinholeCamera(204, 117));
     const std::vector<uint32_t> words = anyWords(camera);
     const Image image = drawnImage(camera, [](int, int) { return 0.9; });

@@ -82,7 +82,7 @@ FollowRig pressed() {
 
 } // namespace
 
-TEST_CASE("An arm that follows moves as the tool does, and the pilot feels what bars its way") {
+TEST_CASE("An arm that follows moves like the tool, and the pilot feels obstacles") {
     FollowRig follow = pressed();
     const StepRecord record = follow.ticks(50);
     CHECK(record.state == StepState::Contact);
@@ -115,7 +115,7 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
     }
 }
 
-TEST_CASE("Forces off hold an arm that follows, and it does not leap to a hand that went elsewhere") {
+TEST_CASE("Forces off hold an arm that follows, and it does not jump to a hand that moved elsewhere") {
     FollowRig follow = pressed();
     follow.ticks(50);
     follow.told.posture = follow.cycle->place().arm;
@@ -134,7 +134,8 @@ TEST_CASE("Forces off hold an arm that follows, and it does not leap to a hand t
           doctest::Approx(0.005).epsilon(0.02));
 }
 
-TEST_CASE("The tool goes on from where the arm was measured, also inside a region, and only leaves it") {
+TEST_CASE(
+    "The tool resumes from the arm's measured posture, also inside a region, and only moves out of it") {
     FollowRig follow = pressed();
     follow.told.posture = follow.cycle->place().arm;
     follow.told.posture.q[0] += 0.01; // the arm's own lag carried its links 5 to 10 mm into the ball
@@ -154,7 +155,7 @@ TEST_CASE("The tool goes on from where the arm was measured, also inside a regio
     CHECK(deepest < 1e-6);
 }
 
-TEST_CASE("A tool put far from where contacts are known waits until they are known there") {
+TEST_CASE("A tool placed far from known contacts waits until contacts are known there") {
     FollowRig follow = pressed();
     follow.told = {false, true, follow.cycle->place().arm};
     follow.ticks(300);

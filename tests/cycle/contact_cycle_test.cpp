@@ -104,14 +104,14 @@ size_t compareQueries(ContactRig& rig, const Tool& tool, double reach, uint32_t 
 
 } // namespace
 
-TEST_CASE("the query on the GPU and on the CPU give equal contact sets for tools of 1 to 4096 leaves") {
+TEST_CASE("The GPU and CPU queries give equal contact sets for tools of 1 to 4096 leaves") {
     ContactRig rig(twoValves(0.0001, 0.5), 3);
     for (size_t leaves : {1u, 8u, 300u, 4096u}) {
         CHECK(compareQueries(rig, randomTool(leaves, 7), 0.01, 11) > 0);
     }
 }
 
-TEST_CASE("both queries agree for a reach of nothing and a reach over the whole scene") {
+TEST_CASE("Both queries agree for zero reach and for a reach over the whole scene") {
     ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(5, 3);
     compareQueries(rig, tool, 0.0001, 5);
@@ -119,7 +119,7 @@ TEST_CASE("both queries agree for a reach of nothing and a reach over the whole 
     CHECK(all > 20 * rig.frames.sets().newest()->host.spheres.size() / 2);
 }
 
-TEST_CASE("an overflowing GPU answer halves its reach, certifies it, and doubles the capacity for the next") {
+TEST_CASE("An overflowing GPU answer halves its reach, certifies it, and doubles the capacity for the next") {
     ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(3, 3);
     cloud::TreeQuery query(vulkan().device, rig.plan, rig.frames.layout(), rig.frames.sets(), tool, 16);
@@ -136,7 +136,7 @@ TEST_CASE("an overflowing GPU answer halves its reach, certifies it, and doubles
     CHECK(found.size() > 16);
 }
 
-TEST_CASE("a contact answer that overflows certifies the reach that fits, and the next one the whole reach") {
+TEST_CASE("A contact answer that overflows certifies the reach that fits, and the next one the whole reach") {
     ContactRig rig(twoValves(0.0, 0.0), 1);
     const Tool tool = randomTool(3, 3);
     const Pose pose{{-0.15, 0, 0.80}, {1, 0, 0, 0}};
@@ -179,7 +179,7 @@ TEST_CASE("a contact answer that overflows certifies the reach that fits, and th
     CHECK(gpu.statistics().overflows == 1);
 }
 
-TEST_CASE("a scene without forbidden points lets the tool go anywhere and asks no device") {
+TEST_CASE("A scene without forbidden points lets the tool go anywhere and uses no device") {
     Scene scene = twoValves(0.0, 0.0);
     for (FixtureClass& f : scene.fixtures) {
         f.role = Role::Guidance;

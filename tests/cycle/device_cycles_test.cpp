@@ -57,7 +57,7 @@ struct TwinRig {
 
 } // namespace
 
-TEST_CASE("A device that is made anew goes on with the origin and the generations, and equal frames give "
+TEST_CASE("A device that is opened again continues the origin and the generations, and equal frames give "
           "equal sets") {
     TwinRig rig(Scene::Contact::Where::Cpu), undisturbed(Scene::Contact::Where::Cpu);
     for (uint32_t i = 0; i < kFrames; ++i) {
@@ -80,8 +80,8 @@ TEST_CASE("A device that is made anew goes on with the origin and the generation
     CHECK(rig.cycles.renewals() == 2);
 }
 
-TEST_CASE("Until the first frame on the new device the CPU answers over the last set, and query numbers "
-          "only grow") {
+TEST_CASE("Until the first frame on the new device the CPU answers from the last set, and query numbers only "
+          "increase") {
     for (const auto where : {Scene::Contact::Where::Cpu, Scene::Contact::Where::Gpu}) {
         TwinRig rig(where);
         ContactSet before, between, after;
@@ -105,7 +105,7 @@ TEST_CASE("Until the first frame on the new device the CPU answers over the last
     }
 }
 
-TEST_CASE("What was edited, and a class that is held still, is as before on a device that is made anew") {
+TEST_CASE("Edits and frozen classes are kept when a device is opened again") {
     for (const bool anew : {false, true}) {
         CAPTURE(anew);
         TwinRig rig(Scene::Contact::Where::Cpu);

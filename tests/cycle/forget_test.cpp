@@ -7,7 +7,8 @@
 using namespace fathom;
 using namespace fathom::test;
 
-TEST_CASE("What has forgotten gives the sets of a fresh cycle, held points and all, at an earlier time too") {
+TEST_CASE("After forget() a used cycle gives the sets of a fresh one, held points included, also at an "
+          "earlier time") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = classesScene(3);
     scene.holdSeconds = 0.2;

@@ -106,7 +106,7 @@ Frame frameOf(const Image& image, uint32_t number, double time) {
 
 } // namespace
 
-TEST_CASE("Passes and dispatches are those that the scene needs and no other") {
+TEST_CASE("A scene runs exactly the passes and dispatches that it needs") {
     for (Need need : needs()) {
         CAPTURE(need.name);
         CloudRig rig(need.scene, need.camera);
@@ -130,7 +130,7 @@ TEST_CASE("Passes and dispatches are those that the scene needs and no other") {
     }
 }
 
-TEST_CASE("Two cycles give the same bits for the same frames, held points, guidance and all") {
+TEST_CASE("Two cycles give the same bits for the same frames, held points and guidance included") {
     SimulatedCameraOptions options;
     options.width = 214, options.height = 120, options.frames = 6, options.dropShare = 0.1;
     for (const bool tiled : {false, true}) {
@@ -155,7 +155,7 @@ TEST_CASE("Two cycles give the same bits for the same frames, held points, guida
     }
 }
 
-TEST_CASE("Without times of passes the set is the same and all of them stay zero") {
+TEST_CASE("Without pass times the set is the same and all times are zero") {
     const CameraInfo camera = freiburgCamera(123, 77);
     CloudRig timed(fullScene(), camera);
     CloudRig other(fullScene(), camera, [](Plan& plan) { plan.passTimes = false; });
@@ -183,8 +183,7 @@ TEST_CASE("Without hold a frame's set does not depend on the frames before it") 
     CHECK(used.host().frame == 5);
 }
 
-TEST_CASE(
-    "Uploading the next frame while the device works gives the sets that one frame after the other gives") {
+TEST_CASE("Uploading the next frame while the device works gives the same sets as sequential frames") {
     const CameraInfo camera = pinholeCamera(160, 90);
     CloudRig one(fullScene(), camera), overlapped(fullScene(), camera);
     std::vector<Image> images;
@@ -207,7 +206,8 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Generations count published sets, a leased set stays whole, an unchanged frame costs no work") {
+TEST_CASE(
+    "Generations count published sets, a leased set stays unchanged, and a repeated frame costs no work") {
     const CameraInfo camera = pinholeCamera(90, 60);
     CloudRig rig(fullScene(), camera);
     FrameCycle& cycle = rig.cycle();
@@ -229,7 +229,7 @@ TEST_CASE("Generations count published sets, a leased set stays whole, an unchan
     CHECK(cycle.process(frameOf(second, 6, 1.0)).unchanged == false);
 }
 
-TEST_CASE("A frame smaller than the camera said is refused, and the next good one works") {
+TEST_CASE("A frame smaller than the camera's size is rejected, and the next good one works") {
     const CameraInfo camera = pinholeCamera(64, 48);
     CloudRig rig(fullScene(), camera);
     Image small = stressImage(camera, 1);

@@ -45,7 +45,7 @@ std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
 } // namespace
 
 TEST_CASE(
-    "A frozen class keeps its spheres while another follows the frame, and follows it again when let go") {
+    "A frozen class keeps its spheres while another follows the frame, and follows again when released") {
     const CameraInfo camera = pinholeCamera(100, 60);
     Scene scene = redAndBlue();
     CloudRig rig(scene, camera);

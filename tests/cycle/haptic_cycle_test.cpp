@@ -39,7 +39,7 @@ TEST_CASE("Until the first contact set the tool is held, the wrench is zero and 
     CHECK(record.minGap == rig.inForce->reach); // nothing is nearer than the reach of the query
 }
 
-TEST_CASE("In free space the tool is the hand to the last bit and nothing is felt") {
+TEST_CASE("In free space the tool equals the hand to the last bit and there is no force") {
     HapticRig rig(handScene(), at(0, 0.01, 0.05));
     rig.show(wallSet());
     for (int i = 0; i < 200; ++i) {
@@ -72,7 +72,8 @@ TEST_CASE("Pressed into a wall the tool stays outside and the hand feels K times
     CHECK_FALSE(record.armHold); // released while tool and hand were together
 }
 
-TEST_CASE("Force and its change stay within their limits however the hand jumps, and no leaf ever enters") {
+TEST_CASE("Force and its change stay within their limits however the hand jumps, and no leaf ever enters a "
+          "region") {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     rig.show(wallSet());
     rig.age = false;
@@ -93,8 +94,8 @@ TEST_CASE("Force and its change stay within their limits however the hand jumps,
     CHECK(largest == doctest::Approx(20.0));
 }
 
-TEST_CASE("Forces off: w is zero at once, the wrench is gone after 0.2 s, the tool follows and still obeys "
-          "the wall") {
+TEST_CASE("With forces off w is zero at once, the wrench is gone after 0.2 s, and the tool follows and still "
+          "obeys the wall") {
     for (const bool deadMan : {false, true}) {
         auto rig = pressedRig();
         GuidancePose target;
@@ -136,7 +137,7 @@ TEST_CASE("Forces off: w is zero at once, the wrench is gone after 0.2 s, the to
     }
 }
 
-TEST_CASE("The clutch holds the device pose, ramps the force out and in, and lets go without a jump") {
+TEST_CASE("The clutch holds the device pose, ramps the force out and in, and releases without a jump") {
     auto rig = pressedRig();
     const auto held = rig.step();
     rig.buttons = 4;
@@ -156,7 +157,7 @@ TEST_CASE("The clutch holds the device pose, ramps the force out and in, and let
     CHECK(forceOf(rig.step()) == doctest::Approx(forceOf(held)).epsilon(1e-6));
 }
 
-TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes back when there is a way") {
+TEST_CASE("A trapped tool is held, its force ramps out over 0.2 s and returns when a motion is found") {
     HapticRig rig(handScene(), at(0, 0, 0));
     rig.show(emptySet(1));
     rig.age = false;
@@ -193,8 +194,8 @@ TEST_CASE("Trapped: the tool is held, the force ramps out over 0.2 s, and comes 
     CHECK(record.tool.position == record.device.position);
 }
 
-TEST_CASE("A scene older than 100 ms fades the force over half a second, says so, and a fresh frame brings "
-          "it back") {
+TEST_CASE("A scene older than 100 ms fades the force over half a second, sets the state, and a fresh frame "
+          "restores the force") {
     auto rig = pressedRig();
     const double full = forceOf(rig.step());
     rig.age = true;
@@ -218,8 +219,7 @@ TEST_CASE("A scene older than 100 ms fades the force over half a second, says so
     CHECK(forceOf(record) == doctest::Approx(full));
 }
 
-TEST_CASE("A source that has ended does not age in lockstep, and a set that is not the newest ages by its "
-          "own stamp") {
+TEST_CASE("A source that has ended does not age in lockstep, and an older active set ages by its own stamp") {
     auto rig = pressedRig();
     rig.age = true;
     rig.captured = rig.time;
@@ -270,7 +270,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A rotation that is none, of zeros or without a length, does no lasting harm") {
+TEST_CASE("A rotation of zeros or without a length does no lasting harm") {
     for (const dquat& none :
          {dquat(0.0, 0.0, 0.0, 0.0), dquat(1e200, 0.0, 1e200, 0.0), dquat(1e-200, 0.0, 0.0, 0.0)}) {
         auto rig = pressedRig();

@@ -33,7 +33,7 @@ Fixtures raisedWall() {
 
 } // namespace
 
-TEST_CASE("Over a static wall the wrench is the same with the passivity controller and without it") {
+TEST_CASE("On a static wall the wrench is the same with and without the passivity controller") {
     HapticRig with(handScene(), at(0, 0, 0.02)), without(handScene(), at(0, 0, 0.02));
     CHECK(with.options.passivityController); // the default
     without.options.passivityController = false;
@@ -57,7 +57,8 @@ TEST_CASE("Over a static wall the wrench is the same with the passivity controll
     CHECK(with.cycle->passivity().taken() == 0.0);
 }
 
-TEST_CASE("A wall that jumps is counted, and the hand is damped while it moves and owes, within all limits") {
+TEST_CASE(
+    "A wall that jumps is counted, and the hand is damped within all limits until the energy is paid back") {
     auto rig = restingRig(true), off = restingRig(false);
     const double force = glm::length(rig.step().wrench.force);
     off.step();
@@ -86,7 +87,7 @@ TEST_CASE("A wall that jumps is counted, and the hand is damped while it moves a
     CHECK(rig.cycle->passivity().taken() > 0.0);
 }
 
-TEST_CASE("Forces off: nothing is added to the zero, and an old debt is forgotten") {
+TEST_CASE("With forces off the wrench stays zero, and an old energy debt is forgotten") {
     auto rig = restingRig(true);
     rig.show(raisedWall());
     rig.age = false;
@@ -101,7 +102,7 @@ TEST_CASE("Forces off: nothing is added to the zero, and an old debt is forgotte
     CHECK(rig.cycle->passivity().debt() == 0.0);
 }
 
-TEST_CASE("What guidance does to the hand is not taken for generation") {
+TEST_CASE("Guidance work on the hand does not count as generated energy") {
     Scene scene = handScene();
     scene.fixtures.emplace_back();
     scene.fixtures.back().role = Role::Guidance;
@@ -123,8 +124,8 @@ TEST_CASE("What guidance does to the hand is not taken for generation") {
     CHECK(rig.cycle->passivity().generated() <= 1e-9);
 }
 
-TEST_CASE("Slow turns lower the automatic stiffness smoothly and the margin comes back to 0; lockstep "
-          "changes nothing") {
+TEST_CASE("Slow ticks lower the automatic stiffness smoothly, the margin returns to 0, and lockstep is "
+          "unaffected") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
     StepInput input;
     input.deviceThandle = rig.hand;
@@ -151,8 +152,8 @@ TEST_CASE("Slow turns lower the automatic stiffness smoothly and the margin come
     CHECK(std::abs(record.marginUncoupled) <= 1e-6);
 }
 
-TEST_CASE("An orientation that is not of unit length is the same orientation, and lets no wrench through a "
-          "dead axis") {
+TEST_CASE(
+    "An orientation of non-unit length means the same orientation and sends no wrench through a dead axis") {
     HapticRig unit(handScene("w5d"), at(0, 0, 0.02)), scaled(handScene("w5d"), at(0, 0, 0.02));
     for (HapticRig* rig : {&unit, &scaled}) {
         rig->show(wallSet());

@@ -36,7 +36,7 @@ Scene guidedScene(Scene::Haptics::GuidanceMode mode) {
 
 } // namespace
 
-TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, and never into a region") {
+TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, and never enters a region") {
     HapticRig rig(guidedScene(Scene::Haptics::GuidanceMode::Target), at(0, 0, 0.03));
     rig.show(wallSet());
     rig.age = false;
@@ -62,7 +62,7 @@ TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, 
     CHECK(glm::length(record.wrench.force) <= 1e-9);
 }
 
-TEST_CASE("Guidance in mode paper adds a spring of its own, and both springs keep within the passive bound") {
+TEST_CASE("Guidance in mode paper adds a spring of its own, and both springs stay within the passive bound") {
     HapticRig rig(guidedScene(Scene::Haptics::GuidanceMode::Paper), at(0, 0, 0.03));
     CHECK(rig.options.springs.stiffness == doctest::Approx(800.0));
     CHECK(rig.options.springs.guidanceStiffness == doctest::Approx(200.0));
@@ -79,8 +79,8 @@ TEST_CASE("Guidance in mode paper adds a spring of its own, and both springs kee
     CHECK(record.wrench.force.z == doctest::Approx(2.0)); // saturated
 }
 
-TEST_CASE("What the device cannot render stays as residual, in the handle's frame, and the columns keep the "
-          "whole") {
+TEST_CASE("The wrench that the device cannot render becomes the residual in the handle's frame, and the "
+          "columns sum to the whole") {
     HapticRig rig(guidedScene(Scene::Haptics::GuidanceMode::Target), at(0, 0, 0.03));
     rig.options.device = devicePreset("w5d");
     rig.hand.rotation = rotationExp({1.2, 0.3, 0.0});
@@ -150,7 +150,7 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
     CHECK(record.tool.position.z >= 0.01);
 }
 
-TEST_CASE("Turns that come late put no fading off, and make no force come back sooner") {
+TEST_CASE("Late ticks do not delay fading out and do not hasten the return of a force") {
     Scene scene = handScene();
     scene.haptics.stiffness = 1000.0; // given: not lowered for the late ticks
     HapticRig rig(scene, at(0.0, 0.0, 0.03));
@@ -170,7 +170,7 @@ TEST_CASE("Turns that come late put no fading off, and make no force come back s
     CHECK(forceOf(rig.ticks(251)) == doctest::Approx(full));
 }
 
-TEST_CASE("Margins are those of the measured period when there is one, and unknown without a known b") {
+TEST_CASE("Margins use the measured period if there is one, and are unknown without a known b") {
     HapticRig rig(handScene(), at(0, 0, 0.03));
     StepInput input;
     input.deviceThandle = rig.hand;
@@ -182,8 +182,7 @@ TEST_CASE("Margins are those of the measured period when there is one, and unkno
     CHECK_THROWS_AS(HapticRig(handScene("nothing"), at(0, 0, 0)), BadInput);
 }
 
-TEST_CASE(
-    "The low-pass's delay lowers the automatic stiffness, and limits of the scene override the preset") {
+TEST_CASE("The low-pass delay lowers the automatic stiffness, and limits of the scene override the preset") {
     Scene scene = handScene();
     scene.haptics.lowpassHz = 100.0;
     scene.haptics.forceLimit = 3.0;
@@ -201,7 +200,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "A delay of n turns to the hand lowers the automatic stiffness by 1 + 2n and leaves a margin of zero") {
+    "A delay of n ticks to the hand lowers the automatic stiffness by 1 + 2n and leaves a margin of zero") {
     for (const uint32_t delay : {0u, 1u, 3u, 64u}) {
         Scene scene = handScene();
         scene.haptics.delay = delay;
@@ -212,7 +211,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A set that does not cover the tool is refused and the one in force is kept") {
+TEST_CASE("A set that does not cover the tool is rejected and the active one is kept") {
     HapticRig rig(handScene(), at(0, 0, 0.05));
     rig.show(wallSet(1));
     rig.age = false;
@@ -229,7 +228,7 @@ TEST_CASE("A set that does not cover the tool is refused and the one in force is
     CHECK(record.frame == 1);
 }
 
-TEST_CASE("The same run twice gives the same bits, and turns allocate nothing") {
+TEST_CASE("The same run twice gives the same bits, and steps do not allocate") {
     std::vector<StepRecord> first;
     for (int run = 0; run < 2; ++run) {
         HapticRig rig(guidedScene(Scene::Haptics::GuidanceMode::Target), at(0, 0, 0.02));

@@ -53,7 +53,7 @@ struct Slots {
 
 } // namespace
 
-TEST_CASE("Frames read in place give the sets that copied ones give, also when the camera was opened anew") {
+TEST_CASE("Frames read in place give the sets of copied ones, also after the camera was opened again") {
     for (const glm::uvec2 size : {glm::uvec2(123, 77), glm::uvec2(160, 90), glm::uvec2(1, 1)}) {
         CAPTURE(size.y);
         const CameraInfo camera = pinholeCamera(size.x, size.y);
@@ -79,7 +79,7 @@ TEST_CASE("Frames read in place give the sets that copied ones give, also when t
 }
 
 TEST_CASE(
-    "A frame in whole pages is not copied: what the camera writes until the passes run is what they read") {
+    "A frame in whole pages is not copied: the passes read what the camera has written until they run") {
     const CameraInfo camera = pinholeCamera(90, 60);
     Scene scene = classesScene(3);
     scene.holdSeconds = 0.0;
@@ -94,8 +94,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE(
-    "A camera's blocks are imported once each, and one that the device reads at this moment is copied") {
+TEST_CASE("A camera's blocks are imported once each, and a block that the device is reading is copied") {
     if (!canImport()) {
         return;
     }
@@ -116,7 +115,7 @@ TEST_CASE(
     CHECK(rig.choose(blocks, 3).slot == 2);
 }
 
-TEST_CASE("Frames elsewhere than in whole pages are copied, by turns and never over the one in flight") {
+TEST_CASE("Frames outside whole pages are copied in alternation and never over the one in flight") {
     Slots rig;
     const Image& image = rig.image;
     Frame::Content content;
@@ -137,7 +136,7 @@ TEST_CASE("Frames elsewhere than in whole pages are copied, by turns and never o
     CHECK_FALSE(rig.slots[0].depth.imported());
 }
 
-TEST_CASE("Colour alone is read in place where depth lies in a driver's memory") {
+TEST_CASE("Colour alone is read in place when depth is in a driver's memory") {
     if (!canImport()) {
         return;
     }
@@ -152,7 +151,7 @@ TEST_CASE("Colour alone is read in place where depth lies in a driver's memory")
     CHECK(rig.slots[2].colour.imported());
 }
 
-TEST_CASE("Memory that its camera has let go makes room, and what finds none is copied") {
+TEST_CASE("Memory released by its camera makes room, and memory without room is copied") {
     if (!canImport()) {
         return;
     }
@@ -173,9 +172,8 @@ TEST_CASE("Memory that its camera has let go makes room, and what finds none is 
     CHECK(rig.choose(many).slot == 1);
 }
 
-TEST_CASE(
-    "Depth in a driver's memory is read there again after its camera was pulled out and is back, whatever "
-    "colour it lay beside") {
+TEST_CASE("Depth in a driver's memory is read in place again after its camera was replugged, with any colour "
+          "memory") {
     if (!canImport()) {
         return;
     }
@@ -199,7 +197,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("Where the device cannot import depth it is copied, and colour is read in place as before") {
+TEST_CASE("If the device cannot import depth it is copied, and colour is still read in place") {
     if (!canImport()) {
         return;
     }

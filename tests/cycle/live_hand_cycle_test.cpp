@@ -43,7 +43,8 @@ TEST_CASE(
     CHECK(record.tool.rotation.y == doctest::Approx(start.rotation.y));
 }
 
-TEST_CASE("A device that goes away and comes back elsewhere, with dead-man and clutch, moves no tool") {
+TEST_CASE(
+    "A device that disappears and returns elsewhere, with dead-man and clutch, does not move the tool") {
     HapticRig rig(handScene("falcon"), at(0.0, 0.0, 0.05));
     rig.show(wallSet());
     rig.age = false;
@@ -60,7 +61,8 @@ TEST_CASE("A device that goes away and comes back elsewhere, with dead-man and c
     CHECK(glm::distance(rig.ticks(500).tool.position, gone.tool.position) < 1e-6);
 }
 
-TEST_CASE("A device of three axes gets force and no torque, however it is mounted; the torque is left over") {
+TEST_CASE(
+    "A device of three axes gets force but no torque in any mounting, and the torque becomes residual") {
     for (const double angle : {0.0, 0.7, 2.5}) {
         Scene scene = handScene("falcon");
         scene.hand.baseRdevice = rotationExp({angle, 0.3 * angle, 0.0});

@@ -55,7 +55,7 @@ TEST_CASE("A trace without events is a valid file that names the process") {
     CHECK(json["otherData"]["events"] == 0);
 }
 
-TEST_CASE("Spans and instants come with their times in microseconds, their track and their detail") {
+TEST_CASE("Spans and instants have their times in microseconds, their track and their detail") {
     TraceFile file;
     Trace trace(file.path);
     TraceTrack& first = trace.track("first \"track\"");
@@ -90,8 +90,8 @@ TEST_CASE("Spans and instants come with their times in microseconds, their track
     CHECK(names[spans[1]["tid"]] == "second");
 }
 
-TEST_CASE(
-    "The file stays within its bound: short frequent spans go first, long ones are kept, all are counted") {
+TEST_CASE("The file stays within its bound: short frequent spans are dropped first, long ones are kept, all "
+          "are counted") {
     TraceFile file;
     constexpr uint64_t kBound = 60'000;
     constexpr int kTurns = 3000;
@@ -117,7 +117,7 @@ TEST_CASE(
     CHECK(counts["events"] == shorts + kTurns / 100);
 }
 
-TEST_CASE("Past the bound nothing more is written and the file is still valid") {
+TEST_CASE("Beyond the bound nothing more is written and the file is still valid") {
     TraceFile file;
     Trace trace(file.path, 8192);
     TraceTrack& track = trace.track("busy", 1024);
@@ -133,7 +133,7 @@ TEST_CASE("Past the bound nothing more is written and the file is still valid") 
     CHECK(json["otherData"]["left_out_for_size"] == 500 - written);
 }
 
-TEST_CASE("Events that find the ring full are lost and counted") {
+TEST_CASE("Events are dropped and counted when the queue is full") {
     TraceFile file;
     Trace trace(file.path);
     TraceTrack& track = trace.track("small", 4);
@@ -186,7 +186,7 @@ TEST_CASE("Tracks of several threads are collected while they write") {
     CHECK(events + json["otherData"]["lost"].get<size_t>() == kThreads * kEvents);
 }
 
-TEST_CASE("A frame's passes lie one after the other from its submission on, on the device's track") {
+TEST_CASE("A frame's passes follow each other from its submission on, on the device's track") {
     TraceFile file;
     CadenceTrace trace(file.path, {"classify", "surface"});
     FrameReport report;
@@ -221,8 +221,8 @@ TEST_CASE("A frame's passes lie one after the other from its submission on, on t
     CHECK(eventsNamed(json, "turn")[0]["args"]["woken_late_us"] == doctest::Approx(5.0));
 }
 
-TEST_CASE("A trace that cannot be written says so with its name, and an earlier one stands until the new one "
-          "is whole") {
+TEST_CASE("A trace that cannot be written is reported by name, and an earlier one stays until the new one is "
+          "complete") {
     CHECK_THROWS_WITH_AS(Trace("/no/such/folder/run.json"),
                          "trace /no/such/folder/run.json: cannot be written", Error);
     TraceFile file;

@@ -18,7 +18,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("A stamp that is missing, ahead or back has a status, and a clock that jumps has a call") {
+TEST_CASE("Missing, future and decreasing stamps each have a status, and a clock jump has a call") {
     Engine engine(wallScene(), smallCamera());
     CameraPort port = engine.camera();
     const Wall wall;
@@ -63,7 +63,7 @@ TEST_CASE("Every accepted frame is processed or counted as dropped, and the newe
     CHECK(port.processed() >= 1);
 }
 
-TEST_CASE("A second camera, an unknown one and a second hand are refused with one clear line") {
+TEST_CASE("A second camera, an unknown one and a second hand are rejected with one clear line") {
     const std::vector<CameraModel> two{smallCamera(), smallCamera()};
     CHECK_THROWS_WITH_AS(Engine(wallScene(), two),
                          "cameras: 2 (allowed: 1; several cameras are not supported yet)", BadInput);
@@ -76,7 +76,7 @@ TEST_CASE("A second camera, an unknown one and a second hand are refused with on
     CHECK_THROWS_AS(Scene::fromText("fixtures: 3"), BadInput);
 }
 
-TEST_CASE("A lent frame is released exactly once, whatever becomes of it") {
+TEST_CASE("A borrowed frame is released exactly once, whatever happens to it") {
     const Wall wall;
     constexpr int kFrames = 60;
     std::vector<std::atomic<int>> released(kFrames + 3);
@@ -96,7 +96,7 @@ TEST_CASE("A lent frame is released exactly once, whatever becomes of it") {
     }
 }
 
-TEST_CASE("Depth in metres that is lent is copied and released at once") {
+TEST_CASE("Borrowed depth in metres is copied and released at once") {
     CameraModel model = smallCamera();
     model.depthFormat = DepthFormat::Metres;
     Engine engine(wallScene(), model);
@@ -109,7 +109,7 @@ TEST_CASE("Depth in metres that is lent is copied and released at once") {
     CHECK(released == 1);
 }
 
-TEST_CASE("A step allocates nothing and leaves the caller's floating-point mode as it was") {
+TEST_CASE("A step does not allocate and keeps the caller's floating-point mode") {
     Engine engine(wallScene(), smallCamera());
     CameraPort port = engine.camera();
     HandPort hand = engine.openHand(startAt(0.5));
@@ -144,7 +144,7 @@ TEST_CASE("A step allocates nothing and leaves the caller's floating-point mode 
     CHECK(threadAllocationCount() == before + 1); // the count counts
 }
 
-TEST_CASE("A step says when there is no scene, when it is old and when time goes back") {
+TEST_CASE("A step reports a missing scene, an old scene and time that goes back") {
     Engine engine(wallScene(), smallCamera());
     CameraPort port = engine.camera();
     HandPort hand = engine.openHand(startAt(0.5));

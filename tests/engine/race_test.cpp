@@ -12,7 +12,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("Frames, steps, a lost device and destruction may meet") {
+TEST_CASE("Frames, steps, a lost device and destruction may overlap") {
     const auto trigger =
         std::filesystem::temp_directory_path() / ("fathom-engine-race-" + std::to_string(now()));
     const Losing losing(trigger.string(), 1);
@@ -52,7 +52,7 @@ TEST_CASE("Frames, steps, a lost device and destruction may meet") {
     haptic.join();
 }
 
-TEST_CASE("An engine that gets no frame ends at once") {
+TEST_CASE("An engine without frames ends at once") {
     for (int i = 0; i < 3; ++i) {
         const Engine engine(wallScene(), smallCamera());
     }

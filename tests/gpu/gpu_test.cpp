@@ -19,7 +19,7 @@
 using namespace fathom;
 using fathom::test::vulkan;
 
-TEST_CASE("a device tells its facts and takes part in the list") {
+TEST_CASE("A device reports its facts and is in the list") {
     const DeviceFacts& facts = vulkan().device.facts();
     CHECK(facts.name != "");
     CHECK(facts.subgroupSize >= 1);
@@ -27,7 +27,7 @@ TEST_CASE("a device tells its facts and takes part in the list") {
     CHECK(gpu::Device::list(vulkan().instance).size() >= 1);
 }
 
-TEST_CASE("a device that does not exist is refused with the list of those that do") {
+TEST_CASE("A missing device is rejected with the list of existing ones") {
     const std::string here = vulkan().device.facts().name;
     try {
         gpu::Device none(vulkan().instance, "no such device");
@@ -40,7 +40,7 @@ TEST_CASE("a device that does not exist is refused with the list of those that d
     CHECK_THROWS_AS(gpu::Device(vulkan().instance, "99"), BadInput);
 }
 
-TEST_CASE("a device is chosen by a part of its name, whatever the case of its letters") {
+TEST_CASE("A device is chosen by a part of its name, ignoring case") {
     std::string name = vulkan().device.facts().name;
     for (const bool upper : {false, true}) {
         std::string part = name.substr(1, 5);
@@ -51,7 +51,7 @@ TEST_CASE("a device is chosen by a part of its name, whatever the case of its le
     }
 }
 
-TEST_CASE("fill, update and copy land in the order they were recorded") {
+TEST_CASE("Fill, update and copy take effect in the order in which they were recorded") {
     gpu::Device& device = vulkan().device;
     for (uint64_t words : {1u, 5u, 1000u}) { // not multiples of anything
         const gpu::Buffer a(device, words * 4, gpu::MemoryKind::Device, "a"),
@@ -75,7 +75,7 @@ TEST_CASE("fill, update and copy land in the order they were recorded") {
     }
 }
 
-TEST_CASE("a buffer beyond the device's limit is refused by name") {
+TEST_CASE("A buffer beyond the device's limit is rejected by name") {
     const uint64_t limit = vulkan().device.facts().maxStorageBufferBytes;
     if (limit > (uint64_t{1} << 32)) {
         MESSAGE("the device has no limit worth testing");
@@ -100,7 +100,7 @@ gpu::Pipeline ceiling(const gpu::Device& device, uint32_t group, uint32_t rounds
 
 } // namespace
 
-TEST_CASE("the stopwatch measures the work between two marks, in milliseconds") {
+TEST_CASE("The stopwatch measures the work between two marks, in milliseconds") {
     using Clock = std::chrono::steady_clock;
     gpu::Device& device = vulkan().device;
     gpu::Stopwatch watch(device, 3);
@@ -137,7 +137,7 @@ TEST_CASE("the stopwatch measures the work between two marks, in milliseconds") 
     CHECK(intervals[0] + intervals[1] <= wall);
 }
 
-TEST_CASE("A pipeline that is asked for again is compiled once, and none that is in use is let go") {
+TEST_CASE("A pipeline is compiled once, and pipelines in use are never dropped") {
     const gpu::Device device(vulkan().instance, vulkan().device.facts().name);
     const gpu::Pipeline kept = ceiling(device, 64, 1);
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
@@ -156,15 +156,14 @@ TEST_CASE("A pipeline that is asked for again is compiled once, and none that is
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
 }
 
-TEST_CASE("the software device is asked for two threads a processor on two processors, and for its own "
-          "choice on others") {
+TEST_CASE("The software device gets two threads per processor on two processors, and its default elsewhere") {
     CHECK(gpu::softwareThreads(1) == std::nullopt);
     CHECK(gpu::softwareThreads(2) == 4u);
     CHECK(gpu::softwareThreads(3) == std::nullopt);
     CHECK(gpu::softwareThreads(16) == std::nullopt);
 }
 
-TEST_CASE("who has said how many threads the software device has is obeyed") {
+TEST_CASE("A thread count set by the user for the software device is kept") {
     const char* was = std::getenv("LP_NUM_THREADS");
     const std::string before = was == nullptr ? "" : was;
     REQUIRE(::setenv("LP_NUM_THREADS", "3", 1) == 0);

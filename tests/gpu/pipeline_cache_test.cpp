@@ -75,8 +75,8 @@ std::string contentOf(const fs::path& file) {
 
 } // namespace
 
-TEST_CASE(
-    "a device opens over a pipeline file that is cut, foreign, empty or changed, and stores a whole one") {
+TEST_CASE("A device opens with a pipeline file that is truncated, foreign, empty or changed, and stores a "
+          "valid one") {
     const CacheFolder cache;
     const size_t stored = cache.openOnce();
     REQUIRE(stored > 0);
@@ -95,7 +95,7 @@ TEST_CASE(
     CHECK(cache.files() == 1);
 }
 
-TEST_CASE("a pipeline file larger than any real one is not read, and one in its place is whole again") {
+TEST_CASE("A pipeline file larger than any real one is not read and is replaced by a valid one") {
     const CacheFolder cache;
     const size_t stored = cache.openOnce();
     const std::string whole = contentOf(cache.file());
@@ -105,8 +105,7 @@ TEST_CASE("a pipeline file larger than any real one is not read, and one in its 
     CHECK(contentOf(cache.file()).size() == whole.size());
 }
 
-TEST_CASE(
-    "a device opens and ends with a folder where its pipeline file should be, and leaves nothing there") {
+TEST_CASE("A device opens and closes with a folder in place of its pipeline file and leaves no file behind") {
     const CacheFolder cache;
     fs::create_directories(cache.file() / "in the way");
     CHECK(cache.openOnce() == 0);
@@ -115,14 +114,14 @@ TEST_CASE(
     CHECK(cache.openOnce() > 0);
 }
 
-TEST_CASE("a pipe in place of the pipeline file is not waited for, and the next one is whole") {
+TEST_CASE("A pipe in place of the pipeline file does not block and is replaced by a valid file") {
     const CacheFolder cache;
     fs::create_directories(cache.file().parent_path());
     REQUIRE(::mkfifo(cache.file().c_str(), 0600) == 0);
     CHECK(cache.openOnce() > 0);
 }
 
-TEST_CASE("pipelines that cannot be written whole leave the file as it was and nothing beside it") {
+TEST_CASE("A failed write of pipelines leaves the old file unchanged and no temporary file") {
     const CacheFolder cache;
     const std::string old(100, 'o'), fresh(100'000, 'f');
     gpu::storePipelines(cache.file(), old);

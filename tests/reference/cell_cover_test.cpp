@@ -10,7 +10,7 @@
 using namespace fathom;
 using namespace fathom::testing;
 
-TEST_CASE("grid and octree spheres contain the mesh and stay within their number") {
+TEST_CASE("Grid and octree spheres contain the mesh and stay within their number") {
     const TriangleMesh mesh = boxMesh(dvec3(0.0), {0.12, 0.06, 0.03});
     const MeshDistance distance(mesh, true);
     for (size_t most : {1u, 10u, 100u}) {
@@ -23,7 +23,7 @@ TEST_CASE("grid and octree spheres contain the mesh and stay within their number
     }
 }
 
-TEST_CASE("at the same number of leaves our worst protrusion is not above that of grid and octree") {
+TEST_CASE("At the same number of leaves our worst protrusion is not above that of grid and octree") {
     for (const TriangleMesh& mesh :
          {boxMesh(dvec3(0.0), {0.12, 0.06, 0.03}), ringMesh(0.05, 0.015, 40, 20)}) {
         const MeshDistance distance(mesh, true);

@@ -123,7 +123,7 @@ std::vector<Sphere> randomSpheres(std::mt19937_64& random, size_t count, double 
 } // namespace
 
 TEST_CASE(
-    "the audit agrees with the literal definition on random scenes, walks, new sets and exempt leaves") {
+    "The audit agrees with the literal definition on random scenes, walks, new sets and exempt leaves") {
     std::mt19937_64 random(7);
     uint64_t escapes = 0;
     for (const size_t count : {size_t{0}, size_t{1}, size_t{37}, size_t{401}}) {
@@ -163,7 +163,7 @@ TEST_CASE(
     CHECK(escapes > 100); // the scenes do press on what they test
 }
 
-TEST_CASE("a tool that backs out of a region it was caught in uses its allowance and never penetrates") {
+TEST_CASE("A tool that backs out of a region that caught it uses its allowance and never penetrates") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     PenetrationAudit audit(tool);
@@ -178,7 +178,7 @@ TEST_CASE("a tool that backs out of a region it was caught in uses its allowance
 }
 
 TEST_CASE(
-    "an allowance shrinks and never grows: going back in by 1 mm after leaving is 1 mm of penetration") {
+    "An allowance shrinks and never grows: going back in by 1 mm after leaving is 1 mm of penetration") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     PenetrationAudit audit(tool);
@@ -192,7 +192,7 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the allowance of a new set is the depth at the pose its first tick starts from, not where it ends") {
+    "The allowance of a new set is the depth at the pose its first tick starts from, not where it ends") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene first = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     const Scene second = sceneOf({{{0.005, 0, 0}, 0.04}}, 2); // the region came 5 mm nearer
@@ -205,7 +205,7 @@ TEST_CASE(
     CHECK(audit.maxEscapeDepth() == doctest::Approx(0.0045).epsilon(1e-6));
 }
 
-TEST_CASE("a slow approach is seen in the very turn that touches, from wherever the last search was") {
+TEST_CASE("A slow approach is detected in the tick that touches, wherever the last search was") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     for (const double away : {0.0005, 0.0019, 0.0021, 0.0035, 0.0121, 0.0501}) {
@@ -220,7 +220,7 @@ TEST_CASE("a slow approach is seen in the very turn that touches, from wherever 
     }
 }
 
-TEST_CASE("a leaf flagged behind is counted apart and does not count as penetration") {
+TEST_CASE("A leaf flagged behind is counted separately and not as penetration") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     PenetrationAudit audit(tool);
@@ -234,8 +234,7 @@ TEST_CASE("a leaf flagged behind is counted apart and does not count as penetrat
     CHECK(audit.maxPenetration() == doctest::Approx(0.02).epsilon(1e-6));
 }
 
-TEST_CASE(
-    "the audit sees nothing before the first set and refuses a grid of another set or a pose that is NaN") {
+TEST_CASE("The audit ignores ticks before the first set and rejects a grid of another set and a NaN pose") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene scene = sceneOf({{{0, 0, 0}, 0.04}}, 1);
     const Scene other = sceneOf({{{0, 0, 0}, 0.04}, {{1, 0, 0}, 0.04}}, 2);
@@ -246,7 +245,7 @@ TEST_CASE(
     CHECK_THROWS_AS(audit.tick(scene.set, scene.grid, at(1), at(std::nan(""))), Error);
 }
 
-TEST_CASE("a set with a sphere that is not finite is audited without it") {
+TEST_CASE("A set with a sphere that is not finite is audited without it") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Scene scene = sceneOf({{{nan, 0, 0}, 0.04}, {{0, 0, 0}, 0.04}}, 1);
@@ -255,7 +254,7 @@ TEST_CASE("a set with a sphere that is not finite is audited without it") {
     CHECK(audit.maxPenetration() == doctest::Approx(0.005).epsilon(1e-6));
 }
 
-TEST_CASE("the audit of 256 leaves over 60 thousand spheres is timed in free water and in contact") {
+TEST_CASE("The audit of 256 leaves and 60 thousand spheres is timed in free space and in contact") {
     std::vector<Sphere> leaves, wall;
     for (int i = 0; i < 256; ++i) {
         const int row = i / 16;

@@ -9,7 +9,7 @@
 using namespace fathom;
 
 TEST_CASE(
-    "In a fan neighbouring beams are equal angles apart, and every beam's points project to its pixel") {
+    "Neighbouring beams of a fan are equal angles apart, and every beam's points project to its pixel") {
     Intrinsics fan{.width = 61, .height = 41, .fx = 30.0, .fy = 25.0, .cx = 29.5, .cy = 21.0, .fan = true};
     CHECK_FALSE(fan.pinhole());
     CHECK_FALSE(fan.distorted());
@@ -27,7 +27,7 @@ TEST_CASE(
     }
 }
 
-TEST_CASE("A beam's sigma grows with range by both its parts, and three of them exceed its half width") {
+TEST_CASE("A beam's sigma grows with range by both its parts, and three sigma exceed its half width") {
     const BeamSigma beam{0.004, 0.001, 0.02};
     CHECK(beam.at(0.0) == doctest::Approx(0.004));
     const double across = 5.0 * std::tan(0.01) / std::sqrt(3.0);

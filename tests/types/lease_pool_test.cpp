@@ -21,12 +21,12 @@ auto makePool(uint32_t readers) {
 
 } // namespace
 
-TEST_CASE("a pool has nothing to lease before the first publish") {
+TEST_CASE("A pool has nothing to lease before the first publish") {
     auto pool = makePool(1);
     CHECK_FALSE(pool.newest());
 }
 
-TEST_CASE("a leased value is never written while newer ones are published") {
+TEST_CASE("A leased value is never written while newer ones are published") {
     auto pool = makePool(1);
     pool.back().words.fill(1);
     pool.publish();
@@ -40,7 +40,7 @@ TEST_CASE("a leased value is never written while newer ones are published") {
     CHECK(pool.newest()->words[0] == 19);
 }
 
-TEST_CASE("two readers under a writer never see a torn value and never an older one") {
+TEST_CASE("Two readers under a writer never see a torn value and never an older one") {
     auto pool = makePool(2);
     constexpr uint64_t kCount = 50000;
     std::atomic<uint64_t> torn{0}, older{0};

@@ -8,7 +8,7 @@
 
 using namespace fathom;
 
-TEST_CASE("the logarithm of a rotation inverts its exponential from 1e-12 rad to just under pi") {
+TEST_CASE("The logarithm of a rotation inverts its exponential from 1e-12 rad to just under pi") {
     const dvec3 axis = glm::normalize(dvec3(1.0, -2.0, 0.5));
     for (double angle : {1e-12, 1e-7, 1e-3, 0.5, 2.0, 3.14159}) {
         const dvec3 v = rotationLog(rotationExp(axis * angle));
@@ -18,7 +18,7 @@ TEST_CASE("the logarithm of a rotation inverts its exponential from 1e-12 rad to
     CHECK(rotationLog(dquat(1, 0, 0, 0)) == dvec3(0.0));
 }
 
-TEST_CASE("a pose times its inverse is the identity and half-way interpolation halves the arc") {
+TEST_CASE("A pose times its inverse is the identity and half-way interpolation halves the arc") {
     const Pose a{{1, 2, 3}, rotationExp({0.3, -0.2, 1.0})};
     const Pose id = a * inverse(a);
     CHECK(glm::length(id.position) < 1e-14);
@@ -28,7 +28,7 @@ TEST_CASE("a pose times its inverse is the identity and half-way interpolation h
     CHECK(rotationLog(mid.rotation).z == doctest::Approx(0.5));
 }
 
-TEST_CASE("ray and project invert each other through the freiburg1 lens over the whole frame") {
+TEST_CASE("Ray and project invert each other through the freiburg1 lens over the whole image") {
     const Intrinsics lens{640, 480, 517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     double worst = 0.0;
     for (uint32_t v = 0; v < lens.height; v += 13) {
@@ -41,7 +41,7 @@ TEST_CASE("ray and project invert each other through the freiburg1 lens over the
     CHECK(worst < 1e-9);
 }
 
-TEST_CASE("a sphere tree of any leaf count encloses its leaves and keeps every one") {
+TEST_CASE("A sphere tree of any leaf count encloses its leaves and keeps every one") {
     for (size_t count : {1u, 2u, 3u, 7u, 64u, 100u}) {
         std::vector<Sphere> leaves;
         for (size_t i = 0; i < count; ++i) {
@@ -58,7 +58,7 @@ TEST_CASE("a sphere tree of any leaf count encloses its leaves and keeps every o
     }
 }
 
-TEST_CASE("the tree validator names a child that sticks out") {
+TEST_CASE("The tree validator names a child that sticks out") {
     SphereTree tree = buildSphereTree(std::vector<Sphere>{{{0, 0, 0}, 1}, {{3, 0, 0}, 1}});
     tree.nodes[1].radius = 5.0;
     CHECK(validate(tree) == "node 0 does not enclose its child 1");

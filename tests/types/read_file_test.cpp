@@ -10,7 +10,7 @@
 
 using namespace fathom;
 
-TEST_CASE("A file is read to its end or one byte past the bound") {
+TEST_CASE("A file is read to its end or to one byte beyond the limit") {
     const auto file = std::filesystem::temp_directory_path() / "fathom-read-file-test";
     for (size_t size : {size_t{0}, size_t{1}, size_t{99}, size_t{100}, size_t{101}, size_t{200'000}}) {
         std::string content(size, 'a');
@@ -26,7 +26,7 @@ TEST_CASE("A file is read to its end or one byte past the bound") {
     CHECK_FALSE(readFileAtMost(std::filesystem::temp_directory_path(), 100));
 }
 
-TEST_CASE("A file larger than its reader's bound is refused with both sizes") {
+TEST_CASE("A file larger than its reader's limit is rejected with both sizes") {
     const auto file = std::filesystem::temp_directory_path() / "fathom-read-whole-file-test";
     const auto refusal = [](const std::filesystem::path& path) -> std::string {
         try {
@@ -47,8 +47,7 @@ TEST_CASE("A file larger than its reader's bound is refused with both sizes") {
     CHECK(refusal("/dev/zero") == "/dev/zero: file: a pipe or a device (allowed: a readable text)");
 }
 
-TEST_CASE(
-    "A pipe, a device or a folder is no file to read, whatever its name, and a link is what it leads to") {
+TEST_CASE("A pipe, a device or a folder is not readable as a file, and a link counts as its target") {
     const auto folder = std::filesystem::temp_directory_path() / "fathom-no-file-test";
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
@@ -71,7 +70,7 @@ TEST_CASE(
     std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("A file lies inside a folder when the links on its way lead nowhere else, whatever its name says") {
+TEST_CASE("A file is inside a folder when the links on its path stay there, whatever its name") {
     const auto above = std::filesystem::temp_directory_path() / "fathom-inside-test";
     std::filesystem::remove_all(above);
     std::filesystem::create_directories(above / "rec/rgb");
@@ -98,7 +97,7 @@ TEST_CASE("A file lies inside a folder when the links on its way lead nowhere el
     std::filesystem::remove_all(above);
 }
 
-TEST_CASE("A path stays inside when it is relative and never goes above where it starts") {
+TEST_CASE("A path stays inside when it is relative and never leads above its start") {
     for (const char* inside : {"", "a", "./a", "a/../b", "a/b/../../c", "...", "..a", "rgb/0.png"}) {
         CAPTURE(inside);
         CHECK(staysInside(inside));

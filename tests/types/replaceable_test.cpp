@@ -8,8 +8,7 @@
 
 using namespace fathom;
 
-TEST_CASE("A file may take the place of a file or of nothing, not of a folder, a device or one of the "
-          "system's names") {
+TEST_CASE("A file may replace a file or a free name, but not a folder, a device or a system name") {
     const testing::ScratchFolder folder;
     const std::filesystem::path file = folder.path() / "file", link = folder.path() / "link";
     std::ofstream(file) << "old";

@@ -9,7 +9,7 @@
 
 using namespace fathom;
 
-TEST_CASE("Each part of a job is done once, and what the members wrote is seen when it is over") {
+TEST_CASE("Each part of a job runs once, and its results are visible when the job is over") {
     for (const uint32_t members : {1u, 2u, 3u}) {
         CAPTURE(members);
         ThreadPool workers(members);
@@ -30,7 +30,7 @@ TEST_CASE("Each part of a job is done once, and what the members wrote is seen w
     }
 }
 
-TEST_CASE("A crew whose members sleep is woken by a call, and a job does not need them") {
+TEST_CASE("Sleeping workers are woken by wake(), and a job does not need them") {
     ThreadPool workers(3);
     std::this_thread::sleep_for(std::chrono::milliseconds(20)); // longer than they look out for work
     std::vector<std::thread::id> by(64);
@@ -56,7 +56,7 @@ TEST_CASE("A crew whose members sleep is woken by a call, and a job does not nee
     CHECK(std::ranges::count(by, std::thread::id()) == 0);
 }
 
-TEST_CASE("A crew ends at once, whatever its members are about when it does") {
+TEST_CASE("A thread pool ends at once, whatever its workers are doing") {
     for (int round = 0; round < 3000; ++round) {
         ThreadPool workers(3, std::chrono::microseconds(0));
         if (round % 2 == 0) {
@@ -65,7 +65,7 @@ TEST_CASE("A crew ends at once, whatever its members are about when it does") {
     }
 }
 
-TEST_CASE("Parts of n things cover each once and are never smaller than asked for") {
+TEST_CASE("Parts of n items cover each item once and are never smaller than requested") {
     ThreadPool workers(2);
     for (ThreadPool* who : {static_cast<ThreadPool*>(nullptr), &workers}) {
         for (const size_t n : {0u, 1u, 9u, 10u, 19u, 20u, 1000u, 1003u}) {

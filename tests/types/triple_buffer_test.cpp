@@ -9,7 +9,7 @@
 
 using namespace fathom;
 
-TEST_CASE("a mailbox hands over the newest value and only once") {
+TEST_CASE("A triple buffer passes on the newest value and only once") {
     TripleBuffer<int> box(7);
     CHECK(box.front() == 7);
     CHECK_FALSE(box.refresh());
@@ -22,7 +22,7 @@ TEST_CASE("a mailbox hands over the newest value and only once") {
     CHECK_FALSE(box.refresh());
 }
 
-TEST_CASE("a mailbox under two threads never shows a torn or an older value") {
+TEST_CASE("A triple buffer under two threads never shows a torn or an older value") {
     struct Value {
         std::array<uint64_t, 32> words{};
     };
@@ -52,7 +52,7 @@ TEST_CASE("a mailbox under two threads never shows a torn or an older value") {
     CHECK(older == 0);
 }
 
-TEST_CASE("a ring keeps the order and counts what a full ring dropped") {
+TEST_CASE("A queue keeps the order and counts the values that a full queue dropped") {
     SpscQueue<int> ring(3); // rounded up to 4
     for (int i = 0; i < 6; ++i) {
         CHECK(ring.push(i) == (i < 4));
@@ -66,7 +66,7 @@ TEST_CASE("a ring keeps the order and counts what a full ring dropped") {
     CHECK_FALSE(ring.pop(value));
 }
 
-TEST_CASE("a ring under two threads delivers every accepted value in order") {
+TEST_CASE("A queue under two threads delivers every accepted value in order") {
     SpscQueue<uint64_t> ring(64);
     constexpr uint64_t kCount = 200000;
     std::thread writer([&] {

@@ -44,7 +44,7 @@ std::vector<uint32_t> fewColours() {
 
 } // namespace
 
-TEST_CASE("YUYV unpacks to BT.601's red, green and blue within one step, for every luma and chroma") {
+TEST_CASE("YUYV unpacks to BT.601 red, green and blue within one step, for every luma and chroma") {
     double worst = 0.0;
     for (uint32_t luma = 0; luma < 256; ++luma) {
         worst = std::max(worst, largestError(luma));
@@ -60,7 +60,7 @@ TEST_CASE("The two pixels of a word have their own luma and one chroma") {
     CHECK(rgbaOfYuyv(0u)[0] == rgbaOfYuyv(0u)[1]);
 }
 
-TEST_CASE("Colours that come in pairs come back within two steps, greys within one and without chroma") {
+TEST_CASE("Colours in equal pairs return within two steps, greys within one and without chroma") {
     double worst = 0.0;
     for (uint32_t k = 0; k < 32 * 32 * 32; ++k) {
         const uint32_t c = 0xff000000u | (k & 31) * 8 | (k >> 5 & 31) * 8 << 8 | (k >> 10) * 8 << 16;
@@ -84,7 +84,7 @@ TEST_CASE("Colours that come in pairs come back within two steps, greys within o
     }
 }
 
-TEST_CASE("Two unlike pixels keep a luma each and share the mean of their chroma") {
+TEST_CASE("Two unlike pixels keep their own luma and share the mean of their chroma") {
     const auto wordOf = [](uint32_t a, uint32_t b) {
         const std::array<uint32_t, 2> in{a, b};
         std::array<uint32_t, 1> word{};
@@ -102,7 +102,8 @@ TEST_CASE("Two unlike pixels keep a luma each and share the mean of their chroma
     CHECK((red & 255) != (blue & 255));
 }
 
-TEST_CASE("Who reads a frame's colours gets the same of YUYV and of what it unpacks to, now or from a copy") {
+TEST_CASE(
+    "Readers of a frame's colours get the same from YUYV and its unpacked form, directly or from a copy") {
     const std::vector<uint32_t> rgba = fewColours();
     std::vector<uint32_t> words(rgba.size() / 2), unpacked(rgba.size());
     packYuyv(rgba, words);
