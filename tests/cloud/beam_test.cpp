@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sensors that measure along beams: a fan's points, range gates, spheres that grow by their own sigma, seen
-// and held, against the float64 twins; and nothing of it in the plan of a camera.
+// Sensors that measure along beams, against the float64 twins: points of a fan, range gates, and spheres that
+// grow by their own sigma, seen and held. The plan of a camera contains none of these.
 #include "engine/reference/hold.h"
 #include "tests/support/cloud_rig.h"
 
@@ -13,7 +13,7 @@ using namespace fathom::test;
 
 namespace {
 
-// 70 degrees across, centre off the middle.
+// 70 degrees wide, principal point off the middle.
 CameraInfo fanCamera(uint32_t width, uint32_t height) {
     CameraInfo camera = pinholeCamera(width, height);
     camera.depth.fan = true;
@@ -56,7 +56,7 @@ TEST_CASE("A fan's points are on its beams, and each sphere grows by three sigma
     for (const bool byPixel : {false, true}) {
         for (const auto& [width, height] : {std::pair(1u, 1u), {33u, 17u}, {64u, 48u}, {129u, 50u}}) {
             Scene scene = plainScene();
-            scene.errorBudget = 0.001; // thinning stays out all the same
+            scene.errorBudget = 0.001; // beams exclude thinning nevertheless
             scene.baseTcamera = {{0.3, -0.2, 0.1}, rotationExp({0.2, 0.1, -0.3})};
             CloudRig rig(scene, fanCamera(width, height), [&](Plan& plan) {
                 plan.byPixel = byPixel;
@@ -99,7 +99,7 @@ TEST_CASE("A range gate accepts points between two spheres about the sensor, inc
         CHECK(inside > 50);
         CHECK(outside > 50);
     }
-    // Exactly on a bound: 0.8 m straight ahead.
+    // A point exactly on a bound: 0.8 m straight ahead.
     CameraInfo one = fanCamera(1, 1);
     one.depth.cx = one.depth.cy = 0.0;
     CloudRig rig(scene, one);
@@ -159,5 +159,5 @@ TEST_CASE("A camera's plan has no beam features, and a fan's plan has only those
     camera.beam.reset();
     CHECK_FALSE(makePlan(scene, camera, 1, facts).beam);
     scene.fixtures = {guidanceClass("guide")};
-    CHECK_FALSE(makePlan(scene, fanCamera(64, 48), 1, facts).beam); // no sphere to grow
+    CHECK_FALSE(makePlan(scene, fanCamera(64, 48), 1, facts).beam); // no spheres, so nothing grows
 }

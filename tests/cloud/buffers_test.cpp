@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is allocated against what the plan says, for plans of every kind of device.
+// Compares the allocated buffers with the plan, for the plans of all kinds of devices.
 #include "tests/support/cloud_rig.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ bool built(const gpu::Buffer& buffer) {
     return static_cast<bool>(buffer);
 }
 
-// Each buffer exists exactly when the plan has it, and is as large as the plan says.
+// Each buffer exists exactly when it is planned, and has the planned size.
 void checkBuffers(const Plan& plan, const cloud::WorkBuffers& w, const cloud::SetBuffers& s,
                   uint64_t pixels) {
     CHECK(built(w.growth) == plan.thin);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// classify.comp against its float64 twin: class bits, the list of patches, counts.
+// Compares classify.comp with its float64 twin: class bits, the list of patches, counts.
 #include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
@@ -14,7 +14,7 @@ using namespace fathom::test;
 namespace {
 
 struct Agreement {
-    uint32_t marked = 0, different = 0, unsure = 0, wrong = 0; // wrong: different although sure
+    uint32_t marked = 0, different = 0, unsure = 0, wrong = 0; // wrong: different away from thresholds
 };
 
 Agreement compareMasks(const CloudRig& rig) {
@@ -33,7 +33,7 @@ Agreement compareMasks(const CloudRig& rig) {
     return a;
 }
 
-// Every patch with a class pixel is listed once, no other is; counters hold the sums of the masks.
+// Exactly the patches with a class pixel are listed, once each. Counters equal the sums over the masks.
 void checkList(CloudRig& rig) {
     const std::vector<uint32_t> masks = rig.masks(), listed = rig.listed();
     const shared::FrameCounters counters = rig.counters();
@@ -63,7 +63,7 @@ void checkList(CloudRig& rig) {
     }
 }
 
-// One frame that holds every colour with channels in steps, and greys, at one depth.
+// A frame at one depth with all colours on a grid of channel values, and greys.
 Image allColours(CameraInfo& camera) {
     camera = pinholeCamera(512, 128);
     Image image = drawnImage(camera, [](int, int) { return 1.0; });
@@ -80,8 +80,7 @@ Image allColours(CameraInfo& camera) {
 struct Bounds {
     std::optional<Band> hue, saturation, lightness;
 };
-// Bounds that exact quotients of bytes fall on: fifths, eighths, 17ths of 255 and bounds of three
-// decimals.
+// Bounds that exact quotients of bytes hit: fifths, eighths and 17ths of 255, and bounds of three decimals.
 const std::vector<Bounds> kBounds = {{Band{60, 120}, {}, {}},
                                      {Band{345, 15}, {}, {}},
                                      {Band{0, 0}, {}, {}},
@@ -225,7 +224,7 @@ TEST_CASE("Without colour, a class with colour gates accepts no pixel and a clas
     Scene scene = plainScene();
     scene.fixtures = {forbiddenClass("dark", 0.01), forbiddenClass("grey", 0.01),
                       forbiddenClass("any hue", 0.01), forbiddenClass("all", 0.02)};
-    scene.fixtures[0].lightness = Band{0, 0.5}; // black, which no colour reads as, lies in it
+    scene.fixtures[0].lightness = Band{0, 0.5}; // includes black, the value of a missing colour
     scene.fixtures[1].saturation = Band{0, 0.5};
     scene.fixtures[2].hue = Band{0, 360};
     CloudRig rig(scene, camera);

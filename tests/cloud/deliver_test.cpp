@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame leaves on the device of its counters and marks, and what of them the host gets: against the
-// class bits of its pixels, counted here.
+// Compares the delivered counters and marks with counts of the pixels' class bits, and checks that the device
+// has cleared them.
 #include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
 
@@ -12,7 +12,7 @@ using namespace fathom::test;
 
 namespace {
 
-// A frame finds nothing counted: indirect arguments of no groups by one by one, and zeros.
+// The cleared state: indirect arguments of 0 x 1 x 1 groups, and zeros.
 void checkCleared(const CloudRig& rig) {
     const cloud::WorkBuffers& work = rig.cycle().work();
     const auto words = verify::readBack<uint32_t>(vulkan().device, work.counters);
@@ -38,8 +38,8 @@ void checkDelivered(const CloudRig& rig) {
     const auto patches = static_cast<uint32_t>(std::ranges::count(expected, 1u));
     CHECK(counters.classPixels[0] == pixels);
     CHECK(counters.classPixels[1] == pixels);
-    CHECK(counters.guidedGroups.w == patches); // both classes take every point
-    CHECK(counters.patchGroups.x >= patches);  // and patches whose points are remembered
+    CHECK(counters.guidedGroups.w == patches); // both classes accept every point
+    CHECK(counters.patchGroups.x >= patches);  // also counts patches whose memory holds points
     CHECK(counters.patchGroups.x == listed.size() - static_cast<size_t>(std::ranges::count(listed, 0u)));
     for (size_t patch = 0; patch < expected.size(); ++patch) {
         CAPTURE(patch);
@@ -53,12 +53,13 @@ void checkDelivered(const CloudRig& rig) {
 TEST_CASE("The host gets the counters and marks of each frame, and the device clears them") {
     for (const bool byPixel : {false, true}) {
         for (const auto& size : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {640u, 333u}}) {
-            const uint32_t width = size.first, height = size.second; // CAPTURE takes no structured binding
+            const uint32_t width = size.first,
+                           height = size.second; // CAPTURE does not accept structured bindings
             CAPTURE(byPixel);
             CAPTURE(width);
             const CameraInfo camera = pinholeCamera(width, height);
             Scene scene = plainScene();
-            scene.holdSeconds = 0.05; // a frame or two
+            scene.holdSeconds = 0.05; // one or two frames
             scene.fixtures.push_back(guidanceClass("g"));
             CloudRig rig(scene, camera, [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; });
             checkCleared(rig);                                // before the first frame

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a guidance class may choose of its points: the largest part, a trimmed mean.
+// Guidance options: the largest connected part and the trimmed mean.
 #include "engine/reference/guidance.h"
 #include "tests/support/cloud_rig.h"
 
@@ -38,7 +38,7 @@ void checkSame(const CloudRig& rig, const std::vector<dvec3>& points) {
 
 TEST_CASE("The largest connected part and the trimmed mean drop the same points as the twin") {
     const CameraInfo camera = pinholeCamera(200, 150, 0.0001);
-    // Two patches of the class: the larger on the right, and a third that touches it behind a jump in depth.
+    // Two parts of the class, the larger on the right, and a third part next to it behind a depth jump.
     const auto depth = [](int u, int v) {
         const bool small = u > 20 && u < 50 && v > 20 && v<50, large = u> 90 && u < 150 && v > 40 && v < 120,
                    behind = u >= 150 && u < 190 && v > 40 && v < 120;
@@ -78,7 +78,7 @@ TEST_CASE("The largest part of scattered pixels equals the twin's for winding sh
         CAPTURE(seed);
         std::mt19937 random(seed);
         std::vector<double> depth(size_t{131} * 77, 0.0);
-        for (double& z : depth) { // about where parts begin to reach from side to side, some of them by steps
+        for (double& z : depth) { // density at which parts begin to span the image
             const auto r = random() % 1000;
             z = r < 360 + 10 * seed ? 0.6 : r < 500 ? 0.62 : 0.0;
         }
@@ -103,7 +103,7 @@ TEST_CASE("Of equally large parts the first one is chosen") {
         FixtureClass f = chosenClass();
         f.largestPart = true;
         CloudRig rig(sceneOfChosen(f), camera);
-        rig.run(drawnImage(camera, [&](int u, int v) { // the left one ends last
+        rig.run(drawnImage(camera, [&](int u, int v) { // the left part ends last
             const bool left = u >= 8 && u < 24 && v >= top && v < top + 24,
                        right = u >= 50 && u < 74 && v >= 10 && v < 26;
             return left || right ? 0.6 : 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From points to a guidance pose: planes at several angles through all passes, the pose against its twin.
+// Guidance poses from points: planes at several angles through all passes, and poses compared with the twin.
 #include "engine/cloud/guidance_pose.h"
 #include "engine/reference/guidance.h"
 #include "tests/support/cloud_rig.h"
@@ -93,7 +93,7 @@ TEST_CASE("A plane seen at any angle gives its normal towards the camera, and th
             CHECK(angleBetween(g.target.rotation * kZ, -g.normal) < 1e-5);
             const dvec3 centre = glm::conjugate(pose.rotation) * (g.position - pose.position);
             CHECK(std::abs(glm::dot(centre, normal) - 0.6 * normal.z) <
-                  2e-5); // on the plane, depth units of 0.1 mm
+                  2e-5); // on the plane; depth units are 0.1 mm
         }
     }
     MESSAGE("largest angle between a plane's normal and the one found ", worst,
@@ -163,7 +163,7 @@ TEST_CASE("The pose equals the twin's for slabs, balls, rods and lines anywhere,
 }
 
 TEST_CASE("The plane test has thresholds of 3 mm thickness, a tenth of the width and 5 mm width") {
-    // Eight corners of a box have exactly these standard deviations along its axes.
+    // The eight corners of a box have exactly these standard deviations along its axes.
     const auto pose = [](double a, double b, double c) {
         std::vector<dvec3> points;
         for (int k = 0; k < 8; ++k) {
@@ -213,7 +213,7 @@ TEST_CASE(
                     }(),
                     camera)
                     .present);
-    CHECK(isFinite(poseOf({camera}, goal(), camera).target)); // a point at the camera itself
+    CHECK(isFinite(poseOf({camera}, goal(), camera).target)); // a point at the camera's position
 }
 
 TEST_CASE("Eigenvectors of symmetric matrices: residual, order and right angles, near-equal and zero roots "

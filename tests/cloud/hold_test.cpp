@@ -27,7 +27,7 @@ bool inTarget(int u, int v) {
 }
 constexpr uint32_t kTarget = 24; // pixels
 
-// A grey wall with a red target, whose depth and colour the script sets.
+// A grey wall with a red target of given depth and colour.
 Image script(const CameraInfo& camera, double targetDepth, uint32_t targetColour = kRed) {
     Image image = drawnImage(
         camera, [&](int u, int v) { return inTarget(u, v) ? targetDepth : kWall; }, kGrey);
@@ -47,7 +47,8 @@ uint32_t countOf(const std::vector<reference::RegionSphere>& spheres) {
         std::count_if(spheres.begin(), spheres.end(), [](const auto& s) { return s.radius >= 0.0; }));
 }
 
-// Shows the red target once at t = 0, then `later` at 30 Hz. Number of spheres held in each of those frames.
+// Shows the red target once at t = 0, then `later` at 30 Hz. Returns the number of held spheres in each later
+// frame.
 std::vector<uint32_t> heldAfter(CloudRig& rig, const Image& later, int frames) {
     rig.run(script(rig.camera(), kWall), 0.0);
     REQUIRE(countOf(rig.spheres()) == kTarget);
@@ -69,7 +70,7 @@ std::vector<uint32_t> heldAfter(CloudRig& rig, const Image& later, int frames) {
     return counts;
 }
 
-// A frame through which a bar sweeps, nearer than everything.
+// A frame with a moving bar nearer than all else.
 Image sweptImage(const Frame& frame, uint32_t width) {
     Image image{{frame->depth.begin(), frame->depth.end()}, {frame->colour.begin(), frame->colour.end()}};
     for (size_t i = 0; i < image.depth.size(); ++i) {
@@ -81,7 +82,7 @@ Image sweptImage(const Frame& frame, uint32_t width) {
 }
 
 struct HoldAgreement {
-    uint32_t held = 0, different = 0, wrong = 0; // wrong: different although sure
+    uint32_t held = 0, different = 0, wrong = 0; // wrong: different away from thresholds
     double worst = 0.0;                          // [m]
 };
 
@@ -108,7 +109,7 @@ const std::vector<uint32_t> kNothing(8, 0);
 TEST_CASE("Points without depth are held for hold_s after they were last seen, then dropped") {
     CloudRig rig(holdScene(0.2), kCamera);
     CHECK(heldAfter(rig, script(kCamera, 0.0), 8) == kSixFrames); // 0.2 s are six frames
-    CHECK(rig.counters().patchGroups.x == 0);                     // no patch is kept on the list for nothing
+    CHECK(rig.counters().patchGroups.x == 0);                     // no patch stays listed without points
 }
 
 TEST_CASE("Points behind a nearer occluder are held for hold_s") {
@@ -161,7 +162,8 @@ TEST_CASE("A held point stays fixed in the base frame while the camera moves, al
     rig.run(script(kCamera, kWall), 0.0, scene.baseTcamera);
     const auto seen = rig.spheres();
     for (int k = 1; k <= 6; ++k) {
-        const Pose aside{{0.8 * k, 0.0, 0.0}, rotationExp({0.0, 0.02 * k, 0.0})}; // far off the first view
+        const Pose aside{{0.8 * k, 0.0, 0.0},
+                         rotationExp({0.0, 0.02 * k, 0.0})}; // far outside the first view
         rig.run(drawnImage(
                     kCamera, [](int, int) { return kWall; }, kGrey),
                 k / 30.0, scene.baseTcamera * aside);
@@ -171,7 +173,7 @@ TEST_CASE("A held point stays fixed in the base frame while the camera moves, al
             CHECK((held[i].radius < 0.0 || glm::distance(held[i].centre, seen[i].centre) < 1e-9));
         }
     }
-    // Back in view where a hole shows the wall behind: contradicted.
+    // Back in view, where a hole shows the wall behind: the point is contradicted.
     rig.run(drawnImage(
                 kCamera, [](int, int) { return 1.5; }, kGrey),
             6 / 30.0 + 0.001, scene.baseTcamera);
@@ -185,7 +187,7 @@ TEST_CASE("The memory's clock wraps at 2^32 us without losing points or keeping 
         rig.run(script(kCamera, kWall), start);
         for (int k = 1; k <= 8; ++k) {
             rig.run(script(kCamera, 0.0), start + k / 30.0);
-            if (k != 6) { // lies on the bound to within the rounding of the clock
+            if (k != 6) { // frame 6 is at the limit to within the clock's rounding
                 CHECK(countOf(rig.spheres(true)) == (k < 6 ? kTarget : 0u));
             }
         }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lists of patches, as list.comp makes them and as classify.comp does: each against class bits and memory,
-// patch by patch.
+// Patch lists of list.comp and of classify.comp, compared with class bits and memory patch by patch.
 #include "apps/verify/read_back.h"
 #include "tests/support/cloud_rig.h"
 
@@ -14,7 +13,7 @@ namespace {
 
 using List = std::vector<uint32_t>;
 
-// Patches in order that must be on each list.
+// The patches that must be on each list, in ascending order.
 struct Lists {
     List listed, guided, quiet, holding;
 };
@@ -84,7 +83,7 @@ void checkLists(const CloudRig& rig, const Lists& expected) {
     CHECK(wrong == 0);
 }
 
-// A forbidden band and a guiding one, of which `share` of the rows are forbidden; nothing in row `hidden`.
+// A forbidden band over `share` of the rows and a guidance band over the rest; no depth in row `hidden`.
 Image bands(const CameraInfo& camera, double share, int hidden) {
     const auto rows = static_cast<int>(camera.depth.height);
     const int last = static_cast<int>(share * rows);
@@ -108,7 +107,7 @@ Scene bandScene(bool guidance, double hold) {
     return scene;
 }
 
-// Rows that have no depth in one frame are held in the next.
+// Rows without depth in one frame are held in the next.
 void runBands(const CloudRig::Change& change, const CameraInfo& camera, bool guidance, double hold) {
     CloudRig rig(bandScene(guidance, hold), camera, change);
     List live;
@@ -130,7 +129,8 @@ TEST_CASE("Each patch with work is listed once, with separate lists for guided a
     for (const bool byPixel : {false, true}) {
         const auto change = [&](Plan& plan) { plan.byPixel = plan.pack = byPixel; };
         for (const auto& size : {std::pair{100u, 60u}, {16u, 16u}, {1u, 1u}, {333u, 250u}}) {
-            const uint32_t width = size.first, height = size.second; // CAPTURE takes no structured binding
+            const uint32_t width = size.first,
+                           height = size.second; // CAPTURE does not accept structured bindings
             CAPTURE(byPixel);
             CAPTURE(width);
             const CameraInfo camera = pinholeCamera(width, height);
@@ -155,9 +155,9 @@ TEST_CASE("A patch's memory is read only while it holds points") {
                        : rig.counters().holdingGroups.w;
     };
     CHECK(holding(99) == 0);
-    CHECK(holding(1) == 0); // rows 8 to 15 show nothing: they are held from now on
+    CHECK(holding(1) == 0); // rows 8 to 15 have no depth, so their points are held from now on
     CHECK(holding(1) == rig.layout().across);
-    for (int frame = 0; frame < 5; ++frame) { // longer than points are held
+    for (int frame = 0; frame < 5; ++frame) { // longer than the hold time
         holding(1);
     }
     CHECK(holding(1) == 0);

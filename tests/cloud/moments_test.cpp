@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// moments.comp against a float64 pass over the same points, patch by patch and class by class.
+// Compares moments.comp with a float64 computation over the same points, per patch and class.
 #include "apps/verify/read_back.h"
 #include "engine/cloud/guidance_pose.h"
 #include "engine/reference/moments.h"
@@ -18,7 +18,7 @@ namespace {
 struct MomentsAgreement {
     uint32_t patches = 0, classes = 0, wrong = 0;
     double patchMean = 0.0, mean = 0.0;             // [m]
-    double patchCovariance = 0.0, covariance = 0.0; // of the trace
+    double patchCovariance = 0.0, covariance = 0.0; // relative to the trace
 };
 
 double covarianceError(const cloud::Moments& here, const reference::PointMoments& there) {
@@ -56,12 +56,12 @@ void comparePatches(const CloudRig& rig, size_t c, size_t k, MomentsAgreement& a
     const auto all = verify::readBack<shared::PatchMoments>(vulkan().device, rig.set().device.moments);
     std::vector<cloud::Moments> parts;
     for (uint32_t patch = 0; patch < rig.cycle().layout().patches(); ++patch) {
-        if ((listed[patch] & shared::kPatchGuided) == 0) { // it has no pixel of a guidance class
+        if ((listed[patch] & shared::kPatchGuided) == 0) { // no pixel of a guidance class
             continue;
         }
         const cloud::Moments here = momentsOf(all[patch * shared::kMaxClasses + k]);
         parts.push_back(here);
-        if (patch % 7 != 0) { // a share of the patches one by one; the merged class sees them all
+        if (patch % 7 != 0) { // every seventh patch individually; the merged class includes all
             continue;
         }
         const reference::PointMoments there =

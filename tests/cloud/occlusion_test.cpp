@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// occlusion.comp against its float64 twin, and what it is for: points that the colour camera does not see
-// stay unclassified.
+// Compares occlusion.comp with its float64 twin, and checks its purpose: points hidden from the colour camera
+// have no class.
 #include "engine/reference/surface.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
@@ -29,20 +29,20 @@ CameraInfo parallaxCamera(double focalRatio, double baseline, bool distorted = f
     return camera;
 }
 
-// A red plate, turned about y by `tilt`, before a blue wall; the plate spans |x|, |y| <= 0.06 m in its own
-// plane.
+// A red plate, rotated about y by `tilt`, in front of a blue wall. The plate spans |x|, |y| <= 0.06 m in its
+// own plane.
 struct Plate {
     double tilt = 0.0;
     static constexpr double kHalf = 0.06;
 
-    // Where a line meets the plate's plane, in the plate's own axes [m]; z = how far along the line.
+    // Intersection of a line with the plate's plane, in the plate's axes [m]; z = distance along the line.
     dvec3 meet(const dvec3& from, const dvec3& along) const {
         const dvec3 x(std::cos(tilt), 0.0, std::sin(tilt)), normal(-x.z, 0.0, x.x), centre(0.0, 0.0, kFront);
         const double t = glm::dot(centre - from, normal) / glm::dot(along, normal);
         const dvec3 p = from + t * along - centre;
         return {glm::dot(p, x), p.y, t};
     }
-    // How far inside the outline (> 0) or outside it [m].
+    // Distance inside the outline (> 0) or outside it (< 0) [m].
     double inside(const dvec3& from, const dvec3& along) const {
         const dvec3 p = meet(from, along);
         return kHalf - std::max(std::abs(p.x), std::abs(p.y));
@@ -54,7 +54,7 @@ Image plateBeforeWall(const CameraInfo& camera, const Plate& plate) {
         const dvec3 along(camera.depth.ray(u, v), 1.0);
         return plate.inside(dvec3(0.0), along) >= 0.0 ? plate.meet(dvec3(0.0), along).z : kBack;
     });
-    // The colour image by casting the colour camera's own rays at the two planes.
+    // Renders the colour image by casting the colour camera's rays at the two planes.
     const Pose depthTcolour = inverse(camera.colourTdepth);
     for (uint32_t v = 0; v < camera.colour.height; ++v) {
         for (uint32_t u = 0; u < camera.colour.width; ++u) {
@@ -70,7 +70,7 @@ struct LookCounts {
     uint32_t hidden = 0, leaked = 0, seen = 0, wrong = 0, outside = 0;
 };
 
-// What became of each pixel, `border` [m] away from the plate's outline.
+// Counts the outcome of each pixel at least `border` [m] away from the plate's outline.
 LookCounts countLooks(const CloudRig& rig, const Plate& plate, double border) {
     const std::vector<uint32_t> masks = rig.masks();
     const reference::FrameView view = rig.view();
@@ -107,8 +107,8 @@ Scene colourScene() {
     return scene;
 }
 
-// Oracle for real frames: the nearest point behind each single colour pixel, by brute force; no cells.
-// Returns how many points lie behind another one, and how many of those are classified all the same.
+// Oracle for real frames: brute-force nearest point per colour pixel, without cells. Returns the number of
+// points behind another one, and how many of those have a class nevertheless.
 std::pair<uint32_t, uint32_t> hiddenByPixel(const CloudRig& rig) {
     const reference::FrameView view = rig.view();
     const Intrinsics& lens = rig.camera().colour;
@@ -259,7 +259,7 @@ TEST_CASE("In the unregistered D435 frame, the twins agree and points behind a n
     const FrameReport report = rig.run(shots.images[0]);
     REQUIRE(rig.plan().occlusion);
     const OcclusionAgreement a = compareWithTwins(rig);
-    CHECK(a.worst < 1e-5); // up to 10 m away
+    CHECK(a.worst < 1e-5); // at ranges up to 10 m
     CHECK(a.masks == 0);
     const auto [hidden, leaked] = hiddenByPixel(rig);
     CHECK(leaked == 0);

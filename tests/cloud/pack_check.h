@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host reads against the slots that a tree keeps, one by one and in order.
+// Compares the host's spheres with the slots that are kept for a tree, one by one and in order.
 #pragma once
 
 #include "tests/support/cloud_rig.h"
@@ -13,7 +13,7 @@ struct Expected {
     std::vector<uint32_t> sources;
 };
 
-// Every sphere of the slots by patch, then layer, then slot.
+// Every sphere of the slots, ordered by patch, layer and slot.
 inline Expected inOrder(const CloudRig& rig) {
     const std::vector<reference::RegionSphere> layers[2] = {
         rig.slotSpheres(false),
@@ -38,7 +38,7 @@ inline Expected inOrder(const CloudRig& rig) {
     return all;
 }
 
-// The device's own choice is one of them only. A tree keeps slots beside what is packed.
+// Tests both forms, although a device uses one. With a tree the slots are kept in addition to packed runs.
 inline CloudRig::Change packing(bool pack) {
     return [pack](Plan& plan) {
         plan.pack = plan.byPixel = plan.tree = pack;

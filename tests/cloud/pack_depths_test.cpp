@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Spheres that cross the bus as depths and steps of growth: the host makes the very ones that the device has.
+// Spheres that cross the bus as depths and growth steps: the host computes exactly the device's spheres.
 #include "tests/cloud/pack_check.h"
 
 #include <algorithm>
@@ -76,13 +76,13 @@ TEST_CASE("A frame in flight keeps the radii and the pose that its passes read")
 TEST_CASE(
     "Grown spheres are packed in 24 bits per depth, or 32 bits in patches with a larger range of depths") {
     CameraInfo camera = pinholeCamera(61, 49, 0.0001);
-    camera.depth.fx = camera.depth.fy = 600.0; // pixels lie closer than regions are wide
+    camera.depth.fx = camera.depth.fy = 600.0; // pixel spacing is smaller than the region radius
     camera.colour = camera.depth;
     Scene scene = plainScene();
     scene.errorBudget = 0.0005;
     scene.holdSeconds = 1.0;
     CloudRig rig(scene, camera, packing(true));
-    // A step within the second patch of each row: away by a little, by less than a half, by much, and nearer.
+    // A depth step in the second patch of each row: slightly farther, by less than half, by much, and nearer.
     for (const double behind : {0.61, 0.85, 1.3, 2.5, 0.29}) {
         CAPTURE(behind);
         const Image step =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host reads, packed or beside the points, against the slots, one by one and in order.
+// Compares the spheres that the host reads, packed or from radii, with the slots, one by one and in order.
 #include "tests/cloud/pack_check.h"
 
 #include <doctest/doctest.h>
@@ -81,7 +81,7 @@ TEST_CASE("A set laid out by several threads equals that of a single thread") {
     CloudRig one(scene, camera, shared(1)), three(scene, camera, shared(3));
     for (uint64_t seed = 1; seed <= 6; ++seed) {
         Image image = stressImage(camera, seed);
-        for (size_t p = seed; seed > 1 && p < image.depth.size(); p += 5) { // held ones, too
+        for (size_t p = seed; seed > 1 && p < image.depth.size(); p += 5) { // gives held spheres, too
             image.depth[p] = 0;
         }
         const FrameReport a = one.run(image), b = three.run(image);
@@ -108,7 +108,7 @@ TEST_CASE("Packing is unchanged when a GPU query keeps slots, and each sphere ha
     Image image = stressImage(camera, 5);
     rig.run(image);
     checkPacked(rig);
-    for (size_t p = 0; p < image.depth.size(); p += 3) { // held from now on
+    for (size_t p = 0; p < image.depth.size(); p += 3) { // points here are held from now on
         image.depth[p] = 0;
     }
     rig.run(image);

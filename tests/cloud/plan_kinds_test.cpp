@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes are written twice where a CPU device and a GPU want it otherwise (Plan). Both must say the same,
-// whichever device the tests run on.
+// Some passes have variants for CPU devices and GPUs (Plan). Both must give the same results on any device.
 #include "tests/support/cloud_rig.h"
 
 #include <array>
@@ -32,7 +31,7 @@ bool samePoses(const Fixtures& a, const Fixtures& b) {
     return same;
 }
 
-// Frames that differ, so that points are held where there is a memory.
+// Frames that differ, so that points are held if hold is on.
 void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
     CAPTURE(c.name);
     CAPTURE(group);
@@ -50,7 +49,7 @@ void compareFrames(const CloudCase& c, uint32_t group, bool manyPatches) {
         CHECK(cpu.masks() == gpu.masks());
         const Fixtures &a = cpu.host(), &b = gpu.host();
         CHECK(a.forbiddenBits == b.forbiddenBits);
-        // A compiler for a GPU may contract sums otherwise in one of them, and then a point more or less be
+        // A GPU's compiler may contract sums differently in one variant, so that a point more or less is
         // thinned.
         if (vulkan().device.facts().kind == DeviceKind::Cpu) {
             CHECK(one.counts.classSpheres == other.counts.classSpheres);
@@ -73,8 +72,8 @@ TEST_CASE("CPU plans with registers and GPU plans with shared memory give the sa
     for (CloudCase& c : cloudCases()) {
         holds = !holds;
         c.scene.holdSeconds = holds ? 1.0 : 0.0;
-        const bool many = cases / 2 % 2 == 1; // with and without points that are held
+        const bool many = cases / 2 % 2 == 1; // with and without held points
         compareFrames(c, std::array{256u, 128u, 16u}[cases++ % 3],
-                      many); // a device may take no more in a group
+                      many); // the largest group that every device supports
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pixel counts on the real recordings against a plain float64 count, and beside figures measured outside the
-// project.
+// Pixel counts on the real recordings, compared with a plain float64 count and with figures measured outside
+// the project.
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -17,8 +17,8 @@ struct Object {
     Band hue, saturation, lightness;
 };
 
-// Points counted on the decoded frame outside the project, with gates of the same bounds; how that count
-// rounded hues is not known.
+// Points counted outside the project on the decoded frame with the same gates. How that count rounded hues is
+// unknown.
 struct Figure {
     uint32_t frame, cls, pixels;
 };
@@ -59,7 +59,7 @@ Scene sceneOf(const Recording& recording) {
     return scene;
 }
 
-// Counts by the twin: valid, forbidden, each class.
+// Counts of the twin: valid, forbidden, per class.
 struct Count {
     uint32_t valid = 0, forbidden = 0;
     std::vector<uint32_t> classes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The arm taken out of the cloud: classify.comp with a self-filter against its float64 twin.
+// The self-filter, which removes the arm: classify.comp against its float64 twin.
 #include "engine/reference/self_filter.h"
 
 #include "engine/cycle/arm_rig.h"
@@ -21,7 +21,7 @@ CloudRig filteredRig(uint32_t width, uint32_t height) {
     return CloudRig(plainScene(), pinholeCamera(width, height), [](Plan& plan) { plan.selfFilter = true; });
 }
 
-// A wall at 1 m, and nearer than it a ball wherever the ray meets one of these (camera frame, near side).
+// A wall at 1 m and, in front of it, the near sides of these balls (camera frame).
 Image wallAndBalls(const CameraInfo& camera, std::span<const Sphere> balls) {
     return drawnImage(camera, [&](int u, int v) {
         const dvec3 ray(camera.depth.ray(u, v), 1.0);
@@ -78,7 +78,7 @@ TEST_CASE("Points of the arm, padding included, have no class, and all others ke
         if (width > 1) {
             CHECK(a.removed > 100);
             CHECK(a.marked > 500);
-            // Nothing of the arm makes a region: what is left lies on the wall.
+            // The arm makes no region: all remaining points are on the wall.
             for (size_t i = 0; i < rig.host().spheres.size(); ++i) {
                 CHECK(rig.host().spheres.z[i] + rig.origin().z > 0.9);
             }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// spheres.comp against its float64 twin: centres, radii, classes, forbidden pixels, leaks, order of the host
-// copy.
+// Compares spheres.comp with its float64 twin: centres, radii, classes, forbidden pixels, leaks, order of the
+// host copy.
 #include "engine/cloud/frame_params.h"
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
@@ -38,8 +38,8 @@ SpheresAgreement compareSpheres(const CloudRig& rig) {
     return a;
 }
 
-// The host copy holds exactly the slots, in order of patch, sub-patch, pixel, and the forbidden pixels of the
-// masks.
+// The host copy has exactly the spheres of the slots, ordered by patch, sub-patch and pixel, and the
+// forbidden pixels of the masks.
 void checkHost(const CloudRig& rig, const FrameReport& report) {
     const RegionSpheres& host = rig.host().spheres;
     const auto spheres = rig.slotSpheres();
@@ -55,8 +55,7 @@ void checkHost(const CloudRig& rig, const FrameReport& report) {
         const reference::RegionSphere& s = spheres[source];
         wrong += s.radius != host.radius[i] ||
                  glm::distance(s.centre, dvec3(host.x[i], host.y[i], host.z[i]) + rig.origin()) > 1e-10;
-        const int cls =
-            s.cls < 0 ? forbidden[source] : s.cls; // packed, the device tells it beside the sphere only
+        const int cls = s.cls < 0 ? forbidden[source] : s.cls; // with packing the slot has no class
         wrong += cls < 0 || rows[static_cast<size_t>(cls)] != host.fixture[i];
     }
     CHECK(wrong == 0);
@@ -75,7 +74,7 @@ void checkHost(const CloudRig& rig, const FrameReport& report) {
     CHECK(report.counts.forbidden == marked);
 }
 
-// Beside what is packed a tree keeps slots.
+// A tree requires slots in addition to packed runs.
 void withSlots(Plan& plan) {
     plan.tree = plan.pack;
 }
@@ -111,7 +110,7 @@ TEST_CASE("Of several forbidden classes the largest radius wins, then file order
         f.box = Box{{x0, -9, 0}, {x1, 9, 9}};
         return f;
     };
-    // An authored shape is no class of points: bits of the mask and rows of the file part.
+    // An authored shape is not a point class, so mask bits and file rows differ.
     scene.fixtures = {forbiddenClass("shape", 0.5), boxed(forbiddenClass("small", 0.01), -9, 9),
                       boxed(guidanceClass("goal"), -9, 9), boxed(forbiddenClass("first", 0.03), -9, 0),
                       boxed(forbiddenClass("second", 0.03), -0.1, 9)};
@@ -127,7 +126,7 @@ TEST_CASE("Of several forbidden classes the largest radius wins, then file order
     CHECK(rig.host().guidance[0].fixture == 2);
     checkHost(rig, report);
     for (const reference::RegionSphere& s : rig.spheres()) {
-        CHECK(s.cls == (s.centre.x <= 0.0 ? 2 : 3)); // "first" where both are
+        CHECK(s.cls == (s.centre.x <= 0.0 ? 2 : 3)); // "first" where both apply
         CHECK(s.radius == doctest::Approx(0.036).epsilon(1e-6));
     }
     CHECK(compareSpheres(rig).wrong == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the tests of surface.comp share: points against the twin's.
+// Compares the points of surface.comp with the twin's.
 #pragma once
 
 #include "engine/reference/surface.h"
@@ -12,8 +12,8 @@ namespace fathom::test {
 
 struct SurfaceAgreement {
     uint32_t points = 0, rejected = 0, unsure = 0,
-             wrong = 0; // wrong: one keeps what the other rejects, although sure
-    double worst = 0.0; // [m] distance to the twin's point, at ranges over 1 m divided by the range
+             wrong = 0; // wrong: kept by one and rejected by the other, away from thresholds
+    double worst = 0.0; // [m] distance to the twin's point; beyond 1 m, divided by the range
 };
 
 inline SurfaceAgreement comparePoints(const CloudRig& rig) {
@@ -41,7 +41,7 @@ inline Scene edgeScene(double edge) {
     return scene;
 }
 
-// Blocks are for CPU devices; a GPU's compiler may order or fuse their sums in another way.
+// Blocks are for CPU devices; a GPU's compiler may reorder or fuse their sums.
 inline bool onCpu() {
     return vulkan().device.facts().kind == DeviceKind::Cpu;
 }

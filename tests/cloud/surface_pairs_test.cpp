@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface.comp where an invocation takes two pixels of a row.
+// surface.comp with two adjacent pixels per invocation.
 #include "tests/cloud/surface_agreement.h"
 
 #include <doctest/doctest.h>
@@ -15,7 +15,7 @@ TEST_CASE("Two pixels per invocation give the points of one, also in patches wit
             const CameraInfo camera = pinholeCamera(width, 41);
             Scene scene = edgeScene(edge);
             scene.filter.radius = 2;
-            scene.fixtures[0].hue = Band{20, 200}; // some pixels are of no class
+            scene.fixtures[0].hue = Band{20, 200}; // some pixels have no class
             const Image image = stressImage(camera, width);
             CloudRig one(scene, camera, [](Plan& plan) { plan.tiled = true, plan.filterBlock = false; });
             CloudRig two(scene, camera,

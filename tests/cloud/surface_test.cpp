@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// surface.comp against its float64 twin: rejection, filter, base-frame points.
+// Compares surface.comp with its float64 twin: rejection, filter, base-frame points.
 #include "tests/cloud/surface_agreement.h"
 #include "tests/support/sanitized.h"
 
@@ -98,7 +98,7 @@ TEST_CASE("Polynomial weights equal their own twin's and stay within 3 % of the 
             apart = std::max(apart, std::abs(a[i] - b[i]));
         }
         CHECK(apart < 3e-5);
-        CHECK(apart > 1e-7); // it is another formula
+        CHECK(apart > 1e-7); // the formulas differ
     }
 }
 
@@ -157,7 +157,7 @@ TEST_CASE(
         if (v < 10) { // a mixed column between a near surface and a far one
             return u < 20 ? 0.8 : u == 20 ? 0.9 : 1.0;
         }
-        if (v < 20) { // a bare step, then a rod before it
+        if (v < 20) { // a plain step, then a rod in front of it
             return u < 20 ? 0.8 : u == 30 ? 0.7 : 1.0;
         }
         return 0.8 + 0.004 * u;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// thin.comp against its float64 twin, and the property that it must have: the kept spheres cover the whole
+// Compares thin.comp with its float64 twin and checks the required property: the kept spheres cover the whole
 // region.
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
@@ -13,15 +13,14 @@ using namespace fathom::test;
 
 namespace {
 
-constexpr double kTolerance =
-    2.5e-7; // [m] what float32 centres and radii may lose of the region, metres from the origin
+constexpr double kTolerance = 2.5e-7; // [m] loss of region by float32 rounding, metres from the origin
 
 struct ThinAgreement {
     uint32_t cells = 0, thinned = 0, wrong = 0, unsure = 0;
-    double worst = 0.0; // [m] growth below the twin's, or above it by more than a step
+    double worst = 0.0; // [m] growth below the twin's, or more than a step above it
 };
 
-// Decisions cell by cell: which are thinned, and by how much their corners grow.
+// Compares the decisions per cell: which cells are thinned, and the growth of their corners.
 ThinAgreement compareCells(const CloudRig& rig) {
     const auto twin = reference::thin(rig.scene(), rig.width(), rig.height(), rig.forbidden(), rig.points());
     const auto cells = rig.thinning();
@@ -34,7 +33,7 @@ ThinAgreement compareCells(const CloudRig& rig) {
             a.wrong += different && !twin[i].unsure;
             a.unsure += different && twin[i].unsure;
             a.thinned += here >= 0.0;
-            if (here >= 0.0 && there >= 0.0) { // outward to a whole step
+            if (here >= 0.0 && there >= 0.0) { // rounded up to a whole step
                 a.worst = std::max({a.worst, there - here, here - there - step});
             }
         };
@@ -54,8 +53,8 @@ struct Kept {
     double share() const { return static_cast<double>(spheres) / std::max(points, 1u); }
 };
 
-// Draws from the union of a sphere of radius R round every forbidden point and looks for them among the kept
-// spheres.
+// Draws points from the union of spheres of radius R around all forbidden points and tests whether the kept
+// spheres contain them.
 Kept checkCoverage(const CloudRig& rig, uint32_t samples) {
     const auto all = reference::spheres(rig.scene(), rig.forbidden(), rig.points(), {});
     const auto kept = rig.spheres();
@@ -73,7 +72,7 @@ Kept checkCoverage(const CloudRig& rig, uint32_t samples) {
     return k;
 }
 
-// A lens long enough that pixels lie closer than the regions are wide: 1 mm at 0.6 m.
+// A long lens, so that pixel spacing is smaller than the regions: 1 mm at 0.6 m.
 CameraInfo longLens(uint32_t width, uint32_t height) {
     CameraInfo camera = pinholeCamera(width, height, 0.0001);
     camera.depth.fx = camera.depth.fy = 600.0;
@@ -118,14 +117,14 @@ TEST_CASE("Thinning makes the twin's decisions with the same growth for every si
 
 TEST_CASE("Each of a cell's 25 points counts: one unlike the rest decides about its cell and its quarter") {
     const CameraInfo camera = longLens(68, 68);
-    const auto isUnlike = [](int u, int v) { // a point of its own in each third cell across and down
+    const auto isUnlike = [](int u, int v) { // one unlike point in every third cell across and down
         const int cell = u / 12 + v / 12 * 5;
         return u % 12 == 4 + cell % 5 && v % 12 == 4 + cell / 5;
     };
     Scene scene = budgetScene(0.0006);
     scene.fixtures = {forbiddenClass("red", 0.02), forbiddenClass("blue", 0.02)};
     scene.fixtures[0].hue = Band{330, 30}, scene.fixtures[1].hue = Band{200, 260};
-    // Nearer, within the budget and beyond it; not there at all; of the other class.
+    // Nearer by less and by more than the budget, missing, and of the other class.
     for (const double out : {0.0003, 0.001, 0.6, 0.0}) {
         Image image = drawnImage(camera, [&](int u, int v) { return isUnlike(u, v) ? 0.6 - out : 0.6; });
         for (size_t i = 0; i < image.colour.size(); ++i) {
@@ -251,13 +250,13 @@ TEST_CASE("A point whose cell is not full of its class is kept at edges, holes a
     const auto kept = rig.spheres();
     const auto has = [&](int u, int v) { return kept[static_cast<size_t>(v * 48 + u)].radius >= 0.0; };
     for (int k = 0; k < 48; ++k) {
-        CHECK(has(47, k)); // right and lower border: no cell beyond
+        CHECK(has(47, k)); // right and lower border: there is no next cell
         CHECK(has(k, 47));
         CHECK(has(28, k)); // the 2x2 cells that the step runs through
         CHECK(has(29, k));
     }
     for (const auto& [u, v] : {std::pair{20, 20}, {22, 20}, {20, 22}, {22, 22}, {20, 21}, {21, 20}}) {
-        CHECK(has(u, v)); // round the hole
+        CHECK(has(u, v)); // around the hole
     }
     CHECK_FALSE(has(21, 21));
     CHECK_FALSE(has(9, 9));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The region tree of spheres.comp (sub-patches) and tree.comp (all levels above) against the validator and
-// the float64 twin.
+// Compares the region tree of spheres.comp (sub-patches) and tree.comp (all levels above) with the validator
+// and the float64 twin.
 #include "tests/support/cloud_rig.h"
 #include "tests/support/sanitized.h"
 
@@ -14,11 +14,11 @@ using namespace fathom::test;
 namespace {
 
 struct TreeAgreement {
-    uint32_t nodes = 0, escaped = 0, wrong = 0; // escaped: spheres that stick out of their sub-patch's bound
-    double centre = 0.0, radius = 0.0;          // [m] largest errors, of radii over 1 m as a share of them
+    uint32_t nodes = 0, escaped = 0, wrong = 0; // escaped: spheres outside their sub-patch's bound
+    double centre = 0.0, radius = 0.0;          // [m] largest errors; relative for radii over 1 m
 };
 
-// Bounds of the 4x4 sub-patches of the frame over seen and held spheres; every sphere inside, in float64.
+// Checks in float64 that every seen and held sphere is inside its sub-patch's bound. Returns the bounds.
 std::vector<reference::Bound> checkLeaves(const CloudRig& rig, const std::vector<reference::Bound>& bounds,
                                           TreeAgreement& a) {
     const auto seen = rig.spheres();
@@ -60,7 +60,7 @@ void compare(const std::vector<reference::Bound>& here, const std::vector<refere
     }
 }
 
-// Every level of the device feeds the twin of the level above, so that errors do not add up.
+// The twin computes each level from the device's level below, so that errors do not add up.
 TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
     auto levels = rig.tree();
     TreeAgreement a;
@@ -68,7 +68,7 @@ TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
     for (size_t l = 1; l < levels.size(); ++l) {
         compare(levels[l], reference::parents(rig.cycle().layout(), l, levels[l - 1]), a);
     }
-    for (auto& level : levels) { // float32 centres about the origin: exact in float64
+    for (auto& level : levels) { // float32 centres relative to the origin are exact in float64
         for (reference::Bound& b : level) {
             b.centre -= rig.origin();
         }
@@ -83,7 +83,7 @@ TreeAgreement checkTree(CloudRig& rig, const FrameReport& report) {
     return a;
 }
 
-// The CPU's query asks for none.
+// The CPU query needs no tree.
 void withTree(Plan& plan) {
     plan.tree = true;
 }
@@ -99,7 +99,7 @@ TEST_CASE("Every leaf sphere is inside its sub-patch and every child inside its 
         const FrameReport report = rig.run(c.image);
         const TreeAgreement a = checkTree(rig, report);
         CHECK(a.centre < 1e-6);
-        CHECK(a.radius < 2e-6); // rounded outward by 1e-6 of itself
+        CHECK(a.radius < 2e-6); // rounded outward by 1e-6 (relative)
         all.nodes += a.nodes, all.centre = std::max(all.centre, a.centre),
                               all.radius = std::max(all.radius, a.radius);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours put right for what water took of them, in classify.comp and in its float64 twin.
+// Correction of colours for attenuation in water, in classify.comp and in its float64 twin.
 #include "tests/support/cloud_rig.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr uint32_t kRed = 0xff2828c8; // 0xAABBGGRR
 
-// A colour of near by, as it looks through so much water.
+// A colour as seen through a range of water.
 uint32_t seenThrough(uint32_t rgba, const dvec3& attenuation, double range) {
     uint32_t seen = rgba & 0xff000000u;
     for (int i = 0; i < 3; ++i) {
@@ -39,7 +39,7 @@ uint32_t marked(const std::vector<uint32_t>& masks) {
 } // namespace
 
 TEST_CASE("Red that water has turned green is red again at every range, in the pass and in its twin") {
-    const dvec3 water(0.9, 0.12, 0.08); // [1/m] coastal, red goes first
+    const dvec3 water(0.9, 0.12, 0.08); // [1/m] coastal water: red is attenuated most
     const CameraInfo camera = pinholeCamera(123, 77);
     Image image = drawnImage(camera, [&](int u, int) { return 0.4 + 2.4 * u / 122.0; });
     Scene scene = redScene();
@@ -58,7 +58,7 @@ TEST_CASE("Red that water has turned green is red again at every range, in the p
     cleared.run(image);
     CHECK_FALSE(plain.plan().water);
     CHECK(cleared.plan().water);
-    CHECK(marked(plain.masks()) < 123 * 77 * 3 / 4); // far away red is green
+    CHECK(marked(plain.masks()) < 123 * 77 * 3 / 4); // far red pixels look green
     CHECK(marked(cleared.masks()) == 123 * 77);
     const auto twin = reference::classify(cleared.view(), nullptr);
     CHECK(twin.masks == cleared.masks());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colours that the device unpacks: classify.comp with YUYV against its twin and against the same colours sent
-// unpacked.
+// classify.comp with YUYV, compared with its twin and with the same colours sent unpacked.
 #include "devices/frame_slots.h"
 #include "engine/types/error.h"
 #include "engine/types/yuyv.h"
@@ -20,7 +19,7 @@ CameraInfo sendsYuyv(CameraInfo camera) {
     return camera;
 }
 
-// A second camera of another size, 50 mm beside.
+// A second camera of another size, 50 mm to the side.
 CameraInfo beside(CameraInfo camera) {
     camera.registered = false;
     camera.colour.width = 202, camera.colour.height = 75;
@@ -30,7 +29,7 @@ CameraInfo beside(CameraInfo camera) {
     return camera;
 }
 
-// Every byte of a word at random: most words are of no colour that a screen has.
+// Random bytes: most words have no colour in the RGB gamut.
 std::vector<uint32_t> anyWords(const CameraInfo& camera) {
     std::mt19937 random(7);
     std::vector<uint32_t> words(camera.colour.pixels() / 2);
@@ -54,7 +53,7 @@ Scene gates() {
     return scene;
 }
 
-// Class bits of one frame whose colours are those words.
+// Class bits of one frame with these colour words.
 std::vector<uint32_t> masksOf(const Scene& scene, const CameraInfo& camera, const Frame::Content& content,
                               const CloudRig::Change& change = {}) {
     CloudRig rig(scene, camera, change);
@@ -66,13 +65,13 @@ uint32_t countOf(const std::vector<uint32_t>& masks) {
     return static_cast<uint32_t>(std::ranges::count_if(masks, [](uint32_t m) { return m != 0; }));
 }
 
-// As a GPU's invocations are laid out, whatever the device is.
+// Uses a GPU's layout of invocations on any device.
 void forGpu(Plan& plan) {
     plan.byPixel = plan.groupCounts = plan.pack = true;
     plan.memoryTexels = plan.filterBlock = false;
 }
 
-// The words as they are, and what the host unpacks them to.
+// Compares the words with the host's unpacked colours.
 void checkSame(const Scene& scene, const CameraInfo& camera) {
     const Image image = drawnImage(camera, [](int u, int) { return u % 7 == 6 ? 0.0 : 0.9; });
     const std::vector<uint32_t> words = anyWords(camera);
@@ -131,7 +130,7 @@ TEST_CASE("Colour is uploaded as YUYV, in half the bytes, if a class uses it and
 }
 
 TEST_CASE("Every YUYV word has the classes of its host-unpacked colours, to the last bit") {
-    checkSame(gates(), pinholeCamera(640, 480)); // 153600 words, four pixels a fetch
+    checkSame(gates(), pinholeCamera(640, 480)); // 153600 words, four pixels per fetch
     checkSame(gates(), pinholeCamera(322, 241)); // two
 }
 

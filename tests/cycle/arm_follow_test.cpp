@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic cycle with a real arm behind it: what the pilot's tool does when that arm stands still.
+// The haptic cycle with a real arm: the pilot's tool when that arm stands still.
 #include "engine/cycle/haptic_cycle.h"
 
 #include "tests/cycle/haptic_rig.h"
@@ -12,7 +12,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// The tip of a stretched arm is at x = 1 m; a ball bars its way along y.
+// The tip of a stretched arm is at x = 1 m; a ball blocks its path along y.
 struct FollowRig {
     FollowRig() {
         rig.model = makeArm(4, 8);
@@ -43,7 +43,7 @@ struct FollowRig {
         if (record.adopted) {
             inForce = std::move(offered);
         }
-        asked = cycle->place(); // the answer comes a turn late
+        asked = cycle->place(); // the answer comes one tick late
         time += options.period;
         return record;
     }
@@ -69,7 +69,7 @@ struct FollowRig {
     bool placed = false;
 };
 
-// Until the ball holds it and the hand is 5 mm further.
+// Moves until the ball stops the tool and the hand is 5 mm farther.
 FollowRig pressed() {
     FollowRig follow;
     follow.ticks(5);
@@ -98,7 +98,7 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
         const double full = forceOf(follow.ticks(50));
         const ArmPosture before = follow.cycle->place().arm;
         (why == 0 ? follow.told.follows = false : (follow.buttons = kDeadManOpen) != 0);
-        follow.told.known = false; // silent, too
+        follow.told.known = false; // also without feedback
         double last = full;
         for (int i = 0; i < 400; ++i) {
             follow.hand.position += dvec3(0.0005, 0.0005, 0.0);
@@ -107,8 +107,8 @@ TEST_CASE("An arm that stands still holds the tool at once, and the force is gon
             CHECK(record.state == (i < 198 ? StepState::Fading : i > 202 ? StepState::Off : record.state));
             CHECK(record.arm.posture.q == before.q);
             CHECK(forceOf(record) <= last + 1e-12);
-            CHECK(last - forceOf(record) < 0.05 * full);      // soft
-            CHECK(glm::length(record.wrench.torque) < 1e-12); // its direction is free, and stays so
+            CHECK(last - forceOf(record) < 0.05 * full);      // no jump
+            CHECK(glm::length(record.wrench.torque) < 1e-12); // the tool's direction stays free
             last = forceOf(record);
         }
         CHECK(last == 0.0);
@@ -129,7 +129,7 @@ TEST_CASE("Forces off hold an arm that follows, and it does not jump to a hand t
     CHECK_FALSE(record.armHold);
     CHECK(glm::distance(record.tool.position, tool.position) < 1e-6);
     CHECK(forceOf(record) < 1e-3);
-    follow.hand.position.y -= 0.005; // from here on it goes with the hand
+    follow.hand.position.y -= 0.005; // from here on the tool follows the hand
     CHECK(glm::distance(follow.ticks(200).tool.position, tool.position) ==
           doctest::Approx(0.005).epsilon(0.02));
 }
@@ -160,7 +160,7 @@ TEST_CASE("A tool placed far from known contacts waits until contacts are known 
     follow.told = {false, true, follow.cycle->place().arm};
     follow.ticks(300);
     CHECK(follow.placed);
-    follow.told.posture.q = {-0.6, 0.3, 0.2, -0.1}; // all that is known of contacts is about where it was
+    follow.told.posture.q = {-0.6, 0.3, 0.2, -0.1}; // contacts are known only near the old place
     follow.told.follows = true;
     const StepRecord first = follow.step();
     CHECK_FALSE(first.adopted);

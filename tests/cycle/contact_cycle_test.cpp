@@ -31,7 +31,7 @@ Scene twoValves(double budget, double hold) {
     return scene;
 }
 
-// A tool of any leaf count: spheres in a ball of 5 cm.
+// A tool with any number of leaves: spheres in a ball of 5 cm.
 Tool randomTool(size_t leaves, uint32_t seed) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<double> side(-0.05, 0.05), radius(0.002, 0.01);
@@ -65,7 +65,7 @@ struct ContactRig {
         return o;
     }
     static Plan planFor(Scene& scene, const SimulatedCamera& camera) {
-        scene.contact.where = Scene::Contact::Where::Gpu; // the sets keep what the GPU query reads
+        scene.contact.where = Scene::Contact::Where::Gpu; // so that sets have the data of the GPU query
         return makePlan(scene, camera.info(), 1, vulkan().device.facts());
     }
 };
@@ -156,7 +156,7 @@ TEST_CASE("A contact answer that overflows certifies the reach that fits, and th
     CHECK(first.reach > 0.49 * whole.reach - 1e-4);
     CHECK(first.size() < whole.size());
     CHECK(gpu.statistics().overflows == 1);
-    // Certified: whatever is not in it lies farther than its reach from every leaf. By looking at all.
+    // Certified: all spheres outside the set are farther than its reach from every leaf. Tests all spheres.
     PosedLeaves leaves;
     poseLeaves(tool, pose, set->host.origin, leaves);
     const RegionSpheres& all = set->host.spheres;

@@ -23,7 +23,7 @@ Scene redValve(Scene::Contact::Where where) {
     red.saturation = Band{0.4, 1};
     scene.fixtures = {red};
     scene.contact.where = where;
-    scene.holdSeconds = 0.0; // what a device remembered goes with it
+    scene.holdSeconds = 0.0; // held points would be lost with the device
     return scene;
 }
 
@@ -46,7 +46,7 @@ struct TwinRig {
                  [this](const DeviceFacts& facts) { return makePlan(scene, camera.info(), 2, facts); }) {}
 
     FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }
-    // At the first sphere of the newest set.
+    // A tool at the first sphere of the newest set.
     ToolState place() {
         const auto set = cycles.frames().sets().newest();
         const RegionSpheres& s = set->host.spheres;
@@ -114,7 +114,7 @@ TEST_CASE("Edits and frozen classes are kept when a device is opened again") {
         edited.fixtures[0].radius = 0.02;
         edited.fixtures[0].frozen = true;
         rig.cycles.frames().setScene(edited);
-        rig.next(); // the spheres of this one stay
+        rig.next(); // the class is frozen with the spheres of this frame
         const RegionSpheres held = rig.cycles.frames().sets().newest()->host.spheres;
         REQUIRE(held.size() > 0);
         if (anew) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame cycle that is sent back and forth in time.
+// A frame cycle that jumps back and forth in time.
 #include "tests/support/cloud_rig.h"
 
 #include <doctest/doctest.h>
@@ -29,7 +29,7 @@ TEST_CASE("After forget() a used cycle gives the sets of a fresh one, held point
         CHECK(used.host().spheres.radius == fresh.host().spheres.radius);
         CHECK(used.host().spheres.source == fresh.host().spheres.source);
         if (k == 0) {
-            CHECK(used.host().spheres.size() < withMemory); // nothing is held
+            CHECK(used.host().spheres.size() < withMemory); // no points are held
         }
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame cadence as a whole: what a scene does not need is not built, equal frames give equal bits, sets
-// are stamped.
+// The frame cadence as a whole: only required passes are built, equal frames give equal bits, sets are
+// stamped.
 #include "tests/support/cloud_rig.h"
 
 #include "engine/types/error.h"
@@ -37,7 +37,7 @@ Scene shapesOnly() {
     return scene;
 }
 
-// Everything a scene can ask for.
+// A scene that uses every feature.
 Scene fullScene() {
     Scene scene = classesScene(5);
     scene.filter = {2, 0.01, 0.03};
@@ -77,7 +77,7 @@ std::vector<Need> needs() {
              6}};
 }
 
-// Everything in a set that a reader can see, but the lease's own address.
+// Compares all data of a set that a reader can see.
 bool sameBits(const Fixtures& a, const Fixtures& b) {
     const auto pose = [](const Pose& p, const Pose& q) {
         return p.position == q.position && p.rotation == q.rotation;
@@ -112,9 +112,11 @@ TEST_CASE("A scene runs exactly the passes and dispatches that it needs") {
         CloudRig rig(need.scene, need.camera);
         if (!need.passes.empty() && vulkan().device.facts().kind == DeviceKind::Cpu) {
             need.passes.insert(std::ranges::find(need.passes, "surface"), "list");
-            need.dispatches += rig.plan().hold ? 2 : 1; // patches that hold points and others apart
+            need.dispatches +=
+                rig.plan().hold ? 2 : 1; // separate dispatches for patches with and without held points
         } else {
-            need.dispatches += need.passes.empty() ? 0 : 1; // what is delivered is copied on a CPU device
+            need.dispatches +=
+                need.passes.empty() ? 0 : 1; // `deliver` is a dispatch on GPUs and copies on CPU devices
             need.dispatches -= static_cast<uint32_t>(std::erase(need.passes, "thin"));
         }
         const FrameReport report = rig.run(stressImage(need.camera, 5));
@@ -137,7 +139,7 @@ TEST_CASE("Two cycles give the same bits for the same frames, held points and gu
         SimulatedCamera camera(*analyticScene("tank"), options);
         CloudRig a(fullScene(), camera.info(), [&](Plan& plan) { plan.tiled = tiled; });
         CloudRig b(fullScene(), camera.info(), [&](Plan& plan) { plan.tiled = tiled; });
-        b.cycle().sets().back(); // another set of the pool comes first
+        b.cycle().sets().back(); // starts with another set of the pool
         uint32_t spheres = 0, held = 0;
         while (const std::optional<Frame> frame = camera.next()) {
             const Image image{{(*frame)->depth.begin(), (*frame)->depth.end()},

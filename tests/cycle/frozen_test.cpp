@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One class stays where it was while the others follow the frame.
+// Frozen classes keep their spheres while the others follow the frame.
 #include "engine/types/error.h"
 #include "tests/support/cloud_rig.h"
 
@@ -30,7 +30,7 @@ Scene redAndBlue() {
     return scene;
 }
 
-// z of every sphere of a row of the scene [m], smallest and largest.
+// Smallest and largest z [m] of the spheres of a scene row.
 std::pair<double, double> depths(const Fixtures& set, uint8_t row) {
     std::pair<double, double> span{1e9, -1e9};
     for (size_t i = 0; i < set.spheres.size(); ++i) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic tick rule by rule: start, contact, forces off, dead-man, clutch, trapped, old scene, numbers
-// that are not.
+// The rules of a haptic step: start, contact, forces off, dead-man, clutch, trapped, old scene, non-finite
+// numbers.
 #include "tests/cycle/haptic_rig.h"
 
 #include "engine/haptics/limits.h"
@@ -119,7 +119,7 @@ TEST_CASE("With forces off w is zero at once, the wrench is gone after 0.2 s, an
         CHECK(forceOf(record) <= 1e-12);
         CHECK(record.state == StepState::Off);
         CHECK(record.armHold);
-        rig.hand = at(0.02, 0.01, -0.03); // along and deep inside
+        rig.hand = at(0.02, 0.01, -0.03); // to the side and deep inside
         rig.ticks(200);
         record = rig.step();
         CHECK(forceOf(record) == 0.0);
@@ -163,7 +163,7 @@ TEST_CASE("A trapped tool is held, its force ramps out over 0.2 s and returns wh
     rig.age = false;
     rig.hand = at(0, 0, 0.003);
     rig.ticks(250);
-    Fixtures shell = emptySet(2); // six spheres about where the tool is: wherever it goes, deeper into one
+    Fixtures shell = emptySet(2); // six spheres around the tool: any motion goes deeper into one
     for (int axis = 0; axis < 3; ++axis) {
         for (const double side : {-1.0, 1.0}) {
             dvec3 centre(0, 0, 0.003);
@@ -228,7 +228,7 @@ TEST_CASE("A source that has ended does not age in lockstep, and an older active
     auto record = rig.ticks(3000);
     CHECK(record.state == StepState::Contact);
     CHECK(record.sceneAge == doctest::Approx(0.030));
-    // The active set stays at frame 1 while frame 2 is already there, captured later.
+    // The active set stays at frame 1 although frame 2 is available, captured later.
     rig.sourceEnded = false;
     rig.query = false;
     Fixtures next = wallSet(2);

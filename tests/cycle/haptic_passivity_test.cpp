@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The passivity controller and the watch over the stiffness inside the haptic tick.
+// The passivity controller and the stiffness watch in the haptic step.
 #include "tests/cycle/haptic_rig.h"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// At rest 3 mm inside the wall.
+// The hand at rest 3 mm inside the wall.
 HapticRig restingRig(bool controller) {
     HapticRig rig(handScene(), at(0, 0, 0.02));
     rig.options.passivityController = controller;
@@ -24,7 +24,7 @@ HapticRig restingRig(bool controller) {
     return rig;
 }
 
-// The wall 2 mm higher.
+// The wall, raised by 2 mm.
 Fixtures raisedWall() {
     Fixtures fixtures = wallSet(2);
     fixtures.origin.z = 0.002;
@@ -73,11 +73,11 @@ TEST_CASE(
     dvec3 before = rig.step().wrench.force;
     off.step();
     double weaker = 0.0;
-    for (int i = 0; i < 60; ++i) { // the hand gives way at 30 mm/s
+    for (int i = 0; i < 60; ++i) { // the hand yields at 30 mm/s
         rig.hand.position.z += 3e-5;
         off.hand.position.z += 3e-5;
         const auto a = rig.step(), b = off.step();
-        CHECK(a.tool.position == b.tool.position); // damping is no business of the tool
+        CHECK(a.tool.position == b.tool.position); // damping does not affect the tool
         CHECK(a.wrench.force.z <= b.wrench.force.z + 1e-12);
         CHECK(glm::distance(a.wrench.force, before) <= 2.0 * (1.0 + 1e-12));
         before = a.wrench.force;
@@ -115,7 +115,7 @@ TEST_CASE("Guidance work on the hand does not count as generated energy") {
     rig.guidance = {target};
     rig.buttons = kGuidanceButton;
     rig.ticks(900);
-    for (int i = 0; i < 500; ++i) { // the hand is drawn along: 2 N over 50 mm
+    for (int i = 0; i < 500; ++i) { // guidance pulls the hand: 2 N over 50 mm
         rig.hand.position.z += 1e-4;
         const auto record = rig.step();
         CHECK(record.wrench.force.z == doctest::Approx(2.0).epsilon(1e-9));
@@ -129,7 +129,7 @@ TEST_CASE("Slow ticks lower the automatic stiffness smoothly, the margin returns
     HapticRig rig(handScene(), at(0, 0, 0.05));
     StepInput input;
     input.deviceThandle = rig.hand;
-    for (int i = 0; i < 300; ++i) { // nothing measured
+    for (int i = 0; i < 300; ++i) { // no measured period
         rig.cycle->step(input);
     }
     CHECK(rig.cycle->springs().stiffness == 1000.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic cycle run in lockstep by hand: one contact answer before each tick, a clock, a hand that the
-// test moves.
+// Runs the haptic cycle in lockstep: one contact answer before each tick, a clock, and a hand that the test
+// moves.
 #pragma once
 
 #include "engine/contact/cull_cpu.h"
@@ -23,7 +23,7 @@ inline Tool ballTool() {
     return Tool(buildSphereTree({&ball, 1}));
 }
 
-// Horizontal wall of spheres of 40 mm whose tops lie at z = 0 (tool's centre rests near z = 0.01).
+// Horizontal wall of spheres of 40 mm radius with tops at z = 0; the tool's centre rests near z = 0.01.
 inline Fixtures wallSet(uint64_t generation = 1) {
     Fixtures fixtures = emptySet(generation);
     addWall(fixtures, {0.0, 0.0, -0.04}, {1, 0, 0}, {0, 1, 0}, 0.06, 0.004, 0.04);
@@ -97,14 +97,14 @@ public:
     std::vector<GuidancePose> guidance;
     Pose hand;
     double time = 0.0, captured = 0.0;
-    double measured = 0.0; // [s] from turn to turn; 0 = the nominal period, as in lockstep
-    bool age = true;       // false: every tick is a fresh capture
+    double measured = 0.0; // [s] measured tick period; 0 = the nominal period, as in lockstep
+    bool age = true;       // false: every tick has a new capture time
     bool query = true;
     uint32_t buttons = 0;
     bool forcesOff = false, sourceEnded = false;
 };
 
-// A scene with one forbidden class of points.
+// A scene with one forbidden point class.
 inline double forceOf(const StepRecord& record) {
     return glm::length(record.wrench.force);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The haptic tick: guidance in both modes, projection, hand map, damping, options, repeatability, no
+// The haptic step: guidance in both modes, projection, hand map, damping, options, repeatability, no
 // allocation.
 #include "tests/cycle/haptic_rig.h"
 
@@ -49,16 +49,16 @@ TEST_CASE("Guidance in mode target leads the hand by F_g / K_t, is felt as F_g, 
     CHECK(record.tool.position.z == doctest::Approx(0.028));
     CHECK(record.wrench.force.z == doctest::Approx(-2.0));
     CHECK(glm::length(record.wrench.torque) == doctest::Approx(0.1));
-    rig.hand = at(0, 0, 0.0105); // the hand goes along until the tool rests on the wall
+    rig.hand = at(0, 0, 0.0105); // the hand follows until the tool rests on the wall
     for (int i = 0; i < 300; ++i) {
         record = rig.step();
         CHECK(rig.gap() >= 0.0);
     }
-    CHECK(record.wrench.force.z > -1.0); // what pulls is only what is left above the wall
+    CHECK(record.wrench.force.z > -1.0); // only the remaining distance above the wall pulls
     rig.buttons = 0;
     record = rig.ticks(600);
     CHECK(record.guidance == 0.0);
-    CHECK(record.wrench.force.z <= 1e-9); // the hand is above the wall: nothing is left
+    CHECK(record.wrench.force.z <= 1e-9); // the hand is above the wall: no distance remains
     CHECK(glm::length(record.wrench.force) <= 1e-9);
 }
 
@@ -139,7 +139,7 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
         input.deviceThandle = at(0, 0, z);
         record = cycle.step(input);
         input.time += options.period;
-        if (i == 250) { // tool at rest on the plane, hand going on
+        if (i == 250) { // tool at rest on the plane, hand still moving
             CHECK(record.state == StepState::Contact);
             CHECK(record.wrench.force.z == doctest::Approx(500.0 * (0.01 - z) + 0.1 * 0.1).epsilon(1e-3));
             CHECK(std::isnan(record.sceneAge));
@@ -152,7 +152,7 @@ TEST_CASE("Damping acts on the speed of tool against hand, and a scene without p
 
 TEST_CASE("Late ticks do not delay fading out and do not hasten the return of a force") {
     Scene scene = handScene();
-    scene.haptics.stiffness = 1000.0; // given: not lowered for the late ticks
+    scene.haptics.stiffness = 1000.0; // set explicitly, so late ticks do not lower it
     HapticRig rig(scene, at(0.0, 0.0, 0.03));
     rig.show(wallSet());
     rig.age = false;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames that the device reads in the camera's memory, and those that it cannot.
+// Frames that the device reads in the camera's memory, and frames that must be copied.
 #include "devices/frame_slots.h"
 #include "tests/support/cloud_rig.h"
 
@@ -62,7 +62,7 @@ TEST_CASE("Frames read in place give the sets of copied ones, also after the cam
         CHECK(inPlace.plan().inPlace == canImport());
         auto blocks = std::make_unique<Blocks>(camera, 3);
         for (uint32_t k = 0; k < 12; ++k) {
-            if (k == 6) { // new memory, where the old one was for all that anybody knows
+            if (k == 6) { // new memory, possibly at the old address
                 blocks = std::make_unique<Blocks>(camera, 2);
             }
             const Image image = stressImage(camera, k + 1);
@@ -111,7 +111,7 @@ TEST_CASE("A camera's blocks are imported once each, and a block that the device
         CHECK(again.slot == 2u + round % 2);
         CHECK_FALSE(again.isNew);
     }
-    CHECK(rig.choose(blocks, 3).slot == 0); // the other block's turn was next
+    CHECK(rig.choose(blocks, 3).slot == 0); // the other copy slot would have been next
     CHECK(rig.choose(blocks, 3).slot == 2);
 }
 
@@ -128,7 +128,7 @@ TEST_CASE("Frames outside whole pages are copied in alternation and never over t
     CHECK(copy(1) == 0);
     CHECK(copy(1) == 0);
     CHECK(copy(7) == 1);
-    // A block that is another frame's counts for nothing.
+    // A block that belongs to another frame is not used.
     Blocks blocks(rig.camera, 1);
     const Frame other = blocks.next(image);
     content.depthMemory = other->depthMemory, content.colourMemory = other->colourMemory;
@@ -161,7 +161,7 @@ TEST_CASE("Memory released by its camera makes room, and memory without room is 
     const std::weak_ptr<const void> memory = gone->next(rig.image)->depthMemory;
     CHECK(rig.choose(*gone).slot == 2);
     gone.reset();
-    CHECK_FALSE(memory.expired()); // nothing else can be at that address while a slot reads there
+    CHECK_FALSE(memory.expired()); // the slot keeps the memory, so its address cannot be reused
     Blocks many(rig.camera, kMost);
     CHECK(rig.choose(many).slot == 2);
     CHECK(memory.expired());
@@ -178,7 +178,7 @@ TEST_CASE("Depth in a driver's memory is read in place again after its camera wa
         return;
     }
     Slots rig;
-    Blocks colours(rig.camera, 5); // stay: the camera's own
+    Blocks colours(rig.camera, 5); // the camera's own colour blocks stay
     auto driver = std::make_unique<Blocks>(rig.camera, 4);
     const auto choose = [&] {
         const Frame depth = driver->next(rig.image), colour = colours.next(rig.image);
@@ -187,7 +187,7 @@ TEST_CASE("Depth in a driver's memory is read in place again after its camera wa
         return rig.slots.choose(Frame(content, nullptr), {});
     };
     for (int round = 0; round < 3; ++round) {
-        for (int i = 0; i < 20; ++i) { // each with each
+        for (int i = 0; i < 20; ++i) { // all combinations
             const auto [slot, isNew] = choose();
             CHECK(slot >= cloud::UploadSlots::kCopied);
             CHECK(isNew);
@@ -206,12 +206,12 @@ TEST_CASE("If the device cannot import depth it is copied, and colour is still r
     const auto choose = [&] {
         const Frame frame = blocks.next(rig.image);
         Frame::Content content = *frame;
-        // A frame in the middle of a page, as no device takes it.
+        // A frame in the middle of a page, which no device can import.
         content.depth = content.depth.subspan(8);
         content.depthMemory = {content.depthMemory, content.depth.data()};
         return rig.slots.choose(Frame(content, nullptr), {});
     };
-    rig.camera.depth.height -= 1; // of which enough is left there
+    rig.camera.depth.height -= 1; // enough data remains in the page
     CHECK(choose().slot == 0);
     const auto [slot, isNew] = choose();
     CHECK(slot == 2);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a live device asks of the haptic cycle: a start of its own, a way back after a loss, axes without
-// motors.
+// Live devices in the haptic cycle: any start pose, recovery after a loss, axes without motors.
 #include "tests/cycle/haptic_rig.h"
 
 #include <cmath>
@@ -12,7 +11,7 @@ using namespace fathom::testing;
 
 namespace {
 
-// A bar, so that a wall under one end turns it.
+// A bar: a wall under one end rotates it.
 Tool barTool() {
     std::vector<Sphere> leaves;
     for (int i = -4; i <= 4; ++i) {
@@ -39,7 +38,7 @@ TEST_CASE(
     CHECK(glm::length(record.wrench.force) < 1e-9);
     rig.hand.position.x += 0.005;
     record = rig.ticks(50);
-    CHECK(record.tool.position.x == doctest::Approx(start.position.x + 0.01)); // twice the hand's way
+    CHECK(record.tool.position.x == doctest::Approx(start.position.x + 0.01)); // twice the hand's motion
     CHECK(record.tool.rotation.y == doctest::Approx(start.rotation.y));
 }
 
@@ -54,7 +53,7 @@ TEST_CASE(
     rig.buttons = 6;
     const StepRecord gone = rig.ticks(500);
     CHECK(glm::length(gone.deviceWrench.force) == 0.0);
-    rig.hand = at(0.05, 0.03, -0.06); // unplugged, homed anew
+    rig.hand = at(0.05, 0.03, -0.06); // unplugged and homed again
     rig.buttons = 0;
     const StepRecord back = rig.ticks(1);
     CHECK(glm::distance(back.tool.position, gone.tool.position) < 1e-6);
@@ -70,7 +69,7 @@ TEST_CASE(
         const Pose start = at(0.065, 0.0, 0.05);
         rig.cycle =
             std::make_unique<HapticCycle>(rig.tool, std::span<const Shape>{}, rig.options, rig.hand, &start);
-        rig.show(wallSet()); // reaches to x = 0.06 only: one end of the bar is over it
+        rig.show(wallSet()); // ends at x = 0.06, so only one end of the bar is above it
         rig.age = false;
         rig.ticks(300);
         const dvec3 down = glm::conjugate(scene.hand.baseRdevice) * dvec3(0.0, 0.0, -0.043);

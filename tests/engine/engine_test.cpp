@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The public interface from outside: statuses, counts, ownership of lent frames, and what a step may not do.
+// The public interface: statuses, counts, ownership of borrowed frames, and restrictions on a step.
 #include "tests/engine/wall_world.h"
 #include "tests/haptics/allocation_count.h"
 
@@ -89,7 +89,7 @@ TEST_CASE("A borrowed frame is released exactly once, whatever happens to it") {
         CHECK(port.lend(wall.at(now()), release(i)) == SubmitStatus::Accepted);
         std::this_thread::sleep_for(std::chrono::milliseconds(i % 3));
     }
-    engine.reset(); // one may still wait
+    engine.reset(); // a frame may still be waiting
     CHECK(port.lend(wall.at(now()), release(kFrames + 1)) == SubmitStatus::Closed);
     for (int i = 0; i < kFrames + 2; ++i) {
         CHECK(released[static_cast<size_t>(i)] == 1);
@@ -124,7 +124,7 @@ TEST_CASE("A step does not allocate and keeps the caller's floating-point mode")
         const Hand sample = handAt(z);
         const uint64_t before = threadAllocationCount();
 #if defined(__SSE2__)
-        _mm_setcsr(0x9fc0); // denormals are zero, results are flushed
+        _mm_setcsr(0x9fc0); // denormals are zero, flush to zero
 #endif
         const Step step = hand.step(sample, now());
 #if defined(__SSE2__)
@@ -140,8 +140,8 @@ TEST_CASE("A step does not allocate and keeps the caller's floating-point mode")
     CHECK(during == 0);
     CHECK(kept);
     const uint64_t before = threadAllocationCount();
-    CHECK(!std::string(100, 'x').empty());        // longer than what a string holds in place
-    CHECK(threadAllocationCount() == before + 1); // the count counts
+    CHECK(!std::string(100, 'x').empty());        // too long for small-string storage, so it allocates
+    CHECK(threadAllocationCount() == before + 1); // the counter works
 }
 
 TEST_CASE("A step reports a missing scene, an old scene and time that goes back") {
@@ -152,7 +152,7 @@ TEST_CASE("A step reports a missing scene, an old scene and time that goes back"
     CHECK((step.warnings & NoScene) != 0);
     CHECK(step.state == State::Off);
     const Wall wall;
-    CHECK(port.submit(wall.at(now() - 3'000'000'000)) == SubmitStatus::Accepted); // as old as it says
+    CHECK(port.submit(wall.at(now() - 3'000'000'000)) == SubmitStatus::Accepted); // keeps its age of 3 s
     CHECK(eventually([&] { return hand.step(handAt(0.5), now()).frame >= 0; }));
     step = hand.step(handAt(0.5), now());
     CHECK((step.warnings & NoScene) == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything at once, for the thread sanitizer: submissions, steps, a lost device, and the end of the engine.
+// Concurrent submissions, steps, a lost device and destruction of the engine, for the thread sanitizer.
 #include "tests/engine/wall_world.h"
 #include "tests/rig/losing.h"
 
@@ -42,9 +42,9 @@ TEST_CASE("Frames, steps, a lost device and destruction may overlap") {
     CHECK(eventually([&] { return lost.load(); }));
     CHECK(eventually([&] { return !engine->deviceLost() && !std::filesystem::exists(trigger); }));
     const uint64_t before = port.processed();
-    CHECK(eventually([&] { return port.processed() >= before + 5; })); // it is back
+    CHECK(eventually([&] { return port.processed() >= before + 5; })); // the device is back
     CHECK(engine->failure().empty());
-    engine.reset(); // while both threads go on
+    engine.reset(); // while both threads still run
     const uint64_t then = steps;
     CHECK(eventually([&] { return steps > then + 100 && afterEnd > 5; }));
     stop = true;

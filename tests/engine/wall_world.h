@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A flat wall 0.6 m ahead, protected by 40 mm, and a ball of 10 mm as tool: it rests at z = 0.55 m.
+// A flat wall at 0.6 m with a region radius of 40 mm, and a ball of 10 mm radius as tool, which rests at z =
+// 0.55 m.
 #pragma once
 
 #include <fathom/fathom.h>
@@ -46,7 +47,7 @@ inline HandStart startAt(double z) {
     return {handAt(z).deviceThandle};
 }
 
-// False after 60 s.
+// Waits for the condition; false after 60 s.
 template <class Condition>
 bool eventually(Condition&& condition) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);

@@ -53,7 +53,7 @@ TEST_CASE("A device is chosen by a part of its name, ignoring case") {
 
 TEST_CASE("Fill, update and copy take effect in the order in which they were recorded") {
     gpu::Device& device = vulkan().device;
-    for (uint64_t words : {1u, 5u, 1000u}) { // not multiples of anything
+    for (uint64_t words : {1u, 5u, 1000u}) { // odd sizes
         const gpu::Buffer a(device, words * 4, gpu::MemoryKind::Device, "a"),
             b(device, words * 4, gpu::MemoryKind::Readback, "b");
         gpu::Commands commands(device);
@@ -118,22 +118,22 @@ TEST_CASE("The stopwatch measures the work between two marks, in milliseconds") 
         watch.mark(commands.handle());
         commands.dispatch(work, bindings, kGroups);
         watch.mark(commands.handle());
-        watch.mark(commands.handle()); // one more than there is room for
+        watch.mark(commands.handle()); // one more than fits
         commands.end();
         const Clock::time_point started = Clock::now();
         device.submit(commands.handle(), timeline.handle(), 0, ticket);
         timeline.wait(ticket);
         return std::chrono::duration<double, std::milli>(Clock::now() - started).count();
     };
-    once(1); // compiles where the driver does that late
+    once(1); // some drivers compile at first use
     const double wall = once(2);
     const std::vector<double> intervals = watch.intervalsMs();
     REQUIRE(intervals.size() == 2);
     CAPTURE(wall);
     CAPTURE(intervals[0]);
     CAPTURE(intervals[1]);
-    CHECK(intervals[0] < 0.5 * intervals[1]); // nothing lies between the first two
-    CHECK(intervals[1] > 0.3 * wall);         // the work is what the host waited for
+    CHECK(intervals[0] < 0.5 * intervals[1]); // no work between the first two marks
+    CHECK(intervals[1] > 0.3 * wall);         // the work accounts for the host's wait
     CHECK(intervals[0] + intervals[1] <= wall);
 }
 
@@ -151,7 +151,7 @@ TEST_CASE("A pipeline is compiled once, and pipelines in use are never dropped")
     CHECK(store.size() == gpu::PipelineStore::kMost);
     const auto there = [&](uint32_t steps) { return store.find(ceilingInfo(64, steps)) != nullptr; };
     CHECK(there(1));
-    CHECK_FALSE(there(2)); // the longest unused went
+    CHECK_FALSE(there(2)); // the least recently used one was dropped
     CHECK(there(2 + gpu::PipelineStore::kMost));
     CHECK(ceiling(device, 64, 1).handle() == kept.handle());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a driver keeps of pipelines, in files that are cut, foreign, too large or in the way.
+// The pipeline cache with files that are truncated, foreign, too large or of another kind.
 #include "engine/gpu/pipeline.h"
 #include "engine/gpu/query_crossover.h"
 #include "engine/types/error.h"
@@ -27,14 +27,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The user's cache folder, for as long as it lives.
+// Sets the user's cache folder while it exists.
 class CacheFolder {
 public:
     CacheFolder()
         : path_(fs::temp_directory_path() / ("fathom-cache-" + std::to_string(::getpid()))) {
         const char* was = std::getenv("XDG_CACHE_HOME");
         before_ = was == nullptr ? "" : was;
-        vulkan(); // keeps its own
+        vulkan(); // the shared device keeps its own folder
         fs::remove_all(path_);
         ::setenv("XDG_CACHE_HOME", path_.c_str(), 1);
     }
@@ -45,7 +45,7 @@ public:
     CacheFolder(const CacheFolder&) = delete;
     CacheFolder& operator=(const CacheFolder&) = delete;
 
-    // Opens a device that compiles something, and ends it. Returns how many bytes are stored then.
+    // Opens a device, compiles a pipeline and closes the device. Returns the number of bytes stored.
     size_t openOnce() const {
         {
             gpu::Device device(vulkan().instance, Vulkan::selector());
@@ -86,7 +86,7 @@ TEST_CASE("A device opens with a pipeline file that is truncated, foreign, empty
     for (const std::string& bytes :
          {std::string(), whole.substr(0, 1), whole.substr(0, 20), whole.substr(0, whole.size() / 2),
           whole.substr(0, whole.size() - 1), changed, longer, std::string(100'000, '\xa5'),
-          whole.substr(24)}) { // the last: without what is before the driver's data
+          whole.substr(24)}) { // the last one: without the header before the driver's data
         cache.write(bytes);
         CAPTURE(bytes.size());
         CHECK(gpu::storedPipelines(cache.file()).empty());
@@ -99,7 +99,7 @@ TEST_CASE("A pipeline file larger than any real one is not read and is replaced 
     const CacheFolder cache;
     const size_t stored = cache.openOnce();
     const std::string whole = contentOf(cache.file());
-    fs::resize_file(cache.file(), uint64_t{64} << 30); // a hole: takes no room on the disk
+    fs::resize_file(cache.file(), uint64_t{64} << 30); // sparse: takes no disk space
     CHECK(gpu::storedPipelines(cache.file()).empty());
     CHECK(cache.openOnce() == stored);
     CHECK(contentOf(cache.file()).size() == whole.size());
@@ -128,7 +128,7 @@ TEST_CASE("A failed write of pipelines leaves the old file unchanged and no temp
     rlimit limit{};
     REQUIRE(::getrlimit(RLIMIT_FSIZE, &limit) == 0);
     const auto before = std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{5000, limit.rlim_max}; // as a disk that is full after so many bytes
+    const rlimit small{5000, limit.rlim_max}; // like a disk that is full after this many bytes
     REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
     CHECK_THROWS_AS(gpu::storePipelines(cache.file(), fresh), Error);
     REQUIRE(::setrlimit(RLIMIT_FSIZE, &limit) == 0);

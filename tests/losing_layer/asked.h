@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the layer is asked to do, by the environment and a file; and the surfaces that it has lost. The
-// layer's mutex is held in every call.
+// Requests to the layer from the environment and a file, and the surfaces that it has lost. Every call
+// requires the layer's mutex.
 #pragma once
 
 #include <vulkan/vulkan.h>
 
 namespace losing {
 
-long number(const char* name);   // of the environment; 0 = not there
-VkResult lossOf();               // what a lost device answers
-bool askedFor(const char* call); // whether the file names this call; then it goes
+long number(const char* name);   // number in an environment variable; 0 = unset
+VkResult lossOf();               // the result that a lost device returns
+bool askedFor(const char* call); // whether the file names this call; removes the file then
 
-// A surface that is lost takes no images until it is destroyed.
-void hasImages(VkSurfaceKHR surface); // it is the newest that does
-void loseSurface();                   // the newest
+// A lost surface gets no images until it is destroyed.
+void hasImages(VkSurfaceKHR surface); // marks it as the newest surface with images
+void loseSurface();                   // loses the newest surface
 bool isLost(VkSurfaceKHR surface);
 void forget(VkSurfaceKHR surface);
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A Vulkan layer that loses a device: from some call on, the device that an application opened answers
-// VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some of the openings that follow fail. It also
-// takes a window's images or its surface away. Below the program, so that what runs is the program as it
-// ships.
+// A Vulkan layer that simulates the loss of a device: from some call on, the application's device returns
+// VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some later openings fail. It can also
+// invalidate a window's images or surface. The tested program is unmodified, because the layer is below it.
 //   FATHOM_LOSE_AT       submission of the first device, from 1, that is the first to fail
 //   FATHOM_LOSE_TIMES    or: reading of its stopwatch, from 1
 //   FATHOM_LOSE_FILE     or: a file with one word; any device is lost in the first such call that finds the
@@ -42,7 +41,7 @@ struct NextDevice {
 };
 
 std::mutex mutex;
-std::map<void*, NextDevice> devices; // by the loader's dispatch table, which queues share with their device
+std::map<void*, NextDevice> devices; // key: the loader's dispatch table, which queues share with their device
 PFN_vkGetInstanceProcAddr nextInstance = nullptr;
 PFN_vkDestroySurfaceKHR nextDestroySurface = nullptr;
 long opened = 0, refused = 0; // refused: since the last loss
@@ -79,7 +78,8 @@ VKAPI_ATTR VkResult VKAPI_CALL createInstance(const VkInstanceCreateInfo* info,
     const auto create =
         reinterpret_cast<PFN_vkCreateInstance>(nextInstance(VK_NULL_HANDLE, "vkCreateInstance"));
     const VkResult result = create(info, memory, instance);
-    if (result == VK_SUCCESS) { // asked later, the loader answers with what is on top, which is this layer
+    if (result == VK_SUCCESS) { // look up now: later the loader would return the topmost function, which is
+                                // this layer's
         nextDestroySurface =
             reinterpret_cast<PFN_vkDestroySurfaceKHR>(nextInstance(*instance, "vkDestroySurfaceKHR"));
     }
@@ -123,10 +123,10 @@ VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCall
     devices.erase(key);
 }
 
-// The mutex is held, and by the application's own rules no other thread is on the queue of the call.
+// Requires the mutex. The application ensures that no other thread uses the queue.
 bool loses(NextDevice& device, const char* call, bool now = false) {
     if (!device.lost && (now || askedFor(call))) {
-        device.idle(device.handle); // what is lost is at nothing any more: its memory may go
+        device.idle(device.handle); // a lost device has no running work, so its memory may be freed
         device.lost = true;
         refused = 0;
     }
@@ -193,7 +193,7 @@ VKAPI_ATTR VkResult VKAPI_CALL times(VkDevice handle, VkQueryPool pool, uint32_t
 
 VKAPI_ATTR VkResult VKAPI_CALL present(VkQueue queue, const VkPresentInfoKHR* info) {
     PFN_vkQueuePresentKHR pass = nullptr;
-    VkResult after = VK_SUCCESS; // whatever becomes of the frame, its semaphores have been waited for
+    VkResult after = VK_SUCCESS; // the wait on the frame's semaphores counts in any case
     {
         const std::lock_guard lock(mutex);
         if (loses(devices[keyOf(queue)], "presenting")) {

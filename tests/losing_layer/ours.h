@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which of the calls that an application looks up are the layer's own.
+// Look-up of the functions that the layer implements itself.
 #pragma once
 
 #include <cstring>
@@ -13,7 +13,7 @@ struct Ours {
     PFN_vkVoidFunction call;
 };
 
-// Ours of that name; null: none.
+// The layer's function of that name; null if it has none.
 inline PFN_vkVoidFunction among(std::initializer_list<Ours> all, const char* name) {
     for (const Ours& one : all) {
         if (one.call != nullptr && std::strcmp(name, one.name) == 0) {

@@ -35,7 +35,7 @@ TEST_CASE("At the same number of leaves our worst protrusion is not above that o
                 return measureCover(spheres, mesh, distance, 0.2).protrusionMax;
             };
             const double ours = worst(coverMesh(mesh, distance, options).spheres);
-            // 1 % for the sampling: a box of 4 x 2 x 1 cubes cannot be covered better than by those cubes.
+            // 1 % allows for sampling: for a box of 4 x 2 x 1 cubes, these cubes are the best cover.
             CHECK(ours < 1.01 * worst(reference::gridCover(mesh, distance, count)));
             CHECK(ours < 1.01 * worst(reference::octreeCover(mesh, distance, count)));
         }

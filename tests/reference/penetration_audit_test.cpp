@@ -55,7 +55,7 @@ Pose at(double x, double y = 0.0, double z = 0.0) {
     return {{x, y, z}, {1, 0, 0, 0}};
 }
 
-// The definition, taken literally: every leaf against every sphere, every tick.
+// The literal definition: every leaf against every sphere in every tick.
 class BruteForce {
 public:
     explicit BruteForce(const Tool& tool)
@@ -138,7 +138,7 @@ TEST_CASE(
                     sceneOf(randomSpheres(random, count, 0.15, 0.005, 0.04), generation, origin);
                 for (int i = 0; i < 60; ++i) {
                     const Pose start = pose;
-                    // Mostly small steps, so that the search that is skipped in free water is tried too.
+                    // Mostly small steps, so that skipped searches in free space are tested, too.
                     const double scale = i % 9 == 8 ? 30.0 : 1.0;
                     const double x = step(random), y = step(random), z = step(random);
                     pose.position += scale * dvec3(x, y, z);
@@ -148,7 +148,7 @@ TEST_CASE(
                     audit.tick(scene.set, scene.grid, start, pose, behind);
                     brute.tick(scene.set, start, pose, behind);
                 }
-                pose.position = 0.5 * (pose.position + origin); // stay with the cloud
+                pose.position = 0.5 * (pose.position + origin); // stay near the cloud
             }
             CHECK(std::abs(audit.maxPenetration() - brute.maxBeyond) < kExact);
             CHECK(std::abs(audit.maxEscapeDepth() - brute.maxInside) < kExact);
@@ -160,7 +160,7 @@ TEST_CASE(
             escapes += audit.escapeTicks();
         }
     }
-    CHECK(escapes > 100); // the scenes do press on what they test
+    CHECK(escapes > 100); // the scenes do exercise escapes
 }
 
 TEST_CASE("A tool that backs out of a region that caught it uses its allowance and never penetrates") {
@@ -172,7 +172,7 @@ TEST_CASE("A tool that backs out of a region that caught it uses its allowance a
     }
     CHECK(audit.maxPenetration() == 0.0);
     CHECK(audit.maxEscapeDepth() == doctest::Approx(0.009).epsilon(1e-6));
-    // Nine turns end inside; the tenth ends on the surface, to the rounding of the float radius.
+    // Nine ticks end inside; the tenth ends on the surface, within the rounding of the float radius.
     CHECK(audit.escapeTicks() >= 9);
     CHECK(audit.escapeTicks() <= 10);
 }
@@ -185,7 +185,7 @@ TEST_CASE(
     audit.tick(scene.set, scene.grid, at(0.045), at(0.047)); // 5 mm allowed, 3 mm used
     audit.tick(scene.set, scene.grid, at(0.047), at(0.046)); // 4 mm: 1 mm beyond
     CHECK(audit.maxPenetration() == doctest::Approx(0.001).epsilon(1e-6));
-    audit.tick(scene.set, scene.grid, at(0.046), at(0.060)); // out: nothing is left
+    audit.tick(scene.set, scene.grid, at(0.046), at(0.060)); // outside: no allowance is left
     audit.tick(scene.set, scene.grid, at(0.060), at(0.048)); // 2 mm, all of it beyond
     CHECK(audit.maxPenetration() == doctest::Approx(0.002).epsilon(1e-6));
     CHECK(audit.penetrationTicks() == 2);
@@ -195,7 +195,7 @@ TEST_CASE(
     "The allowance of a new set is the depth at the pose its first tick starts from, not where it ends") {
     const Tool tool = toolOf({{{0, 0, 0}, 0.01}});
     const Scene first = sceneOf({{{0, 0, 0}, 0.04}}, 1);
-    const Scene second = sceneOf({{{0.005, 0, 0}, 0.04}}, 2); // the region came 5 mm nearer
+    const Scene second = sceneOf({{{0.005, 0, 0}, 0.04}}, 2); // the region is 5 mm nearer
     PenetrationAudit audit(tool);
     audit.tick(first.set, first.grid, at(0.051), at(0.0505));
     CHECK(audit.maxEscapeDepth() == 0.0);

@@ -12,7 +12,7 @@ namespace fathom::test {
 
 namespace {
 
-// A well-mixed number of a pixel and a seed (splitmix64).
+// A well-mixed hash of a pixel and a seed (splitmix64).
 uint64_t mixed(uint64_t x) {
     x += 0x9e3779b97f4a7c15ull;
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -116,7 +116,7 @@ Scene classesScene(uint32_t count) {
             f.hue = band(110, 165.5), f.box = Box{{-1, -1, 0}, {1, 1, 1}};
             break;
         case 6:
-            break; // takes every valid point
+            break; // accepts every valid point
         default:
             f.hue = band(0, 360);
             break;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Set-up shared by the tests of the frame passes: a rig on the test device, and the frames, cameras and
-// scenes that the tests are run on.
+// Set-up for the tests of the frame passes: a rig on the test device, and frames, cameras and scenes.
 #pragma once
 
 #include "apps/verify/pass_rig.h"
@@ -14,34 +13,35 @@ namespace fathom::test {
 
 using verify::Image;
 
-// On the device of all tests.
+// Runs on the shared test device.
 struct CloudRig : verify::PassRig {
     CloudRig(Scene scene, const CameraInfo& camera, const Change& change = {}, uint32_t readers = 1)
         : PassRig(vulkan().device, std::move(scene), camera, change, readers) {}
 };
 
-// Cameras. Without distortion, principal point off the middle; with the lens of TUM freiburg1 scaled to the
-// width.
+// Cameras: one without distortion and the principal point off the middle; one with the lens of TUM freiburg1
+// scaled to the width.
 CameraInfo pinholeCamera(uint32_t width, uint32_t height, double metresPerUnit = 0.001);
 CameraInfo freiburgCamera(uint32_t width, uint32_t height, double metresPerUnit = 0.0002);
 
-// A scene without filter, edge test, thinning and hold: one forbidden class that takes every point. Tests add
-// to it.
+// A scene without filter, edge test, thinning and hold: one forbidden class that accepts every point. Tests
+// extend it.
 Scene plainScene();
-// count classes (1..8) that overlap, forbidden and guidance, with hue bands that wrap, gates, boxes and none.
+// A scene with `count` (1..8) overlapping classes, forbidden and guidance: with wrapping hue bands, gates,
+// boxes, or no gates.
 Scene classesScene(uint32_t count);
 FixtureClass forbiddenClass(const std::string& name, double radius);
 FixtureClass guidanceClass(const std::string& name);
 
 // Steps, slopes, speckles, dropouts and a colour image of bright, dark, grey, black and white pixels.
 Image stressImage(const CameraInfo& camera, uint64_t seed);
-// Depth by a function of the pixel [m], 0 = none; colour one and the same.
+// An image of one colour, with depth [m] as a function of the pixel, 0 = none.
 Image drawnImage(const CameraInfo& camera, const std::function<double(int, int)>& depth,
                  uint32_t colour = 0xff2020c0);
 // Depth of the plane n . p = d (camera frame) at a pixel [m].
 double planeDepth(const CameraInfo& camera, int u, int v, const dvec3& normal, double d);
 
-// A frame of a built-in scene and the camera that saw it.
+// A frame of a built-in scene, with its camera.
 struct Shot {
     CameraInfo camera;
     Image image;
@@ -49,7 +49,7 @@ struct Shot {
 };
 Shot simulatedShot(const std::string& scene, SimulatedCameraOptions options, uint32_t frame = 0);
 
-// Scenes, cameras and frames between them: all sizes, lenses, units and options that the passes must take.
+// Cases that together cover all sizes, lenses, units and options that the passes must support.
 struct CloudCase {
     std::string name;
     Scene scene;
@@ -58,7 +58,7 @@ struct CloudCase {
 };
 std::vector<CloudCase> cloudCases();
 
-// The test recordings, ../shared/data/NAME; empty and said so when absent.
+// The test recordings in ../shared/data/NAME; empty with a message when absent.
 struct RecordedShots {
     CameraInfo camera;
     std::vector<Image> images;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sanitizer finds in a part of the work what it finds in all of it, and takes ten times as long.
+// Sanitized builds run a part of the work: it finds the same errors, and all of it would take ten times as
+// long.
 #pragma once
 
 namespace fathom {

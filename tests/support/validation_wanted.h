@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whether the Vulkan layers watch what the tests run.
+// Whether the tests run with the Vulkan validation layers.
 #pragma once
 
 #include "tests/support/sanitized.h"
@@ -9,8 +9,8 @@
 
 namespace fathom::test {
 
-// FATHOM_TEST_VALIDATION: 0 leaves the layers out, as sanitized trees do; gpu: their checks inside of
-// shaders, too.
+// FATHOM_TEST_VALIDATION: 0 = without layers, as in sanitized builds; gpu = also GPU-assisted checks in
+// shaders.
 inline std::string validationSetting() {
     const char* set = std::getenv("FATHOM_TEST_VALIDATION");
     return set != nullptr ? set : kSanitized ? "0" : "1";

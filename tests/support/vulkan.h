@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One validated Vulkan device for all tests of a program, and reading of device-local buffers.
+// One Vulkan device with validation for all tests of a program, and functions that read device-local buffers.
 #pragma once
 
 #include "engine/gpu/commands.h"
@@ -14,7 +14,7 @@ namespace fathom::test {
 struct Vulkan {
     gpu::Instance instance;
     gpu::Device device;
-    // FATHOM_TEST_DEVICE chooses a device.
+    // FATHOM_TEST_DEVICE selects the device.
     Vulkan()
         : instance(validation())
         , device(instance, selector()) {}

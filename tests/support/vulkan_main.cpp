@@ -23,7 +23,7 @@ int main(int argc, char** argv) {
     fathom::gpu::askForSoftwareThreads();
     doctest::Context context(argc, argv);
     int result = context.run();
-    shared.reset(); // which may be what there is a message about
+    shared.reset(); // destruction may also cause messages
     const uint32_t messages = fathom::gpu::validationMessages();
     if (messages != 0) {
         std::cout << "validation: " << messages << " messages, none is allowed\n";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Beams at equal angles, and how sharp they are.
+// Fans of beams at equal angles, and the sigma of a beam.
 #include "engine/types/camera_info.h"
 
 #include <cmath>
@@ -35,7 +35,7 @@ TEST_CASE("A beam's sigma grows with range by both its parts, and three sigma ex
     const BeamSigma wide{0.0, 0.0, 0.3};
     CHECK(3.0 * wide.at(2.0) > 2.0 * std::tan(0.15));
     CameraInfo camera;
-    CHECK(camera.sigmaAt({3.0, 0.0, 2.0}) == depthSigma(2.0)); // a camera's, along the axis
+    CHECK(camera.sigmaAt({3.0, 0.0, 2.0}) == depthSigma(2.0)); // that of a camera, along the axis
     camera.beam = beam;
     CHECK(camera.sigmaAt({3.0, 0.0, 4.0}) == doctest::Approx(beam.at(5.0)));
 }

@@ -53,7 +53,7 @@ TEST_CASE("Two readers under a writer never see a torn value and never an older 
             }
             const uint64_t first = lease->words[0];
             for (uint64_t word : lease->words) {
-                torn += word != first; // this is the sight of a torn read: it must stay at zero
+                torn += word != first; // counts torn reads; must stay zero
             }
             older += first < last;
             last = first;

@@ -60,7 +60,7 @@ TEST_CASE("A pipe, a device or a folder is not readable as a file, and a link co
          {folder / "pipe", folder / "to-pipe", std::filesystem::path("/dev/zero")}) {
         CAPTURE(path);
         CHECK_FALSE(isRegularFile(path));
-        CHECK_FALSE(readFileAtMost(path, 10)); // and does not wait for a writer
+        CHECK_FALSE(readFileAtMost(path, 10)); // does not wait for a writer
         CHECK(whyUnreadable(path) == "a pipe or a device");
     }
     for (const std::filesystem::path& path : {folder, folder / "none"}) {

@@ -23,5 +23,5 @@ TEST_CASE("A file may replace a file or a free name, but not a folder, a device 
     }
     std::filesystem::create_directory_symlink("/dev", folder.path() / "dev");
     CHECK(!isReplaceable(folder.path() / "dev/stdout"));
-    CHECK(isReplaceable("/dev/shm/fathom-test-trace.json")); // a folder of files like others
+    CHECK(isReplaceable("/dev/shm/fathom-test-trace.json")); // an ordinary folder of files
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parts of a job shared by threads; under the thread sanitizer, too.
+// Jobs shared by threads; also run under the thread sanitizer.
 #include "engine/types/thread_pool.h"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ TEST_CASE("Each part of a job runs once, and its results are visible when the jo
         CHECK(workers.size() == members);
         size_t wrong = 0;
         for (uint32_t round = 0; round < 400; ++round) {
-            const uint32_t parts = round % 23; // none, one, more than members
+            const uint32_t parts = round % 23; // none, one, more than workers
             std::vector<uint32_t> times(parts, 0);
             if (round % 3 == 0) {
                 workers.wake();
@@ -32,7 +32,7 @@ TEST_CASE("Each part of a job runs once, and its results are visible when the jo
 
 TEST_CASE("Sleeping workers are woken by wake(), and a job does not need them") {
     ThreadPool workers(3);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // longer than they look out for work
+    std::this_thread::sleep_for(std::chrono::milliseconds(20)); // longer than the spin time
     std::vector<std::thread::id> by(64);
     const auto job = [&](uint32_t part) {
         by[part] = std::this_thread::get_id();
@@ -41,7 +41,7 @@ TEST_CASE("Sleeping workers are woken by wake(), and a job does not need them") 
     const auto others = [&] {
         return std::ranges::any_of(by, [](std::thread::id id) { return id != std::this_thread::get_id(); });
     };
-    bool shared = false; // at some time, however busy the machine is
+    bool shared = false; // eventually, however busy the machine is
     for (int round = 0; round < 20 && !shared; ++round) {
         workers.wake();
         workers.run(static_cast<uint32_t>(by.size()), job);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// YUYV against BT.601 as its formulas say, and what readers get of frames that carry it.
+// Compares YUYV with the formulas of BT.601, and tests readers of YUYV frames.
 #include "engine/types/colour_copy.h"
 #include "engine/types/yuyv.h"
 
@@ -24,7 +24,7 @@ std::array<double, 3> exactRgb(int luma, int u, int v) {
     return {std::clamp(red, 0.0, 255.0), std::clamp(green, 0.0, 255.0), std::clamp(blue, 0.0, 255.0)};
 }
 
-// Largest distance of any channel, over all chroma at a luma.
+// Largest error of any channel, over all chroma at one luma.
 double largestError(uint32_t luma) {
     double worst = 0.0;
     for (uint32_t uv = 0; uv < 65536; ++uv) {
