@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which contact set the haptic cycle obeys: the active set, until the cycle adopts a newer one on offer.
+// Chooses the contact set that the haptic cycle obeys: the active set, until the cycle adopts a newer one.
 #pragma once
 
 #include "engine/cycle/haptic_cycle.h"
@@ -14,8 +14,8 @@ namespace fathom {
 template <class Handle>
 class ActiveContacts {
 public:
-    // Replaces the set on offer by newest(); releases the old one first, so that at most two sets are held.
-    // The active set is not offered again.
+    // Replaces the set on offer by newest(). Releases the old one first, so that at most two sets are held.
+    // Does not offer the active set again.
     template <class Newest>
     void offer(Newest&& newest) noexcept {
         offered_ = Handle{};
@@ -25,7 +25,7 @@ public:
         }
     }
 
-    // One step of the cycle with these sets. The set on offer is active afterwards if the cycle adopted it.
+    // Runs one step of the cycle. The set on offer becomes active if the cycle adopts it.
     StepRecord step(HapticCycle& cycle, StepInput input) noexcept {
         input.contacts = active_ ? &*active_ : nullptr;
         input.offered = offered_ ? &*offered_ : nullptr;
@@ -37,7 +37,7 @@ public:
         return record;
     }
 
-    // The set that the last step obeyed; null when there was none.
+    // The set that the last step obeyed; null if there was none.
     const ContactSet* active() const noexcept { return active_ ? &*active_ : nullptr; }
     const ContactSet* offered() const noexcept { return offered_ ? &*offered_ : nullptr; }
 

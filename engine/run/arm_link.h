@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The mailboxes between the haptic thread and the thread of a real arm. No locks.
+// Lock-free mailboxes between the haptic thread and the thread of a real arm.
 #pragma once
 
 #include "engine/run/posture_track.h"
@@ -11,10 +11,10 @@ namespace fathom {
 
 enum class ArmState : uint8_t {
     Follows,    // tracks the arm of the tool
-    Held,       // ready, but ordered to stand still: forces off, old scene, trapped, no recent setpoint
+    Held,       // ready, but commanded to hold: forces off, old scene, trapped, no recent setpoint
     Silent,     // no fresh feedback
     Gone,       // the line is unplugged
-    NotHomed,   // its positions are invalid until a new start homes it
+    NotHomed,   // its positions are invalid until a new start homes the arm
     Overloaded, // a motor drew too much current; switching forces off and on clears this
     Behind,     // lagged too far for too long; held until the tool is where the arm is
 };
@@ -32,7 +32,7 @@ constexpr bool isFault(ArmState state) {
 struct ArmSetpoint { // haptic -> arm
     ArmPosture posture;
     bool hold = true;
-    bool off = true;         // forces are off: latched faults may clear
+    bool off = true;         // forces are off, so latched faults may clear
     PostureTrack::Time at{}; // of the step
 };
 

@@ -31,7 +31,7 @@ struct TickRow {
     Pose start;              // base_T_tool before the step
     ArmPosture startArm;     // and the arm's posture, if there is an arm
     uint64_t generation = 0; // of the fixture set behind the active contacts; 0 = none
-    uint64_t query = 0;      // number of the query that gave the active contact set; 0 = none
+    uint64_t query = 0;      // number of the query behind the active contact set; 0 = none
     double wokenLate = 0.0;  // [s] from the due time to the start of the step
     double micros = 0.0;     // [us] compute time of the step
     bool late = false;       // ended more than one period after it was due
@@ -48,7 +48,7 @@ struct QueryNote {
     std::vector<uint32_t> behind; // leaves
 };
 
-// Frame thread to writer: a frame and the host copy of its set. The writer returns it to be filled again.
+// Frame thread to writer: a frame and the host copy of its set. The writer returns it for reuse.
 struct PublishedFrame {
     FrameReport report;
     double t = 0.0;       // [s] capture time in the run
@@ -56,14 +56,14 @@ struct PublishedFrame {
     Fixtures fixtures;
     RegionGrid grid; // over fixtures.spheres
     std::vector<uint32_t> colour;
-    uint64_t edit = 0;  // of a window: number of the newest change of fixtures that the set contains
-    bool still = false; // the pilot holds all fixtures still: no set is made
+    uint64_t edit = 0;  // with a window: number of the newest edit of fixtures that the set contains
+    bool still = false; // the pilot has frozen all fixtures: no set is made
 };
 
 // One thread at each end, named by its cadence. Sized once; only QueryNote::behind may grow, on the contact
 // thread.
 struct Channels {
-    // tickCapacity: steps that the writer may fall behind.
+    // tickCapacity: number of steps that the writer may lag behind.
     explicit Channels(uint64_t tickCapacity)
         : contacts(2, [] { return std::make_unique<ContactSet>(); })
         , ticks(tickCapacity)
@@ -73,7 +73,7 @@ struct Channels {
 
     TripleBuffer<SceneUpdate> scene;     // frame -> haptic
     TripleBuffer<ToolState> proxy;       // haptic -> contact
-    PostureTrack postures;               // haptic -> frame: where the arm was, for the self-filter
+    PostureTrack postures;               // haptic -> frame: recent postures of the arm, for the self-filter
     TripleBuffer<ShapeList> shapes;      // window -> haptic
     LeasePool<ContactSet> contacts;      // contact -> haptic: two leases, active and on offer
     SpscQueue<TickRow> ticks;            // haptic -> writer
@@ -83,7 +83,7 @@ struct Channels {
     ArmLink* arm = nullptr;              // haptic <-> thread of a real arm; null = no real arm
     std::atomic<bool> hapticDone{false}; // the last wrench is written
 
-    // Sets that the writer may keep for steps that still obey them.
+    // Number of sets that the writer may keep for steps that still obey them.
     static constexpr uint64_t kFramesInFlight = 64;
 };
 

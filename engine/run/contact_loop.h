@@ -9,7 +9,7 @@
 
 namespace fathom {
 
-// What the loop needs of the query behind it. Contact thread only.
+// The query as the loop uses it. Contact thread only.
 class ContactAnswers {
 public:
     virtual ~ContactAnswers() = default;
@@ -19,7 +19,7 @@ public:
 
 class ContactLoop {
 public:
-    // pause [s]: between looks into an empty mailbox; about half a haptic period.
+    // pause [s]: between polls of an empty mailbox; about half a haptic period.
     ContactLoop(ContactAnswers& answers, Channels& channels, const RunClock& clock, double pause,
                 CadenceTrace* trace)
         : answers_(answers)
@@ -28,7 +28,7 @@ public:
         , pause_(pause)
         , trace_(trace) {}
 
-    // Until `stop`. Throws what the query throws.
+    // Runs until `stop`. Passes on exceptions of the query.
     void run(const std::atomic<bool>& stop);
 
 private:

@@ -7,7 +7,7 @@ namespace fathom {
 
 namespace {
 
-constexpr auto kLook = std::chrono::milliseconds(5); // between looks at `stop`, which has no notification
+constexpr auto kLook = std::chrono::milliseconds(5); // poll interval of `stop`, which has no notification
 
 } // namespace
 

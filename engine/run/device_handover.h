@@ -10,39 +10,39 @@
 
 namespace fathom {
 
-// The device is destroyed when neither has objects on it, and counts as back when both can use the new one:
-//   there -> lost (either detects it) -> released (the window is off it; the frame thread opens another)
-//         -> offered (the window builds on it) -> there, or lost again.
-// Only the frame thread ever waits, and not once its run is to stop. Never used by the haptic thread.
+// The device is destroyed when neither user has objects on it, and counts as there when both use the new one.
+// States: there -> lost (detected by either) -> released (the window has destroyed its objects; the frame
+// thread opens a device) -> offered (the window builds its objects) -> there, or lost again. Only the frame
+// thread waits, and not after its run should stop. Never used by the haptic thread.
 class DeviceHandover {
 public:
-    // Either thread: the device failed. The first reason of a loss is kept.
+    // Either thread: reports that the device failed. Keeps the first reason of a loss.
     void lose(const std::string& why);
-    bool lost() const; // and no other one is offered
+    bool lost() const; // and no new device is offered
     bool gone() const; // lost, or offered and not accepted yet
     std::string why() const;
 
-    // Frame thread, after a loss. Waits until the window is off the device; false: `stop` came first, and the
-    // device must stay.
+    // Frame thread, after a loss. Waits until the window has released the device. False: `stop` came first,
+    // and the device must not be destroyed.
     bool awaitRelease(const std::atomic<bool>& stop);
-    // Frame thread: another device is open. Waits until the window draws on it; false: it could not, or
+    // Frame thread: offers the new device. Waits until the window draws on it. False: the window failed, or
     // `stop`.
     bool offer(const std::atomic<bool>& stop);
 
     // Window, once per frame that it draws.
     bool wanted() const; // the device is lost: destroy everything on it, then release()
     void release();
-    bool offered() const; // build on the new one, then accept(), or lose() it
-    void accept();        // nothing unless offered
+    bool offered() const; // build objects on the new device, then accept() or lose()
+    void accept();        // no effect unless offered
 
 private:
     enum class State { There, Lost, Released, Offered };
     State state() const;
     void change(State from, State to);
-    // Until the state is another one or `stop`; the state then.
+    // Waits until the state changes or `stop`; returns the state.
     State awaitOther(State than, const std::atomic<bool>& stop);
 
-    mutable std::mutex mutex_; // of all below
+    mutable std::mutex mutex_; // guards all below
     std::condition_variable changed_;
     State state_ = State::There;
     std::string why_;

@@ -37,7 +37,7 @@ bool FrameLoop::first() {
     return true;
 }
 
-// Asks for a lost camera again, with growing pauses, while the last set ages and the forces fade.
+// Retries a lost camera with growing pauses, while the last set ages and the forces fade.
 std::optional<uint32_t> FrameLoop::fetch(const std::atomic<bool>& stop) {
     for (double pause = kFirstRetry; !stop.load(std::memory_order_relaxed);
          pause = std::min(2.0 * pause, kLongestRetry)) {
@@ -68,7 +68,7 @@ void FrameLoop::run(const std::atomic<bool>& stop) {
     while (const std::optional<uint32_t> index = fetch(stop)) {
         if (const std::optional<RunClock::Time> taken = feed_.captured()) {
             publishOrRenew(std::max(clock_.at(*taken), update_.captureTime),
-                           stop); // not before the run's own start
+                           stop); // not before the start of the run
             continue;
         }
         const double due = origin_ + period_ * (*index - firstIndex_);
@@ -87,7 +87,7 @@ void FrameLoop::run(const std::atomic<bool>& stop) {
 
 void FrameLoop::countLost(double due) {
     const double periods = std::floor((clock_.now() - due) / period_);
-    if (periods >= 2.0) { // the next frame but one was due before this one was done
+    if (periods >= 2.0) { // two more frames became due before this one was done
         lost_ += static_cast<uint64_t>(periods) - 1;
         origin_ += (periods - 1.0) * period_;
     }
@@ -107,7 +107,7 @@ void FrameLoop::publishOrRenew(double t, const std::atomic<bool>& stop) {
     renew(stop);
 }
 
-// With growing pauses, until a frame has gone through again.
+// Retries with growing pauses, until a frame is processed again.
 void FrameLoop::renew(const std::atomic<bool>& stop) {
     deviceGone_ = true;
     publishUpdate();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The frame cadence in real time: paces the source, has each frame turned into a fixture set and publishes a
-// scene update.
+// The frame cadence in real time: paces the source, has a fixture set made from each frame and publishes
+// scene updates.
 #pragma once
 
 #include "engine/cycle/cadence_trace.h"
@@ -13,43 +13,44 @@
 
 namespace fathom {
 
-// What the loop needs of a camera and the passes behind it. Frame thread only.
+// The camera and the passes as the loop uses them. Frame thread only.
 class FrameFeed {
 public:
     virtual ~FrameFeed() = default;
-    // Gets the next frame ready. Returns its index, or nothing when the source has ended. Throws DeviceLost
-    // when the camera is gone (the loop asks again later), Error otherwise.
+    // Fetches the next frame. Returns its index, or nothing when the source has ended. Throws DeviceLost when
+    // the camera is lost (the loop retries later), Error otherwise.
     virtual std::optional<uint32_t> fetch() = 0;
-    // When a live source took that frame: fetch() waited for it and the loop does not pace it. Nothing: the
-    // loop paces the source.
+    // Capture time of that frame if the source is live: then fetch() waited for it. Nothing: the loop paces
+    // the source.
     virtual std::optional<RunClock::Time> captured() const { return std::nullopt; }
-    // The posture of the arm nearest to the capture time, before publish(); the pose is not set. Not called
+    // Sets the arm's posture nearest to the capture time, before publish(); the pose is unset. Not called
     // without an arm or before the first step.
     virtual void armAtCapture(const ToolState&) {}
-    // Makes that frame, captured at t [s], the newest fixture set. Fills everything in `out` but its t. A
-    // repeated frame makes no set: `changed` is false, the set and the colour in `out` are left alone.
+    // Makes the newest fixture set from that frame, captured at t [s]. Fills all of `out` except t. A
+    // repeated frame makes no set: `changed` is false, and set and colour in `out` are unchanged.
     virtual void publish(double t, PublishedFrame& out) = 0;
     // Whether the device that publish() uses can be opened again after publish() threw DeviceFailed. If not,
     // such an error ends the run.
     virtual bool renewable() const { return false; }
-    // The device is known to be lost before any frame was given to it: it is opened again even while the
-    // camera is gone.
+    // Whether the device is lost, although no frame was given to it. The loop then opens it again even while
+    // the camera is lost.
     virtual bool lost() const { return false; }
     // Opens the device again. Throws DeviceFailed while it is missing (the loop retries later), or when
     // `stop` is set while it waits for another thread.
     virtual void renew(const std::atomic<bool>& /*stop*/) {}
 };
 
-// The loop shows frame i of a source at period x (i - first i) on the clock, and that is its capture time; a
-// live source has its own capture times. When one frame takes so long that a live camera would have dropped
-// others, these are counted as lost and the source continues from there: no recorded frame is skipped.
+// Frame i of a recorded source is due at period x (i - first i) on the clock, which is its capture time. A
+// live source has its own capture times. If a frame takes so long that a live camera would have dropped
+// others, these count as lost and the schedule shifts, so that no recorded frame is skipped.
 class FrameLoop {
 public:
     FrameLoop(FrameFeed& feed, Channels& channels, const RunClock& clock, double period, CadenceTrace* trace);
 
-    // Before the clock starts: publishes the first frame, at t = 0. False when the source has none.
+    // Call before the clock starts: publishes the first frame, at t = 0. False when the source has none.
     bool first();
-    // Until the source ends or `stop`. Throws what the feed throws, but retries while the camera is gone.
+    // Runs until the source ends or `stop`. Passes on exceptions of the feed, but retries while the camera is
+    // lost.
     void run(const std::atomic<bool>& stop);
 
     uint64_t lost() const { return lost_; } // after run()
@@ -69,13 +70,13 @@ private:
     const RunClock& clock_;
     double period_;
     CadenceTrace* trace_;
-    std::deque<std::unique_ptr<PublishedFrame>> owned_; // all of them, wherever they are now
-    PublishedFrame* spare_ = nullptr;                   // one whose frame failed
-    double retry_;                                      // [s] until the next try to open a lost device
+    std::deque<std::unique_ptr<PublishedFrame>> owned_; // all frames, wherever they are in use
+    PublishedFrame* spare_ = nullptr;                   // unused because its frame failed
+    double retry_; // [s] pause before the next attempt to open a lost device
     SceneUpdate update_;
     bool cameraGone_ = false, deviceGone_ = false;
     uint32_t firstIndex_ = 0;
-    double origin_ = 0.0; // [s] when the first frame would have been due
+    double origin_ = 0.0; // [s] time when the first frame would have been due
     bool ended_ = false;
     uint64_t lost_ = 0;
 };

@@ -11,18 +11,18 @@ namespace fathom {
 // Never allocates, locks, throws or waits, except for the next tick.
 class HapticLoop {
 public:
-    struct Ends {                        // the run is over when the hand's path and the frames both are
+    struct Ends {                        // the run ends when both the hand's path and the frames have ended
         double pathDuration = 0.0;       // [s]
-        double framePeriod = 1.0 / 30.0; // [s] that the last frame is shown
+        double framePeriod = 1.0 / 30.0; // [s] duration of the last frame
     };
     HapticLoop(HapticCycle& cycle, HapticDevice& hand, Channels& channels, const RunClock& clock,
                const Ends& ends, CadenceTrace* trace);
 
-    // Ticks by the clock until the end or `stop`; the last wrench that the hand gets is zero. A period that a
-    // late step overran is skipped and counted: steps never come in bursts.
+    // Runs ticks by the clock until the end or `stop`. The last wrench written is zero. A period that a late
+    // step overran is skipped and counted, so steps never come in bursts.
     void run(const std::atomic<bool>& stop) noexcept;
 
-    // One tick, due at `due` [s] and started now, as in run(). Returns when it was over [s].
+    // One tick as in run(), due at `due` [s] and started now. Returns its end time [s].
     double step(double due) noexcept;
 
     uint64_t missed() const { return missed_; } // periods without a step

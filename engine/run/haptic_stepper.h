@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One haptic step over the channels of a run: the newest scene and contact set in, a record out. Knows no
+// One haptic step with the channels of a run: from the newest scene and contact set to a record. Knows no
 // device and never sleeps.
 #pragma once
 
@@ -33,14 +33,14 @@ public:
     // Hands the last step to the writer. Drops it when the queue is full.
     void log(const Timing& timing) noexcept;
 
-    // The arm must stand still and may clear its faults: the run is over.
+    // At the end of a run: commands the arm to hold and lets it clear its faults.
     void releaseArm(double now) noexcept { sendSetpoint({}, true, now); }
 
     const TickRow& row() const noexcept { return row_; }
     const SceneUpdate& scene() const noexcept { return channels_.scene.front(); }
     double period() const noexcept { return period_; }       // [s] nominal
-    double sinceLast() const noexcept { return sinceLast_; } // [s] to the step before; 0 = none
-    RunClock::Time began() const noexcept { return began_; } // of the last step, on the host's clock
+    double sinceLast() const noexcept { return sinceLast_; } // [s] since the step before; 0 = none
+    RunClock::Time began() const noexcept { return began_; } // start of the last step, on the host's clock
     RunClock::Time ended() const noexcept { return ended_; }
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a scene file to what the engine runs on: scene, arm, tool.
+// Opens a scene file: scene, arm and tool.
 #pragma once
 
 #include "engine/contact/tool.h"
@@ -13,7 +13,7 @@ namespace fathom {
 
 // Reads and checks the scene file, names of device presets included. Throws BadInput.
 Scene openScene(const std::filesystem::path& file);
-// The same of a text; messages call it "scene text".
+// The same for a text; messages call it "scene text".
 Scene openSceneText(const std::string& text);
 
 // The scene's arm, or null without one; logs a warning for each note of its model. Throws BadInput.

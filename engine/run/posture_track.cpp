@@ -39,7 +39,7 @@ std::optional<ArmPosture> PostureTrack::nearest(Time wanted) const noexcept {
     const uint64_t count = written_.load(std::memory_order_acquire);
     std::optional<ArmPosture> best;
     int64_t bestAway = 0;
-    // From the newest back, as long as they come nearer.
+    // Searches back from the newest, as long as times come nearer.
     for (uint64_t back = 1; back <= std::min<uint64_t>(count, kKept); ++back) {
         int64_t time = 0;
         ArmPosture posture;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The recent postures of an arm with their times, from one thread to another, without locks.
+// Passes the recent postures of an arm, with their times, from one thread to another without locks.
 #pragma once
 
 #include "engine/model/arm_model.h"
@@ -21,7 +21,7 @@ public:
     using Time = std::chrono::steady_clock::time_point;
     static constexpr size_t kKept = 256;
     static constexpr std::chrono::milliseconds kApart{
-        2}; // postures that come sooner are skipped: 0.5 s are kept
+        2}; // postures at shorter intervals are skipped, so that 0.5 s are kept
 
     // Writer, in order of time.
     void add(Time time, const ArmPosture& posture) noexcept;

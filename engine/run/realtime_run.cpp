@@ -19,7 +19,7 @@ uint64_t tickCapacity(double period) {
     return static_cast<uint64_t>(std::max(1024.0, std::ceil(kWriterBacklog / period)));
 }
 
-// Sets the flag and waits for the thread, however its scope is left.
+// Sets the flag and joins the thread at the end of the scope, also on exceptions.
 class Joined {
 public:
     template <class Body>
@@ -67,7 +67,7 @@ private:
     uint64_t staleTicks_ = 0;
 };
 
-// Warns when numbers that are not finite begin, from the hand or elsewhere; such steps have no force.
+// Warns when non-finite numbers begin, from the hand or elsewhere; such steps have no force.
 class NumberAlarm {
 public:
     void see(const TickRow& row) {

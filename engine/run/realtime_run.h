@@ -30,15 +30,15 @@ struct RealtimeOptions {
 
 class RealtimeRun {
 public:
-    // contacts null: the scene has nothing to collide with and needs no contact thread.
+    // contacts: null if the scene has nothing to collide with; then there is no contact thread.
     RealtimeRun(FrameFeed& frames, ContactAnswers* contacts, const RealtimeOptions& options);
 
     // Processes the first frame on this thread, before the clock starts. False when the source has none.
     bool firstFrame() { return frames_.first(); }
 
     // Runs until frames and path have ended, `stop` is set or something fails. Then the hand has zero force,
-    // all threads have ended and the sink has every record. failure() holds what a thread threw. An exception
-    // of the sink passes through, after the same end.
+    // all threads have ended and the sink has every record. failure() is the exception of a thread. An
+    // exception of the sink is passed on after the same shutdown.
     void run(HapticCycle& cycle, HapticDevice& hand, double pathDuration, RunSink& sink,
              const std::atomic<bool>& stop);
 
@@ -47,10 +47,10 @@ public:
 
     uint64_t framesLost() const { return frames_.lost(); }
     uint64_t periodsMissed() const { return missed_; }
-    uint64_t staleTicks() const { return staleTicks_; } // with a scene older than staleAfter
+    uint64_t staleTicks() const { return staleTicks_; } // steps with a scene older than staleAfter
     uint64_t recordsLost() const { return channels_.ticks.dropped() + channels_.queries.dropped(); }
     const PublishedFrame* lastFrame() const { return last_; } // lives as long as this
-    // What a thread threw; null when none did.
+    // The exception of a thread; null if none failed.
     std::exception_ptr failure() const { return failure_; }
 
 private:

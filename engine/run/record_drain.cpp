@@ -14,8 +14,8 @@ void RecordDrain::drain(bool all) {
                 return;
             }
             waiting_ = row;
-            // The set and the answer that this step obeyed were published before it: they are here or about
-            // to arrive.
+            // The set and the answer that this step obeyed were published before it, so they have arrived or
+            // are in the queues.
             takeFrames();
             takeQueries();
         }

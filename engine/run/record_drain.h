@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The writer's end of the channels: puts steps, queries and frames into an order that can be audited.
+// The writer's side of the channels: sorts steps, queries and frames into an order that can be audited.
 #pragma once
 
 #include "engine/run/channels.h"
@@ -14,12 +14,12 @@ namespace fathom {
 class RunSink {
 public:
     virtual ~RunSink() = default;
-    // A processed frame. `set` is the newest set from this frame on; frame.fixtures may be empty when the
-    // source repeated its frame.
+    // A processed frame. `set` is the newest set from this frame on; frame.fixtures may be empty for a
+    // repeated frame.
     virtual void frame(const PublishedFrame& frame, const Fixtures& set) = 0;
     virtual void query(const QueryNote& note) = 0;
-    // `obeyed`: the frame whose set the step obeyed; null when there was none or it is no longer kept
-    // (obeyedKnown false). `behind`: the leaves behind a surface in the answer that it obeyed.
+    // `obeyed`: the frame whose set the step obeyed; null if there was none or it is no longer kept
+    // (obeyedKnown false). `behind`: leaves behind a surface in the query answer that the step obeyed.
     virtual void step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                       std::span<const uint32_t> behind) = 0;
 };
@@ -45,7 +45,7 @@ private:
     void giveBack(size_t i);
 
     static constexpr size_t kKept =
-        Channels::kFramesInFlight * 3 / 4; // the frame thread always finds one to fill
+        Channels::kFramesInFlight * 3 / 4; // so that the frame thread always finds a free frame
 
     Channels& channels_;
     RunSink& sink_;

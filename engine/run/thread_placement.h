@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which thread runs on which CPU: the haptic thread alone, all others elsewhere.
+// Assigns threads to CPUs: the haptic thread has its own, all others share the rest.
 #pragma once
 
 #include <string>
@@ -12,15 +12,15 @@ namespace fathom {
 // Splits the CPUs that the process may use. With one CPU nothing is pinned.
 struct ThreadPlacement {
     std::vector<int> all;
-    std::vector<int> haptic;  // the last one
-    std::vector<int> contact; // its own from four CPUs on, else as `rest`
+    std::vector<int> haptic;  // the last CPU
+    std::vector<int> contact; // a CPU of its own with four CPUs or more, else as `rest`
     std::vector<int> rest;    // frame thread, device workers, writer
 
     static ThreadPlacement ofThisProcess();
     bool pinned() const { return all.size() > 1; }
 };
 
-// Pins the calling thread. Returns 0, or the error number of the refusal.
+// Pins the calling thread. Returns 0 or an error number.
 int pinThread(const std::vector<int>& cpus) noexcept;
 
 // Keeps the calling thread, and every thread that it starts meanwhile (workers of a software device), on
@@ -37,11 +37,10 @@ private:
     bool changed_ = false;
 };
 
-// Makes the calling thread the haptic thread: pinned, SCHED_FIFO, exact timers, the process's memory locked
-// as it is touched, stack touched. Returns what the system refused, as text, or nothing. Call before the
-// first step.
+// Makes the calling thread the haptic thread: pinned, SCHED_FIFO, exact timers, touched memory locked, stack
+// touched. Returns a text that names what the system rejected, or an empty one. Call before the first step.
 std::string makeHapticThread(const ThreadPlacement& placement);
-// Undoes what outlives the thread (locked memory).
+// Undoes what would outlive the thread (locked memory).
 void releaseLockedMemory() noexcept;
 
 } // namespace fathom

@@ -138,7 +138,7 @@ TEST_CASE(
         bool held = false;
         for (const uint64_t seed : {3, 4, 5}) {
             Image image = stressImage(camera, 3);
-            for (size_t p = 0; seed > 3 && p < image.depth.size(); p += seed) { // held ones, too
+            for (size_t p = 0; seed > 3 && p < image.depth.size(); p += seed) { // gives held spheres, too
                 image.depth[p] = 0;
             }
             const FrameReport one = packed.run(image), other = slots.run(image);

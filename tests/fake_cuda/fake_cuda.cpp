@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A fake CUDA driver library with one device, controlled by the environment. FAKE_CUDA_ID: the device's UUID.
-// FAKE_CUDA_FAULT: the result of creating a context. FAKE_CUDA_LOG: a file that records when a context is
-// created and when the process ends.
+// A fake CUDA driver library with two devices, controlled by the environment. FAKE_CUDA_ID: UUID of the
+// second device. FAKE_CUDA_FAULT: the result of creating a context. FAKE_CUDA_LOG: a file that records when a
+// context is created and when the process ends.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -39,7 +39,7 @@ int cuDeviceGet(int* device, int index) {
     *device = index;
     return 0;
 }
-int cuDeviceGetUuid(void* bytes, int device) { // device 1 has the requested id
+int cuDeviceGetUuid(void* bytes, int device) { // only the second device has that UUID
     const char* const id = setting("FAKE_CUDA_ID");
     auto* const out = static_cast<unsigned char*>(bytes);
     for (size_t i = 0; i < 16; ++i) {

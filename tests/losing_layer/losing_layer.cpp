@@ -2,15 +2,15 @@
 // A Vulkan layer that simulates the loss of a device: from some call on, the application's device returns
 // VK_ERROR_DEVICE_LOST (or VK_ERROR_OUT_OF_DEVICE_MEMORY), and some later openings fail. It can also
 // invalidate a window's images or surface. The tested program is unmodified, because the layer is below it.
-//   FATHOM_LOSE_AT       submission of the first device, from 1, that is the first to fail
-//   FATHOM_LOSE_TIMES    or: reading of its stopwatch, from 1
-//   FATHOM_LOSE_FILE     or: a file with one word; any device is lost in the first such call that finds the
-//                        file, and the file goes: passes (submissions with a timeline), drawing (other ones),
-//                        presenting. Or what is not of the device: acquire-outdated, present-outdated (that
-//                        call once, VK_ERROR_OUT_OF_DATE_KHR), surface (VK_ERROR_SURFACE_LOST_KHR by the next
-//                        presentation, and again by whatever would make images on it)
+//   FATHOM_LOSE_AT       number, from 1, of the first submission of the first device that fails
+//   FATHOM_LOSE_TIMES    instead: number, from 1, of the failing read of its timestamps
+//   FATHOM_LOSE_FILE     instead: a file with one word. The first matching call removes the file and fails:
+//                        passes (submission with a timeline), drawing (other submission) and presenting lose
+//                        the device; acquire-outdated and present-outdated return VK_ERROR_OUT_OF_DATE_KHR
+//                        once; surface returns VK_ERROR_SURFACE_LOST_KHR from the next presentation and from
+//                        later calls that create images on that surface
 //   FATHOM_LOSE_BY       "memory": out of memory instead of lost
-//   FATHOM_LOSE_OPENINGS openings of a device that fail after each loss
+//   FATHOM_LOSE_OPENINGS number of failed attempts to open a device after each loss
 #include "tests/losing_layer/asked.h"
 #include "tests/losing_layer/ours.h"
 
