@@ -199,7 +199,7 @@ TEST_CASE("A URDF's mesh is scaled by three factors, and a factor of 0 is reject
     CHECK(high.y < 0.14);
     CHECK(high.z > 0.20);
     CHECK(high.z < 0.24);
-    CHECK(refusalOf(text("1 0 1")).find("link a: a mesh scale of 0") != std::string::npos);
+    CHECK(refusalOf(text("1 0 1")).find("link a: a mesh scale that is 0") != std::string::npos);
 }
 
 TEST_CASE("Parts of an arm's files without leaves are reported in one line each") {
