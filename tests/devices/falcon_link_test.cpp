@@ -71,11 +71,11 @@ TEST_CASE("A wrong answer during the firmware load stops it and reports the step
     }
     SUBCASE("no greeting") {
         device.greeting.clear();
-        expected = "greeting: answer nothing (allowed: 0a 44 2c 0d)";
+        expected = "handshake: answer nothing (allowed: 0a 44 2c 0d)";
     }
     SUBCASE("wrong greeting") {
         device.greeting = "\n\x45,\r";
-        expected = "greeting: answer 0a 45 2c 0d (allowed: 0a 44 2c 0d); switch";
+        expected = "handshake: answer 0a 45 2c 0d (allowed: 0a 44 2c 0d); switch";
     }
     SUBCASE("wrong answer to the speed change") {
         device.wrongSpeedAnswer = true;

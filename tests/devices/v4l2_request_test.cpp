@@ -87,7 +87,7 @@ TEST_CASE("A RealSense table of a wrong length, number or checksum is refused") 
     }
     CHECK_THROWS_AS(realsense::depthLens(table, {640, 480}), Error); // no focal length
     CHECK_THROWS_WITH(realsense::depthLens({}, {640, 480}), doctest::Contains("0 bytes"));
-    CHECK_THROWS_WITH(realsense::colourLens(table, {640, 480}), doctest::Contains("tells of table 25"));
+    CHECK_THROWS_WITH(realsense::colourLens(table, {640, 480}), doctest::Contains("names table 25"));
     table[300] ^= 1;
     CHECK_THROWS_WITH(realsense::depthLens(table, {640, 480}), doctest::Contains("wrong checksum"));
     const char* nine = "123456789"; // the check value of CRC-32

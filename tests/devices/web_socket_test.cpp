@@ -103,7 +103,7 @@ TEST_CASE("A state of Haply's service is parsed, and an invalid one is rejected 
     CHECK(
         fault(
             R"({"inverse3": [{"device_id": "1", "state": {"cursor_position": {"x": 1, "y": "2", "z": 3}}}]})")
-            .find("no number 'y'") != std::string::npos);
+            .find("lacks the number 'y'") != std::string::npos);
     CHECK(fault(R"({"inverse3": [{"device_id": "1", "state": {"cursor_position": {"x": 1, "y": 2, "z": 3}}}],
                     "verse_grip": [{"device_id": "3", "state": {"orientation": {"w": 0, "x": 0, "y": 0, "z": 0}}}]})")
               .find("zero orientation") != std::string::npos);
