@@ -102,6 +102,8 @@ Mode modeOf(const Console& console, const RunView& run) {
         return {"FADING", "~", colour::kCaution};
     case StepState::Escape:
         return {"ESCAPE", "!", colour::kCaution};
+    case StepState::Waiting:
+        return {"TOOL LAGS", "\xe2\x80\xa6", colour::kCaution};
     default:
         break;
     }

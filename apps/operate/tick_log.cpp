@@ -85,7 +85,7 @@ Moment momentFrom(const NumberRows& row, bool poses) {
     m.t = row[0];
     m.wrench = {row.vec(1), row.vec(4)};
     m.contacts = row.whole(7, 1e9);
-    m.state = static_cast<StepState>(row.whole(8, static_cast<double>(StepState::Fading)));
+    m.state = static_cast<StepState>(row.whole(8, static_cast<double>(StepState::Waiting)));
     if (poses) {
         m.guidance = row[9];
         m.guidanceClass = static_cast<int>(row.whole(10, 1e6)) - 1;

@@ -108,7 +108,7 @@ void LockstepReplay::query() {
     if (published_) {
         auto answer = std::make_unique<ContactSet>();
         const auto start = std::chrono::steady_clock::now();
-        session_.cycles.answer(cycle_->place(), *answer);
+        session_.cycles.answer(cycle_->queryPlace(), *answer);
         recorder_.query(micros(start));
         if (trace_ != nullptr) {
             trace_->query(start, std::chrono::steady_clock::now(), answer->size());

@@ -19,6 +19,8 @@ TickState stateOf(StepState state) {
         return TickState::Trapped;
     case StepState::Fading:
         return TickState::Fading;
+    case StepState::Waiting:
+        return TickState::Waiting;
     }
     return TickState::Off;
 }

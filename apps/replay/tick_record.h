@@ -15,12 +15,13 @@
 
 namespace fathom {
 
-enum class TickState : uint8_t { Off, Free, Contact, Escape, Trapped, Fading };
-constexpr uint32_t kTickStates = 6;
+enum class TickState : uint8_t { Off, Free, Contact, Escape, Trapped, Fading, Waiting };
+constexpr uint32_t kTickStates = 7;
 
 // The state as written in haptics.csv and frames.csv.
 constexpr const char* stateName(TickState state) {
-    constexpr const char* kNames[kTickStates] = {"off", "free", "contact", "escape", "trapped", "fading"};
+    constexpr const char* kNames[kTickStates] = {"off",     "free",   "contact", "escape",
+                                                   "trapped", "fading", "waiting"};
     return kNames[static_cast<uint8_t>(state)];
 }
 

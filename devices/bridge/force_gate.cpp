@@ -44,7 +44,7 @@ Wrench ForceGate::at(uint64_t now) const noexcept {
         return {};
     }
     const double share = std::min(1.0, static_cast<double>(now - since_) / static_cast<double>(kRamp));
-    return {shortened(wrench_.force, forceLimit_) * share, shortened(wrench_.torque, torqueLimit_) * share};
+    return {shortened(wrench_.force, forceLimit_ * share), shortened(wrench_.torque, torqueLimit_ * share)};
 }
 
 } // namespace fathom

@@ -137,7 +137,7 @@ HandSample SocketHand::read(double) noexcept {
     alive_ = bridge_.open() && (status_ & kReady) == kReady && age <= FATHOM_DOOR_SILENCE_NS;
     figures_.losses += was && !alive_ ? 1 : 0;
     if (!alive_) {
-        return {last_.deviceThandle, last_.buttons | away_};
+        return {last_.deviceThandle, last_.buttons | away_, false};
     }
     figures_.worstAge = std::max(figures_.worstAge, static_cast<double>(age) * 1e-9);
     return last_;

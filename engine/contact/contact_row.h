@@ -10,7 +10,7 @@ namespace fathom {
 
 // normal . (a + alpha x arm) + spin . alpha >= offset for the tool's motion [a; alpha]: paper eq. 4 with
 // offset = -gap. The kinematics express it in the solver's unknowns. Kind Joint: a limit of an arm's joint,
-// with only a key and an offset.
+// with only a key, the offset of its position or speed limit, and in `gap` that of its position limit.
 struct ContactRow {
     enum class Kind : uint8_t { Sphere, Shape, Equality, Behind, Joint };
 

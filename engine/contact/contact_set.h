@@ -26,6 +26,7 @@ struct ContactSet {
     uint64_t generation = 0;  // of that fixture set
     double captureTime = 0.0; // [s] of that fixture set
     uint64_t query = 0;       // counts answered queries
+    double asked = 0.0;       // [s] of the haptic step that asked (ToolState)
     double reach = 0.0;       // [m] certified
     dvec3 origin{0.0};        // [m] base frame: origin of all positions here
     dvec3 camera{0.0};        // [m] camera centre of that fixture set, about the origin

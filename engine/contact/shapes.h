@@ -21,6 +21,7 @@ struct Shape {
     Pose baseTshape;
     uint32_t fixture = 0; // row of Scene::fixtures
 
+    bool isRound() const { return kind == ShapeKind::Sphere || kind == ShapeKind::Cylinder; }
     bool isEquality() const { return kind == ShapeKind::Line || kind == ShapeKind::Axis; }
 };
 

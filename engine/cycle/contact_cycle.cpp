@@ -34,14 +34,15 @@ void ContactCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout&
 
 void ContactCycle::query(const cloud::FixtureSet& set, const ToolState& place, ContactSet& out) {
     if (arm_ != nullptr) { // the arm's leaves are already in the base frame
-        ask(arm_->toolAt(place.arm), set, Pose{}, out);
+        ask(arm_->toolAt(place.arm), set, Pose{}, reach_ + place.moreReach, out);
     } else {
-        ask(tool_, set, place.pose, out);
+        ask(tool_, set, place.pose, reach_ + place.moreReach, out);
     }
+    out.asked = place.asked;
     out.query = ++queries_; // one numbering for CPU and GPU answers
 }
 
-void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool,
+void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, double reach,
                        ContactSet& out) {
     const bool onHost = !gpu_ || !set.device.nodes; // the device or the set's device side is gone
     switch (where_ == Plan::Query::Gpu && onHost ? Plan::Query::Cpu : where_) {
@@ -51,17 +52,17 @@ void ContactCycle::ask(const Tool& tool, const cloud::FixtureSet& set, const Pos
         out.pairBandEnd.assign(tool.leafCount() * ContactSet::kGapBands, 0);
         return;
     case Plan::Query::Cpu:
-        cpu_.query(tool, baseTtool, reach_, set.host, set.grid, out);
+        cpu_.query(tool, baseTtool, reach, set.host, set.grid, out);
         break;
     case Plan::Query::Gpu: {
-        const auto onDevice = [&](const PosedLeaves& leaves, float reach, std::vector<uint32_t>& found) {
-            const bool fits = gpu_->cull(set, leaves, baseTtool, reach, found);
+        const auto onDevice = [&](const PosedLeaves& leaves, float within, std::vector<uint32_t>& found) {
+            const bool fits = gpu_->cull(set, leaves, baseTtool, within, found);
             if (!fits) {
                 gpu_->grow(); // for the next query; this one retries with the reach that the loop chooses
             }
             return fits;
         };
-        gpuLoop_.run(tool, baseTtool, reach_, set.host, set.grid.maxRadius(), onDevice, out);
+        gpuLoop_.run(tool, baseTtool, reach, set.host, set.grid.maxRadius(), onDevice, out);
         break;
     }
     }

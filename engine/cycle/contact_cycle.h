@@ -39,7 +39,8 @@ public:
 private:
     static constexpr uint32_t kGpuCapacity = 65536;
 
-    void ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, ContactSet& out);
+    void ask(const Tool& tool, const cloud::FixtureSet& set, const Pose& baseTtool, double reach,
+             ContactSet& out);
 
     const Tool& tool_;
     const ArmRig* arm_;

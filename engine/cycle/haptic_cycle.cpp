@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/cycle/haptic_cycle.h"
 
-#include "engine/haptics/limits.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace fathom {
 namespace {
 
-// Ramps up by the nominal period and down by the measured one: late ticks cannot delay fading out and cannot
-// make a force grow faster.
-void ramp(double& value, bool up, double nominal, double measured, double whole) {
-    value = std::clamp(value + (up ? nominal : -measured) / whole, 0.0, 1.0);
-}
-
-PassivityOptions passivityOf(const HapticOptions& options) {
-    PassivityOptions passivity = makePassivity(options.device, options.springs, options.coupling,
-                                               options.forceLimit, options.torqueLimit);
-    passivity.delayTicks = options.deviceDelayTicks;
-    return passivity;
-}
-
-// |part| / |whole|; 1 when `whole` is zero.
-double shareOf(const dvec3& part, const dvec3& whole) {
-    const double length = glm::length(whole);
-    return length > 0.0 ? glm::length(part) / length : 1.0;
-}
+constexpr double kCleanTime = 1.0; // [s] without a loss of the device before forces return
+constexpr double kFelt = 0.5;      // [N] of a region that counts as pressed
 
 // The pose that the hand commands before the first step.
 Pose begin(HandMap& map, const Pose& start, const Pose* tool0, const ArmRig* arm) {
@@ -47,11 +29,11 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
     , guidance_(options.guidance)
     , rig_(arm)
     , watch_(options.device, options.coupling, options.springs)
-    , passivity_(passivityOf(options))
+    , stage_(options_)
+    , ahead_(options.period)
     , springEnd_(begin(map_, start, tool0, arm))
     , device_(springEnd_)
-    , handle_{start.position, glm::normalize(start.rotation)}
-    , deviceBefore_(device_) {
+    , handle_{start.position, glm::normalize(start.rotation)} {
     if (arm != nullptr) {
         arm_.emplace(arm->model, arm->baseTarm, arm->proxy, arm->start, shapes);
         tool_ = arm_->tip();
@@ -62,49 +44,124 @@ HapticCycle::HapticCycle(const Tool& tool, std::span<const Shape> shapes, const 
             leafRadius_.push_back(leaf.radius);
         }
     }
-    toolBefore_ = tool_;
-    springEnd_ = deviceBefore_ = device_ = arm != nullptr ? device_ : tool_;
+    springEnd_ = device_ = arm != nullptr ? device_ : tool_;
+    stage_.restart(tool_);
 }
 
 StepRecord HapticCycle::step(const StepInput& input) noexcept {
     StepRecord out;
-    out.t = input.time;
+    out.t = time_ = input.time;
     Situation now;
     now.sane = isFinite(input.deviceThandle) && std::isfinite(input.time);
-    now.off = input.forcesOff || (input.buttons & kDeadManOpen) != 0;
+    now.off = lossesHoldForces(input) || input.forcesOff || (input.buttons & kDeadManOpen) != 0;
     const ContactSet* set = chooseSet(input, out);
     now.running = set != nullptr || !options_.needsContacts;
     out.frame = set != nullptr ? set->frame : now.running ? input.frame : -1;
     out.sceneAge = out.frame >= 0 ? sceneAge(input, set) : kNotKnown;
     now.stale = out.sceneAge > options_.staleAfter;
-    now.held = followed_ && (!armFollows_ || !now.sane || now.off || !now.running || now.stale);
-    now.clutch = (input.buttons & options_.clutchBit) != 0 || now.held;
-    if (now.sane) {
-        handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
-        device_ = map_.map(handle_, now.clutch);
-    }
+    now.held = armState_.connected &&
+               (!armState_.follows || !now.sane || now.off || !now.running || now.stale);
+    now.clutch = (input.buttons & options_.clutchBit) != 0 || now.held || !input.present;
+    takeSample(input, now);
     guidance_.step(input.guidance, device_, (input.buttons & kGuidanceButton) != 0,
                    now.off || !now.running || now.held, options_.period);
 
-    ProxyStep moved;
-    moved.minGap = kNotKnown;
-    springEnd_ = device_;
-    out.arm.posture = place().arm;
-    if (now.running && now.sane && !now.held) {
-        moved = moveTool(input, set, out);
-    }
-    freeDirection();
-    held_ = now.held;
-    const double period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
-    stepRamps(now, moved.trapped, period);
-    finishWrench(springWrench(), period, now, out);
+    const bool newData = regionsChanged(set);
+    ProxyStep moved = stepTool(input, set, now, out);
+    const bool vanished = regionsVanished(moved, newData);
+    takeUpLag(moved, vanished, out);
+    makeWrench(input, now, moved, newData, vanished, out);
 
     report(now, moved, set != nullptr, out);
     recordTouches(set, moved, out);
     holdArm(now, moved.trapped, out);
     fillMargins(input, out);
     watch_.step(input.measuredPeriod); // active from the next step on
+    ahead_.moved(place());
     return out;
+}
+
+// Counts a device that comes and goes. True while forces must stay off because of it.
+bool HapticCycle::lossesHoldForces(const StepInput& input) noexcept {
+    if (losses_.present && !input.present) {
+        std::rotate(losses_.at.begin(), losses_.at.begin() + 1, losses_.at.end());
+        losses_.at.back() = input.time;
+    }
+    losses_.present = input.present;
+    const double since = input.time - losses_.at.back();
+    losses_.many = since < kCleanTime && (losses_.many || input.time - losses_.at.front() < kCleanTime);
+    return losses_.many || !input.present;
+}
+
+void HapticCycle::takeSample(const StepInput& input, const Situation& now) noexcept {
+    if (!now.sane || input.doubtful) {
+        return;
+    }
+    handle_ = {input.deviceThandle.position, glm::normalize(input.deviceThandle.rotation)};
+    if (input.reindex) {
+        map_.align(handle_, device_);
+    }
+    device_ = map_.map(handle_, now.clutch);
+}
+
+ProxyStep HapticCycle::stepTool(const StepInput& input, const ContactSet* set, const Situation& now,
+                                StepRecord& out) noexcept {
+    ProxyStep moved;
+    moved.minGap = kNotKnown;
+    springEnd_ = device_;
+    jointEnds_ = 0;
+    out.arm.posture = place().arm;
+    if (now.running && now.sane && !now.held) {
+        moved = moveTool(input, set, out);
+    } else {
+        moved.allowed = springEnd_; // nothing pushes while the tool is held
+    }
+    armState_.held = now.held;
+    freeDirection(moved);
+    return moved;
+}
+
+bool HapticCycle::regionsChanged(const ContactSet* set) noexcept {
+    const uint64_t generation = set != nullptr ? set->generation : scene_.generation;
+    const bool changed = generation != scene_.generation || scene_.edited;
+    scene_.generation = generation;
+    scene_.edited = false;
+    return changed;
+}
+
+// Regions that pressed are gone, and neither hand nor tool moved away from them: their class is no longer
+// seen, or its shape was removed.
+bool HapticCycle::regionsVanished(const ProxyStep& moved, bool newData) const noexcept {
+    const bool near = moved.minGap <= kGone; // false for NaN: no set
+    return newData && pressing_.rows && moved.active.empty() && jointEnds_ == 0 && !moved.trapped && !near;
+}
+
+// Moves the hand map, and with it the pose that the hand commands.
+void HapticCycle::shiftHand(const dvec3& by) noexcept {
+    map_.shift(by);
+    device_.position += by;
+    springEnd_.position += by;
+    stage_.shift(by);
+    pressing_.shifted += by;
+}
+
+void HapticCycle::takeUpLag(ProxyStep& moved, bool vanished, StepRecord& out) noexcept {
+    const dvec3 lag = moved.cut ? moved.allowed.position - tool_.position : dvec3(0.0);
+    out.lag = glm::length(lag);
+    if (vanished) { // otherwise the tool would jump at the hand, through what can no longer be seen
+        shiftHand(tool_.position - springEnd_.position);
+        moved.allowed = springEnd_;
+        ++pressing_.vanished;
+        out.lag = pressing_.lagTime = 0.0;
+    }
+    pressing_.lagTime = out.lag > kLagLength ? pressing_.lagTime + options_.period : 0.0;
+    if (pressing_.lagTime > kLagTime && !arm_) {
+        const dvec3 by = -(options_.period / kTakeUp) * lag;
+        shiftHand(by);
+        moved.allowed.position += by;
+    }
+    out.indexShift = pressing_.shifted;
+    out.vanished = pressing_.vanished;
 }
 
 void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasSet,
@@ -113,45 +170,13 @@ void HapticCycle::report(const Situation& now, const ProxyStep& moved, bool hasS
     out.tool = tool_;
     out.contacts = static_cast<uint32_t>(moved.active.size());
     out.minGap = hasSet ? moved.minGap : kNotKnown;
-    out.state = stateOf(now, moved);
+    out.state = stateOf(now, moved, out.lag > kLagLength);
     out.guidance = guidance_.weight();
     out.guidanceClass = guidance_.chosen();
     out.guidanceTarget = guidance_.target();
     out.stalled = moved.stalled;
     out.solves = moved.solves;
     out.infeasible = moved.infeasible;
-}
-
-void HapticCycle::stepRamps(const Situation& now, bool trapped, double measured) noexcept {
-    const bool on = now.running && !now.off && !now.clutch;
-    arming_ = (arming_ || now.off) && ramps_.power < 1.0;
-    const double nominal = options_.period;
-    ramp(ramps_.power, on, nominal, measured, on && arming_ ? options_.armTime : kRampTime);
-    ramp(ramps_.free, !trapped, nominal, measured, kRampTime);
-    ramp(ramps_.fresh, !now.stale, nominal, measured, kFadeTime);
-}
-
-Wrench HapticCycle::springWrench() noexcept {
-    const Springs& springs = watch_.springs();
-    const Pose& tool = tool_;
-    dvec3 slip(0.0), spin(0.0);
-    if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
-        const dvec3 toolMoved = tool.position - toolBefore_.position,
-                    handMoved = device_.position - deviceBefore_.position;
-        const dvec3 toolTurned = rotationLog(tool.rotation * glm::conjugate(toolBefore_.rotation));
-        const dvec3 handTurned = rotationLog(device_.rotation * glm::conjugate(deviceBefore_.rotation));
-        slip = (toolMoved - handMoved) / options_.period;
-        spin = (toolTurned - handTurned) / options_.period;
-    }
-    toolBefore_ = tool;
-    deviceBefore_ = device_;
-    Wrench wrench = couple(springs, tool, device_, slip, spin);
-    if (options_.paperGuidance) {
-        const Wrench pull = guidance_.pull(device_, springs);
-        wrench.force += pull.force;
-        wrench.torque += pull.torque;
-    }
-    return wrench;
 }
 
 // The part of the spring wrench that guidance adds. It moves the hand on purpose, so the passivity controller
@@ -161,64 +186,42 @@ Wrench HapticCycle::guidancePull() const noexcept {
                                   : couple(watch_.springs(), springEnd_, device_, dvec3(0.0), dvec3(0.0));
 }
 
-Wrench HapticCycle::onActuatedAxes(const Wrench& wrench) const noexcept {
-    return projectOnAxes(wrench, map_.baseRhandle(handle_), options_.device.actuated).delivered;
-}
-
-Wrench HapticCycle::passivityWrench(const Wrench& spring, const Wrench& pull, double period) noexcept {
-    if (!options_.passivityController) {
-        return {};
-    }
-    PassivityStep tick;
-    tick.device = device_;
+void HapticCycle::makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved,
+                             bool newData, bool vanished, StepRecord& out) noexcept {
+    WrenchInput tick;
+    tick.tool = tool_;
+    tick.allowed = moved.allowed;
     tick.end = springEnd_;
-    tick.contact = onActuatedAxes({spring.force - pull.force, spring.torque - pull.torque});
-    tick.share = ramps_.product();
+    tick.device = device_;
+    tick.baseRhandle = map_.baseRhandle(handle_);
     tick.springs = watch_.springs();
-    tick.period = period;
-    return passivity_.step(tick);
+    tick.pull = guidancePull();
+    tick.pushes = (moved.active.empty() ? 0 : cause::kRow) | (jointEnds_ == 0 ? 0 : cause::kJoint);
+    tick.mayRise = !moved.stale && !input.doubtful;
+    tick.newData = newData;
+    tick.vanished = vanished;
+    tick.power = now.running && !now.off && !now.clutch;
+    tick.off = now.off;
+    tick.trapped = moved.trapped;
+    tick.stale = now.stale;
+    tick.sane = now.sane;
+    tick.rendered = input.present;
+    tick.period = input.measuredPeriod > 0.0 ? input.measuredPeriod : options_.period;
+    const WrenchStage::Output made = stage_.step(tick);
+    out.wrench = made.wrench;
+    out.deviceWrench = map_.toDevice(made.delivered);
+    out.residual = made.residual;
+    out.finite = made.finite;
+    out.cause = made.cause;
+    pressing_.rows = !moved.active.empty() && stage_.reaction() > kFelt;
 }
 
-// Subtracts the guidance share of the delivered wrench, scaled as the size limit scaled it.
-void HapticCycle::tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked,
-                                const Wrench& sized, const Wrench& delivered) noexcept {
-    const double ramp = ramps_.product();
-    const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
-    const Wrench guided = onActuatedAxes({ramp * force * pull.force, ramp * torque * pull.torque});
-    const Wrench damped = onActuatedAxes({force * damper.force, torque * damper.torque});
-    passivity_.delivered(
-        {delivered.force - guided.force - damped.force, delivered.torque - guided.torque - damped.torque},
-        damped);
-}
-
-void HapticCycle::finishWrench(const Wrench& spring, double period, const Situation& now,
-                               StepRecord& out) noexcept {
-    smooth_ = lowPass(scaled(spring, ramps_.product()), smooth_, options_.lowPassGain);
-    const Wrench pull = guidancePull();
-    const Wrench damper = passivityWrench(spring, pull, period);
-    const Wrench asked{smooth_.force + damper.force, smooth_.torque + damper.torque};
-    const Wrench sized = limitSize(asked, options_.forceLimit, options_.torqueLimit);
-    out.wrench = limitSlew(sized, previous_, options_.slewForce * options_.period,
-                           options_.slewTorque * options_.period);
-    out.finite = now.sane && isFinite(out.wrench);
-    if (!out.finite) {
-        out.wrench = smooth_ = {};
-        passivity_.reset();
-        ++notFinite_;
-    }
-    previous_ = out.wrench;
-    const auto projected = projectOnAxes(out.wrench, map_.baseRhandle(handle_), options_.device.actuated);
-    out.deviceWrench = map_.toDevice(projected.delivered);
-    out.residual = projected.residual;
-    tellPassivity(pull, damper, asked, sized, projected.delivered);
-}
-
-StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved) const noexcept {
+StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept {
     if (!now.running) {
         return StepState::Off;
     }
     if (now.off || now.held) {
-        return ramps_.power > 0.0 ? StepState::Fading : StepState::Off;
+        return stage_.off() ? StepState::Off : StepState::Fading;
     }
     if (moved.trapped) {
         return StepState::Trapped;
@@ -229,7 +232,10 @@ StepState HapticCycle::stateOf(const Situation& now, const ProxyStep& moved) con
     if (moved.escape) {
         return StepState::Escape;
     }
-    return moved.contact ? StepState::Contact : StepState::Free;
+    if (moved.contact) {
+        return StepState::Contact;
+    }
+    return lags ? StepState::Waiting : StepState::Free;
 }
 
 // An arm stands still while anything is wrong, and then until tool and hand meet again or are re-indexed.
@@ -238,9 +244,10 @@ void HapticCycle::holdArm(const Situation& now, bool trapped, StepRecord& out) n
     const bool wrong =
         !now.sane || !now.running || now.off || now.stale || trapped || !out.finite || now.held;
     const bool met =
-        now.clutch || followed_ || glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
-    armHold_ = wrong || (armHold_ && !met);
-    out.armHold = armHold_;
+        now.clutch || armState_.connected ||
+        glm::distance(out.tool.position, out.device.position) <= kResumeWithin;
+    armState_.hold = wrong || (armState_.hold && !met);
+    out.armHold = armState_.hold;
 }
 
 void HapticCycle::fillMargins(const StepInput& input, StepRecord& out) const noexcept {

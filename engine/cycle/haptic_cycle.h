@@ -4,9 +4,10 @@
 
 #include "engine/cycle/arm_rig.h"
 #include "engine/cycle/haptic_options.h"
+#include "engine/cycle/query_ahead.h"
 #include "engine/cycle/step_record.h"
+#include "engine/cycle/wrench_stage.h"
 #include "engine/haptics/hand_map.h"
-#include "engine/haptics/passivity.h"
 #include "engine/haptics/stiffness_watch.h"
 
 #include <optional>
@@ -17,21 +18,23 @@ namespace fathom {
 // The caller owns the device, the clock and the contact sets. Rules of a step:
 // - Until the first contact set (when the scene needs one): the tool is held, the wrench is zero, the state
 // is off.
+// - The regions' force is the reaction of active rows (Reaction). A tool that lags behind the hand for
+//   another reason (late contact answers, slow joints) pulls with no force: the state is waiting, and after
+//   kLagTime the hand map takes up the lag of a free tool.
+// - Regions that disappear while they press: tool and hand stay, the force fades out.
 // - Forces off or dead-man open: the guidance weight is zero in that step; the wrench ramps to zero over 0.2
-// s while the tool follows the hand
-//   and still obeys the regions.
-// - Trapped: the tool is held and the force ramps out over 0.2 s; it ramps in again when a motion is found.
-// The clutch ramps
-//   the same way.
-// - Scene older than staleAfter: the force fades out over 0.5 s and returns when a frame arrives. Fading out
-// uses measured time, so
-//   late ticks cannot delay it; fading in counts ticks.
+//   s while the tool follows the hand and still obeys the regions.
+// - Trapped: the tool is held and the force ramps out over 0.2 s. The clutch ramps the same way.
+// - Scene older than staleAfter: the force fades out over 0.5 s. Fading out uses measured time, so late ticks
+//   cannot delay it.
+// - A force that returns is bounded by a share of the limits that rises from what the device renders
+//   (ForceRamps); rising counts ticks.
+// - Device gone or silent: nothing is rendered in that step, and recorded as such. The tool stays and the hand
+//   is re-indexed when it is back. Three losses within 1 s keep the forces off until 1 s is clean.
 // - A real arm follows the tool (follow()) and stands still, or must because forces are off, the scene is old
-// or the sample is
-//   broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the measured arm and
-//   the hand is re-indexed to it, so that both resume from there.
-// - A number that is not finite: zero wrench in that step, which is counted; the next wrench slews up from
-// zero.
+//   or the sample is broken: the tool is held and the force ramps out over 0.2 s; then the tool moves to the
+//   measured arm and the hand is re-indexed to it, so that both resume from there.
+// - A number that is not finite: zero wrench in that step, which is counted; the force then returns from zero.
 class HapticCycle {
 public:
     // start: raw pose of the hand before the first step. The tool starts where the hand commands it or, if
@@ -40,6 +43,9 @@ public:
     // requests the alignment), and contact sets refer to ArmRig::toolAt().
     HapticCycle(const Tool& tool, std::span<const Shape> shapes, const HapticOptions& options,
                 const Pose& start, const Pose* tool0 = nullptr, const ArmRig* arm = nullptr);
+
+    HapticCycle(const HapticCycle&) = delete;
+    HapticCycle& operator=(const HapticCycle&) = delete;
 
     StepRecord step(const StepInput& input) noexcept;
 
@@ -50,34 +56,36 @@ public:
     // Replaces the authored shapes from the next step on; drops those beyond the room made by the
     // constructor. Haptic thread, between steps.
     void setShapes(std::span<const Shape> shapes) noexcept {
+        scene_.edited = true;
         arm_ ? arm_->setShapes(shapes) : proxy_->setShapes(shapes);
     }
 
-    const Pose& pose() const { return tool_; } // base_T_tool for the next contact query
+    const Pose& pose() const { return tool_; } // base_T_tool
     // Pose and, on an arm, posture.
     ToolState place() const { return {tool_, arm_ ? arm_->posture() : ArmPosture{}}; }
+    // Of the next contact query: ahead of place() when answers are late.
+    ToolState queryPlace() const noexcept {
+        return ahead_.ask(place(), time_, arm_ ? rig_->model.count() : 0);
+    }
     bool onArm() const { return arm_.has_value(); }
     const Springs& springs() const {
         return watch_.springs();
     } // active springs: those of the options, or softer ones while ticks are slow
-    const PassivityController& passivity() const { return passivity_; }
+    const PassivityController& passivity() const { return stage_.passivity(); }
     const HapticOptions& options() const { return options_; }
-    uint64_t notFinite() const { return notFinite_; } // steps with a number that is not finite
+    uint64_t notFinite() const { return stage_.notFinite(); } // steps with a number that is not finite
 
-    static constexpr double kRampTime = 0.2;       // [s] forces off, clutch, trapped
-    static constexpr double kFadeTime = 0.5;       // [s] old scene
+    static constexpr double kRampTime = ForceRamps::kRampTime;
+    static constexpr double kLagLength = 1e-4;     // [m] a smaller lag counts as none
+    static constexpr double kLagTime = 0.05;       // [s] of lag before the hand map takes it up
+    static constexpr double kTakeUp = 0.2;         // [s] time constant of that
+    static constexpr double kGone = 0.002;         // [m] regions farther away than this have disappeared
     static constexpr double kResumeWithin = 0.005; // [m] tool to hand, before an arm moves again
 
 private:
-    struct Ramps {          // 0..1 each; their product scales the wrench
-        double power = 0.0; // forces on, dead-man closed, clutch up
-        double free = 1.0;  // not trapped
-        double fresh = 1.0; // scene young enough
-        double product() const { return power * free * fresh; }
-    };
     struct Situation {    // what the rules depend on
         bool sane = true; // the hand's sample is finite
-        bool off = false; // forces off or dead-man open
+        bool off = false; // forces off, dead-man open or device lost
         bool clutch = false;
         bool running = false; // there is a set, or none is needed
         bool stale = false;
@@ -88,23 +96,26 @@ private:
     double sceneAge(const StepInput& input, const ContactSet* set) noexcept;
     bool covers(const ContactSet& set) noexcept;
     ProxyStep moveTool(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept;
-    void freeDirection() noexcept;
+    void freeDirection(ProxyStep& moved) noexcept;
+    ProxyStep stepTool(const StepInput& input, const ContactSet* set, const Situation& now,
+                       StepRecord& out) noexcept;
     ProxyStep moveArm(const StepInput& input, const ProxyInput& wanted, StepRecord& out) noexcept;
     std::span<const Shape> shapes() const noexcept { return arm_ ? arm_->shapes() : proxy_->shapes(); }
     double leafRadius(uint32_t leaf) const noexcept {
         return arm_ ? arm_->leafRadius(leaf) : leafRadius_[leaf];
     }
-    void stepRamps(const Situation& now, bool trapped, double measured) noexcept;
-    Wrench springWrench() noexcept;
+    bool lossesHoldForces(const StepInput& input) noexcept;
+    void takeSample(const StepInput& input, const Situation& now) noexcept;
+    bool regionsChanged(const ContactSet* set) noexcept;
+    bool regionsVanished(const ProxyStep& moved, bool newData) const noexcept;
+    void takeUpLag(ProxyStep& moved, bool vanished, StepRecord& out) noexcept;
+    void shiftHand(const dvec3& by) noexcept;
+    void makeWrench(const StepInput& input, const Situation& now, const ProxyStep& moved, bool newData,
+                    bool vanished, StepRecord& out) noexcept;
     Wrench guidancePull() const noexcept;
-    Wrench passivityWrench(const Wrench& spring, const Wrench& pull, double period) noexcept;
-    Wrench onActuatedAxes(const Wrench& wrench) const noexcept;
-    void finishWrench(const Wrench& spring, double period, const Situation& now, StepRecord& out) noexcept;
-    void tellPassivity(const Wrench& pull, const Wrench& damper, const Wrench& asked, const Wrench& sized,
-                       const Wrench& delivered) noexcept;
     void recordTouches(const ContactSet* set, const ProxyStep& moved, StepRecord& out) const noexcept;
     void report(const Situation& now, const ProxyStep& moved, bool hasSet, StepRecord& out) const noexcept;
-    StepState stateOf(const Situation& now, const ProxyStep& moved) const noexcept;
+    StepState stateOf(const Situation& now, const ProxyStep& moved, bool lags) const noexcept;
     void holdArm(const Situation& now, bool trapped, StepRecord& out) noexcept;
     void fillMargins(const StepInput& input, StepRecord& out) const noexcept;
 
@@ -115,25 +126,40 @@ private:
     std::optional<ArmProxy> arm_; // exactly one of these two exists
     std::optional<Proxy> proxy_;
     StiffnessWatch watch_;
-    PassivityController passivity_;
+    WrenchStage stage_;
+    QueryAhead ahead_;
 
     std::vector<double> leafRadius_; // [m]
     Pose tool_;                      // base_T_tool after the last step
     Pose springEnd_;       // base_T_tool that the solver aims at: device pose moved by the guidance lead
     Pose device_, handle_; // last good sample: mapped, raw
-    Pose toolBefore_, deviceBefore_; // at the end of the previous step, for the damping
-    Wrench smooth_;                  // low-pass
-    Wrench previous_;                // delivered, for the slew limit
-    Ramps ramps_;
-    double age_ = 0.0;
-    bool hasAge_ = false;
-    bool armHold_ = true;
-    bool followed_ = false;   // a real arm is connected
-    bool armFollows_ = false; // and reports that it follows
-    bool held_ = true;        // Situation::held of the last step
-    bool placed_ = false;     // the tool moved to where the active set may not cover it
-    bool arming_ = true;      // forces return after they were off: within HapticOptions::armTime
-    uint64_t notFinite_ = 0;
+    double time_ = 0.0;    // [s] of the last step
+
+    struct Scene { // what the active regions are
+        uint64_t generation = 0;
+        bool edited = false; // shapes were replaced
+        double age = 0.0;    // [s]
+        bool hasAge = false;
+    } scene_;
+    struct Pressing {         // of the last step
+        bool rows = false;    // with a force that can be felt
+        double lagTime = 0.0; // [s] the tool has been lagging
+        dvec3 shifted{0.0};   // [m] total shift of the hand map
+        uint32_t vanished = 0;
+    } pressing_;
+    struct Losses {
+        bool present = true;
+        std::array<double, 3> at{-1e9, -1e9, -1e9}; // [s] the last three
+        bool many = false;                          // until 1 s is clean
+    } losses_;
+    struct Arm {
+        bool hold = true;
+        bool connected = false; // a real arm is connected
+        bool follows = false;   // and reports that it follows
+        bool held = true;       // Situation::held of the last step
+        bool placed = false;    // the tool moved to where the active set may not cover it
+    } armState_;
+    uint32_t jointEnds_ = 0; // active joint limits of the last step
 };
 
 } // namespace fathom

@@ -15,24 +15,27 @@ const ContactSet* HapticCycle::chooseSet(const StepInput& input, StepRecord& out
     const ContactSet* offered = input.offered;
     if (offered != nullptr && offered->frame >= 0 && covers(*offered)) {
         out.adopted = true;
-        placed_ = false;
+        armState_.placed = false;
+        ahead_.answered(offered->asked, input.time);
         return offered;
     }
     const bool usable = input.contacts != nullptr && input.contacts->frame >= 0;
-    return usable && (!placed_ || covers(*input.contacts)) ? input.contacts : nullptr;
+    return usable && (!armState_.placed || covers(*input.contacts)) ? input.contacts : nullptr;
 }
 
 bool HapticCycle::follow(const ArmFollow& told) noexcept {
-    followed_ = arm_.has_value();
-    armFollows_ = told.follows;
-    if (!followed_ || !told.known || !held_ || ramps_.power > 0.0) {
+    armState_.connected = arm_.has_value();
+    armState_.follows = told.follows;
+    if (!armState_.connected || !told.known || !armState_.held || !stage_.off()) {
         return false;
     }
     arm_->setPosture(told.posture);
-    placed_ = true;
+    armState_.placed = true;
     tool_ = arm_->tip();
     map_.align(handle_, tool_);
-    device_ = springEnd_ = toolBefore_ = deviceBefore_ = tool_;
+    device_ = springEnd_ = tool_;
+    stage_.restart(tool_);
+    ahead_.restart();
     return true;
 }
 
@@ -41,9 +44,9 @@ double HapticCycle::sceneAge(const StepInput& input, const ContactSet* set) noex
     // confirms it may be newer.
     const bool newest = set == nullptr || set->generation == input.generation;
     const double age = input.time - (newest ? input.captureTime : set->captureTime);
-    age_ = input.sourceEnded && hasAge_ ? std::min(age, age_) : age;
-    hasAge_ = true;
-    return age_;
+    scene_.age = input.sourceEnded && scene_.hasAge ? std::min(age, scene_.age) : age;
+    scene_.hasAge = true;
+    return scene_.age;
 }
 
 ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, StepRecord& out) noexcept {
@@ -72,9 +75,9 @@ ProxyStep HapticCycle::moveTool(const StepInput& input, const ContactSet* set, S
 
 // When the arm leaves the tool's direction free, the hand's rotation has no meaning. It is set to the tip's,
 // so no spring turns the hand, even while the arm is held.
-void HapticCycle::freeDirection() noexcept {
+void HapticCycle::freeDirection(ProxyStep& moved) noexcept {
     if (rig_ != nullptr && rig_->freeDirection) {
-        device_.rotation = springEnd_.rotation = tool_.rotation;
+        device_.rotation = springEnd_.rotation = moved.allowed.rotation = tool_.rotation;
     }
 }
 
@@ -85,6 +88,7 @@ ProxyStep HapticCycle::moveArm(const StepInput& input, const ProxyInput& wanted,
     request.metricRadius = rig_->freeDirection ? 0.0 : wanted.metricRadius;
     const ArmStep moved = arm_->step(request);
     tool_ = moved.pose;
+    jointEnds_ = moved.atEnds;
     out.arm = {{moved.q, moved.grasp}, moved.residual,  moved.manipulability,
                moved.atLimits,         moved.graspHeld, moved.singular};
     return moved;

@@ -16,7 +16,7 @@
 
 namespace fathom {
 
-// Names in haptics.csv: off, free, contact, escape, trapped, fading.
+// Names in haptics.csv: off, free, contact, escape, trapped, fading, waiting.
 enum class StepState : uint8_t {
     Off,     // no contact set yet, or forces off and ramped out: the wrench is zero
     Free,    // no row pushes
@@ -24,6 +24,7 @@ enum class StepState : uint8_t {
     Escape,  // new data covers the tool, which moves out
     Trapped, // no motion obeys every row: the tool is held, the force ramps out
     Fading,  // scene too old, or forces off and not yet ramped out
+    Waiting, // no row pushes, and the tool lags behind the hand: no force
 };
 
 // Bits of a hand's buttons.
@@ -36,6 +37,9 @@ struct StepInput {
     Pose deviceThandle;   // raw, as the device gives it
     uint32_t buttons = 0; // level-sensitive bit field
     bool forcesOff = false;
+    bool present = true;   // false: the device is gone or silent, and renders no wrench
+    bool doubtful = false; // the pose is not believed yet: hand and tool stay, the force may only fall
+    bool reindex = false;  // the pose is believed from now on, wherever it is: the tool stays, as after a clutch
 
     // The active set (that the previous step obeyed; null = none), and a newer one on offer. Both must
     // outlive the step. When StepRecord::adopted is true, the newer one is active from now on. A set that
@@ -75,6 +79,8 @@ inline constexpr size_t kMostTouches = 8;
 struct ToolState {
     Pose pose; // base_T_tool
     ArmPosture arm;
+    double asked = 0.0;     // [s] of the step that asks
+    double moreReach = 0.0; // [m] beyond the scene's reach, for late answers
 };
 
 // Status of the real arm that follows the tool's arm, before a step.
@@ -121,6 +127,10 @@ struct StepRecord {
     Pose guidanceTarget;     // held and slewed; valid when guidanceClass >= 0
     std::array<Touch, kMostTouches> touches; // the first touchCount entries are valid
     uint32_t touchCount = 0;
+    uint32_t cause = 0;      // why there is a force: bits of wrench_stage.h
+    double lag = 0.0;        // [m] tool to the pose that the rows alone allow
+    dvec3 indexShift{0.0};   // [m] total by which lags moved the hand map
+    uint32_t vanished = 0;   // times that regions disappeared while they pressed
 };
 
 } // namespace fathom

@@ -49,7 +49,7 @@ void Lockstep::Impl::process(const Frame& frame) {
 
 bool Lockstep::Impl::answer() {
     auto set = std::make_unique<ContactSet>();
-    const bool any = compute.cycles.answer(cycle->place(), *set);
+    const bool any = compute.cycles.answer(cycle->queryPlace(), *set);
     if (any) {
         answers.push_back(std::move(set));
     }

@@ -40,6 +40,8 @@ v0::State external(StepState state) noexcept {
         return v0::State::Escape;
     case StepState::Trapped:
         return v0::State::Trapped;
+    case StepState::Waiting:
+        return v0::State::Waiting;
     case StepState::Fading:
         break;
     }

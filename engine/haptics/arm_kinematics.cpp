@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "engine/haptics/arm_kinematics.h"
 
-#include "engine/haptics/arm_damping.h"
-
 #include <cmath>
 
 namespace fathom {
@@ -18,7 +16,8 @@ ArmKinematics::ArmKinematics(const ArmModel& arm, const Pose& baseTarm, const Ar
     : arm_(arm)
     , base_(baseTarm)
     , options_(options)
-    , places_(arm) {
+    , places_(arm)
+    , normal_(arm.count()) {
     for (size_t k = 0; k < arm.count(); ++k) {
         now_.posture.q[k] = std::clamp(0.0, arm.joints[k].lower, arm.joints[k].upper);
     }
@@ -68,6 +67,9 @@ void ArmKinematics::addLimits(ProxyRows& rows) const noexcept {
             ContactRow row;
             row.kind = ContactRow::Kind::Joint;
             row.offset = std::min(0.0, sign > 0.0 ? low : -high);
+            const ArmJoint& joint = arm_.joints[k];
+            const double q = now_.posture.q[k];
+            row.gap = std::min(0.0, sign > 0.0 ? joint.lower - q : q - joint.upper);
             row.key = ~uint64_t{0} - 2 * k - (sign > 0.0 ? 1 : 0);
             rows.add(row, normal);
         }
@@ -113,22 +115,22 @@ bool ArmKinematics::aim(const LeafState&, ProxyRows& rows, ArmStep& out) noexcep
     // oscillates.
     Motion left = remaining(tip, target_);
     left = std::min(1.0, kFarthestAim * options_.stepCap / lengthOf(left, metricRadius_)) * left;
-    ArmNormal normal(arm_.count());
+    normal_ = ArmNormal(arm_.count());
     for (size_t j = 0; j < arm_.count(); ++j) {
         const dvec3 rotation = arm_.joints[j].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, j);
-        normal.setColumn(j, arm_.motionOf(now_.frames, j, tip.position), metricRadius_ * rotation);
+        normal_.setColumn(j, arm_.motionOf(now_.frames, j, tip.position), metricRadius_ * rotation);
         if (arm_.joints[j].lower == arm_.joints[j].upper) {
-            normal.leaveOut(j);
+            normal_.leaveOut(j);
         }
     }
-    const double smallest = normal.smallestSingular(metricRadius_ == 0.0 ? 3 : 6);
+    const double smallest = normal_.smallestSingular(metricRadius_ == 0.0 ? 3 : 6);
     if (out.solves == 0) {
         out.manipulability = smallest;
         out.singular = smallest < options_.singularBelow;
     }
-    normal.damp(dampingFor(smallest, options_.singularBelow, options_.damping, options_.singularDamping));
-    normal.solve(left.a, metricRadius_ * left.alpha, wanted_);
-    rows.setMetric(normal.metric());
+    normal_.damp(dampingFor(smallest, options_.singularBelow, options_.damping, options_.singularDamping));
+    normal_.solve(left.a, metricRadius_ * left.alpha, wanted_);
+    rows.setMetric(normal_.metric());
     return true;
 }
 
@@ -151,6 +153,7 @@ bool ArmKinematics::solve(Answer& answer, bool again, ProxyRows& rows, ArmStep& 
         rows.recordActive();
         out.contacts = static_cast<uint32_t>(rows.active().size());
         out.atLimits = rows.atLimits();
+        out.atEnds = rows.atEnds();
     }
     return true;
 }
@@ -184,6 +187,49 @@ bool ArmKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows&
     answer.share = 0.0;
     tryPart(answer, 0.0, contacts.leaves);
     return false;
+}
+
+Motion ArmKinematics::motionOf(const JointVector& dq) const noexcept {
+    const dvec3 tip = pose().position;
+    Motion motion;
+    for (size_t k = 0; k < arm_.count(); ++k) {
+        motion.a += dq[k] * arm_.motionOf(now_.frames, k, tip);
+        motion.alpha += dq[k] * (arm_.joints[k].slides ? dvec3(0.0) : arm_.axisOf(now_.frames, k));
+    }
+    return motion;
+}
+
+// The solution for the whole remaining motion, without joint speeds. Overwrites the rows' offsets.
+JointVector ArmKinematics::uncutAnswer(const Answer& answer, ProxyRows& rows) const noexcept {
+    const Motion left = remaining(pose(), target_);
+    JointVector wanted{}, dq{};
+    normal_.solve(left.a, metricRadius_ * left.alpha, wanted);
+    const std::span<const double> target(wanted.data(), arm_.count());
+    const std::span<double> x(dq.data(), arm_.count());
+    rows.ignoreSpeeds();
+    rows.load(target);
+    return rows.solve(target, x) ? dq : answer.dq;
+}
+
+void ArmKinematics::recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
+                                  ProxyRows& rows, ArmStep& out) const noexcept {
+    out.cut = true;
+    out.allowed = target_;
+    if (out.contacts == 0 && out.atEnds == 0 && !blocked) {
+        return;
+    }
+    Motion whole;
+    if (!blocked) {
+        whole = motionOf(uncutAnswer(answer, rows));
+    }
+    // Only what some joint could reduce is a reaction; the rest lies outside of the workspace.
+    const Motion residual = remaining(pose(), target_) - whole;
+    JointVector visible{};
+    normal_.solve(residual.a, metricRadius_ * residual.alpha, visible);
+    const Motion reaction = motionOf(visible);
+    out.allowed = moved(target_, -1.0 * reaction);
+    const double travel = glm::length(whole.a) + glm::length(whole.alpha) * metricRadius_;
+    out.stale = travel > contacts.tangentTravel(rows.active());
 }
 
 StepOutcome ArmKinematics::judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,

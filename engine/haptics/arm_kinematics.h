@@ -4,6 +4,7 @@
 // -gap, joint limits and joint speeds, all as rows of the same solver.
 #pragma once
 
+#include "engine/haptics/arm_damping.h"
 #include "engine/haptics/arm_leaf_places.h"
 #include "engine/haptics/constrained_proxy.h"
 #include "engine/haptics/tool_motion.h"
@@ -13,7 +14,6 @@ namespace fathom {
 
 // Motion options of an arm's proxy, fixed at construction. The step cap applies to every leaf of every link.
 struct ArmProxyOptions : ProxyOptions {
-    double period = 0.001;         // [s] tick, for the joint speeds
     double damping = 1e-3;         // [m/rad] lambda away from singular postures
     double singularBelow = 0.02;   // [m/rad] smallest singular value of M^1/2 J below which lambda grows
     double singularDamping = 0.05; // [m/rad] lambda at the singular posture
@@ -28,6 +28,7 @@ struct ArmStep : ProxyStep {
     double manipulability = 0; // [m/rad] smallest singular value of M^1/2 J at the start
     uint32_t contacts = 0;     // leaf rows with a positive multiplier in the last solve
     uint32_t atLimits = 0;     // joint limit and speed rows with a positive multiplier in the last solve
+    uint32_t atEnds = 0;       // the joint limits among them
     bool singular = false;     // manipulability below the threshold: damped
     bool graspHeld = false;    // a finger would have entered a region, so the grasp did not change
 };
@@ -82,6 +83,11 @@ public:
     StepOutcome judge(const Answer&, double part, const LeafState& leaves, ProxyRows&,
                       const ArmStep& out) noexcept;
     void take() noexcept { now_ = next_; }
+    // Before take(): fills out.allowed, cut and stale. An arm reports `allowed` in every tick, because it may
+    // not reach a target for reasons that push nobody: joint speeds, the workspace, a singular posture.
+    // blocked: the exact check shortened the motion.
+    void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts, ProxyRows& rows,
+                       ArmStep& out) const noexcept;
 
     // Tightening. share: the part of the solution that was tried.
     double share(const Answer& answer) const noexcept { return answer.share; }
@@ -103,6 +109,8 @@ private:
         double low, high;
     };
     Range rangeOf(size_t joint) const noexcept;
+    Motion motionOf(const JointVector& dq) const noexcept; // of the tip
+    JointVector uncutAnswer(const Answer& answer, ProxyRows& rows) const noexcept;
     JointVector normalOf(const ContactRow& row, const LeafState& leaves) const noexcept;
     void tryPosture(const JointVector& q, double grasp, LeafState& leaves) noexcept;
 
@@ -114,6 +122,7 @@ private:
     JointVector start_{}; // joints at the start of the tick
     Pose target_;
     double metricRadius_ = 0.0;
+    ArmNormal normal_;        // of this linearisation
     JointVector wanted_{};    // target of this linearisation
     double escapeLeft_ = 0.0; // [m] left in this tick
 };

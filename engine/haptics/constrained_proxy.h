@@ -84,6 +84,8 @@ private:
     bool tightenShapes(double share) noexcept;
     bool shapesAllow() const noexcept;
     double bisect(const Answer& answer) noexcept;
+
+    bool onlyLeft_ = false; // the last bisection found no violation, only parts outside of the trust region
 };
 
 template <class Kinematics>
@@ -115,6 +117,9 @@ void ConstrainedProxy<Kinematics>::finish(const ProxyInput& input, Step& out) no
 template <class Kinematics>
 void ConstrainedProxy<Kinematics>::report(Step& out) noexcept {
     out.pose = kinematics_.pose();
+    if (!out.cut) {
+        out.allowed = out.pose;
+    }
     out.active = rows_.active();
     out.minGap = contacts_.smallestGap();
     kinematics_.report(out);
@@ -123,6 +128,7 @@ void ConstrainedProxy<Kinematics>::report(Step& out) noexcept {
 // One linearisation. True when another one may get nearer to the target.
 template <class Kinematics>
 bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
+    out.cut = out.stale = false;
     collectRows(first, out);
     if (!kinematics_.aim(contacts_.leaves, rows_, out)) {
         return false;
@@ -139,6 +145,7 @@ bool ConstrainedProxy<Kinematics>::linearise(bool first, Step& out) noexcept {
     out.bisected += fits ? 0 : 1;
     const double part = fits ? kinematics_.wholePart(answer) : bisect(answer);
     out.stalled = out.stalled || answer.stalled;
+    kinematics_.recordAllowed(answer, !fits && !onlyLeft_, contacts_, rows_, out);
     const StepOutcome outcome = kinematics_.judge(answer, part, contacts_.leaves, rows_, out);
     if (outcome != StepOutcome::None) {
         kinematics_.take();
@@ -205,10 +212,13 @@ bool ConstrainedProxy<Kinematics>::shapesAllow() const noexcept {
 template <class Kinematics>
 double ConstrainedProxy<Kinematics>::bisect(const Answer& answer) noexcept {
     double good = 0.0, bad = kinematics_.wholePart(answer);
+    onlyLeft_ = true;
     for (int k = 0; k < kBisections; ++k) {
         const double middle = 0.5 * (good + bad);
         kinematics_.tryPart(answer, middle, contacts_.leaves);
-        (allowed(false) ? good : bad) = middle;
+        const bool fits = allowed(false);
+        (fits ? good : bad) = middle;
+        onlyLeft_ = onlyLeft_ && (fits || (contacts_.check() == 0 && shapesAllow()));
     }
     kinematics_.tryPart(answer, good, contacts_.leaves);
     return good;

@@ -30,6 +30,12 @@ public:
     // Recomputes offset and C so that the raw pose maps to `pose` from now on.
     void align(const Pose& deviceThandle, const Pose& pose) noexcept;
 
+    // Moves what the raw pose maps to by `by` [m], base axes.
+    void shift(const dvec3& by) noexcept {
+        offset_ += by;
+        held_.position += by;
+    }
+
     // Base axes to device axes, about the handle.
     Wrench toDevice(const Wrench& base) const noexcept;
     // Orientation of the handle, and so of its motors, in the base frame. Independent of the clutch.

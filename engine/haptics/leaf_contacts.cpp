@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fathom {
 
@@ -114,6 +115,19 @@ bool LeafContacts::insideTrustRegion() const noexcept {
 
 double LeafContacts::smallestGap() noexcept {
     return set_ == nullptr ? 0.0 : narrow_.smallestGapAt(*set_, leaves.now);
+}
+
+double LeafContacts::tangentTravel(std::span<const ActiveContact> rows) const noexcept {
+    double curvature = std::numeric_limits<double>::infinity(); // [m] smallest radius
+    for (const ActiveContact& active : rows) {
+        const ContactRow& row = active.row;
+        if (row.kind == ContactRow::Kind::Sphere) {
+            curvature = std::min(curvature, radius_[row.leaf] + double{set_->pairRadius[row.pair]});
+        } else if (row.kind == ContactRow::Kind::Shape && shapes_[row.pair].isRound()) {
+            curvature = std::min(curvature, radius_[row.leaf] + shapes_[row.pair].size.x);
+        }
+    }
+    return std::sqrt(2.0 * curvature * kTangentError);
 }
 
 uint64_t rowKey(ContactRow::Kind kind, uint32_t shape, uint32_t leaf, size_t side) noexcept {

@@ -53,6 +53,10 @@ public:
     bool insideTrustRegion() const noexcept;
     const TrustRegion& trust() const noexcept { return trust_; }
     double smallestGap() noexcept; // [m] over all listed pairs at `now`
+    // [m] leaf travel up to which the tangent planes of these rows, made at `now`, differ from the regions by
+    // less than kTangentError. Infinite without a curved row.
+    double tangentTravel(std::span<const ActiveContact> rows) const noexcept;
+    static constexpr double kTangentError = 0.0005; // [m]
 
     void setShapes(std::span<const Shape> shapes) noexcept;
     std::span<const Shape> shapes() const noexcept { return shapes_; }

@@ -30,7 +30,7 @@ dvec3 turnBetween(const Pose& from, const Pose& to) {
 } // namespace
 
 PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
-                               const CouplingOptions& coupling, double forceLimit, double torqueLimit) {
+                               const CouplingOptions& coupling) {
     PassivityOptions options;
     const double scale = coupling.handScale;
     // The hand moves 1/s of the tool's motion, and its energies count s times at the tool (hand_map.h).
@@ -39,8 +39,6 @@ PassivityOptions makePassivity(const DevicePreset& preset, const Springs& spring
                                                          : springs.rotationalStiffness * coupling.period *
                                                                (1.0 + 2.0 * coupling.delayTicks) / 2.0;
     options.metricRadius = springs.metricRadius;
-    options.forceLimit = forceLimit;
-    options.torqueLimit = torqueLimit;
     return options;
 }
 
@@ -57,10 +55,22 @@ void PassivityController::reset() noexcept {
 }
 
 double PassivityController::storedIn(const PassivityStep& tick) const noexcept {
-    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, tick.share,
-                    options_.forceLimit) +
+    return energyOf(glm::length(tick.contact.force), tick.springs.stiffness, tick.share, tick.forceLimit) +
            energyOf(glm::length(tick.contact.torque), tick.springs.rotationalStiffness, tick.share,
-                    options_.torqueLimit);
+                    tick.torqueLimit);
+}
+
+void PassivityController::shift(const dvec3& by) noexcept {
+    device_.position += by;
+    end_.position += by;
+}
+
+void PassivityController::giveUpWithoutRows(const PassivityStep& tick) noexcept {
+    free_ = tick.rows ? 0.0 : free_ + tick.period;
+    if (free_ > kFreeTime && debt_ > 0.0) {
+        unrepaid_ += debt_;
+        debt_ = 0.0;
+    }
 }
 
 void PassivityController::observe(const PassivityStep& tick) noexcept {
@@ -105,7 +115,10 @@ Wrench PassivityController::control(const PassivityStep& tick) const noexcept {
     }
     const double most = std::min(kMostDamping * std::min(options_.damping, options_.rotationalDamping / kk),
                                  kMostImpulse / (tick.period * (1.0 + 2.0 * options_.delayTicks)));
-    const double alpha = tick.share * std::min(owed / (tick.period * speed), most);
+    double alpha = tick.share * std::min(owed / (std::max(tick.period, tick.repay) * speed), most);
+    if (!tick.rows) {
+        alpha = std::min(alpha, kFreeDamper / std::sqrt(speed));
+    }
     return {-alpha * v, -alpha * kk * w};
 }
 
@@ -117,6 +130,7 @@ Wrench PassivityController::step(const PassivityStep& tick) noexcept {
     Wrench damper;
     if (started_) {
         observe(tick);
+        giveUpWithoutRows(tick);
         damper = control(tick);
     } else {
         stored_ = storedIn(tick);

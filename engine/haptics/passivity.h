@@ -25,21 +25,22 @@ struct PassivityOptions {
     double damping = 0.0;           // b [N s/m]
     double rotationalDamping = 0.0; // b_r [N m s/rad]
     double metricRadius = 0.1;      // k [m]: weight of rotation against translation, as in the springs
-    double forceLimit = 20.0,
-           torqueLimit = 2.0; // [N], [N m] size limit: a spring beyond it stores less
     uint32_t delayTicks = 0;  // whole ticks from a wrench to the hand, 0..64
 };
 
 // b from the preset. If b is unknown, the value at which the preset's stiffness is just passive at 1 kHz,
 // because the stiffness was found that way. If b_r is unknown, the value at which K_r is just passive.
 PassivityOptions makePassivity(const DevicePreset& preset, const Springs& springs,
-                               const CouplingOptions& coupling, double forceLimit, double torqueLimit);
+                               const CouplingOptions& coupling);
 
 // Input of the observer for one tick, after the proxy has moved.
 struct PassivityStep {
     Pose device;           // base_T_tool that the hand commands
     Pose end;              // hand's end of the spring: device pose plus the guidance lead
-    Wrench contact;        // spring wrench between end and proxy, unscaled, on actuated axes
+    Wrench contact;        // reaction of the regions, unscaled, on actuated axes
+    bool rows = true;      // some row is active, or the reaction still fades
+    double repay = 0.033;  // [s] in which a debt is dissipated: the time between frames
+    double forceLimit = 20.0, torqueLimit = 2.0; // [N], [N m] in force: a spring beyond them stores less
     double share = 1.0;    // of the wrench that the fades pass; 0 resets the observer
     Springs springs;       // active
     double period = 0.001; // T [s] since the tick before
@@ -52,16 +53,20 @@ public:
     explicit PassivityController(const PassivityOptions& options);
 
     // Observes the interval that ends now and returns the damping wrench to add: -alpha v and -alpha k^2 w
-    // with alpha = debt / (T (v.v + k^2 w.w)), capped (kMostDamping, kMostImpulse); zero below kSlow,
-    // kSlowTurn.
+    // with alpha = debt / (repay (v.v + k^2 w.w)), capped (kMostDamping, kMostImpulse); zero below kSlow,
+    // kSlowTurn. Without an active row it is at most kFreeDamper and ends after kFreeTime: what is not repaid
+    // by then is given up.
     Wrench step(const PassivityStep& tick) noexcept;
     // The wrench sent to the device from now on: the springs' part and the part that step() added.
     void delivered(const Wrench& contact, const Wrench& damper) noexcept;
     void reset() noexcept;
+    // The hand's end of the spring was moved by `by` [m], not by the hand.
+    void shift(const dvec3& by) noexcept;
 
     double debt() const noexcept { return debt_; }           // [J] > 0 = generated and not yet dissipated
     double generated() const noexcept { return generated_; } // [J] total energy generated
     double taken() const noexcept { return taken_; }         // [J] total energy dissipated by the controller
+    double unrepaid() const noexcept { return unrepaid_; }   // [J] total debt given up
 
     static constexpr double kSlow = 1e-4;     // [m/s] a slower hand is not damped
     static constexpr double kSlowTurn = 1e-3; // [rad/s]
@@ -70,6 +75,8 @@ public:
     // damping becomes unstable near 1.
     static constexpr double kMostDamping = 40.0;
     static constexpr double kMostImpulse = 0.02;
+    static constexpr double kFreeDamper = 1.0; // [N] largest damping force without an active row
+    static constexpr double kFreeTime = 0.1;   // [s] longest time of it
     static constexpr double kTolerance = 1e-6; // [J] smaller debts are rounding of the solver
     static constexpr double kForget =
         0.5; // [s] time constant to forget a debt that damping could not dissipate
@@ -83,6 +90,7 @@ private:
 
     double storedIn(const PassivityStep& tick) const noexcept;
     void observe(const PassivityStep& tick) noexcept;
+    void giveUpWithoutRows(const PassivityStep& tick) noexcept;
     Wrench control(const PassivityStep& tick) const noexcept;
 
     PassivityOptions options_;
@@ -93,7 +101,8 @@ private:
     bool started_ = false;
     Pose device_, end_;              // at the previous tick
     dvec3 moved_{0.0}, turned_{0.0}; // device motion since then
-    double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, taken_ = 0.0;
+    double stored_ = 0.0, debt_ = 0.0, generated_ = 0.0, taken_ = 0.0, unrepaid_ = 0.0;
+    double free_ = 0.0; // [s] since the last active row
 };
 
 } // namespace fathom

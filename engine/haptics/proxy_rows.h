@@ -76,12 +76,15 @@ public:
     bool relax() noexcept;
     // For contradictory rows: every row only requires that its gap does not shrink, permanently.
     void relaxAll() noexcept;
+    // Joint rows keep their position limit only (ContactRow::gap), until clear().
+    void ignoreSpeeds() noexcept;
 
     // Contacts of the last recorded solve; joint rows are only counted.
     void recordActive() noexcept;
     void clearActive() noexcept { activeCount_ = 0; }
     std::span<const ActiveContact> active() const noexcept { return {active_.data(), activeCount_}; }
     uint32_t atLimits() const noexcept { return atLimits_; }
+    uint32_t atEnds() const noexcept { return atEnds_; } // the position limits among them
 
 private:
     struct Row {
@@ -110,7 +113,7 @@ private:
     size_t loadedCount_ = 0;
     std::array<ActiveContact, kMaxUnknowns> active_;
     size_t activeCount_ = 0;
-    uint32_t atLimits_ = 0;
+    uint32_t atLimits_ = 0, atEnds_ = 0;
 };
 
 } // namespace fathom

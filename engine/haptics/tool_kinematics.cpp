@@ -2,6 +2,7 @@
 #include "engine/haptics/tool_kinematics.h"
 
 #include <cmath>
+#include <limits>
 
 namespace fathom {
 
@@ -26,17 +27,25 @@ ToolKinematics::ToolKinematics(const Tool& tool, const ProxyOptions& options, co
     , boundingRadius_(tool.boundingRadius())
     , stepCap_(options.stepCap)
     , escapePerTick_(options.escapePerTick)
+    , catchUp_(options.catchUp * options.period)
     , pose_{start.position, glm::normalize(start.rotation)} {}
 
 void ToolKinematics::setPose(const Pose& pose) noexcept {
     if (isFinite(pose)) {
         pose_ = {pose.position, glm::normalize(pose.rotation)};
+        hasTarget_ = false;
     }
 }
 
 void ToolKinematics::begin(const ProxyInput& input, ProxyRows& rows) noexcept {
+    // The tool may travel as far as the target did, plus a little to make up for a lag.
+    const double carried = carries_ ? budget_.follow : 0.0;
+    const double moved = hasTarget_ ? places_.travelBound(pose_, remaining(target_, input.target))
+                                    : std::numeric_limits<double>::infinity();
     target_ = input.target;
-    budget_ = {escapePerTick_, stepCap_};
+    hasTarget_ = true;
+    carries_ = false;
+    budget_ = {escapePerTick_, stepCap_, carried + moved + catchUp_};
     setMetric(input.metricRadius, rows);
 }
 
@@ -91,22 +100,22 @@ bool ToolKinematics::solve(Answer& answer, bool, ProxyRows& rows, ProxyStep& out
 
 // Largest share of `rest` after `first` that moves no leaf beyond the cap. Uses exact travel; errs on the
 // small side.
-double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, double firstBound,
+double ToolKinematics::shareToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
                                   LeafState& leaves) const noexcept {
     const auto travel = [&](double s) {
         places_.place(moved(pose_, first + s * rest), leaves.origin, leaves.next);
         return leaves.travel();
     };
-    if (places_.crudeBound(first + rest) <= stepCap_ || travel(1.0) <= stepCap_) {
+    if (places_.crudeBound(first + rest) <= cap || travel(1.0) <= cap) {
         return 1.0;
     }
-    double s = std::clamp((stepCap_ - firstBound) / places_.travelBound(pose_, rest), 0.0, 1.0);
+    double s = std::clamp((cap - firstBound) / places_.travelBound(pose_, rest), 0.0, 1.0);
     // The bound adds translation and rotation as if they were parallel; recover the difference.
     double reached = travel(s);
-    for (int k = 0; k < 3 && reached > 0.0 && reached < 0.98 * stepCap_ && s > 0.0; ++k) {
-        const double longer = std::min(1.0, s * stepCap_ / reached * (1.0 - 1e-9));
+    for (int k = 0; k < 3 && reached > 0.0 && reached < 0.98 * cap && s > 0.0; ++k) {
+        const double longer = std::min(1.0, s * cap / reached * (1.0 - 1e-9));
         const double there = travel(longer);
-        if (there > stepCap_) {
+        if (there > cap) {
             break;
         }
         s = longer;
@@ -127,7 +136,9 @@ bool ToolKinematics::fit(Answer& answer, LeafContacts& contacts, const ProxyRows
         escapeBound = bound * answer.escapeShare;
     }
     const Motion first = answer.escapeShare * answer.escape;
-    answer.towards = shareToCap(first, answer.full - first, escapeBound, leaves);
+    const double follow = escapeBound + budget_.follow;
+    answer.towards = shareToCap(first, answer.full - first, escapeBound, std::min(stepCap_, follow), leaves);
+    carries_ = answer.towards < 1.0 && follow > stepCap_;
     answer.whole = answer.towards == 1.0 && answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
     answer.stalled = false;
     tryPart(answer, 1.0, leaves);
@@ -180,7 +191,7 @@ bool ToolKinematics::comesNearer(const Motion& taken) const noexcept {
     return glm::dot(next.a - now.a, next.a + now.a) + metricRadius_ * metricRadius_ * rotation < 0.0;
 }
 
-StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafState&, ProxyRows& rows,
+StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafState& leaves, ProxyRows& rows,
                                   ProxyStep& out) noexcept {
     const Motion taken = remaining(pose_, nextPose_);
     if (isNothing(taken) && rows.escaping() &&
@@ -193,10 +204,24 @@ StepOutcome ToolKinematics::judge(const Answer& answer, double part, const LeafS
     }
     const double done = part * answer.share;
     budget_.depth = std::max(0.0, budget_.depth - done * answered(answer) * rows.largestEscape());
+    double escaped = 0.0;
     if (rows.escaping()) {
-        budget_.travel -= done * answer.escapeShare * places_.travelBound(pose_, answer.escape);
+        escaped = done * answer.escapeShare * places_.travelBound(pose_, answer.escape);
+        budget_.travel -= escaped;
     }
+    budget_.follow = std::max(0.0, budget_.follow - std::max(0.0, leaves.travel() - escaped));
     return isNothing(taken) ? StepOutcome::Last : StepOutcome::More;
+}
+
+void ToolKinematics::recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
+                                   const ProxyRows& rows, ProxyStep& out) const noexcept {
+    const bool shortened = answer.towards < 1.0 || answer.share < 1.0;
+    out.cut = shortened && !blocked;
+    out.stale = shortened && places_.travelBound(pose_, answer.full) > contacts.tangentTravel(rows.active());
+    if (out.cut) {
+        const bool target = answer.full.a == wanted_.a && answer.full.alpha == wanted_.alpha;
+        out.allowed = target ? target_ : moved(pose_, answer.full);
+    }
 }
 
 double ToolKinematics::shortfall(const NarrowPhase::Violation& violation, double needed,

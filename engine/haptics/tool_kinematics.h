@@ -60,9 +60,12 @@ public:
     bool fit(Answer& answer, LeafContacts& contacts, const ProxyRows& rows) noexcept;
     double wholePart(const Answer&) const noexcept { return 1.0; }
     void tryPart(const Answer& answer, double part, LeafState& leaves) noexcept;
-    StepOutcome judge(const Answer& answer, double part, const LeafState&, ProxyRows& rows,
+    StepOutcome judge(const Answer& answer, double part, const LeafState& leaves, ProxyRows& rows,
                       ProxyStep& out) noexcept;
     void take() noexcept { pose_ = nextPose_; }
+    // Before take(): fills out.allowed, cut and stale. blocked: the exact check shortened the motion.
+    void recordAllowed(const Answer& answer, bool blocked, const LeafContacts& contacts,
+                       const ProxyRows& rows, ProxyStep& out) const noexcept;
 
     // Tightening. share: the part of every row's offset that the tried motion surely reaches.
     double share(const Answer& answer) const noexcept { return answer.share * answered(answer); }
@@ -78,6 +81,7 @@ private:
     struct Budget {          // per tick, over all solves
         double depth = 0.0;  // [m] separation that rows may request of touching pairs
         double travel = 0.0; // [m] leaf travel allowed for it
+        double follow = 0.0; // [m] leaf travel allowed towards the target
     };
     // Rows describe the whole solution, but only `share` of it was tried.
     static double scaleOf(double share) noexcept { return 1.0 / std::max(share, 1e-9); }
@@ -88,16 +92,18 @@ private:
     double depthLeft() const noexcept { return budget_.travel > proxy::kSkin ? budget_.depth : 0.0; }
     void setMetric(double radius, ProxyRows& rows) noexcept;
     bool solveFor(const Motion& wanted, Motion& motion, ProxyRows& rows, ProxyStep& out) const noexcept;
-    double shareToCap(const Motion& first, const Motion& rest, double firstBound,
+    double shareToCap(const Motion& first, const Motion& rest, double firstBound, double cap,
                       LeafState& leaves) const noexcept;
     bool comesNearer(const Motion& taken) const noexcept;
 
     LeafPlaces places_;
     double boundingRadius_; // [m]
-    double stepCap_, escapePerTick_;
+    double stepCap_, escapePerTick_, catchUp_; // [m] per solve, per tick, per tick
     Pose pose_, nextPose_, target_;
     double metricRadius_ = 0.0;
     Budget budget_;
+    bool hasTarget_ = false; // some tick had a target
+    bool carries_ = false;   // the step cap left travel towards the target for the next tick
     Motion wanted_;        // remaining motion to the target, per linearisation
     bool newData_ = false; // rows requested motion before any was tightened
 };

@@ -75,7 +75,7 @@ void HapticStepper::publish(const HandSample& hand, double now) noexcept {
     row_.query = active != nullptr ? active->query : 0;
     row_.micros = std::chrono::duration<double, std::micro>(ended_ - began_).count();
     sendSetpoint(row_.record, (hand.buttons & kDeadManOpen) != 0, now);
-    channels_.proxy.back() = cycle_.place();
+    channels_.proxy.back() = cycle_.queryPlace();
     channels_.proxy.publish();
     if (cycle_.onArm()) {
         channels_.postures.add(ended_, row_.record.arm.posture);

@@ -37,6 +37,7 @@ inline StepInput stepInput(const SceneUpdate& scene, const HandSample& hand, dou
     input.time = now;
     input.deviceThandle = hand.deviceThandle;
     input.buttons = hand.buttons;
+    input.present = hand.present;
     input.frame = scene.frame;
     input.generation = scene.generation;
     input.captureTime = scene.captureTime;

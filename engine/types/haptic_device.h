@@ -13,6 +13,7 @@ namespace fathom {
 struct HandSample {
     Pose deviceThandle;   // raw, device frame: position [m], orientation
     uint32_t buttons = 0; // level-sensitive bit field: 1 guidance, 2 dead-man open, 4 clutch
+    bool present = true;  // false: the device is gone or silent, and a wrench written now is not rendered
 };
 
 // Called only by the haptic thread, once per tick: read, then write. Never allocates, locks or throws, and

@@ -28,7 +28,8 @@ enum class State {
     Contact, ///< at least one fixture pushes
     Escape,  ///< new fixtures cover the tool, which is on its way out
     Trapped, ///< no motion obeys every fixture: the tool is held and the force ramps out
-    Fading   ///< the scene is too old, or forces were switched off: the force ramps out
+    Fading,  ///< the scene is too old, or forces were switched off: the force ramps out
+    Waiting  ///< nothing pushes, and the tool lags behind the hand (late contact answers): no force
 };
 
 /// Bits of Step::warnings.

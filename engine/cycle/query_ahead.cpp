@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/query_ahead.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+namespace {
+
+constexpr double kForgetAge = 1.0; // [s] in which a late answer is forgotten
+
+} // namespace
+
+void QueryAhead::moved(const ToolState& now) noexcept {
+    const double share = started_ ? std::min(1.0, period_ / kSmooth) : 0.0;
+    const dvec3 turned = rotationLog(now.pose.rotation * glm::conjugate(before_.pose.rotation));
+    velocity_ = started_ ? velocity_ : dvec3(0.0);
+    spin_ = started_ ? spin_ : dvec3(0.0);
+    velocity_ += share * ((now.pose.position - before_.pose.position) / period_ - velocity_);
+    spin_ += share * (turned / period_ - spin_);
+    for (size_t k = 0; k < rates_.size(); ++k) {
+        const double rate = started_ ? (now.arm.q[k] - before_.arm.q[k]) / period_ : 0.0;
+        rates_[k] = started_ ? rates_[k] + share * (rate - rates_[k]) : 0.0;
+    }
+    before_ = now;
+    started_ = true;
+}
+
+void QueryAhead::answered(double asked, double now) noexcept {
+    const double age = std::clamp(now - asked, 0.0, kMostLead);
+    age_ = std::max(age, age_ - period_ * std::min(1.0, age_ / kForgetAge));
+}
+
+double QueryAhead::lead() const noexcept {
+    return age_ > kInTime * period_ ? age_ : 0.0;
+}
+
+ToolState QueryAhead::ask(const ToolState& now, double time, size_t joints) const noexcept {
+    ToolState ahead = now;
+    ahead.asked = time;
+    const double lead = this->lead();
+    if (lead == 0.0) {
+        return ahead;
+    }
+    ahead.pose.position += lead * velocity_;
+    ahead.pose.rotation = glm::normalize(rotationExp(lead * spin_) * now.pose.rotation);
+    for (size_t k = 0; k < joints; ++k) {
+        ahead.arm.q[k] += lead * rates_[k];
+    }
+    const double unsure = 0.25 * glm::length(velocity_) * lead + 0.5 * kHandAccel * lead * lead;
+    ahead.moreReach = std::min(kMostReach, unsure);
+    return ahead;
+}
+
+} // namespace fathom

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where the tool will be when an answer of the contact cadence is used.
+#pragma once
+
+#include "engine/cycle/step_record.h"
+
+namespace fathom {
+
+// Extrapolates the tool by its own velocity over the measured age of the answers. Answers that are not late
+// are asked for where the tool is. Haptic thread; noexcept, no allocation.
+class QueryAhead {
+public:
+    // T [s]: haptic period.
+    explicit QueryAhead(double period) noexcept
+        : period_(period) {}
+
+    // One tick: where the tool is now.
+    void moved(const ToolState& now) noexcept;
+    // An answer to a query at `asked` [s] became active at `now` [s].
+    void answered(double asked, double now) noexcept;
+    // The tool was placed elsewhere: no velocity.
+    void restart() noexcept { started_ = false; }
+
+    // Place and reach of the next query. joints: number of joints of the arm, 0 = free tool.
+    ToolState ask(const ToolState& now, double time, size_t joints) const noexcept;
+
+    double lead() const noexcept; // [s] by which queries look ahead
+
+    static constexpr double kInTime = 2.5;      // ticks: an answer of this age is not late
+    static constexpr double kMostLead = 0.2;    // [s]
+    static constexpr double kMostReach = 0.02;  // [m] largest growth of the reach
+    static constexpr double kHandAccel = 5.0;   // [m/s^2] that a hand may add meanwhile
+    static constexpr double kSmooth = 0.005;    // [s] average of the velocity
+
+private:
+    double period_;
+    double age_ = 0.0; // [s] of recent answers: rises at once, falls slowly
+    ToolState before_;
+    dvec3 velocity_{0.0}, spin_{0.0}; // [m/s], [rad/s]
+    JointVector rates_{};             // [rad/s], [m/s]
+    bool started_ = false;
+};
+
+} // namespace fathom

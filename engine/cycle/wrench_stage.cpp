@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/cycle/wrench_stage.h"
+
+#include "engine/haptics/limits.h"
+
+#include <algorithm>
+
+namespace fathom {
+namespace {
+
+PassivityOptions passivityOf(const HapticOptions& options) {
+    PassivityOptions passivity = makePassivity(options.device, options.springs, options.coupling);
+    passivity.delayTicks = options.deviceDelayTicks;
+    return passivity;
+}
+
+// |part| / |whole|; 1 when `whole` is zero.
+double shareOf(const dvec3& part, const dvec3& whole) {
+    const double length = glm::length(whole);
+    return length > 0.0 ? glm::length(part) / length : 1.0;
+}
+
+Wrench sumOf(const Wrench& a, const Wrench& b) {
+    return {a.force + b.force, a.torque + b.torque};
+}
+
+bool isZero(const Wrench& wrench) {
+    return wrench.force == dvec3(0.0) && wrench.torque == dvec3(0.0);
+}
+
+// `v` along `axis` only.
+dvec3 along(const dvec3& v, const dvec3& axis) {
+    const double square = glm::dot(axis, axis);
+    return square > 0.0 ? axis * (glm::dot(v, axis) / square) : dvec3(0.0);
+}
+
+} // namespace
+
+WrenchStage::WrenchStage(const HapticOptions& options)
+    : options_(options)
+    , passivity_(passivityOf(options)) {}
+
+void WrenchStage::shift(const dvec3& by) noexcept {
+    reaction_.shift(by);
+    passivity_.shift(by);
+    deviceBefore_.position += by;
+}
+
+void WrenchStage::stepRamps(const WrenchInput& input) noexcept {
+    arming_ = (arming_ || input.off) && (ramps_.active() || input.off);
+    const auto share = [](const dvec3& v, double limit) { return limit > 0.0 ? glm::length(v) / limit : 0.0; };
+    const double rendered = std::max(share(previous_.force, options_.forceLimit),
+                                     share(previous_.torque, options_.torqueLimit));
+    ramps_.step({input.power, !input.trapped, !input.stale}, options_.period, input.period, rendered,
+                arming_ ? options_.armTime : ForceRamps::kRampTime);
+}
+
+// Acts along the reaction only: a hand that moves freely beside a region is not braked.
+Wrench WrenchStage::damping(const WrenchInput& input, const Wrench& reaction) noexcept {
+    const Springs& springs = input.springs;
+    Wrench wrench;
+    if (springs.damping != 0.0 || springs.rotationalDamping != 0.0) {
+        const auto turned = [](const Pose& now, const Pose& before) {
+            return rotationLog(now.rotation * glm::conjugate(before.rotation));
+        };
+        const dvec3 slip = (input.tool.position - toolBefore_.position) -
+                           (input.device.position - deviceBefore_.position);
+        const dvec3 spin = turned(input.tool, toolBefore_) - turned(input.device, deviceBefore_);
+        wrench.force = along(slip, reaction.force) * (springs.damping / options_.period);
+        wrench.torque = along(spin, reaction.torque) * (springs.rotationalDamping / options_.period);
+    }
+    toolBefore_ = input.tool;
+    deviceBefore_ = input.device;
+    return wrench;
+}
+
+Wrench WrenchStage::springWrench(const WrenchInput& input) noexcept {
+    if (input.vanished) {
+        reaction_.vanish();
+    }
+    ReactionInput tick;
+    tick.allowed = input.allowed;
+    tick.end = input.end;
+    tick.springs = input.springs;
+    tick.period = options_.period;
+    tick.mayRise = input.mayRise && !input.trapped;
+    tick.newData = input.newData;
+    const Wrench reaction = reaction_.step(tick);
+    return sumOf(reaction, damping(input, reaction));
+}
+
+Wrench WrenchStage::onActuatedAxes(const WrenchInput& input, const Wrench& wrench) const noexcept {
+    return projectOnAxes(wrench, input.baseRhandle, options_.device.actuated).delivered;
+}
+
+Wrench WrenchStage::passivityWrench(const WrenchInput& input, const Wrench& contact) noexcept {
+    if (!options_.passivityController) {
+        return {};
+    }
+    PassivityStep tick;
+    tick.device = input.device;
+    tick.end = input.end;
+    tick.contact = onActuatedAxes(input, contact);
+    tick.share = ramps_.gain();
+    tick.springs = input.springs;
+    tick.period = input.period;
+    tick.rows = input.pushes != 0 || reaction_.fades();
+    tick.repay = reaction_.frameInterval();
+    tick.forceLimit = ramps_.share() * options_.forceLimit;
+    tick.torqueLimit = ramps_.share() * options_.torqueLimit;
+    return passivity_.step(tick);
+}
+
+// Subtracts the guidance share of the delivered wrench, scaled as the size limit scaled it.
+void WrenchStage::tellPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
+                                const Wrench& sized, const Wrench& delivered) noexcept {
+    const double ramp = ramps_.gain();
+    const Wrench& pull = input.pull;
+    const double force = shareOf(sized.force, asked.force), torque = shareOf(sized.torque, asked.torque);
+    const Wrench guided = onActuatedAxes(input, {ramp * force * pull.force, ramp * torque * pull.torque});
+    const Wrench damped = onActuatedAxes(input, {force * damper.force, torque * damper.torque});
+    passivity_.delivered(
+        {delivered.force - guided.force - damped.force, delivered.torque - guided.torque - damped.torque},
+        damped);
+}
+
+uint32_t WrenchStage::causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,
+                              const Wrench& slewed) const noexcept {
+    const bool fades = ramps_.active() || reaction_.fades();
+    const bool held = slewed.force != sized.force || slewed.torque != sized.torque;
+    return input.pushes | (isZero(input.pull) ? 0 : cause::kGuidance) |
+           (isZero(damper) ? 0 : cause::kDamping) | (fades ? cause::kRamp : 0) | (held ? cause::kSlew : 0);
+}
+
+void WrenchStage::cut() noexcept {
+    previous_ = smooth_ = {};
+    ramps_.cut();
+    passivity_.reset();
+}
+
+WrenchStage::Output WrenchStage::step(const WrenchInput& input) noexcept {
+    stepRamps(input);
+    const Wrench contact = springWrench(input);
+    smooth_ = lowPass(scaled(sumOf(contact, input.pull), ramps_.gain()), smooth_, options_.lowPassGain);
+    const Wrench damper = passivityWrench(input, contact);
+    const Wrench asked = sumOf(smooth_, damper);
+    const Wrench sized = limitSize(asked, ramps_.share() * options_.forceLimit,
+                                   ramps_.share() * options_.torqueLimit);
+    Output out;
+    out.wrench = limitSlew(sized, previous_, options_.slewForce * options_.period,
+                           options_.slewTorque * options_.period);
+    out.cause = causeOf(input, damper, sized, out.wrench);
+    out.finite = input.sane && isFinite(out.wrench);
+    notFinite_ += out.finite ? 0 : 1;
+    if (!out.finite || !input.rendered) {
+        cut();
+        out.wrench = {};
+    }
+    previous_ = out.wrench;
+    const auto projected = projectOnAxes(out.wrench, input.baseRhandle, options_.device.actuated);
+    out.delivered = projected.delivered;
+    out.residual = projected.residual;
+    tellPassivity(input, damper, asked, sized, projected.delivered);
+    return out;
+}
+
+} // namespace fathom

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// The last part of a haptic step: from the poses of hand and tool to the wrench on the hand.
+#pragma once
+
+#include "engine/cycle/haptic_options.h"
+#include "engine/haptics/force_ramps.h"
+#include "engine/haptics/passivity.h"
+#include "engine/haptics/reaction.h"
+
+namespace fathom {
+
+// Why there is a force in a tick: bits of StepRecord::cause.
+namespace cause {
+inline constexpr uint32_t kRow = 1;      // a region or shape pushes
+inline constexpr uint32_t kJoint = 2;    // a limit of an arm's joint pushes
+inline constexpr uint32_t kGuidance = 4; // guidance pulls, at most its limits
+inline constexpr uint32_t kDamping = 8;  // energy that moving regions fed into the hand is dissipated
+inline constexpr uint32_t kRamp = 16;    // the force fades out or returns
+inline constexpr uint32_t kSlew = 32;    // the slew limit still holds back a change
+} // namespace cause
+
+// Input of one tick. Base frame.
+struct WrenchInput {
+    Pose tool;    // after the tick
+    Pose allowed; // ProxyStep::allowed
+    Pose end;     // that the solver aims at: device pose moved by the guidance lead
+    Pose device;  // that the hand commands
+    dquat baseRhandle{1.0, 0.0, 0.0, 0.0};
+    Springs springs;         // active
+    Wrench pull;             // of guidance, part of the wrench
+    uint32_t pushes = 0;     // cause::kRow and kJoint of the solver's answer
+    bool mayRise = true;     // as ReactionInput
+    bool newData = false;    // as ReactionInput
+    bool vanished = false;   // the regions that pressed are gone although nothing moved
+    bool power = false;      // forces are on, nothing holds them back
+    bool off = false;        // forces off or dead-man open: the next rise takes HapticOptions::armTime
+    bool trapped = false;
+    bool stale = false;
+    bool sane = true;        // false: the hand's sample is not finite, and there is no force in this tick
+    bool rendered = true;    // false: the device renders nothing in this tick, whatever is written
+    double period = 0.001;   // [s] measured, or nominal
+};
+
+// One thread; noexcept, no allocation. Guarantees, whatever the input: force and torque stay within their
+// limits and slew limits; after a tick in which the device rendered nothing, and after every fade, the force
+// rises from there within the ramp.
+class WrenchStage {
+public:
+    explicit WrenchStage(const HapticOptions& options);
+
+    struct Output {
+        Wrench wrench;    // on the hand, after all limits, before projection
+        Wrench delivered; // on the actuated axes
+        Wrench residual;  // wrench - delivered
+        uint32_t cause = 0;
+        bool finite = true; // false: some number was not finite, and the wrench is zero
+    };
+    Output step(const WrenchInput& input) noexcept;
+
+    // The hand's end of the spring was moved by `by` [m], not by the hand.
+    void shift(const dvec3& by) noexcept;
+    // Tool and hand start anew at `pose`, without force.
+    void restart(const Pose& pose) noexcept { toolBefore_ = deviceBefore_ = pose; }
+
+    bool off() const noexcept { return ramps_.off(); } // ramped out, or never on
+    double reaction() const noexcept { return reaction_.size(); } // [N] of the last tick
+    const PassivityController& passivity() const noexcept { return passivity_; }
+    uint64_t notFinite() const noexcept { return notFinite_; }
+
+private:
+    void stepRamps(const WrenchInput& input) noexcept;
+    Wrench springWrench(const WrenchInput& input) noexcept;
+    Wrench damping(const WrenchInput& input, const Wrench& reaction) noexcept;
+    Wrench passivityWrench(const WrenchInput& input, const Wrench& contact) noexcept;
+    void tellPassivity(const WrenchInput& input, const Wrench& damper, const Wrench& asked,
+                       const Wrench& sized, const Wrench& delivered) noexcept;
+    uint32_t causeOf(const WrenchInput& input, const Wrench& damper, const Wrench& sized,
+                     const Wrench& slewed) const noexcept;
+    Wrench onActuatedAxes(const WrenchInput& input, const Wrench& wrench) const noexcept;
+    void cut() noexcept;
+
+    const HapticOptions& options_;
+    Reaction reaction_;
+    PassivityController passivity_;
+    ForceRamps ramps_;
+    Wrench smooth_;                  // low-pass
+    Wrench previous_;                // rendered, for the slew limit
+    Pose toolBefore_, deviceBefore_; // at the end of the previous tick, for the damping
+    bool arming_ = true;             // forces return after they were off: within HapticOptions::armTime
+    uint64_t notFinite_ = 0;
+};
+
+} // namespace fathom

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "engine/haptics/force_ramps.h"
+
+#include <algorithm>
+
+namespace fathom {
+
+void ForceRamps::step(const std::array<bool, kReasons>& on, double nominal, double measured, double rendered,
+                      double power) noexcept {
+    bool all = true;
+    for (size_t reason = 0; reason < kReasons; ++reason) {
+        const double time = reason == Stale ? kFadeTime : kRampTime;
+        double& gain = gain_[reason];
+        if (!on[reason]) {
+            gain = std::max(0.0, gain - measured / time);
+            all = false;
+        } else if (gain < 1.0) { // forces return for this reason
+            rise_ = std::max(share_ < 1.0 ? rise_ : 0.0, reason == Power ? power : time);
+            share_ = std::min(share_, rendered);
+            gain = 1.0;
+        }
+    }
+    if (gain() == 0.0) {
+        share_ = 0.0;
+    }
+    if (all) {
+        share_ = std::min(1.0, share_ + nominal / rise_);
+    }
+}
+
+void ForceRamps::cut() noexcept {
+    gain_[Power] = 0.0;
+    share_ = 0.0;
+}
+
+} // namespace fathom

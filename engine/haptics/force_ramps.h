@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// How the force fades out and returns. Fading out scales the wrench. A force that returns is bounded by a
+// share of the limits that grows from what the device renders at that moment, so it never jumps to what the
+// spring has stored meanwhile.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace fathom {
+
+// One thread; noexcept, no allocation.
+class ForceRamps {
+public:
+    enum Reason : size_t { Power, Trapped, Stale, kReasons };
+
+    // One tick. on: per reason, whether forces are allowed. Falls take `measured` [s], so that late ticks
+    // cannot delay them; rises take `nominal`. rendered: share of the limits that the device renders now.
+    // power [s]: time of a rise from zero to the limits after the reason Power.
+    void step(const std::array<bool, kReasons>& on, double nominal, double measured, double rendered,
+              double power) noexcept;
+    // The device renders nothing: no force until step() lets it rise from zero.
+    void cut() noexcept;
+
+    double gain() const noexcept { return gain_[Power] * gain_[Trapped] * gain_[Stale]; } // 0..1
+    double share() const noexcept { return share_; } // 0..1 of the limits of force and torque
+    bool off() const noexcept { return gain_[Power] == 0.0; }
+    bool active() const noexcept { return gain() < 1.0 || share_ < 1.0; }
+
+    static constexpr double kRampTime = 0.2; // [s] forces off, clutch, trapped, device lost
+    static constexpr double kFadeTime = 0.5; // [s] old scene
+
+private:
+    std::array<double, kReasons> gain_{0.0, 1.0, 1.0};
+    double share_ = 0.0;
+    double rise_ = kRampTime; // [s] from zero to the limits
+};
+
+} // namespace fathom

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// The reaction of the regions: the spring between the hand and the pose that the active rows allow. Zero
+// without an active row, however far the tool lags behind the hand.
+#pragma once
+
+#include "engine/haptics/coupling.h"
+
+namespace fathom {
+
+// Input of one tick, after the proxy has moved.
+struct ReactionInput {
+    Pose allowed;          // ProxyStep::allowed
+    Pose end;              // the hand's end of the spring: device pose plus the guidance lead
+    Springs springs;       // active
+    double period = 0.001; // T [s]
+    bool mayRise = true;   // false: rows are stale, the tool is trapped or the hand's sample is doubtful
+    bool newData = false;  // the regions changed since the tick before
+};
+
+// One thread; noexcept, no allocation. In a region at rest the reaction grows by no more than the spring that
+// the hand's own motion compresses, because the tool only ever moves nearer to the hand. Any faster growth
+// has another cause: a row appeared, new data moved a surface, a lag ended. It then rises by at most
+// kAppear, and after new data evenly over the time between frames, so that no frame is felt as a click.
+// Falls are immediate.
+class Reaction {
+public:
+    // Wrench on the hand, base axes, before limits; without damping.
+    Wrench step(const ReactionInput& input) noexcept;
+
+    // The regions that pressed are gone although nothing moved. The last reaction fades out over kTail.
+    void vanish() noexcept;
+    // The hand's end of the spring was moved by `by` [m], not by the hand.
+    void shift(const dvec3& by) noexcept { end_.position += by; }
+    void reset() noexcept { *this = {}; }
+
+    double size() const noexcept { return size_; }   // [N] of the last tick, torque counted as torque / k
+    bool fades() const noexcept { return left_ > 0.0; }  // the tail after vanish()
+    // [s] between the last two changes of the regions, at most kLongestFrame.
+    double frameInterval() const noexcept { return interval_; }
+
+    static constexpr double kAppear = 100.0;       // [N/s]
+    static constexpr double kTail = 0.2;           // [s]
+    static constexpr double kLongestFrame = 0.033; // [s]
+
+private:
+    double rate(double wanted, const ReactionInput& input) noexcept;
+    Wrench tail(double size, double period) noexcept;
+
+    Pose end_;
+    Wrench last_, faded_; // of the last tick; when the regions vanished
+    double size_ = 0.0;
+    double fadedSize_ = 0.0, left_ = 0.0; // [N], [s] of the tail
+    double since_ = kLongestFrame, interval_ = kLongestFrame; // [s] since the newest data; between data
+    double rate_ = kAppear;                                   // [N/s] until the next frame is due
+    bool started_ = false;
+};
+
+} // namespace fathom
