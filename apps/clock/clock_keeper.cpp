@@ -36,7 +36,7 @@ std::string hexOf(const std::array<uint8_t, 16>& uuid) {
 }
 
 ClockKeeper::ClockKeeper(const GlobalOptions& options, const DeviceFacts& device) {
-    if (!options.holdClock) {
+    if (!options.holdClock || device.driver.empty()) { // or noDevice()
         return;
     }
     int life[2] = {-1, -1}, answer[2] = {-1, -1};

@@ -53,7 +53,7 @@ OperatorRun::OperatorRun(const OperateOptions& options, const GlobalOptions& glo
     , view_(sink_)
     , log_(options.state) {
     console_.takeSettings(session_.scene, options.textScale);
-    canvas_ = std::make_unique<Canvas>(window_, session_.instance, console_.textScale, options.shots);
+    canvas_ = std::make_unique<Canvas>(window_, *session_.instance, console_.textScale, options.shots);
     canvas_->open(session_.cycles.device());
     startThreads();
     console_.forces = options_.armed;

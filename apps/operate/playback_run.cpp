@@ -94,7 +94,7 @@ PlaybackRun::PlaybackRun(const OperateOptions& options, const GlobalOptions& glo
     , panel_(log_, durationOf(past_, log_))
     , state_(options.state) {
     console_.takeSettings(session_.scene, options.textScale);
-    canvas_ = std::make_unique<Canvas>(window_, session_.instance, console_.textScale, options.shots);
+    canvas_ = std::make_unique<Canvas>(window_, *session_.instance, console_.textScale, options.shots);
     canvas_->open(session_.cycles.device());
     console_.timeLine.on = true;
     console_.timeLine.images = past_.images();

@@ -17,19 +17,26 @@ struct PlanOptions {
     std::string source;
 };
 
+DeviceFacts factsFor(const Scene& scene, const GlobalOptions& global) {
+    if (!scene.hasPoints()) {
+        return noDevice();
+    }
+    const gpu::Instance instance(global.validation());
+    return gpu::Device(instance, global.device).facts();
+}
+
 void runPlan(const PlanOptions& options, const GlobalOptions& global) {
     const Scene scene = openScene(options.scene);
     const auto camera = openCamera(
         scene, options.source.empty() ? std::nullopt : std::optional<std::filesystem::path>(options.source));
     const auto arm = openArm(scene);
     const Tool tool = openTool(scene, arm.get());
-    const gpu::Instance instance(global.validation());
-    const gpu::Device device(instance, global.device);
-    const Plan plan =
-        makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), device.facts());
+    const DeviceFacts facts = factsFor(scene, global);
+    const Plan plan = makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
     std::cout << "scene   " << options.scene << ", " << camera->description() << ", "
               << camera->info().depth.width << "x" << camera->info().depth.height << "\n"
-              << "device  " << device.facts().name << " (" << device.facts().driver << ")\n"
+              << "device  " << facts.name << " (" << (facts.driver.empty() ? "no pass to run" : facts.driver)
+              << ")\n"
               << "tool    " << tool.leafCount() << " leaves\n";
     if (arm) {
         std::cout << "arm     " << arm->model.count() << " joints, " << arm->model.leaves.size()

@@ -49,7 +49,7 @@ FrameBench::FrameBench(gpu::Device& device, Scene scene, const CameraInfo& camer
     if (change) {
         change(plan_);
     }
-    cycle_ = std::make_unique<FrameCycle>(device, scene_, camera_, plan_, 1);
+    cycle_ = std::make_unique<FrameCycle>(&device, scene_, camera_, plan_, 1);
 }
 
 FrameReport FrameBench::run(const SampleFrame& image) {

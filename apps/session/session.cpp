@@ -102,6 +102,10 @@ std::unique_ptr<Camera> cameraFor(Scene& scene, const SessionOptions& options,
     return camera;
 }
 
+bool needsDevice(const Scene& scene, const SessionWindow& window) {
+    return scene.hasPoints() || window.drawing != gpu::Drawing::None;
+}
+
 std::string listed(const std::vector<int>& cpus) {
     std::string text;
     for (int cpu : cpus) {
@@ -138,13 +142,16 @@ Session::Session(const SessionOptions& asked, const GlobalOptions& global, const
     , arm(openArm(scene))
     , realArm(options.arm.empty() ? nullptr : openRealArm(scene, arm.get(), options.arm))
     , tool(openTool(scene, arm.get()))
-    , instance(global.validation(), window.extensions)
-    , cycles({instance, global.device, scene, camera->info(), tool, arm.get(), kReaders, window.drawing},
-             [this](const DeviceFacts& facts) {
-                 return options.endless || !edits.empty()
-                            ? planToEdit(scene, camera->info(), tool, facts)
-                            : makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
-             })
+    , instance(needsDevice(scene, window)
+                   ? std::make_unique<gpu::Instance>(global.validation(), window.extensions)
+                   : nullptr)
+    , cycles(
+          {instance.get(), global.device, scene, camera->info(), tool, arm.get(), kReaders, window.drawing},
+          [this](const DeviceFacts& facts) {
+              return options.endless || !edits.empty()
+                         ? planToEdit(scene, camera->info(), tool, facts)
+                         : makePlan(scene, camera->info(), static_cast<uint32_t>(tool.leafCount()), facts);
+          })
     , passNames(cycles.frames().passNames())
     , handover(window.drawing != gpu::Drawing::None ? std::make_unique<DeviceHandover>() : nullptr)
     , answers(cycles) {

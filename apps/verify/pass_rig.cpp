@@ -59,7 +59,7 @@ PassRig::PassRig(gpu::Device& device, Scene scene, const CameraInfo& camera, con
     if (change) {
         change(plan_);
     }
-    cycle_ = std::make_unique<FrameCycle>(device_, scene_, camera_, plan_, readers);
+    cycle_ = std::make_unique<FrameCycle>(&device_, scene_, camera_, plan_, readers);
 }
 
 FrameReport PassRig::run(Image image, double captureTime, const std::optional<Pose>& pose) {

@@ -180,9 +180,6 @@ FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* 
     if (!plan.spheres) {
         set.host.spheres.resize(0);
     }
-    if (!plan.cloud) {
-        return countsOf({}, rows.size());
-    }
     const shared::FrameCounters& c = set.device.counters.as<shared::FrameCounters>()[0];
     FrameCounts counts = countsOf(c, rows.size());
     counts.nodes = c.nodes;

@@ -24,10 +24,10 @@ struct FrameCounts {
 // does all the work.
 uint32_t copyDepth(Fixtures& host, std::span<const uint16_t> depth, const Scene& scene, ThreadPool* workers);
 
-// Fills set.host.spheres, forbiddenBits and guidance from the device side. The caller has set camera, pose,
-// origin and frame, and counts the valid pixels. work: source of radii and points when the plan does not
-// pack. seen: points of this frame when the plan packs depths, else null. workers share the work. Allocates
-// little, unless a frame is larger than any before.
+// Fills set.host.spheres, forbiddenBits and guidance from the device side, for a plan with passes. The caller
+// has set camera, pose, origin and frame, and counts the valid pixels. work: source of radii and points when
+// the plan does not pack. seen: points of this frame when the plan packs depths, else null. workers share the
+// work. Allocates little, unless a frame is larger than any before.
 FrameCounts collect(FixtureSet& set, const WorkBuffers& work, const SeenPoints* seen, const Scene& scene,
                     const Plan& plan, const PatchLayout& layout, ThreadPool& workers);
 

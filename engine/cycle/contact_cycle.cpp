@@ -21,14 +21,14 @@ ContactCycle::ContactCycle(gpu::Device& device, const Plan& plan, const PatchLay
                            uint32_t gpuCapacity)
     : ContactCycle(tool, reach, arm) {
     gpuCapacity_ = gpuCapacity;
-    use(device, plan, layout, pool);
+    use(&device, plan, layout, pool);
 }
 
-void ContactCycle::use(gpu::Device& device, const Plan& plan, const PatchLayout& layout,
+void ContactCycle::use(gpu::Device* device, const Plan& plan, const PatchLayout& layout,
                        cloud::FixturePool& pool) {
     where_ = plan.query;
     if (where_ == Plan::Query::Gpu) {
-        gpu_.emplace(device, plan, layout, pool, tool_, gpuCapacity_);
+        gpu_.emplace(*device, plan, layout, pool, tool_, gpuCapacity_);
     }
 }
 

@@ -25,7 +25,8 @@ public:
                  uint32_t gpuCapacity = kGpuCapacity);
 
     // From the next query on: use() works on the device as the plan requires, dropDevice() on the CPU.
-    void use(gpu::Device& device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
+    // device: null is allowed unless the plan queries on the GPU.
+    void use(gpu::Device* device, const Plan& plan, const PatchLayout& layout, cloud::FixturePool& pool);
     void dropDevice() { gpu_.reset(); }
 
     // Without forbidden points the contact set is empty and its reach is unlimited.

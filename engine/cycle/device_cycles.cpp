@@ -8,17 +8,23 @@ namespace fathom {
 
 DeviceCycles::DeviceCycles(const Parts& parts, const MakePlan& makePlan)
     : parts_(parts)
-    , device_(std::make_unique<gpu::Device>(parts.instance, parts.selector, parts.drawing))
+    , device_(openDevice())
+    , facts_(device_ ? device_->facts() : noDevice())
+    , plan_(makePlan(facts_))
     , contact_(parts.tool, parts.scene.contact.reach, parts.arm) {
-    facts_ = device_->facts();
-    plan_ = makePlan(facts_);
-    frames_ = openFrames(*device_);
-    contact_.use(*device_, plan_, frames_->layout(), frames_->sets());
+    frames_ = openFrames();
+    contact_.use(device_.get(), plan_, frames_->layout(), frames_->sets());
 }
 
-std::unique_ptr<FrameCycle> DeviceCycles::openFrames(gpu::Device& device) const {
+std::unique_ptr<gpu::Device> DeviceCycles::openDevice() const {
+    return parts_.instance == nullptr
+               ? nullptr
+               : std::make_unique<gpu::Device>(*parts_.instance, parts_.selector, parts_.drawing);
+}
+
+std::unique_ptr<FrameCycle> DeviceCycles::openFrames() const {
     auto frames =
-        std::make_unique<FrameCycle>(device, parts_.scene, parts_.camera, plan_, parts_.readers + 1);
+        std::make_unique<FrameCycle>(device_.get(), parts_.scene, parts_.camera, plan_, parts_.readers + 1);
     frames->resumeFrom(mark_);
     return frames;
 }
@@ -42,14 +48,14 @@ void DeviceCycles::close() {
 void DeviceCycles::renew() {
     close();
     try { // without the lock: this takes seconds, during which the CPU answers
-        device_ = std::make_unique<gpu::Device>(parts_.instance, parts_.selector, parts_.drawing);
+        device_ = openDevice();
         if (device_->facts().name != facts_.name) {
             throw DeviceLost(facts_.name + " is not there; " + device_->facts().name +
                              " would need another plan");
         }
-        auto frames = openFrames(*device_);
+        auto frames = openFrames();
         const std::lock_guard lock(mutex_);
-        contact_.use(*device_, plan_, frames->layout(), frames->sets());
+        contact_.use(device_.get(), plan_, frames->layout(), frames->sets());
         frames_ = std::move(frames);
         ++renewals_;
     } catch (const DeviceFailed&) {

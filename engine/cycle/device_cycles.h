@@ -21,8 +21,8 @@ class DeviceCycles {
 public:
     // Referenced objects must outlive this. arm: null = the tool moves freely.
     struct Parts {
-        const gpu::Instance& instance;
-        std::string selector; // as for gpu::Device
+        const gpu::Instance* instance; // null: no device is opened; only for a scene without passes
+        std::string selector;          // as for gpu::Device
         const Scene& scene;
         CameraInfo camera;
         const Tool& tool;
@@ -36,10 +36,10 @@ public:
     DeviceCycles(const Parts& parts, const MakePlan& makePlan);
 
     const Plan& plan() const { return plan_; }
-    const DeviceFacts& facts() const { return facts_; }
+    const DeviceFacts& facts() const { return facts_; } // noDevice() without one
     const CameraInfo& camera() const { return parts_.camera; }
-    // device() and frames() are invalid between a renew() that threw and one that succeeded. Destroy all
-    // other objects on the device before renew().
+    // Without an instance there is no device(). device() and frames() are invalid between a renew() that
+    // threw and one that succeeded. Destroy all other objects on the device before renew().
     gpu::Device& device() { return *device_; }
     FrameCycle& frames() { return *frames_; }
     const FrameCycle& frames() const { return *frames_; }
@@ -59,13 +59,14 @@ public:
     uint32_t renewals() const { return renewals_.load(); } // any thread
 
 private:
-    std::unique_ptr<FrameCycle> openFrames(gpu::Device& device) const;
+    std::unique_ptr<gpu::Device> openDevice() const;
+    std::unique_ptr<FrameCycle> openFrames() const;
     void close();
 
     Parts parts_;
+    std::unique_ptr<gpu::Device> device_;
     DeviceFacts facts_;
     Plan plan_;
-    std::unique_ptr<gpu::Device> device_;
     std::unique_ptr<FrameCycle> frames_; // null while there is no device
     std::mutex mutex_;                   // held for an answer and while the device is replaced
     ContactCycle contact_;

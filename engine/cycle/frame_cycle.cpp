@@ -18,14 +18,6 @@ double millis(Clock::time_point begin, Clock::time_point end) {
     return std::chrono::duration<double, std::milli>(end - begin).count();
 }
 
-std::vector<cloud::SetBuffers*> buffersOf(cloud::FixturePool& pool) {
-    std::vector<cloud::SetBuffers*> buffers;
-    for (size_t i = 0; i < pool.size(); ++i) {
-        buffers.push_back(&pool.at(i).device);
-    }
-    return buffers;
-}
-
 // On a GPU workers spin while the passes run, for less than a millisecond. A CPU device needs the processors
 // itself.
 std::chrono::microseconds spinTimeOf(const Plan& plan) {
@@ -34,38 +26,31 @@ std::chrono::microseconds spinTimeOf(const Plan& plan) {
 
 } // namespace
 
-FrameCycle::FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
+FrameCycle::FrameCycle(gpu::Device* device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
                        uint32_t readers)
-    : device_(device)
-    , scene_(scene)
+    : scene_(scene)
     , camera_(camera)
     , plan_(plan)
     , layout_(patchLayout(camera.depth.width, camera.depth.height))
-    , work_(device, plan, layout_, camera)
-    , uploads_(device_, plan_, camera_)
-    , pool_(readers, [&] { return std::make_unique<cloud::FixtureSet>(device, plan_, layout_); })
-    , setBuffers_(buffersOf(pool_))
-    , passes_(cloud::CloudContext{device, plan_, layout_, camera_, work_, setBuffers_})
-    , timeline_(device)
+    , pool_(readers,
+            [&] {
+                return plan_.cloud ? std::make_unique<cloud::FixtureSet>(*device, plan_, layout_)
+                                   : std::make_unique<cloud::FixtureSet>();
+            })
+    , device_(plan_.cloud ? std::make_unique<FrameDevice>(*device, plan_, layout_, camera_, pool_) : nullptr)
     , workers_(plan.publishers, spinTimeOf(plan))
     , leakWarned_(shared::kMaxClasses, 0) {
-    for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
-        passes_.bind(slot, uploads_[slot]);
-    }
     if (plan.packsDepths()) {
         seenPoints_.emplace(camera.depth, layout_);
     }
-    warmUp();
+    if (device_) {
+        warmUp();
+    }
 }
 
-FrameCycle::~FrameCycle() {
-    try {
-        if (ticket_ != 0) {
-            timeline_.wait(ticket_); // the device may still use the buffers
-        }
-    } catch (const Error&) {
-        // A lost device uses no buffer.
-    }
+const std::vector<std::string>& FrameCycle::passNames() const {
+    static const std::vector<std::string> kNone;
+    return device_ ? device_->passNames() : kNone;
 }
 
 void FrameCycle::resumeFrom(const Mark& mark) {
@@ -81,27 +66,13 @@ void FrameCycle::resumeFrom(const Mark& mark) {
 
 void FrameCycle::placeOrigin(const dvec3& origin) {
     origin_ = origin; // positions stay small however far away the base frame is
-    params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
-}
-
-void FrameCycle::clearMemory() {
-    gpu::Commands commands(device_);
-    commands.begin();
-    if (plan_.cloud) {
-        cloud::clearCounters(commands, work_);
-    }
-    for (const gpu::Buffer* buffer : {&work_.seen, &work_.kept, &work_.keptTime, &work_.live}) {
-        if (*buffer) {
-            commands.fill(*buffer, 0);
-        }
-    }
-    commands.end();
-    device_.submit(commands.handle(), timeline_.handle(), 0, ++ticket_);
-    timeline_.wait(ticket_);
+    updateParams();
 }
 
 void FrameCycle::forget() {
-    clearMemory();
+    if (device_) {
+        device_->clearMemory();
+    }
     lastSource_.reset();
     lastCapture_.reset();
 }
@@ -111,47 +82,42 @@ void FrameCycle::setScene(const Scene& scene) {
         throw Error("a scene in force keeps its classes of points: only their gates, radii and roles change");
     }
     scene_ = scene;
-    if (origin_) {
-        params_ = cloud::sceneParams(scene_, camera_, layout_, *origin_, work_.cellEdge, work_.cellsAcross);
-    }
+    updateParams();
     lastSource_.reset(); // the same frame gives a different set now
+}
+
+shared::FrameParams FrameCycle::paramsAt(const dvec3& origin) const {
+    const cloud::WorkBuffers& work = device_->work();
+    return cloud::sceneParams(scene_, camera_, layout_, origin, work.cellEdge, work.cellsAcross);
+}
+
+void FrameCycle::updateParams() {
+    if (device_ && origin_) {
+        params_ = paramsAt(*origin_);
+    }
 }
 
 // Some drivers compile a pipeline at its first use, so run each one now. A frame of zero depth selects
 // nothing.
 void FrameCycle::warmUp() {
-    clearMemory();
-    if (!plan_.cloud) {
-        return;
-    }
+    device_->clearMemory();
     const std::vector<uint16_t> depth(camera_.depth.pixels(), 0);
     const std::vector<uint32_t> colour(plan_.colour ? camera_.colourBytes() / 4 : 0, 0);
-    const shared::FrameParams params =
-        cloud::sceneParams(scene_, camera_, layout_, dvec3(0.0), work_.cellEdge, work_.cellsAcross);
     Frame::Content content;
     content.depth = depth;
     (plan_.yuyv ? content.yuyv : content.colour) = colour;
     for (uint32_t slot = 0; slot < cloud::UploadSlots::kCopied; ++slot) {
-        cloud::uploadFrame(uploads_[slot], Frame(content, nullptr), params);
+        cloud::uploadFrame(device_->upload(slot), Frame(content, nullptr), paramsAt(dvec3(0.0)));
         uploadArm(slot, dvec3(0.0));
-        device_.submit(passes_.frame(slot, 0).handle(), timeline_.handle(), ticket_, ticket_ + 1);
-        timeline_.wait(++ticket_);
+        device_->submit(device_->frame(slot, 0));
+        device_->wait();
     }
 }
 
 void FrameCycle::uploadArm(uint32_t slot, const dvec3& origin) const {
     if (plan_.selfFilter) {
-        cloud::uploadArm(uploads_[slot], arm_, origin);
+        cloud::uploadArm(device_->upload(slot), arm_, origin);
     }
-}
-
-uint32_t FrameCycle::slotFor(const Frame& frame) {
-    const bool busy = submitted_ && !submitted_->unchanged;
-    const auto [slot, isNew] = uploads_.choose(frame, busy ? std::optional(submitted_->slot) : std::nullopt);
-    if (isNew) {
-        passes_.bind(slot, uploads_[slot]);
-    }
-    return slot;
 }
 
 FrameReport FrameCycle::process(Frame frame) {
@@ -168,11 +134,12 @@ void FrameCycle::upload(Frame frame) {
     if (!origin_) {
         placeOrigin(f.pose.position);
     }
-    if (!f.unchanged && plan_.cloud) {
-        f.slot = slotFor(frame);
+    if (!f.unchanged && device_) {
+        const bool busy = submitted_ && !submitted_->unchanged;
+        f.slot = device_->slotFor(frame, busy ? std::optional(submitted_->slot) : std::nullopt);
         cloud::setFrame(params_, f.pose, *origin_, frame->captureTime,
                         lastCapture_.value_or(frame->captureTime));
-        cloud::uploadFrame(uploads_[f.slot], frame, params_);
+        cloud::uploadFrame(device_->upload(f.slot), frame, params_);
         f.params = params_;
         uploadArm(f.slot, *origin_);
     }
@@ -189,15 +156,14 @@ void FrameCycle::submit() {
     submitted_->times.submitted = Clock::now();
     uploaded_.reset();
     dispatches_ = 0;
-    if (submitted_->unchanged || !plan_.cloud) {
+    if (submitted_->unchanged || !device_) {
         return;
     }
     pool_.back();
-    const gpu::Commands& commands = passes_.frame(submitted_->slot, pool_.backIndex());
+    const gpu::Commands& commands = device_->frame(submitted_->slot, pool_.backIndex());
     dispatches_ = commands.dispatches();
     submitted_->times.submitted = Clock::now();
-    device_.submit(commands.handle(), timeline_.handle(), ticket_, ticket_ + 1);
-    ++ticket_;
+    device_->submit(commands);
 }
 
 // The parts of the host copy that need no device.
@@ -238,14 +204,16 @@ FrameReport FrameCycle::finish() {
             seenPoints_->setFrame(f.params);
         }
         const uint32_t valid = cloud::copyDepth(pool_.back().host, f.frame->depth, scene_, meanwhile);
-        if (plan_.cloud) {
-            report.inPlace = uploads_[f.slot].depth.imported();
-            timeline_.wait(ticket_);
+        if (device_) {
+            report.inPlace = device_->upload(f.slot).depth.imported();
+            device_->wait();
         }
         f.times.landed = Clock::now();
         cloud::FixtureSet& set = pool_.back();
-        lastCounts_ = cloud::collect(set, work_, seenPoints_ ? &*seenPoints_ : nullptr, scene_, plan_,
-                                     layout_, workers_);
+        if (device_) {
+            lastCounts_ = cloud::collect(set, device_->work(), seenPoints_ ? &*seenPoints_ : nullptr, scene_,
+                                         plan_, layout_, workers_);
+        }
         lastCounts_.valid = valid;
         if (plan_.query != Plan::Query::Gpu) {
             frozen_.apply(set.host, scene_);
@@ -275,11 +243,11 @@ FrameReport FrameCycle::finish() {
 // Called after publish, so a lost device must not fail the frame: the next submission reports the loss, and
 // the times stay zero.
 void FrameCycle::readTimes(const InFlight& f, FrameReport& report) const {
-    if (!plan_.cloud || !plan_.passTimes) {
+    if (!device_ || !plan_.passTimes) {
         return;
     }
     try {
-        report.passMs = passes_.watch(f.slot).intervalsMs();
+        report.passMs = device_->passMs(f.slot);
     } catch (const DeviceFailed& e) {
         log::debug("the times of frame {}: {}", report.index, e.what());
     }

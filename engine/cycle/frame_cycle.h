@@ -4,17 +4,15 @@
 #pragma once
 
 #include "engine/cloud/collect.h"
-#include "engine/cloud/fixture_set.h"
 #include "engine/cloud/frozen_classes.h"
 #include "engine/cloud/self_filter.h"
-#include "engine/cloud/upload_slots.h"
-#include "engine/cycle/frame_passes.h"
-#include "engine/gpu/device.h"
+#include "engine/cycle/frame_device.h"
 #include "engine/types/frame.h"
 #include "engine/types/thread_pool.h"
 
 #include <atomic>
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,10 +39,10 @@ struct FrameReport {
 // Frame thread only, except sets() and captureTime(), which any reader may call.
 class FrameCycle {
 public:
-    // readers: largest number of leases held at once. Compiles every pipeline and runs an empty frame.
-    FrameCycle(gpu::Device& device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
+    // device: null is allowed if the plan has no passes. readers: largest number of leases held at once.
+    // Compiles every pipeline and runs an empty frame.
+    FrameCycle(gpu::Device* device, const Scene& scene, const CameraInfo& camera, const Plan& plan,
                uint32_t readers);
-    ~FrameCycle();
 
     // State with which a cycle on another device resumes: generations continue, positions keep their origin,
     // fixtures keep the last setScene(), and frozen classes keep their spheres.
@@ -79,13 +77,12 @@ public:
     // Capture time [s] of the newest published frame, repeated ones included.
     double captureTime() const { return captureTime_.load(std::memory_order_acquire); }
 
-    const std::vector<std::string>& passNames() const { return passes_.names(); }
+    const std::vector<std::string>& passNames() const; // empty without passes
     const PatchLayout& layout() const { return layout_; }
     const CameraInfo& camera() const { return camera_; }
     uint32_t dispatches() const { return dispatches_; } // in the last frame
-    const cloud::WorkBuffers& work() const {
-        return work_;
-    } // for tests that compare passes with their CPU twins
+    // For tests that compare passes with their CPU twins; only if the plan has passes.
+    const cloud::WorkBuffers& work() const { return device_->work(); }
 
 private:
     struct InFlight {
@@ -99,34 +96,28 @@ private:
     };
 
     void placeOrigin(const dvec3& origin);
+    shared::FrameParams paramsAt(const dvec3& origin) const;
+    void updateParams();
     void warmUp();
-    void clearMemory();
-    uint32_t slotFor(const Frame& frame);
     void uploadArm(uint32_t slot, const dvec3& origin) const;
     void fillHost(const InFlight& f);
     void readTimes(const InFlight& f, FrameReport& report) const;
     void warnLeaks(const cloud::FrameCounts& counts);
 
-    gpu::Device& device_;
     Scene scene_;
     CameraInfo camera_;
     Plan plan_;
     PatchLayout layout_;
-    cloud::WorkBuffers work_;
-    cloud::UploadSlots uploads_;
     cloud::FixturePool pool_;
+    std::unique_ptr<FrameDevice> device_;         // null: the plan has no passes
     std::optional<cloud::SeenPoints> seenPoints_; // if the plan packs depths
-    std::vector<cloud::SetBuffers*> setBuffers_;
-    FramePasses passes_;
-    gpu::Timeline timeline_;
-    ThreadPool workers_; // lay out a set for the host
+    ThreadPool workers_;                          // lay out a set for the host
 
     cloud::LinkSpheres arm_;
     cloud::FrozenClasses frozen_;
     std::optional<dvec3> origin_;
     shared::FrameParams params_{};
     std::optional<InFlight> uploaded_, submitted_;
-    uint64_t ticket_ = 0; // timeline value of the last submission
     uint64_t generation_ = 0;
     std::optional<uint64_t> lastSource_;
     std::optional<double> lastCapture_; // [s]

@@ -57,7 +57,8 @@ std::unique_ptr<HapticCycle> HapticSide::cycle(const v0::HandStart& start) const
 }
 
 ComputeSide::ComputeSide(const HapticSide& haptic, const v0::CameraModel& camera, const std::string& device)
-    : cycles({instance, device, haptic.scene, infoOf(camera, haptic.scene), haptic.tool},
+    : instance(haptic.scene.hasPoints() ? std::make_unique<gpu::Instance>() : nullptr)
+    , cycles({instance.get(), device, haptic.scene, infoOf(camera, haptic.scene), haptic.tool},
              [&](const DeviceFacts& facts) {
                  return makePlan(haptic.scene, infoOf(camera, haptic.scene),
                                  static_cast<uint32_t>(haptic.tool.leafCount()), facts);

@@ -34,7 +34,7 @@ struct HapticSide {
 struct ComputeSide {
     ComputeSide(const HapticSide& haptic, const v0::CameraModel& camera, const std::string& device);
 
-    gpu::Instance instance;
+    std::unique_ptr<gpu::Instance> instance; // null: the scene has no passes
     DeviceCycles cycles;
 };
 

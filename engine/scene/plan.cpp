@@ -33,9 +33,9 @@ uint64_t bytesOfTile(uint32_t radius) {
 void decideByScene(const Scene& scene, const CameraInfo& camera, Plan& plan) {
     plan.spheres = scene.hasForbiddenPoints();
     plan.arm = scene.arm.has_value();
-    plan.selfFilter = plan.arm && scene.arm->selfFilter && (plan.spheres || scene.hasGuidance());
+    plan.selfFilter = plan.arm && scene.arm->selfFilter && scene.hasPoints();
     plan.moments = scene.hasGuidance();
-    plan.cloud = plan.spheres || plan.moments;
+    plan.cloud = scene.hasPoints();
     plan.colour = plan.cloud && scene.usesColour() && camera.hasColour;
     plan.yuyv = plan.colour && camera.yuyv;
     plan.water = plan.colour && scene.attenuation;

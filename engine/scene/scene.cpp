@@ -5,6 +5,10 @@
 
 namespace fathom {
 
+bool Scene::hasPoints() const {
+    return std::any_of(fixtures.begin(), fixtures.end(), [](const FixtureClass& f) { return f.isPoints(); });
+}
+
 bool Scene::hasForbiddenPoints() const {
     return std::any_of(fixtures.begin(), fixtures.end(),
                        [](const FixtureClass& f) { return f.isPoints() && f.role == Role::Forbidden; });

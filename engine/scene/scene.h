@@ -218,6 +218,7 @@ struct Scene {
         uint32_t delay = 0;  // ticks until an answer takes effect (lockstep)
     } contact;
 
+    bool hasPoints() const; // any class of points: the frame passes run
     bool hasForbiddenPoints() const;
     bool hasGuidance() const; // any guidance class of points
     bool usesColour() const;  // any class that tests colour

@@ -30,4 +30,11 @@ struct DeviceFacts {
     uint32_t gpuQueryLeaves = 0xffffffffu;
 };
 
+// In place of a device, for a scene without passes.
+inline DeviceFacts noDevice() {
+    DeviceFacts facts;
+    facts.name = "none";
+    return facts;
+}
+
 } // namespace fathom

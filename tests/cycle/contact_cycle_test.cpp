@@ -52,7 +52,7 @@ struct ContactRig {
         : scene(std::move(s))
         , camera(*analyticScene("tank"), options(frameCount))
         , plan(planFor(scene, camera))
-        , frames(vulkan().device, scene, camera.info(), plan, 2) {
+        , frames(&vulkan().device, scene, camera.info(), plan, 2) {
         while (auto frame = camera.next()) {
             frames.process(std::move(*frame));
         }

@@ -42,7 +42,7 @@ struct TwinRig {
 
     explicit TwinRig(Scene::Contact::Where where)
         : scene(redValve(where))
-        , cycles({vulkan().instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
+        , cycles({&vulkan().instance, vulkan().device.facts().name, scene, camera.info(), tool, nullptr, 1},
                  [this](const DeviceFacts& facts) { return makePlan(scene, camera.info(), 2, facts); }) {}
 
     FrameReport next() { return cycles.frames().process(std::move(*camera.next())); }

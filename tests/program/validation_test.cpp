@@ -70,3 +70,24 @@ TEST_CASE("Without a Vulkan driver one line names the package to install") {
     checkRefusal(stage.command(), {"Vulkan driver", "none is installed", "mesa-vulkan-drivers"});
     CHECK(!std::filesystem::exists(stage / "out" / "summary.json"));
 }
+
+TEST_CASE("A scene of shapes alone needs no Vulkan driver") {
+    const Stage stage;
+    stage.recording(std::vector<Image>(2, Image(kWidth, kHeight, 600)));
+    SceneText scene;
+    scene.fixtures = {
+        "name: wall, role: forbidden, shape: plane, base_T_shape: {xyz: [0, 0, 0.5], quat_xyzw: "
+        "[1, 0, 0, 0]}"};
+    stage.scene(scene);
+    stage.hand({{0.0, {0, 0, 0.4}}, {0.5, {0, 0, 0.55}}});
+    const std::string digest = stage.replay({}, {}, "with").summary.at("digest");
+    const Variable none("VK_DRIVER_FILES", (stage / "none.json").string());
+    const Replay without = stage.replay({}, {}, "without");
+    CHECK(without.summary.at("digest") == digest);
+    CHECK(without.summary.at("device") == "none");
+    CHECK(without.ticks.back().state == "contact");
+    const ProgramRun plan =
+        runFathom({"plan", (stage / "scene.yaml").string(), "--source", (stage / "rec").string()});
+    CHECK(plan.exitCode == 0);
+    CHECK(plan.out.find("device  none (no pass to run)\n") != std::string::npos);
+}
