@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <optional>
 
 namespace fathom {
 
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr double kStep = 0.01;       // [s] between waypoints
 constexpr double kFastest = 0.24;    // [m/s] peak speed of a free move
 constexpr double kPushSpeed = 0.10;  // [m/s] peak speed of a push
@@ -101,7 +101,8 @@ public:
     void step(const dvec3& axis, double angle, double duration) {
         const dvec3 position = path_.back().deviceThandle.position;
         append(duration, 0, [&](double s) {
-            return Pose{position, rotationExp(angle * std::sin(2.0 * kPi * minimumJerk(s)) * axis)};
+            return Pose{position,
+                        rotationExp(angle * std::sin(2.0 * std::numbers::pi * minimumJerk(s)) * axis)};
         });
     }
     std::vector<HandWaypoint> take() { return std::move(path_); }
@@ -197,7 +198,8 @@ void push(PathWriter& path, const FreeSpace& space, const Goal& goal, const dvec
     path.rest(0.3, 0);
     // Mostly across the push, which tilts a long tool, and partly about it.
     const dvec3 aside = glm::cross(direction, std::abs(direction.y) < 0.9 ? dvec3(0, 1, 0) : dvec3(1, 0, 0));
-    path.step(glm::normalize(glm::normalize(aside) + 0.5 * direction), kTurn * kPi / 180.0, kTurnTime);
+    path.step(glm::normalize(glm::normalize(aside) + 0.5 * direction), kTurn * std::numbers::pi / 180.0,
+              kTurnTime);
     path.rest(0.3, 0);
     path.move(before, kFastest);
 }

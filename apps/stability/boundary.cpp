@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <unsupported/Eigen/MatrixFunctions>
 
 namespace fathom::stability {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kAccuracy = 1e-4;
 
 // Largest K with grows(K) == false between guess / 8 and guess * 8.
@@ -39,8 +39,8 @@ public:
         , length_(length) {}
     void add(size_t i, double x) {
         if (i >= begin_ && i < begin_ + length_) {
-            const double s =
-                std::sin(kPi * (static_cast<double>(i - begin_) + 0.5) / static_cast<double>(length_));
+            const double s = std::sin(std::numbers::pi * (static_cast<double>(i - begin_) + 0.5) /
+                                      static_cast<double>(length_));
             sum_ += s * s * x * x;
         }
     }
@@ -63,7 +63,7 @@ bool swingGrows(LoopSpec spec, double k, bool rotational) {
         spec.rotationalStiffness = k * 1e-4;
     }
     const double pace = std::sqrt((linear + spec.hand.stiffness) / spec.wholeMass());
-    const auto ticks = static_cast<size_t>(std::ceil(2.0 * kPi / pace / spec.period()));
+    const auto ticks = static_cast<size_t>(std::ceil(2.0 * std::numbers::pi / pace / spec.period()));
     // Skips the force ramp at the start; the springs have full stiffness after it.
     const auto first = std::max(4 * ticks, static_cast<size_t>(1.1 * HapticCycle::kRampTime / spec.period()));
     LoopRig rig(spec);

@@ -6,6 +6,7 @@
 #include "engine/types/pose.h"
 
 #include <algorithm>
+#include <numbers>
 
 namespace fathom::stability {
 
@@ -42,7 +43,7 @@ public:
             pose_.position = focus_ + rng_.inCube(arena_);
         }
         if (rng_.chance(motion_.turnOvers * period)) {
-            pose_.rotation = rotationExp(3.141592653589793 * rng_.direction()) * pose_.rotation;
+            pose_.rotation = rotationExp(std::numbers::pi * rng_.direction()) * pose_.rotation;
         }
         pose_.position += way_ * period;
         pose_.rotation = glm::normalize(rotationExp(spin_ * period) * pose_.rotation);

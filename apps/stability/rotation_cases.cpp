@@ -8,12 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fathom::stability {
 
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 Shape axisShape() {
     Shape shape = lineShape({0.0, 0.0, 1.0});
@@ -37,8 +36,9 @@ Outcome halfTurn(RunLength runLength) {
         const dvec3 about(std::cos(heading), std::sin(heading), 0.0);
         dvec3 before(0.0);
         for (int i = 0; i < ticks; ++i) {
-            const double angle =
-                kPi * (1.0 + 0.06 * std::sin(40.0 * kPi * i / ticks)) * std::min(1.0, 4.0 * i / ticks);
+            const double angle = std::numbers::pi *
+                                 (1.0 + 0.06 * std::sin(40.0 * std::numbers::pi * i / ticks)) *
+                                 std::min(1.0, 4.0 * i / ticks);
             const StepRecord& record = stepTimer.step(turned(angle * about));
             step = std::max(step, glm::distance(record.wrench.torque, before));
             torque = std::max(torque, glm::length(record.wrench.torque));
@@ -71,11 +71,11 @@ Outcome wholeTurns(RunLength runLength) {
         dvec3 before(0.0);
         double work = 0.0;
         for (int i = 1; i <= ticks; ++i) {
-            const StepRecord& record = stepTimer.step(turned(2.0 * kPi * i / ticks * about));
-            work += glm::dot(0.5 * (record.wrench.torque + before), 2.0 * kPi / ticks * about);
+            const StepRecord& record = stepTimer.step(turned(2.0 * std::numbers::pi * i / ticks * about));
+            work += glm::dot(0.5 * (record.wrench.torque + before), 2.0 * std::numbers::pi / ticks * about);
             before = record.wrench.torque;
         }
-        stored = 0.5 * stepTimer.options().springs.rotationalStiffness * kPi * kPi;
+        stored = 0.5 * stepTimer.options().springs.rotationalStiffness * std::numbers::pi * std::numbers::pi;
         drawn = std::max(drawn, work);
     }
     return outcomeOf(
@@ -98,7 +98,7 @@ Outcome noRoll(RunLength runLength) {
         target.target = {dvec3(0.0), rng.rotation()};
         Pose hand{dvec3(0.0), rng.rotation()};
         if (n % 5 == 0) { // points in the opposite direction
-            hand.rotation = target.target.rotation * rotationExp({kPi, 0.0, 0.0});
+            hand.rotation = target.target.rotation * rotationExp({std::numbers::pi, 0.0, 0.0});
         }
         StepTimer stepTimer("ideal", true, {}, hand);
         stepTimer.guidance = {target};
@@ -131,7 +131,7 @@ Outcome fastSpin(RunLength runLength) {
     dquat hand(1.0, 0.0, 0.0, 0.0);
     for (int i = 0; i < (runLength == RunLength::Full ? 100000 : 10000); ++i) {
         about = i % 500 == 0 ? rng.direction() : about;
-        hand = glm::normalize(rotationExp(40.0 * kPi * 0.001 * about) * hand);
+        hand = glm::normalize(rotationExp(40.0 * std::numbers::pi * 0.001 * about) * hand);
         const StepRecord& record = stepTimer.step({dvec3(0.0), hand});
         norm = std::max({norm, std::abs(glm::length(record.tool.rotation) - 1.0),
                          std::abs(glm::length(record.device.rotation) - 1.0)});
@@ -161,7 +161,8 @@ Outcome leverSettles(RunLength runLength) {
         way.deviceThandle.rotation = rotationExp({2.0, 0.3, 0.0});
     }
     const size_t runs = forEachLoop(grid, base, [&](LoopSpec spec) {
-        const double window = std::max(0.3, 3.0 * kPi / std::sqrt(spec.hand.stiffness / spec.wholeMass()));
+        const double window =
+            std::max(0.3, 3.0 * std::numbers::pi / std::sqrt(spec.hand.stiffness / spec.wholeMass()));
         spec.path.back().t = kPressed + 2.0 * window;
         LoopRig rig(spec);
         rig.run(kPressed);

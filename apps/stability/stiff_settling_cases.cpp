@@ -7,17 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace fathom::stability {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 // Peak speed of the hand in a late window over that in an early one. Both windows are longer than the slowest
 // swing.
 double swingRatio(LoopSpec spec, double& residual) {
-    const double window = std::max(0.3, 3.0 * kPi / std::sqrt(spec.hand.stiffness / spec.wholeMass()));
+    const double window =
+        std::max(0.3, 3.0 * std::numbers::pi / std::sqrt(spec.hand.stiffness / spec.wholeMass()));
     spec.path.back().t = kPressed + 2.0 * window;
     LoopRig rig(spec);
     rig.run(kPressed);

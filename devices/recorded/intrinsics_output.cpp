@@ -5,6 +5,7 @@
 
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 namespace fathom {
 
@@ -42,7 +43,7 @@ Json intrinsicsJson(const CameraInfo& camera) {
         json["projection"] = "equal_angles";
     }
     if (camera.beam) {
-        constexpr double kDegrees = 180.0 / 3.14159265358979323846;
+        constexpr double kDegrees = 180.0 / std::numbers::pi;
         json["beam"] = {{"width_deg", camera.beam->width * kDegrees},
                         {"sigma_m", camera.beam->range},
                         {"sigma_m_per_m", camera.beam->perMetre}};

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 namespace fathom {
 
@@ -128,7 +129,7 @@ bool readWord(const JsonField& root, std::string_view key, std::string_view plai
 
 // Fields of sonars and laser scanners.
 void readBeams(const JsonField& root, RecordingIntrinsics& intrinsics) {
-    constexpr double kRadian = 3.14159265358979323846 / 180.0, kWidest = 85.0 * kRadian;
+    constexpr double kRadian = std::numbers::pi / 180.0, kWidest = 85.0 * kRadian;
     Intrinsics& lens = intrinsics.camera.depth;
     lens.fan = readWord(root, "projection", "pinhole", "equal_angles");
     const double across = std::max(lens.cx, lens.width - lens.cx) / lens.fx,

@@ -5,12 +5,11 @@
 #include "devices/simulated/wetmate_scene.h"
 
 #include <cmath>
+#include <numbers>
 
 namespace fathom {
 
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 Paint redPaint() {
     return {linearColour(200, 36, 32), 0.1f, 0.0f};
@@ -80,7 +79,7 @@ AnalyticScene slabScene(std::string name, double width) {
 // 2 mm thick, seen at 35 degrees, its thin edge in sight.
 AnalyticScene plateScene() {
     AnalyticScene scene = emptyScene("plate");
-    const dquat turn = rotationExp({0.0, 35.0 * kPi / 180.0, 0.0});
+    const dquat turn = rotationExp({0.0, 35.0 * std::numbers::pi / 180.0, 0.0});
     add(scene, kRed, boxAt({{0.0, 0.0, 0.75}, turn}, {0.15, 0.12, 0.001}, redPaint()));
     add(scene, kYellow, sphereAt({0.28, 0.0, 0.9}, 0.04, yellowPaint()));
     addWall(scene);
@@ -92,7 +91,7 @@ AnalyticScene cornerScene() {
     AnalyticScene scene = emptyScene("corner");
     const dvec3 apex(0.0, 0.0, 0.9);
     for (int i = 0; i < 3; ++i) {
-        const double angle = 2.0 * kPi * i / 3.0 + 0.3;
+        const double angle = 2.0 * std::numbers::pi * i / 3.0 + 0.3;
         const double across = std::sqrt(2.0 / 3.0);
         const dvec3 normal(across * std::cos(angle), across * std::sin(angle), -std::sqrt(1.0 / 3.0));
         add(scene, kRed, planeThrough(apex, normal, redPaint()));

@@ -8,13 +8,13 @@
 #include <atomic>
 #include <cmath>
 #include <glm/common.hpp>
+#include <numbers>
 #include <thread>
 
 namespace fathom {
 
 namespace {
 
-const double kPi = std::acos(-1.0);
 constexpr uint32_t kRowsAtOnce = 8;
 constexpr float kColourSigma = 1.3f; // [1/255] of the stored image
 constexpr uint32_t kSnowflakes = 48; // a frame
@@ -92,9 +92,9 @@ Pose SimulatedCamera::sceneTcamera(uint32_t frame) const {
     }
     const double t = frame / kFrameRate;
     const auto sway = [t](double amplitude, double period) {
-        return amplitude * std::sin(2.0 * kPi * t / period);
+        return amplitude * std::sin(2.0 * std::numbers::pi * t / period);
     };
-    const double degree = kPi / 180.0;
+    const double degree = std::numbers::pi / 180.0;
     return {{sway(0.020, 9.0), sway(0.012, 7.0), sway(0.015, 13.0)},
             rotationExp({sway(1.2 * degree, 11.0), sway(-1.5 * degree, 8.0), sway(0.8 * degree, 10.0)})};
 }

@@ -5,12 +5,11 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 
 namespace fathom {
 
 namespace {
-
-const double kPi = std::acos(-1.0);
 
 const Paint kFrame{linearColour(120, 134, 148), 0.10f, 0.25f};
 const Paint kGreyPipe{linearColour(150, 158, 164), 0.25f, 0.25f};
@@ -95,7 +94,7 @@ void addWheel(Builder& put, const dvec3& centre, const dvec3& axis, double turn,
     put(torusAt(centre, outward, 0.070, 0.0095, paint));
     put(cylinderBetween(centre - 0.020 * outward, centre + 0.004 * outward, 0.020, paint));
     for (int i = 0; i < 5; ++i) {
-        const double angle = turn + 2.0 * kPi * i / 5.0;
+        const double angle = turn + 2.0 * std::numbers::pi * i / 5.0;
         const dvec3 radial = std::cos(angle) * u + std::sin(angle) * v;
         put(capsuleBetween(centre - 0.010 * outward + 0.016 * radial, centre + 0.069 * radial, 0.0060,
                            paint));
@@ -112,7 +111,7 @@ void addGauge(Builder& put, const dvec3& centre) {
     put(cylinderBetween(centre + 0.024 * out, centre + 0.025 * out, 0.043, kWhite));
     const dvec3 face = centre + 0.025 * out;
     for (int i = 0; i < 9; ++i) {
-        const double angle = (135.0 + 33.75 * i) * kPi / 180.0;
+        const double angle = (135.0 + 33.75 * i) * std::numbers::pi / 180.0;
         const dvec3 radial(std::cos(angle), std::sin(angle), 0.0);
         put(capsuleBetween(face + 0.032 * radial, face + 0.038 * radial, 0.0016, paint::kBlack));
     }

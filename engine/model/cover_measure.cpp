@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace fathom {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kRounding = 1e-12; // of the radius: a corner on its sphere counts as inside
 
 double gapTo(std::span<const Sphere> spheres, const dvec3& p) {
@@ -72,7 +72,7 @@ void sampleUnion(std::span<const Sphere> spheres, const MeshDistance& distance, 
         out.bound = std::max(out.bound, distance.signedDistance(s.centre) + s.radius);
         for (size_t k = 0; k < each; ++k) {
             const double z = 1.0 - (2.0 * static_cast<double>(k) + 1.0) / static_cast<double>(each);
-            const double turn = 2.0 * kPi * 0.6180339887498949 * static_cast<double>(k);
+            const double turn = 2.0 * std::numbers::pi * 0.6180339887498949 * static_cast<double>(k);
             const double across = std::sqrt(1.0 - z * z);
             const dvec3 p = s.centre + s.radius * dvec3(across * std::cos(turn), across * std::sin(turn), z);
             if (isInSome(spheres, p, i)) {

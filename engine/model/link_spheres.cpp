@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 namespace fathom {
@@ -72,7 +73,7 @@ LoadedMesh meshOf(const urdf::Geometry& shape, const ShapeSource& source, ShapeS
         loaded.mesh = prism(4, {0.5 * box->dim.x, 0.5 * box->dim.y}, box->dim.z);
     } else if (const auto* tube = dynamic_cast<const urdf::Cylinder*>(&shape)) {
         // Twenty-four sides about the circle: the flats lie outside it.
-        const double radius = tube->radius / std::cos(3.14159265358979323846 / 24.0);
+        const double radius = tube->radius / std::cos(std::numbers::pi / 24.0);
         loaded.mesh = prism(24, {radius, radius}, tube->length);
     } else if (const auto* mesh = dynamic_cast<const urdf::Mesh*>(&shape)) {
         return readMesh(*mesh, source, made);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace fathom {
@@ -12,8 +13,6 @@ namespace {
 
 constexpr uint32_t kLeafFaces = 6;
 constexpr double kFar = 2.3; // times a group's radius: its dipole then has an error of about 1 %
-constexpr double kPi = 3.14159265358979323846;
-
 double squareToBox(const dvec3& p, const dvec3& low, const dvec3& high) {
     const dvec3 d = glm::max(dvec3(0.0), glm::max(low - p, p - high));
     return glm::dot(d, d);
@@ -25,7 +24,7 @@ double windingOfTriangle(const dvec3& p, const dvec3& a, const dvec3& b, const d
     const double lu = glm::length(u), lv = glm::length(v), lw = glm::length(w);
     const double above = glm::dot(u, glm::cross(v, w));
     const double below = lu * lv * lw + glm::dot(u, v) * lw + glm::dot(v, w) * lu + glm::dot(w, u) * lv;
-    return std::atan2(above, below) / (2.0 * kPi);
+    return std::atan2(above, below) / (2.0 * std::numbers::pi);
 }
 
 } // namespace
@@ -160,7 +159,7 @@ double MeshDistance::windingOf(uint32_t index, const dvec3& p) const {
     const dvec3 way = node.middle - p;
     const double away = glm::length(way);
     if (away > kFar * node.reach) {
-        return glm::dot(way, node.areas) / (4.0 * kPi * away * away * away);
+        return glm::dot(way, node.areas) / (4.0 * std::numbers::pi * away * away * away);
     }
     if (node.right != 0) {
         return windingOf(index + 1, p) + windingOf(node.right, p);

@@ -2,6 +2,8 @@
 // Sections `camera` and `filter` of a scene file.
 #include "engine/scene/load.h"
 
+#include <numbers>
+
 namespace fathom {
 
 namespace {
@@ -88,7 +90,7 @@ void loadPort(const YamlNode& node, Scene& scene) {
 }
 
 void loadBeam(const YamlNode& node, Scene& scene) {
-    constexpr double kRadian = 3.14159265358979323846 / 180.0;
+    constexpr double kRadian = std::numbers::pi / 180.0;
     node.checkKeys({"width_deg", "sigma", "sigma_per_m"});
     Scene::Beam beam;
     beam.width = kRadian * node.at("width_deg").number(Range::between(0.0, 30.0));

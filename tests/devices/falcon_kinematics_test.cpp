@@ -8,12 +8,13 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <numbers>
 
 using namespace fathom;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegree = std::numbers::pi / 180.0;
 
 // Places over the workspace, a ball of 40 mm about home, in steps that are no round part of it.
 template <class Visit>
