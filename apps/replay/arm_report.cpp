@@ -48,43 +48,44 @@ ArmReport::ArmReport(const std::filesystem::path& file, const ArmRig& rig, const
     sums_.leaves = rig.model.leaves.size();
 }
 
-double ArmReport::violation(const TickRecord& tick) const {
+double ArmReport::violation(const TickRow& row) const {
+    const ArmPosture& arm = row.record.arm.posture;
     double worst = 0.0;
     for (size_t k = 0; k < rig_.model.count(); ++k) {
         const ArmJoint& joint = rig_.model.joints[k];
-        const double q = tick.arm.posture.q[k], way = std::abs(q - tick.armStart.q[k]);
+        const double q = arm.q[k], way = std::abs(q - row.startArm.q[k]);
         const double fast = way - joint.speed * rig_.proxy.period - kRounding;
         worst = std::max({worst, joint.lower - q, q - joint.upper, fast});
     }
     for (const ArmFinger& finger : rig_.model.fingers) {
-        const double at = finger.open + tick.arm.posture.grasp * (finger.closed - finger.open);
+        const double at = finger.open + arm.grasp * (finger.closed - finger.open);
         worst = std::max({worst, finger.lower - at - kRounding, at - finger.upper - kRounding});
     }
     return worst;
 }
 
-void ArmReport::add(const TickRecord& tick) {
-    const ArmRecord& arm = tick.arm;
-    const bool moved = tick.state != TickState::Off; // held before the first set
-    const double wrong = violation(tick);
-    row_.add(tick.t);
+void ArmReport::add(const TickRow& row) {
+    const ArmRecord& arm = row.record.arm;
+    const bool moved = row.record.state != StepState::Off; // held before the first set
+    const double wrong = violation(row);
+    row_.add(row.record.t);
     for (size_t k = 0; k < rig_.model.count(); ++k) {
         const double q = arm.posture.q[k];
         ReplaySummary::Arm::Joint& sum = sums_.joints[k];
         sum.least = std::min(sum.least, q);
         sum.most = std::max(sum.most, q);
-        sum.fastest = std::max(sum.fastest, std::abs(q - tick.armStart.q[k]) / rig_.proxy.period);
+        sum.fastest = std::max(sum.fastest, std::abs(q - row.startArm.q[k]) / rig_.proxy.period);
         row_.add(q);
     }
     row_.add(arm.posture.grasp);
-    row_.add(moved ? arm.residual : kUnknown);
-    row_.add(moved ? arm.manipulability : kUnknown);
+    row_.add(moved ? arm.residual : kNotKnown);
+    row_.add(moved ? arm.manipulability : kNotKnown);
     row_.add(int64_t{arm.atLimits});
     row_.add(wrong);
     row_.add(int64_t{arm.singular});
     row_.add(int64_t{arm.graspHeld});
     if (sums_.driven) {
-        addDriven(tick);
+        addDriven(row);
     }
     file_.write(row_.end());
     sums_.limitViolation = std::max(sums_.limitViolation, wrong);
@@ -96,22 +97,22 @@ void ArmReport::add(const TickRecord& tick) {
     }
 }
 
-void ArmReport::addDriven(const TickRecord& tick) {
-    const ArmStatus& told = tick.armStatus;
+void ArmReport::addDriven(const TickRow& row) {
+    const ArmStatus& status = row.armStatus;
     ReplaySummary::Arm::Driven& driven = *sums_.driven;
-    row_.add(std::string(armStateName(told.state)));
+    row_.add(std::string(armStateName(status.state)));
     for (size_t k = 0; k < rig_.model.count(); ++k) {
-        row_.add(told.known ? told.posture.q[k] : kUnknown);
+        row_.add(status.known ? status.posture.q[k] : kNotKnown);
     }
-    ++ticks_[static_cast<size_t>(told.state)];
-    driven.lastState = armStateName(told.state);
-    driven.damaged = std::max(driven.damaged, told.damaged);
-    driven.reopened = told.reopened;
-    if (told.known) {
-        driven.oldest = std::max(driven.oldest, told.age);
+    ++ticks_[static_cast<size_t>(status.state)];
+    driven.lastState = armStateName(status.state);
+    driven.damaged = std::max(driven.damaged, status.damaged);
+    driven.reopened = status.reopened;
+    if (status.known) {
+        driven.oldest = std::max(driven.oldest, status.age);
     }
-    if (told.state == ArmState::Follows) {
-        const double lag = glm::distance(rig_.tipAt(told.posture).position, tick.tool.position);
+    if (status.state == ArmState::Follows) {
+        const double lag = glm::distance(rig_.tipAt(status.posture).position, row.record.tool.position);
         tipLags_.push_back(static_cast<float>(lag));
     }
 }

@@ -5,8 +5,8 @@
 #include "apps/replay/csv.h"
 #include "apps/replay/output_file.h"
 #include "apps/replay/summary.h"
-#include "apps/replay/tick_record.h"
 #include "engine/cycle/arm_rig.h"
+#include "engine/run/channels.h"
 
 #include <filesystem>
 #include <vector>
@@ -21,7 +21,7 @@ public:
     // realArm: description of the real arm that follows; empty = none.
     ArmReport(const std::filesystem::path& file, const ArmRig& rig, const std::string& realArm = "");
 
-    void add(const TickRecord& tick);
+    void add(const TickRow& row);
     void commit() { file_.commit(); }
     // links: from ToolAudit::linkPenetration(); empty = not audited.
     ReplaySummary::Arm summary(const std::vector<double>& links);
@@ -29,8 +29,8 @@ public:
 private:
     // Largest excess over a position limit [rad], [m] or over the travel that the speed limit allows in the
     // tick; 0 = all limits obeyed.
-    double violation(const TickRecord& tick) const;
-    void addDriven(const TickRecord& tick);
+    double violation(const TickRow& row) const;
+    void addDriven(const TickRow& row);
 
     const ArmRig& rig_;
     OutputFile file_;

@@ -30,10 +30,10 @@ void Digest::add(uint64_t value) noexcept {
 }
 
 void Digest::add(double value) noexcept {
-    add(std::bit_cast<uint64_t>(std::isnan(value) ? kUnknown : value));
+    add(std::bit_cast<uint64_t>(std::isnan(value) ? kNotKnown : value));
 }
 
-void Digest::add(const TickRecord& tick) noexcept {
+void Digest::add(const StepRecord& tick) noexcept {
     add(tick.t);
     for (const Pose* pose : {&tick.device, &tick.tool}) {
         for (double value : {pose->position.x, pose->position.y, pose->position.z, pose->rotation.w,

@@ -3,7 +3,7 @@
 // little-endian.
 #pragma once
 
-#include "apps/replay/tick_record.h"
+#include "engine/cycle/step_record.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,7 @@ public:
     void add(const void* bytes, size_t count) noexcept;
     void add(uint64_t value) noexcept;         // 8 bytes, least significant first, on every machine
     void add(double value) noexcept;           // its bit pattern; all NaNs count as equal, as in the CSV text
-    void add(const TickRecord& tick) noexcept; // the columns of one row, in order
+    void add(const StepRecord& tick) noexcept; // the columns of one row, in order
     std::string hex() const;                   // 32 hexadecimal digits
 
 private:

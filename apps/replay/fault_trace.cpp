@@ -2,7 +2,6 @@
 #include "apps/replay/fault_trace.h"
 
 #include "apps/replay/haptics_csv.h"
-#include "apps/replay/step_to_tick.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
 
@@ -14,10 +13,10 @@ namespace fathom {
 
 namespace {
 
-constexpr double kMostTurns = 20000.0; // buffer size at the highest rate that a scene may request
+constexpr double kTicksMax = 20000.0; // buffer size at the highest rate that a scene may request
 
-size_t turnsOf(double seconds, double period) {
-    return static_cast<size_t>(std::clamp(std::ceil(seconds / period), 1.0, kMostTurns));
+size_t ticksOf(double seconds, double period) {
+    return static_cast<size_t>(std::clamp(std::ceil(seconds / period), 1.0, kTicksMax));
 }
 
 } // namespace
@@ -25,7 +24,7 @@ size_t turnsOf(double seconds, double period) {
 FaultTrace::FaultTrace(std::filesystem::path folder, double period, RunSink& next)
     : folder_(std::move(folder))
     , next_(next)
-    , ring_(turnsOf(kSeconds, period)) {}
+    , ring_(ticksOf(kSeconds, period)) {}
 
 void FaultTrace::step(const TickRow& row, const PublishedFrame* obeyed, bool known,
                       std::span<const uint32_t> behind) {
@@ -43,7 +42,7 @@ void FaultTrace::keep(const TickRow& row) {
         quietUntil_ = 0.0;
     }
     newest_ = row.record.t;
-    ring_[seen_++ % ring_.size()] = tickOf(row.record, row.startArm, row.micros, row.late);
+    ring_[seen_++ % ring_.size()] = row.record;
 }
 
 void FaultTrace::write(double t) const {
@@ -51,7 +50,7 @@ void FaultTrace::write(double t) const {
     try {
         HapticsCsv file(path);
         for (uint64_t i = seen_ - std::min<uint64_t>(seen_, ring_.size()); i < seen_; ++i) {
-            const TickRecord& tick = ring_[i % ring_.size()];
+            const StepRecord& tick = ring_[i % ring_.size()];
             if (tick.t >= t - kSeconds) { // the buffer reaches further back after missed periods
                 file.add(tick);
             }

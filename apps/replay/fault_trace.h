@@ -3,7 +3,6 @@
 // exists even if the run never ends properly.
 #pragma once
 
-#include "apps/replay/tick_record.h"
 #include "engine/run/record_drain.h"
 
 #include <filesystem>
@@ -33,7 +32,7 @@ private:
 
     std::filesystem::path folder_;
     RunSink& next_;
-    std::vector<TickRecord> ring_;
+    std::vector<StepRecord> ring_;
     uint64_t seen_ = 0; // ticks so far; the newest is at (seen_ - 1) % size
     double newest_ = 0.0, quietUntil_ = 0.0;
 };

@@ -1,41 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/replay/frames_csv.h"
 
-#include "engine/types/error.h"
-
-#include <algorithm>
-
 namespace fathom {
 
-FramesCsv::FramesCsv(const std::filesystem::path& file, std::vector<std::string> passes)
+FramesCsv::FramesCsv(const std::filesystem::path& file, const std::vector<std::string>& passes)
     : file_(file)
-    , passes_(std::move(passes)) {
+    , passes_(passes.size()) {
     std::string header = "index,t_s,valid,forbidden_points,spheres,patches,nodes,guidance_count,upload_ms";
-    for (const std::string& pass : passes_) {
+    for (const std::string& pass : passes) {
         header += "," + pass + "_ms";
     }
     file_.write(header + ",publish_ms\n");
 }
 
-void FramesCsv::add(const FrameRecord& frame) {
-    for (const PassTime& pass : frame.passes) {
-        if (std::find(passes_.begin(), passes_.end(), pass.first) == passes_.end()) {
-            throw Error(file_.path().string() + ": no column for pass " + pass.first);
-        }
+void FramesCsv::add(const FrameReport& report, double t) {
+    const cloud::FrameCounts& counts = report.counts;
+    row_.add(int64_t{report.index});
+    row_.add(t);
+    for (uint32_t count : {counts.valid, counts.forbidden, counts.spheres, counts.patches, counts.nodes,
+                           report.guidanceCount}) {
+        row_.add(int64_t{count});
     }
-    row_.add(int64_t{frame.index});
-    row_.add(frame.t);
-    for (uint64_t count : {frame.valid, frame.forbiddenPoints, frame.spheres, frame.patches, frame.nodes,
-                           frame.guidanceCount}) {
-        row_.add(static_cast<int64_t>(count));
+    row_.add(report.uploadMs);
+    for (size_t i = 0; i < passes_; ++i) {
+        row_.add(i < report.passMs.size() ? report.passMs[i] : kNotKnown);
     }
-    row_.add(frame.uploadMs);
-    for (const std::string& name : passes_) {
-        const auto found = std::find_if(frame.passes.begin(), frame.passes.end(),
-                                        [&name](const PassTime& pass) { return pass.first == name; });
-        row_.add(found == frame.passes.end() ? kUnknown : found->second);
-    }
-    row_.add(frame.publishMs);
+    row_.add(report.publishMs);
     file_.write(row_.end());
 }
 

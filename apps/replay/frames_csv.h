@@ -4,7 +4,8 @@
 
 #include "apps/replay/csv.h"
 #include "apps/replay/output_file.h"
-#include "apps/replay/tick_record.h"
+#include "engine/cycle/frame_cycle.h"
+#include "engine/cycle/step_record.h"
 
 #include <string>
 #include <vector>
@@ -14,15 +15,16 @@ namespace fathom {
 class FramesCsv {
 public:
     // Each pass has a column `<pass>_ms`. Every call throws Error that names the file.
-    FramesCsv(const std::filesystem::path& file, std::vector<std::string> passes);
-    // Writes a pass without a time in this frame as unknown. Throws Error for a pass without a column.
-    void add(const FrameRecord& frame);
+    FramesCsv(const std::filesystem::path& file, const std::vector<std::string>& passes);
+    // t: capture time in the run [s]. report.passMs: in the order of the constructor's passes; missing ones
+    // are written as unknown.
+    void add(const FrameReport& report, double t);
     void commit();
 
 private:
     OutputFile file_;
     CsvRow row_;
-    std::vector<std::string> passes_;
+    size_t passes_;
 };
 
 } // namespace fathom

@@ -21,13 +21,18 @@ void addPose(CsvRow& row, const Pose& pose) {
 
 } // namespace
 
+const char* stateName(StepState state) {
+    constexpr const char* kNames[] = {"off", "free", "contact", "escape", "trapped", "fading"};
+    return kNames[static_cast<size_t>(state)];
+}
+
 HapticsCsv::HapticsCsv(const std::filesystem::path& file)
     : file_(file) {
     file_.write(kHeader);
     file_.write("\n");
 }
 
-void HapticsCsv::add(const TickRecord& tick) {
+void HapticsCsv::add(const StepRecord& tick) {
     row_.add(tick.t);
     addPose(row_, tick.device);
     addPose(row_, tick.tool);

@@ -5,14 +5,17 @@
 #include "apps/replay/csv.h"
 #include "apps/replay/digest.h"
 #include "apps/replay/output_file.h"
-#include "apps/replay/tick_record.h"
+#include "engine/cycle/step_record.h"
 
 namespace fathom {
+
+// The state as written in haptics.csv.
+const char* stateName(StepState state);
 
 class HapticsCsv {
 public:
     explicit HapticsCsv(const std::filesystem::path& file); // every call throws Error that names the file
-    void add(const TickRecord& tick);
+    void add(const StepRecord& tick);
     void commit();
     std::string digest() const { return digest_.hex(); }
 

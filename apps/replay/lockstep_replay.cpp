@@ -2,7 +2,6 @@
 #include "apps/replay/lockstep_replay.h"
 
 #include "apps/replay/progress.h"
-#include "apps/replay/step_to_tick.h"
 #include "apps/session/path_hand.h"
 #include "engine/types/colour_copy.h"
 #include "engine/types/error.h"
@@ -151,18 +150,21 @@ void LockstepReplay::tick(double t) {
     const StepInput input = stepInput(scene_, hand_->read(std::max(0.0, t - pathStart_)), t);
     const ToolState start = cycle_->place();
     const auto began = std::chrono::steady_clock::now();
-    const StepRecord record = contacts_.step(*cycle_, input);
-    const double took = micros(began);
+    TickRow row;
+    row.record = contacts_.step(*cycle_, input);
+    row.startArm = start.arm;
+    row.micros = micros(began);
+    row.late = row.micros > haptics_.period * 1e6;
     if (trace_ != nullptr) {
         trace_->step(began, std::chrono::steady_clock::now(), 0.0);
         trace_->file().drain();
     }
-    if (record.adopted) {
+    if (row.record.adopted) {
         dropOldSets();
     }
-    hand_->write(record.deviceWrench, haptics_.period);
-    audit(record, start);
-    recorder_.tick(tickOf(record, start.arm, took, took > haptics_.period * 1e6));
+    hand_->write(row.record.deviceWrench, haptics_.period);
+    audit(row.record, start);
+    recorder_.tick(row);
     if (contacts_.active() != nullptr && recorder_.wantsMoment()) {
         if (const Kept* obeyed = keptSet(contacts_.active()->generation)) {
             recorder_.moment(obeyed->fixtures, lastColour_);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The caption of overlay.png: state and force at the moment shown, and the legend.
+#include "apps/replay/haptics_csv.h"
 #include "apps/replay/overlay_layers.h"
 #include "apps/replay/plot_axis.h"
 
@@ -14,7 +15,7 @@ constexpr Colour kWords{0.90, 0.92, 0.94};
 constexpr Colour kQuietWords{0.60, 0.64, 0.69};
 
 std::string moment(const OverlayInput& input) {
-    const TickRecord& tick = input.tick;
+    const StepRecord& tick = input.tick;
     const int64_t frame = input.set != nullptr ? input.set->frame : -1;
     char time[40];
     std::snprintf(time, sizeof time, "%.3f s", tick.t);

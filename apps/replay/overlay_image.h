@@ -2,8 +2,8 @@
 // Draws overlay.png: the last camera image with regions, guidance, tool, hand and force.
 #pragma once
 
-#include "apps/replay/tick_record.h"
 #include "engine/contact/fixtures.h"
+#include "engine/cycle/step_record.h"
 #include "engine/types/camera_info.h"
 #include "engine/types/sphere_tree.h"
 
@@ -24,7 +24,7 @@ struct OverlayInput {
     const Fixtures* set = nullptr;       // regions and guidance; null or frame -1: none
     std::vector<std::string> classNames; // rows of Scene::fixtures
     std::span<const Sphere> leaves;      // tool frame [m]
-    TickRecord tick;                     // the last one: proxy, hand, wrench, state, guidance
+    StepRecord tick;                     // the last one: proxy, hand, wrench, state, guidance
     std::string title;                   // scene and source
 };
 

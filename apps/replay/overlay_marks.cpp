@@ -181,7 +181,7 @@ void drawGuidanceNames(const Canvas& canvas, const OverlayInput& input) {
 }
 
 void drawTool(const Canvas& canvas, const OverlayInput& input) {
-    const TickRecord& tick = input.tick;
+    const StepRecord& tick = input.tick;
     if (!isFinite(tick.device) || !isFinite(tick.tool)) {
         return;
     }

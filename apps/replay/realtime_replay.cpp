@@ -5,7 +5,6 @@
 #include "apps/binding/raw_path.h"
 #include "apps/binding/spooled_camera.h"
 #include "apps/replay/lockstep_replay.h"
-#include "apps/replay/step_to_tick.h"
 #include "apps/session/path_hand.h"
 #include "engine/types/error.h"
 #include "engine/types/log.h"
@@ -162,10 +161,7 @@ void RealtimeReplay::query(const QueryNote& note) {
 void RealtimeReplay::step(const TickRow& row, const PublishedFrame* obeyed, bool obeyedKnown,
                           std::span<const uint32_t> behind) {
     wokenLateMicros_.push_back(static_cast<float>(row.wokenLate * 1e6));
-    TickRecord tick = tickOf(row.record, row.startArm, row.micros, row.late);
-    tick.driven = row.driven;
-    tick.armStatus = row.armStatus;
-    recorder_.tick(tick);
+    recorder_.tick(row);
     if (view_) {
         view_->step(row);
     }

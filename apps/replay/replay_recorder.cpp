@@ -19,24 +19,6 @@ std::filesystem::path prepared(std::filesystem::path out, bool withFixtures) {
     return out;
 }
 
-FrameRecord recordOf(const FrameReport& report, double t, const std::vector<std::string>& passes) {
-    FrameRecord record;
-    record.index = report.index;
-    record.t = t;
-    record.valid = report.counts.valid;
-    record.forbiddenPoints = report.counts.forbidden;
-    record.spheres = report.counts.spheres;
-    record.patches = report.counts.patches;
-    record.nodes = report.counts.nodes;
-    record.guidanceCount = report.guidanceCount;
-    record.uploadMs = report.uploadMs;
-    for (size_t i = 0; i < passes.size(); ++i) {
-        record.passes.emplace_back(passes[i], report.passMs[i]);
-    }
-    record.publishMs = report.publishMs;
-    return record;
-}
-
 } // namespace
 
 ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
@@ -52,8 +34,9 @@ ReplayRecorder::Ending::Ending(const Session& session, const HapticCycle& cycle)
     , camera(session.cycles.camera())
     , leaves(session.tool.leaves()) {}
 
-ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
-                               bool saveFixtures, const ArmRig* arm, const std::string& realArm)
+ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene,
+                               const std::vector<std::string>& passes, bool saveFixtures, const ArmRig* arm,
+                               const std::string& realArm)
     : out_(prepared(std::move(out), saveFixtures))
     , scene_(scene)
     , saveFixtures_(saveFixtures)
@@ -61,7 +44,6 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, st
     , frames_(out_ / "frames.csv", passes)
     , arm_(arm)
     , armReport_(arm != nullptr ? std::make_unique<ArmReport>(out_ / "arm.csv", *arm, realArm) : nullptr)
-    , passes_(std::move(passes))
     , sums_(scene.fixtures.size()) {
     for (const FixtureClass& f : scene.fixtures) {
         if (f.isPoints() && f.role == Role::Guidance) {
@@ -73,7 +55,7 @@ ReplayRecorder::ReplayRecorder(std::filesystem::path out, const Scene& scene, st
 }
 
 void ReplayRecorder::frame(const FrameReport& report, double t, const Fixtures& set) {
-    frames_.add(recordOf(report, t, passes_));
+    frames_.add(report, t);
     ++frameCount_;
     uploadMs_.push_back(static_cast<float>(report.uploadMs));
     latencyMs_.push_back(static_cast<float>(report.latencyMs));
@@ -103,13 +85,13 @@ void ReplayRecorder::addGuidance(const Fixtures& set) {
     }
 }
 
-void ReplayRecorder::tick(const TickRecord& tick) {
-    haptics_.add(tick);
-    totals_.add(tick);
-    history_.add(tick);
-    lastTick_ = tick;
+void ReplayRecorder::tick(const TickRow& row) {
+    haptics_.add(row.record);
+    totals_.add(row);
+    history_.add(row.record);
+    lastTick_ = row.record;
     if (armReport_) {
-        armReport_->add(tick);
+        armReport_->add(row);
     }
 }
 

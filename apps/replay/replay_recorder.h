@@ -26,12 +26,12 @@ class ReplayRecorder {
 public:
     // saveFixtures: also saves fixture sets as fixtures/NNNNNN.ply. realArm: description of the real arm that
     // follows; empty = none. Throws Error that names the file or folder that cannot be written.
-    ReplayRecorder(std::filesystem::path out, const Scene& scene, std::vector<std::string> passes,
+    ReplayRecorder(std::filesystem::path out, const Scene& scene, const std::vector<std::string>& passes,
                    bool saveFixtures, const ArmRig* arm = nullptr, const std::string& realArm = "");
 
     // A processed frame at t [s] of the run with its set; also when the set is unchanged.
     void frame(const FrameReport& report, double t, const Fixtures& set);
-    void tick(const TickRecord& tick);
+    void tick(const TickRow& row);
     // overlay.png shows the moment of the largest force. True when the last tick is the largest so far, by a
     // clear margin or in a new frame; then call moment() with that tick's set and image.
     bool wantsMoment() const;
@@ -81,13 +81,12 @@ private:
     FramesCsv frames_;
     const ArmRig* arm_;
     std::unique_ptr<ArmReport> armReport_; // null without an arm
-    std::vector<std::string> passes_;
     TickTotals totals_;
     TraceHistory history_;
-    TickRecord lastTick_;
+    StepRecord lastTick_;
     struct Moment {
         double force = 0.0; // [N]
-        TickRecord tick;
+        StepRecord tick;
         Fixtures set;
         std::vector<uint32_t> colour;
     } moment_;

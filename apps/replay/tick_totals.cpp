@@ -17,14 +17,15 @@ void lower(std::optional<double>& minimum, double value) {
 
 } // namespace
 
-void TickTotals::add(const TickRecord& tick) {
+void TickTotals::add(const TickRow& row) {
+    const StepRecord& tick = row.record;
     ++ticks;
-    late += tick.late;
+    late += row.late;
     stalled += tick.stalled;
-    trapped += tick.state == TickState::Trapped;
-    escape += tick.state == TickState::Escape;
-    infeasible += tick.infeasible;
-    notFinite += tick.notFinite;
+    trapped += tick.state == StepState::Trapped;
+    escape += tick.state == StepState::Escape;
+    infeasible += tick.infeasible != 0;
+    notFinite += !tick.finite;
     solves += tick.solves;
     if (isFinite(tick.wrench.force)) {
         maxForce = std::max(maxForce, glm::length(tick.wrench.force));
@@ -36,9 +37,7 @@ void TickTotals::add(const TickRecord& tick) {
     }
     lower(minMarginPassive, tick.marginPassive);
     lower(minMarginUncoupled, tick.marginUncoupled);
-    if (std::isfinite(tick.stepMicros)) {
-        stepMicros.push_back(static_cast<float>(tick.stepMicros));
-    }
+    stepMicros.push_back(static_cast<float>(row.micros));
 }
 
 } // namespace fathom

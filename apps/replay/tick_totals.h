@@ -2,7 +2,7 @@
 // Totals over the haptic ticks of a run: the part of summary.json that the ticks alone determine.
 #pragma once
 
-#include "apps/replay/tick_record.h"
+#include "engine/run/channels.h"
 
 #include <cstdint>
 #include <optional>
@@ -14,7 +14,7 @@ namespace fathom {
 // times).
 class TickTotals {
 public:
-    void add(const TickRecord& tick);
+    void add(const TickRow& row);
 
     uint64_t ticks = 0, late = 0, stalled = 0, trapped = 0, escape = 0, infeasible = 0, notFinite = 0;
     double maxForce = 0.0, maxTorque = 0.0; // [N], [N m] largest norm

@@ -41,7 +41,7 @@ TraceHistory::TraceHistory(size_t capacity)
     bins_.reserve(capacity_);
 }
 
-void TraceHistory::add(const TickRecord& tick) {
+void TraceHistory::add(const StepRecord& tick) {
     TraceBin now;
     now.begin = now.end = tick.t;
     if (isFinite(tick.wrench.force)) {

@@ -2,7 +2,7 @@
 // A whole run in constant memory: minima and maxima over equal groups of ticks, fine enough for a plot.
 #pragma once
 
-#include "apps/replay/tick_record.h"
+#include "engine/cycle/step_record.h"
 
 #include <array>
 #include <cstddef>
@@ -10,17 +10,19 @@
 
 namespace fathom {
 
+inline constexpr size_t kStepStates = static_cast<size_t>(StepState::Fading) + 1;
+
 // A group of consecutive ticks. A maximum below its minimum means that it has no finite value.
 struct TraceBin {
     double begin = 0.0, end = 0.0;              // [s] times of the first and of the last tick
     double forceMin = 0.0, forceMax = -1.0;     // [N] norm of the force
     double torqueMin = 0.0, torqueMax = -1.0;   // [N m] norm of the torque
     double guidance = 0.0;                      // largest guidance weight w, 0..1
-    std::array<uint32_t, kTickStates> states{}; // ticks in each state
+    std::array<uint32_t, kStepStates> states{}; // ticks in each state
     uint32_t ticks = 0;
     uint32_t newFrames = 0; // ticks that were the first to use a new frame
 
-    uint32_t in(TickState state) const { return states[static_cast<uint8_t>(state)]; }
+    uint32_t in(StepState state) const { return states[static_cast<uint8_t>(state)]; }
 };
 
 // Keeps at most `capacity` bins. When all are used, merges neighbours, so that each bin covers twice as many
@@ -28,7 +30,7 @@ struct TraceBin {
 class TraceHistory {
 public:
     explicit TraceHistory(size_t capacity = 16384); // even, at least 2
-    void add(const TickRecord& tick);
+    void add(const StepRecord& tick);
 
     const std::vector<TraceBin>& bins() const { return bins_; }
     uint64_t ticks() const { return ticks_; }

@@ -11,19 +11,19 @@ constexpr double kFlickerShare = 0.02;
 constexpr size_t kSlots = 1000; // time resolution of the phases; bounds the work of merging
 
 PhaseKind kindOf(const TraceBin& bin) {
-    if (bin.in(TickState::Trapped) > 0) {
+    if (bin.in(StepState::Trapped) > 0) {
         return PhaseKind::Trapped;
     }
-    if (2 * bin.in(TickState::Off) > bin.ticks) {
+    if (2 * bin.in(StepState::Off) > bin.ticks) {
         return PhaseKind::Off;
     }
-    if (2 * bin.in(TickState::Fading) > bin.ticks) {
+    if (2 * bin.in(StepState::Fading) > bin.ticks) {
         return PhaseKind::Fading;
     }
     if (bin.guidance > 0.0) {
         return PhaseKind::Guidance;
     }
-    const bool touching = bin.in(TickState::Contact) + bin.in(TickState::Escape) > 0;
+    const bool touching = bin.in(StepState::Contact) + bin.in(StepState::Escape) > 0;
     return touching ? PhaseKind::Contact : PhaseKind::Free;
 }
 

@@ -104,14 +104,14 @@ BandsSeen drawBands(const Image& image, const TraceHistory& history, const PlotA
                     const Panel& panel) {
     const auto& bins = history.bins();
     const auto idle = spansOf(bins, time, [](const TraceBin& bin) {
-        return 2 * (bin.in(TickState::Off) + bin.in(TickState::Fading)) > bin.ticks;
+        return 2 * (bin.in(StepState::Off) + bin.in(StepState::Fading)) > bin.ticks;
     });
     const auto contact = spansOf(bins, time, [](const TraceBin& bin) {
-        return bin.in(TickState::Contact) + bin.in(TickState::Escape) > 0;
+        return bin.in(StepState::Contact) + bin.in(StepState::Escape) > 0;
     });
     const auto guidance = spansOf(bins, time, [](const TraceBin& bin) { return bin.guidance > 0.0; });
     const auto alarm = spansOf(bins, time, [](const TraceBin& bin) {
-        return bin.in(TickState::Escape) + bin.in(TickState::Trapped) > 0;
+        return bin.in(StepState::Escape) + bin.in(StepState::Trapped) > 0;
     });
     fill(image, idle, panel, kIdle.alpha(0.16), false);
     fill(image, contact, panel, kContact.alpha(0.20), false);

@@ -30,10 +30,10 @@ ArmRig smallRig() {
 double violation(const ArmRig& rig, double before, double q, double grasp) {
     const ScratchFolder folder;
     ArmReport report(folder.path() / "arm.csv", rig);
-    TickRecord tick;
-    tick.armStart.q[0] = before;
-    tick.arm.posture = {{q}, grasp};
-    report.add(tick);
+    TickRow row;
+    row.startArm.q[0] = before;
+    row.record.arm.posture = {{q}, grasp};
+    report.add(row);
     return report.summary({}).limitViolation;
 }
 

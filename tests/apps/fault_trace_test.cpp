@@ -20,11 +20,11 @@ struct Nothing final : RunSink {
     void step(const TickRow&, const PublishedFrame*, bool, std::span<const uint32_t>) override { ++ticks; }
 };
 
-TickRow turnAt(double t, bool finite = true) {
+TickRow tickAt(double t, bool finite = true) {
     TickRow row;
     row.record.t = t;
     row.record.finite = finite;
-    row.record.device.position.x = finite ? t : kUnknown;
+    row.record.device.position.x = finite ? t : kNotKnown;
     return row;
 }
 
@@ -35,7 +35,7 @@ struct Traced {
     void ticks(double from, double to, double broken = -1.0) {
         for (auto i = static_cast<int>(std::lround(from * 1000.0)); i < std::lround(to * 1000.0); ++i) {
             const double t = 0.001 * i;
-            trace.step(turnAt(t, std::abs(t - broken) > 1e-6), nullptr, false, {});
+            trace.step(tickAt(t, std::abs(t - broken) > 1e-6), nullptr, false, {});
         }
     }
     Nothing next;

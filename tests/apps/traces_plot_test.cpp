@@ -18,8 +18,8 @@ using namespace fathom::testing;
 
 namespace {
 
-TickRecord tickAt(int i, double force, TickState state = TickState::Free) {
-    TickRecord tick;
+StepRecord tickAt(int i, double force, StepState state = StepState::Free) {
+    StepRecord tick;
     tick.t = i * 0.001;
     tick.wrench.force = {0.0, force, 0.0};
     tick.wrench.torque = {0.1 * force, 0.0, 0.0};
@@ -87,7 +87,7 @@ TEST_CASE("A long run keeps its peaks, its tick count and its frame count in con
 TEST_CASE("Values that are not finite leave a gap and never a number") {
     TraceHistory history(4);
     for (int i = 0; i < 9; ++i) {
-        TickRecord tick = tickAt(i, 1.0);
+        StepRecord tick = tickAt(i, 1.0);
         tick.wrench.force.x = i < 4 ? std::nan("") : 0.0;
         history.add(tick);
     }
@@ -101,7 +101,7 @@ TEST_CASE("Phases follow the states, merge flicker into their neighbours, and pr
     TraceHistory history;
     for (int i = 0; i < 4000; ++i) {
         const bool touching = (i >= 1000 && i < 2000 && i % 200 >= 20) || i >= 3500;
-        TickRecord tick = tickAt(i, touching ? 3.0 : 0.0, touching ? TickState::Contact : TickState::Free);
+        StepRecord tick = tickAt(i, touching ? 3.0 : 0.0, touching ? StepState::Contact : StepState::Free);
         tick.guidance = i >= 3000 ? 0.5 : 0.0;
         history.add(tick);
     }
@@ -120,7 +120,7 @@ TEST_CASE("Phases follow the states, merge flicker into their neighbours, and pr
 TEST_CASE("A run of many changes has no more phases than letters, without gaps, and covers the run") {
     TraceHistory history;
     for (int i = 0; i < 50000; ++i) {
-        history.add(tickAt(i, 0.0, i / 700 % 2 == 0 ? TickState::Free : TickState::Contact));
+        history.add(tickAt(i, 0.0, i / 700 % 2 == 0 ? StepState::Free : StepState::Contact));
     }
     const auto phases = findPhases(history);
     CHECK(phases.size() <= 26);
